@@ -81,8 +81,11 @@ double parse_number(const std::string& option, const std::string& text) {
   return number;
 }
 
-Vec3 parse_direction(const std::string& option, const std::string& text) {
-  const auto wrong = [&] { refuse(option, text, "three finite numbers X,Y,Z, not all 0"); };
+namespace {
+
+/// Three numbers X,Y,Z; calls `wrong` where the text is something else.
+template <class Wrong>
+Vec3 parse_three(const std::string& text, Wrong wrong) {
   std::array<double, 3> xyz{};
   std::string_view rest = text;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -97,7 +100,18 @@ Vec3 parse_direction(const std::string& option, const std::string& text) {
       rest.remove_prefix(comma + 1);
     }
   }
-  const Vec3 direction{xyz[0], xyz[1], xyz[2]};
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+}  // namespace
+
+Vec3 parse_point(const std::string& option, const std::string& text) {
+  return parse_three(text, [&] { refuse(option, text, "three finite numbers X,Y,Z"); });
+}
+
+Vec3 parse_direction(const std::string& option, const std::string& text) {
+  const auto wrong = [&] { refuse(option, text, "three finite numbers X,Y,Z, not all 0"); };
+  const Vec3 direction = parse_three(text, wrong);
   const double largest = max_abs(direction);
   if (largest == 0) {
     wrong();
@@ -106,8 +120,8 @@ Vec3 parse_direction(const std::string& option, const std::string& text) {
   // power of two, so a unit vector is not changed.
   int exponent = 0;
   std::frexp(largest, &exponent);
-  return normalized(Vec3{std::ldexp(xyz[0], -exponent), std::ldexp(xyz[1], -exponent),
-                         std::ldexp(xyz[2], -exponent)});
+  return normalized(Vec3{std::ldexp(direction.x, -exponent), std::ldexp(direction.y, -exponent),
+                         std::ldexp(direction.z, -exponent)});
 }
 
 Rgb parse_exitance(const std::string& option, const std::string& text) {

@@ -30,6 +30,8 @@ std::uint64_t parse_seed(const std::string& option, const std::string& text);
 double parse_number(const std::string& option, const std::string& text);
 /// X,Y,Z, not all 0, as a unit vector.
 Vec3 parse_direction(const std::string& option, const std::string& text);
+/// A point, three numbers.
+Vec3 parse_point(const std::string& option, const std::string& text);
 /// E or E,E,E: an exitance of at least 0 for all channels, or for each.
 Rgb parse_exitance(const std::string& option, const std::string& text);
 /// EngineOptions::resolution

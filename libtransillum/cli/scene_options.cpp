@@ -191,6 +191,11 @@ void add_material_options(CLI::App& command, SceneInput& input) {
   add_change_option(command, "--reflectance", "NAME=R[,R,R]",
                     "reflectance of a material, a group or face:N; may be given several times",
                     input.changes, reflectance_change);
+  add_change_option(command, "--lobe", "NAME=K,N",
+                    "lobe of a material, a group or face:N, for --glossy: the share K of the light "
+                    "that it reflects (or R,G,B,N) and the exponent N of Phong's cosine; may be "
+                    "given several times",
+                    input.changes, lobe_change);
 }
 
 void add_orientation_option(CLI::App& command, SceneInput& input) {

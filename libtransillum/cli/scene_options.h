@@ -33,7 +33,7 @@ struct SceneInput {
 void add_scene_argument(CLI::App& command, SceneInput& input);
 /// --default-reflectance, --max-reflectance, --scale, --units
 void add_reading_options(CLI::App& command, SceneInput& input);
-/// --emission, --reflectance
+/// --emission, --reflectance, --lobe
 void add_material_options(CLI::App& command, SceneInput& input);
 /// --orient
 void add_orientation_option(CLI::App& command, SceneInput& input);

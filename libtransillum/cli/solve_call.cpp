@@ -16,6 +16,16 @@
 namespace transillum::cli {
 namespace {
 
+/// Refuses what a solve in which lobes take part does not have.
+void check_glossy(const SolveCall& call) {
+  refuse_unless(call.options.glossy, *call.command, "--eye", "used only with --glossy");
+  if (call.options.glossy) {
+    for (const char* option : {"--factors", "--by", "--series", "--checkpoint", "--shard"}) {
+      refuse_unless(false, *call.command, option, "not used with --glossy");
+    }
+  }
+}
+
 /// Refuses options that say how form factors are computed.
 void check_stored_factors(const SolveCall& call) {
   if (call.factors.empty()) {
@@ -70,6 +80,15 @@ void add_scheme(CLI::App& command, SolveCall& call) {
       [&options](const std::string& text) { options.scheme = scheme_from_name(text); });
   add_parsed_option(command, "--basis", "NAME", help_of("basis", name_of(options.basis)),
                     [&options](const std::string& text) { options.basis = basis_from_name(text); });
+  auto* glossy = command.add_flag("--glossy", options.glossy, description_of("glossy"));
+  command
+      .add_flag("--diffuse-only", call.diffuse_only,
+                "leave lobes of materials out, as without --glossy, and do not mention them")
+      ->excludes(glossy);
+  add_parsed_option(
+      command, "--eye", "X,Y,Z",
+      "with --glossy: a point in m; .csv, .vtp and .ply files have the radiance toward it",
+      [&call](const std::string& text) { call.eye = parse_point("--eye", text); });
   add_parsed_option(command, "--first-shot", "RATIO",
                     choice_help("first-shot", {"none", "auto", "a number"}, "none"),
                     [&call, &options](const std::string& text) {
@@ -268,6 +287,7 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
 }
 
 SolveOptions solve_options(const SolveCall& call) {
+  check_glossy(call);
   check_stored_factors(call);
   SolveOptions options = call.options;
   options.directions = call.sequence.directions;

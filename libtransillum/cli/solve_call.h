@@ -27,6 +27,8 @@ struct SolveCall {
   bool one_way = false, two_way = false;
   bool stop_given = false;  ///< --iterations or --tolerance
   bool shot_given = false;  ///< --first-shot
+  bool diffuse_only = false;
+  std::optional<Vec3> eye;  ///< --eye
   std::vector<std::string> out;
   std::string stats;
   std::optional<PartsBy> by;          ///< --by

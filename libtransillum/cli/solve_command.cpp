@@ -23,6 +23,7 @@
 #include "stored_arguments.h"
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
+#include "transillum/glossy.h"
 #include "transillum/settings.h"
 #include "transillum/shard_files.h"
 #include "wall_clock.h"
@@ -127,9 +128,25 @@ Preparation prepare_call(const SolveCall& call, const Cancellation& cancellation
   return prepared;
 }
 
+/// Whether lobes take part; says what about them a user may not expect.
+bool uses_lobes(const SolveCall& call, const SolveOptions& options, const Scene& scene) {
+  const bool present = has_lobes(scene);
+  if (options.glossy && !present) {
+    print_message("no material has a lobe: --glossy changes nothing");
+  } else if (options.glossy) {
+    for (const std::string& warning : lobe_warnings(scene, options.directions)) {
+      print_message("warning: " + warning);
+    }
+  } else if (present && !call.diffuse_only && !call.quiet) {
+    print_message("lobes of materials are left out (--glossy: they reflect too)");
+  }
+  return options.glossy && present;
+}
+
 /// Whether several processes share the solve. Otherwise the first does it alone.
 bool is_shared(const SolveCall& call) {
-  return processes().group && call.factors.empty() && takes_directions(call.options.engine);
+  return processes().group && call.factors.empty() && takes_directions(call.options.engine) &&
+         !call.options.glossy;
 }
 
 /// Shares threads and memory between the processes of a machine, where the options leave them open.
@@ -171,13 +188,16 @@ int run_solve(const SolveCall& call) {
                      call.colors.series_every, checkpoint ? &*checkpoint : nullptr,
                      call.checkpoint_every, prepared.resume, call.shards,
                      shared ? processes().group : nullptr};
-  Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
+  const bool lobes = uses_lobes(call, options, *prepared.scene);
+  Solution solution = lobes                              ? solve_with_lobes(job)
+                      : !call.factors.empty()            ? solve_with_stored(call.factors, job)
                       : takes_directions(options.engine) ? solve_by_passes(job)
                                                          : solve_without_directions(job);
   display.clear();
   solution.statistics.refinement = prepared.rounds;
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
+  solution.eye = lobes ? call.eye : std::nullopt;
   if (call.by && options.basis != Basis::constant) {
     print_message("exchanges between groups are not available with --basis linear");
   }

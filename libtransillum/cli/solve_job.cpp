@@ -13,6 +13,7 @@
 #include "transillum/errors.h"
 #include "transillum/form_factor_files.h"
 #include "transillum/form_factor_solve.h"
+#include "transillum/glossy.h"
 #include "transillum/patch_count.h"
 #include "transillum/shard_files.h"
 #include "transillum/solve_errors.h"
@@ -279,6 +280,30 @@ Solution solve_by_passes(const SolveJob& job) {
   if (job.form_factors && solution.complete && solution.statistics.kept_form_factors) {
     solution.form_factors = std::make_shared<const FormFactors>(solver.form_factors());
   }
+  prepared.add_times(solution.statistics);
+  return solution;
+}
+
+Solution solve_with_lobes(const SolveJob& job) {
+  const Prepared prepared = prepare(job);
+  GlossySolver solver(job.scene, job.options, prepared.tree, job.cancellation);
+  job.display.expect_passes("iteration 1, ", solver.progress().passes);
+  try {
+    solver.solve([&](const SolveProgress& progress) {
+      if (progress.direction > 0) {
+        job.display.show_passes(fmt::format("iteration {}, ", progress.iteration + 1), progress);
+      } else {
+        job.display.show(fmt::format("iteration {}", progress.iteration), -1,
+                         fmt::format("change {:.1e}", progress.change));
+      }
+      return true;
+    });
+  } catch (const Canceled&) {
+    if (solver.progress().iteration == 0) {
+      throw NothingToSave("no iteration was finished: nothing is saved");
+    }
+  }
+  Solution solution = solver.solution();
   prepared.add_times(solution.statistics);
   return solution;
 }

@@ -31,6 +31,8 @@ struct SolveJob {
 
 /// Solves by passes, until it has finished or is interrupted.
 Solution solve_by_passes(const SolveJob& job);
+/// Solves with lobes.
+Solution solve_with_lobes(const SolveJob& job);
 /// Solves with the form factors in a file.
 Solution solve_with_stored(const std::string& file, const SolveJob& job);
 /// Solves with an engine that makes no passes.

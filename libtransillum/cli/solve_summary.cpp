@@ -111,6 +111,18 @@ std::string accuracy_text(const AccuracyReport& report) {
                                 report.passes_made, report.stages.size()));
 }
 
+std::string glossy_text(const GlossyFigures& figures) {
+  constexpr double mebibyte = 1 << 20;
+  return report_row(
+      "lobes",
+      fmt::format("of {} patches, {} orientations; sums over directions off by {:.1e} "
+                  "before scaling, {:.0e} after; {:.3g} MiB by direction, {:.3g} MiB of "
+                  "transfers kept",
+                  figures.patches, figures.lobes, figures.albedo_error, figures.albedo_defect,
+                  static_cast<double>(figures.radiance_bytes + figures.lobe_bytes) / mebibyte,
+                  static_cast<double>(figures.transfer_bytes) / mebibyte));
+}
+
 }  // namespace
 
 std::string solve_summary(const Solution& solution) {
@@ -132,6 +144,9 @@ std::string solve_summary(const Solution& solution) {
     text += report_row(
         "first shot", fmt::format("{} patches, {} of the emitted power, {}", s.shot_sources,
                                   share_text(s.shot_power_share), time_text(s.seconds_first_shot)));
+  }
+  if (s.glossy.patches > 0) {
+    text += glossy_text(s.glossy);
   }
   text += report_row("iterations", convergence_text(s));
   text += report_row("closure defect", fmt::format("{:.1e}; {} of the projected area sees no patch",

@@ -246,6 +246,37 @@ TEST(Gltf, HasTheDiffusePartOfItsMaterials) {
               10 * std::numbers::pi / 683, 1e-12);
 }
 
+TEST(Gltf, HasTheLobesOfItsMaterials) {
+  File file;
+  file.root["materials"] = {
+      {{"name", "varnish"},
+       {"pbrMetallicRoughness",
+        {{"baseColorFactor", {0.5, 0.25, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.4}}}},
+      {{"name", "brass"},
+       {"pbrMetallicRoughness",
+        {{"baseColorFactor", {0.9, 0.8, 0.3, 1}}, {"roughnessFactor", 0.3}}}},
+      {{"name", "chalk"}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}},
+      {{"name", "mirror"}, {"pbrMetallicRoughness", {{"roughnessFactor", 0}}}},
+      {{"name", "older"},
+       {"extensions",
+        {{"KHR_materials_pbrSpecularGlossiness",
+          {{"specularFactor", {0.2, 0.3, 0.4}}, {"glossinessFactor", 0.75}}}}}}};
+  for (int m = 0; m < 5; ++m) {
+    file.add(square_in(file, m), {{"translation", {0, 0, m}}});
+  }
+  const SceneDescription d = read(file);
+  const Lobe varnish = material_of(d, 0).lobe, brass = material_of(d, 1).lobe;
+  EXPECT_EQ(varnish.shape, LobeShape::ggx);
+  EXPECT_EQ(varnish.reflectance, (Rgb{0.04, 0.04, 0.04}));
+  EXPECT_EQ(varnish.roughness, 0.4);
+  EXPECT_NEAR(brass.reflectance.g, 0.8, 1e-12);
+  EXPECT_EQ(brass.roughness, 0.3);
+  EXPECT_FALSE(material_of(d, 2).lobe.present());
+  EXPECT_EQ(material_of(d, 3).lobe.roughness, 0.01);
+  EXPECT_EQ(material_of(d, 4).lobe.reflectance, (Rgb{0.2, 0.3, 0.4}));
+  EXPECT_EQ(material_of(d, 4).lobe.roughness, 0.25);
+}
+
 TEST(Gltf, DoubleSidedMaterialsGiveTwoPatches) {
   File file;
   file.root["materials"] = {{{"name", "leaf"}, {"doubleSided", true}}};

@@ -41,8 +41,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Expected{"cornell-box", 27, 0}, Expected{"cornell-box:open=1", 26, 0},
                     Expected{"furnace", 12, 6 * 4 + 2 * (0.75 * 0.5 + 0.5 * 1 + 0.75 * 1)},
                     Expected{"boards", 10 + 5 * 6, 0}, Expected{"boards:n=3", 10 + 3 * 6, 0},
-                    Expected{"flatland", 16, 0}, Expected{"boards:n=24", 10 + 24 * 6, 0},
-                    Expected{"rooms", 254, 0},
+                    Expected{"flatland", 16, 0}, Expected{"gallery", 678, 0},
+                    Expected{"boards:n=24", 10 + 24 * 6, 0}, Expected{"rooms", 254, 0},
                     Expected{"rooms:n=0,rooms=1", 10, 2 * (4 * 5 + (4 + 5) * 2.75)},
                     Expected{"stars", 127, 0}));
 
@@ -204,13 +204,15 @@ std::string error_of(const std::string& spec) {
 TEST(BuiltInScenes, MisspelledNamesGetASuggestion) {
   EXPECT_EQ(error_of("sphere-flak"),
             "sphere-flak: no such file or built-in scene; did you mean \"sphere-flake\"? "
-            "Built-in scenes: sphere-flake, cornell-box, furnace, boards, rooms, stars, flatland.");
+            "Built-in scenes: sphere-flake, cornell-box, furnace, boards, rooms, stars, gallery, "
+            "flatland.");
   EXPECT_THAT(error_of("cornel-box"), HasSubstr("did you mean \"cornell-box\"?"));
   EXPECT_THAT(error_of("room"), HasSubstr("did you mean \"rooms\"?"));
   EXPECT_THAT(error_of("cornell_box:open=1"), HasSubstr("did you mean \"cornell-box\"?"));
   EXPECT_EQ(error_of("teapot"),
             "teapot: no such file or built-in scene. "
-            "Built-in scenes: sphere-flake, cornell-box, furnace, boards, rooms, stars, flatland.");
+            "Built-in scenes: sphere-flake, cornell-box, furnace, boards, rooms, stars, gallery, "
+            "flatland.");
   EXPECT_THAT(error_of(""), HasSubstr("no such file or built-in scene"));
   EXPECT_THAT(error_of(std::string(100'000, 'x')), HasSubstr("no such"));
 }

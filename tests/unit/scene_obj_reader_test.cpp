@@ -42,6 +42,29 @@ TEST(ObjReader, KeepsPolygonsAndTheirOrderAcrossGroupsObjectsAndMaterials) {
   EXPECT_TRUE(d.notes.empty());
 }
 
+TEST(ObjReader, ReadsLobes) {
+  const SceneDescription d =
+      read("mtllib s.mtl\n" + square +
+               "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl d\nf 1 2 3\n",
+           "newmtl a\nKd .5 .5 .5\nKs .1 .2 .3\nNs 12.5\nillum 2\n"
+           "newmtl b\nKd .5 .5 .5\nKs .25\nPr .3\nNs 50\n"
+           "newmtl c\nKd .5 .5 .5\nKs .5 .5 .5\nNs 50\nillum 1\n"
+           "newmtl d\nKd .5 .5 .5\nKs .5 x .5\nNs -3\n");
+  EXPECT_EQ(d.materials[0].lobe.reflectance, (Rgb{0.1, 0.2, 0.3}));
+  EXPECT_EQ(d.materials[0].lobe.shape, LobeShape::phong);
+  EXPECT_EQ(d.materials[0].lobe.exponent, 12.5);
+  EXPECT_EQ(d.materials[1].lobe.reflectance, (Rgb{0.25, 0.25, 0.25}));
+  EXPECT_EQ(d.materials[1].lobe.shape, LobeShape::ggx);
+  EXPECT_EQ(d.materials[1].lobe.roughness, 0.3);
+  EXPECT_FALSE(d.materials[2].lobe.present());
+  EXPECT_FALSE(d.materials[3].lobe.present());
+  EXPECT_THAT(d.notes, Contains(HasSubstr("material `d`: Ks is ignored")));
+  // Refined patches and two-sided ones have the lobe of their face.
+  const Scene scene(d, {.two_sided = true, .max_patch_area = 0.1});
+  EXPECT_GT(scene.patch_count(), 16);
+  EXPECT_EQ(scene.material(1).lobe, d.materials[0].lobe);
+}
+
 TEST(ObjReader, AcceptsTextureNormalAndNegativeIndices) {
   const SceneDescription d = read(square +
                                   "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2//1 3//1\n"
@@ -156,6 +179,20 @@ TEST(ObjWriter, EveryBuiltInReadsBackBitForBit) {
     write_obj(folder.path() / "out.obj", written);
     expect_same(written, describe_scene((folder.path() / "out.obj").string()));
   }
+}
+
+TEST(ObjWriter, KeepsLobes) {
+  SceneDescription d = describe_scene("furnace");
+  d.materials[0].lobe = {.reflectance = {0.1, 0.2, 1.0 / 3}, .exponent = 0.7};
+  d.materials.push_back(d.materials[0]);
+  d.materials[1].name = "other";
+  d.materials[1].lobe = {.reflectance = {0.3, 0.3, 0.3}, .shape = LobeShape::ggx, .roughness = 0.1};
+  d.face_material[0] = 1;
+  const test::TemporaryFolder folder;
+  write_obj(folder.path() / "s.obj", d);
+  const SceneDescription back = describe_scene((folder.path() / "s.obj").string());
+  EXPECT_EQ(back.materials[0].lobe, d.materials[0].lobe);
+  EXPECT_EQ(back.materials[1].lobe, d.materials[1].lobe);
 }
 
 TEST(ObjWriter, KeepsGroups) {

@@ -23,6 +23,7 @@ struct MaterialChange {
   std::string target;
   std::optional<Rgb> reflectance = std::nullopt;  ///< rho, 0 <= rho < 1 per channel; unset: kept
   std::optional<Rgb> exitance = std::nullopt;     ///< E, W/m², >= 0; unset: kept
+  std::optional<Lobe> lobe = std::nullopt;        ///< its glossy part; unset: kept
 
   /// Exact comparison.
   friend bool operator==(const MaterialChange&, const MaterialChange&) = default;
@@ -35,6 +36,10 @@ MaterialChange exitance_change(const std::string& text);
 /// A change of rho from a text of the same form.
 /// @throws InputError
 MaterialChange reflectance_change(const std::string& text);
+/// A change of the lobe to Phong's, from the text `NAME=K,N` or `NAME=R,G,B,N`: the share K of the
+/// light that it reflects, for all channels or for each, and the exponent N.
+/// @throws InputError
+MaterialChange lobe_change(const std::string& text);
 
 /// Applies changes in their order: of two for the same face and value, the later one holds. All
 /// targets refer to the description as it is before the first change, so a change of a material

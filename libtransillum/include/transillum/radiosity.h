@@ -112,6 +112,10 @@ struct SolveOptions {
   AccuracyGoal goal = {};
   /// Light that enters where nothing is above a patch. Not with engines hemicube and pairs.
   Sky sky = {};
+  /// solve(): lobes of materials take part (glossy.h). Requires two_way, Scheme::fixed,
+  /// Basis::constant, 1 replica, an engine that takes_directions(), normalization none or rows; no
+  /// first shot, no goal. A RadiositySolver leaves lobes out.
+  bool glossy = false;
 
   /// `sampling`, or default_sampling(two_way).
   Sampling used_sampling() const { return sampling.value_or(default_sampling(two_way)); }
@@ -184,6 +188,23 @@ struct ErrorEstimate {
   Rgb mean_standard_error;  ///< of this mean, W/m²
 };
 
+/// Figures of a solve in which lobes take part.
+struct GlossyFigures {
+  std::int64_t patches = 0;  ///< that have a lobe; 0: none took part
+  std::int64_t lobes = 0;    ///< different ones: by shape and orientation
+  /// Largest difference from 1 of the sum over the directions of a lobe that reflects everything,
+  /// before it was scaled: above a few percent, the directions are too few for it.
+  double albedo_error = 0;
+  /// The same after scaling: rounding.
+  double albedo_defect = 0;
+  /// Share of the light of lobes that scaling could not put around the mirror's direction, largest.
+  double spread = 0;
+  double exponent = 0;               ///< largest exponent; of ggx, of the Phong lobe as wide
+  std::uint64_t radiance_bytes = 0;  ///< memory of radiances by direction
+  std::uint64_t lobe_bytes = 0;      ///< memory of the scales of lobes
+  std::uint64_t transfer_bytes = 0;  ///< memory of kept transfers; 0: computed in each iteration
+};
+
 /// Figures of a solve run. Times are wall times.
 struct SolveStatistics {
   std::int64_t patches = 0;           ///< of the scene
@@ -224,6 +245,7 @@ struct SolveStatistics {
   std::vector<RefinementRound> refinement;  ///< rounds that led to the scene; set by the caller
   std::int64_t shot_sources = 0;  ///< patches whose emission was shot before the iteration
   double shot_power_share = 0;    ///< their power over all power emitted
+  GlossyFigures glossy;           ///< of a glossy solve
   double seconds_load = 0;        ///< reading the scene; set by the caller
   double seconds_bsp = 0;         ///< building the BSP tree
   double seconds_first_shot = 0;  ///< first shot
@@ -237,6 +259,7 @@ struct SolveStatistics {
 inline constexpr double least_light_directions = 3;
 
 struct Solution;
+class GlossyLight;
 
 /// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11, or 44 or 45 by its scheme) in steps that can be
 /// observed and interrupted.
@@ -418,13 +441,19 @@ struct Solution {
   /// RadiositySolver::linear_parts(), of Basis::linear, whose mean over a patch is `radiosity`;
   /// empty: B is constant on patches
   std::vector<LinearPart> linear_parts = {};
+  /// Radiance by direction, of a glossy solve in which lobes took part; else null. `radiosity` is
+  /// then E + (rho + reflectance of the lobe) H.
+  std::shared_ptr<const GlossyLight> glossy = nullptr;
+  /// A point from which patches are seen, whose radiance toward it result files then have.
+  std::optional<Vec3> eye = std::nullopt;
 };
 
 /// B at the corners of patch i's outline, W/m². Of Basis::linear it may be below 0.
 std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i);
 
-/// Solves in one call. If `cancellation` is set during the passes, it returns the best estimate so
-/// far, with complete = false.
+/// Solves in one call, by a GlossySolver where options.glossy is set and materials have lobes; it
+/// then calls no observer, and is alone. If `cancellation` is set during the passes, it returns the
+/// best estimate so far, with complete = false.
 /// @param scene the scene.
 /// @param options of the solve run.
 /// @param observer as for RadiositySolver::advance().

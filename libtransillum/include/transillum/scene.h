@@ -29,11 +29,33 @@ using PointId = std::int32_t;
 /// No group, in SceneDescription::face_group and Patch::group.
 inline constexpr std::int32_t no_group = -1;
 
-/// Optical properties of a diffuse surface.
+/// How a lobe spreads light about the direction in which a mirror would reflect it.
+enum class LobeShape {
+  phong,  ///< cos^n of the angle to the mirror's direction (Lafortune and Willems 1994)
+  ggx,    ///< microfacets of the distribution GGX (Walter et al. 2007)
+};
+
+/// The glossy part of a surface's reflection; only glossy solves read it (SolveOptions::glossy).
+struct Lobe {
+  /// Share of the light from any direction that it reflects, >= 0 per channel (MTL: Ks). Where
+  /// with rho it exceeds what a surface can reflect, used_lobe() lowers it.
+  Rgb reflectance;
+  LobeShape shape = LobeShape::phong;  ///< of the distribution
+  double exponent = 0;                 ///< n of LobeShape::phong, >= 0 (MTL: Ns)
+  double roughness = 1;  ///< of LobeShape::ggx, 0 to 1: alpha = roughness² (glTF; MTL: Pr)
+
+  /// Whether it reflects anything.
+  bool present() const { return max_abs(reflectance) > 0; }
+  /// Exact comparison of all members.
+  friend bool operator==(const Lobe&, const Lobe&) = default;
+};
+
+/// Optical properties of a surface: diffuse, and a lobe that only glossy solves use.
 struct Material {
   std::string name;  ///< as in the file; not necessarily unique
-  Rgb reflectance;   ///< rho, 0 <= rho < 1 per channel (MTL: Kd)
+  Rgb reflectance;   ///< rho, diffuse, 0 <= rho < 1 per channel (MTL: Kd)
   Rgb exitance;      ///< E, emitted, W/m², >= 0 (MTL: Ke)
+  Lobe lobe = {};    ///< its glossy part; by default none
 };
 
 /// Unchecked polygons, as a reader or a generator delivers them.

@@ -38,6 +38,7 @@ namespace transillum {}
 #include "transillum/first_shot.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/function_comparison.h"
+#include "transillum/glossy.h"
 #include "transillum/light_paths.h"
 #include "transillum/power_table.h"
 #include "transillum/radiosity.h"

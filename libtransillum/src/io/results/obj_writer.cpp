@@ -4,6 +4,7 @@
 // description.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 #include <set>
 
@@ -53,11 +54,21 @@ std::vector<std::string> written_names(const std::vector<Material>& materials) {
 void write_materials(std::ostream& stream, const std::vector<Material>& materials,
                      const std::vector<std::string>& names) {
   TextBuffer text(stream);
-  text.add("# Kd: reflectance; Ke: emitted exitance, W/m2\n");
+  const bool lobes = std::any_of(materials.begin(), materials.end(),
+                                 [](const Material& material) { return material.lobe.present(); });
+  text.add("# Kd: reflectance; Ke: emitted exitance, W/m2{}\n",
+           lobes ? "; Ks: reflectance of a lobe, Ns: its exponent, Pr: its roughness" : "");
   for (std::size_t m = 0; m < materials.size(); ++m) {
     const Rgb& rho = materials[m].reflectance;
     const Rgb& e = materials[m].exitance;
     text.add("newmtl {}\nKd {} {} {}\nKe {} {} {}\n", names[m], rho.r, rho.g, rho.b, e.r, e.g, e.b);
+    const Lobe& lobe = materials[m].lobe;
+    if (lobe.present()) {
+      const Rgb& share = lobe.reflectance;
+      text.add("Ks {} {} {}\n", share.r, share.g, share.b);
+      const bool phong = lobe.shape == LobeShape::phong;
+      text.add("{} {}\n", phong ? "Ns" : "Pr", phong ? lobe.exponent : lobe.roughness);
+    }
   }
 }
 

@@ -33,6 +33,7 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["normalize"] = name_of(options.normalize);
   json["scheme"] = name_of(options.scheme);
   json["basis"] = name_of(options.basis);
+  json["glossy"] = options.glossy;
   const bool averages = options.scheme == Scheme::semi_iterative;
   json["burn_in"] = averages && options.burn_in ? Json(*options.burn_in) : Json();
   json["replicas"] = options.replicas;

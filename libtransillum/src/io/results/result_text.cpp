@@ -3,12 +3,14 @@
 // Results as text: CSV, PLY and OBJ. data/FILES.md lists their columns and properties.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "io/results/result_writers.h"
 #include "io/results/srgb.h"
 #include "io/text_buffer.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
+#include "transillum/glossy.h"
 
 namespace transillum {
 namespace {
@@ -55,6 +57,18 @@ void add_light_and_names(TextBuffer& text, const Solution& solution, PatchId i) 
            csv_cell(scene.material(i).name));
 }
 
+/// Radiance of each patch toward Solution::eye; empty without one.
+std::vector<Rgb> radiance_toward_eye(const Solution& solution) {
+  return solution.eye && solution.glossy ? solution.glossy->radiance_toward(*solution.eye)
+                                         : std::vector<Rgb>();
+}
+
+/// The columns of lobes.
+std::string lobes_header(const Solution& solution, bool eye) {
+  return std::string(solution.glossy ? ",rho_lobe_r,rho_lobe_g,rho_lobe_b" : "") +
+         (eye ? ",L_r,L_g,L_b" : "");
+}
+
 /// Writes the linear part of B, and the functions by which it is multiplied.
 void add_linear_part(TextBuffer& text, const Solution& solution, PatchId i) {
   const LinearPart& part = at(solution.linear_parts, i);
@@ -87,18 +101,21 @@ bool has_large_outlines(const Scene& scene) {
 
 /// One line per patch: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; with replicas
 /// also SE_r,SE_g,SE_b; then H_r,H_g,H_b, F_sum and sky where they are known, group,material; with
-/// a linear basis also coefficients, center and gradients.
+/// a linear basis also coefficients, center and gradients; with lobes what they reflect, and toward
+/// an eye L.
 void write_result_csv(std::ostream& out, const Solution& solution) {
   TextBuffer text(out);
   const std::vector<Rgb>& errors = solution.error.standard_error;
+  const std::vector<Rgb> seen = radiance_toward_eye(solution);
   text.add(
       "face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b{},H_r,H_g,H_b{}{},group,"
-      "material{}\n",
+      "material{}{}\n",
       errors.empty() ? "" : ",SE_r,SE_g,SE_b", solution.form_factor_sums.empty() ? "" : ",F_sum",
       solution.sky_shares.empty() ? "" : ",sky",
       solution.linear_parts.empty()
           ? ""
-          : ",B1_r,B1_g,B1_b,B2_r,B2_g,B2_b,c_x,c_y,c_z,g1_x,g1_y,g1_z,g2_x,g2_y,g2_z");
+          : ",B1_r,B1_g,B1_b,B2_r,B2_g,B2_b,c_x,c_y,c_z,g1_x,g1_y,g1_z,g2_x,g2_y,g2_z",
+      lobes_header(solution, !seen.empty()));
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     add_patch_values(text, solution, i, ',');
     if (!errors.empty()) {
@@ -107,6 +124,12 @@ void write_result_csv(std::ostream& out, const Solution& solution) {
     add_light_and_names(text, solution, i);
     if (!solution.linear_parts.empty()) {
       add_linear_part(text, solution, i);
+    }
+    if (solution.glossy) {
+      add_color(text, used_lobe(solution.scene->material(i)).reflectance, ',');
+    }
+    if (!seen.empty()) {
+      add_color(text, at(seen, i), ',');
     }
     text.add("\n");
   }
@@ -117,7 +140,8 @@ void write_result_ply(std::ostream& out, const Solution& solution, const Display
   const double exposure = exposure_of(solution, display);
   TextBuffer text(out);
   text.add("ply\nformat ascii 1.0\ncomment transillum; lengths in m, E and B in W/m2\n");
-  text.add("comment colors: B times {}, as sRGB\n", exposure);
+  const std::vector<Rgb> seen = radiance_toward_eye(solution);
+  text.add("comment colors: {} times {}, as sRGB\n", seen.empty() ? "B" : "pi L", exposure);
   text.add("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
            corner_count(scene));
   text.add("property uchar red\nproperty uchar green\nproperty uchar blue\n");
@@ -133,12 +157,17 @@ void write_result_ply(std::ostream& out, const Solution& solution, const Display
        {"area", "E_r", "E_g", "E_b", "rho_r", "rho_g", "rho_b", "B_r", "B_g", "B_b"}) {
     text.add("property double {}\n", name);
   }
+  for (const char* name : {"L_r", "L_g", "L_b"}) {
+    if (!seen.empty()) {
+      text.add("property double {}\n", name);
+    }
+  }
   text.add("end_header\n");
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const std::vector<Rgb> corners = corner_radiosity(solution, i);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Vec3& p = scene.point(scene.outline(i)[k]);
-      const Rgb color = exposure * corners[k];
+      const Rgb color = exposure * (seen.empty() ? corners[k] : std::numbers::pi * at(seen, i));
       text.add("{} {} {} {} {} {}", p.x, p.y, p.z, srgb_byte(color.r), srgb_byte(color.g),
                srgb_byte(color.b));
       if (linear) {
@@ -155,6 +184,9 @@ void write_result_ply(std::ostream& out, const Solution& solution, const Display
       text.add("{} ", corner++);
     }
     add_patch_values(text, solution, i, ' ');
+    if (!seen.empty()) {
+      add_color(text, at(seen, i), ' ');
+    }
     text.add("\n");
   }
 }

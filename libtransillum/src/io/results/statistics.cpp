@@ -62,6 +62,22 @@ Json accuracy_json(const std::optional<AccuracyReport>& report) {
           {"stages", stages}};
 }
 
+/// Figures about lobes; null where none took part.
+Json glossy_json(const GlossyFigures& figures) {
+  if (figures.patches == 0) {
+    return {};
+  }
+  return {{"patches", figures.patches},
+          {"lobes", figures.lobes},
+          {"albedo_error", figures.albedo_error},
+          {"albedo_defect", figures.albedo_defect},
+          {"spread", figures.spread},
+          {"exponent", figures.exponent},
+          {"radiance_bytes", figures.radiance_bytes},
+          {"lobe_bytes", figures.lobe_bytes},
+          {"transfer_bytes", figures.transfer_bytes}};
+}
+
 /// Figures that are known only after an iteration are null without one.
 Json statistics_json(const SolveStatistics& statistics) {
   const bool stepped = statistics.iterations > 0;
@@ -77,6 +93,7 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["transfers"] = statistics.transfers;
   json["form_factors"] = statistics.form_factors;
   json["kept_form_factors"] = statistics.kept_form_factors;
+  json["glossy"] = glossy_json(statistics.glossy);
   json["first_shot"] = {{"sources", statistics.shot_sources},
                         {"power_share", statistics.shot_power_share}};
   json["converged"] = statistics.converged;

@@ -37,6 +37,7 @@ Json run_options(const SolveOptions& options, const SceneOptions& scene_options)
   Json json = options_json(options, scene_options);
   json.erase("memory");
   json.erase("threads");
+  json.erase("glossy");  // glossy solves have no checkpoints and no shards
   const EngineOptions& engine = options.engine_options;
   json["lines"] = engine.lines_per_patch;
   json["random_lines"] = !engine.gridded;

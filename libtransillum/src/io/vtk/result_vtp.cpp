@@ -14,6 +14,7 @@
 #include "io/results/result_writers.h"
 #include "io/vtk/vtp_output.h"
 #include "transillum/at.h"
+#include "transillum/glossy.h"
 
 namespace transillum {
 namespace {
@@ -108,6 +109,14 @@ void add_patch_values(vtkFieldData& fields, const Solution& solution) {
     add_colors(fields, "H_sky", count, [&](PatchId i) { return at(solution.sky_irradiance, i); });
   }
   add_integers(fields, "group", count, [&](PatchId i) { return scene.patch(i).group; });
+  if (solution.glossy) {
+    add_colors(fields, "rho_lobe", count,
+               [&](PatchId i) { return used_lobe(scene.material(i)).reflectance; });
+  }
+  if (solution.glossy && solution.eye) {
+    const std::vector<Rgb> seen = solution.glossy->radiance_toward(*solution.eye);
+    add_colors(fields, "L", count, [&](PatchId i) { return at(seen, i); });
+  }
 }
 
 /// The sky, where there is one.
@@ -147,6 +156,13 @@ void add_solve_values(vtkFieldData& fields, const Solution& solution) {
   visit_figures(solution, [&](const char* name, const auto& value) {
     add_field(fields, name, static_cast<double>(value));
   });
+  if (solution.glossy && solution.eye) {
+    vtkNew<vtkDoubleArray> eye;
+    eye->SetName("eye");
+    eye->SetNumberOfComponents(3);
+    eye->InsertNextTuple3(solution.eye->x, solution.eye->y, solution.eye->z);
+    fields.AddArray(eye);
+  }
   const auto& steps = solution.statistics.iteration_records;
   const int count = static_cast<int>(steps.size());
   add_numbers(fields, "change", count, [&](int k) { return at(steps, k).change; });

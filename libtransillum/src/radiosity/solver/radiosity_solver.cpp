@@ -4,6 +4,7 @@
 #include "base/seconds_since.h"
 #include "radiosity/solver/solver_state.h"
 #include "transillum/accuracy_plan.h"
+#include "transillum/glossy.h"
 
 namespace transillum {
 
@@ -84,9 +85,33 @@ std::vector<Vec3> RadiositySolver::directions_of(int iteration) const {
 
 int RadiositySolver::passes_of(int iteration) const { return impl_->plan.passes(iteration); }
 
+namespace {
+
+/// solve() where lobes take part. The observer of a RadiositySolver is not called.
+Solution solve_with_lobes(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+                          const Cancellation& cancellation) {
+  const auto start = std::chrono::steady_clock::now();
+  GlossySolver solver(std::move(scene), options, nullptr, cancellation);
+  try {
+    solver.solve();
+  } catch (const Canceled&) {
+    if (solver.progress().iteration == 0) {
+      throw;
+    }
+  }
+  Solution solution = solver.solution();
+  solution.statistics.seconds_total = seconds_since(start);
+  return solution;
+}
+
+}  // namespace
+
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const RadiositySolver::Observer& observer, const Cancellation& cancellation,
                const std::shared_ptr<SolverGroup>& group) {
+  if (options.glossy && has_lobes(*scene)) {
+    return solve_with_lobes(std::move(scene), options, cancellation);
+  }
   if (options.goal.set()) {
     AccuracyObserver watch;
     if (observer) {

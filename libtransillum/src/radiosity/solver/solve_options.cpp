@@ -35,6 +35,31 @@ void check_linear_basis(const SolveOptions& options) {
   }
 }
 
+/// @throws InputError for what lobes cannot be combined with.
+void check_glossy(const SolveOptions& options) {
+  const char* problem = nullptr;
+  if (!takes_directions(options.engine)) {
+    problem = "engine hemicube or pairs, which have no directions";
+  } else if (!options.two_way) {
+    problem = "one-way passes: a lobe reflects from a set of directions into the same set";
+  } else if (options.basis != Basis::constant) {
+    problem = "a linear basis";
+  } else if (options.normalize == Normalization::symmetric) {
+    problem = "symmetric normalization, which knows only sums over all directions";
+  } else if (options.scheme != Scheme::fixed) {
+    problem = "another scheme than fixed: every iteration needs the same directions";
+  } else if (options.goal.set()) {
+    problem = "an accuracy or a time limit, which require replicas";
+  } else if (options.first_shot) {
+    problem = "a first shot, which does not say from where its light comes";
+  } else if (options.replicas > 1) {
+    problem = "replicas: a patch keeps its radiance for one set of directions";
+  }
+  if (problem != nullptr) {
+    throw InputError(fmt::format("glossy: lobes are not available with {}", problem));
+  }
+}
+
 /// @throws InputError where the spread of replicas of one set of directions would not show the
 /// error of B.
 void check_error_is_seen(const SolveOptions& options) {
@@ -148,6 +173,9 @@ void SolveOptions::validate() const {
   }
   if (basis == Basis::linear) {
     check_linear_basis(*this);
+  }
+  if (glossy) {
+    check_glossy(*this);
   }
   sky.validate();
   goal.validate();

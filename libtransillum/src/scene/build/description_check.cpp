@@ -133,10 +133,31 @@ void check_exitance(const Rgb& exitance, const std::string& place) {
   }
 }
 
+void check_lobe(const Lobe& lobe, const std::string& place) {
+  for (const auto& [channel, share] : channels(lobe.reflectance)) {
+    if (!(share >= 0 && std::isfinite(share))) {
+      throw InputError(
+          fmt::format("{}{} reflectance of the lobe (Ks) is {}, but must be finite and >= 0", place,
+                      channel, share));
+    }
+  }
+  if (!(lobe.exponent >= 0 && lobe.exponent <= largest_exponent)) {
+    throw InputError(
+        fmt::format("{}the exponent of the lobe (Ns) is {}, but must be >= 0 and at most {}", place,
+                    lobe.exponent, largest_exponent));
+  }
+  if (!(lobe.roughness >= 0 && lobe.roughness <= 1)) {
+    throw InputError(
+        fmt::format("{}the roughness of the lobe (Pr) is {}, but must be >= 0 and at most 1", place,
+                    lobe.roughness));
+  }
+}
+
 void check_material(const Material& material, const std::string& place) {
   const std::string named = fmt::format("{}material {}: ", place, in_quotes(material.name));
   check_reflectance(material.reflectance, named);
   check_exitance(material.exitance, named);
+  check_lobe(material.lobe, named);
 }
 
 void check_description(const SceneDescription& description) {

@@ -24,7 +24,13 @@ void check_reflectance(const Rgb& reflectance, const std::string& place);
 /// Checks 0 <= E <= largest_exitance per channel.
 /// @throws InputError beginning with `place`.
 void check_exitance(const Rgb& exitance, const std::string& place);
-/// Checks 0 <= rho < 1 and 0 <= E <= largest_exitance.
+/// Largest exponent of a lobe.
+inline constexpr double largest_exponent = 1e9;
+/// Checks that the share a lobe reflects is finite and at least 0, 0 <= n <= largest_exponent, and
+/// that the roughness is in the range 0 to 1.
+/// @throws InputError beginning with `place`.
+void check_lobe(const Lobe& lobe, const std::string& place);
+/// Checks 0 <= rho < 1, 0 <= E <= largest_exitance, and the lobe.
 /// @throws InputError beginning with `place`.
 void check_material(const Material& material, const std::string& place);
 

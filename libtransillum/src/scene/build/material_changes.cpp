@@ -201,6 +201,7 @@ class MaterialEditor {
   static Material changed(Material material, const MaterialChange& change) {
     material.reflectance = change.reflectance.value_or(material.reflectance);
     material.exitance = change.exitance.value_or(material.exitance);
+    material.lobe = change.lobe.value_or(material.lobe);
     return material;
   }
   /// Materials that no face uses have no faces to select.
@@ -215,7 +216,8 @@ class MaterialEditor {
                     const std::vector<std::size_t>& faces) {
     Material& old = at(description_.materials, material);
     Material made = changed(old, change);
-    if (made.reflectance == old.reflectance && made.exitance == old.exitance) {
+    if (made.reflectance == old.reflectance && made.exitance == old.exitance &&
+        made.lobe == old.lobe) {
       return;
     }
     if (faces.size() == at(uses_, material)) {
@@ -259,34 +261,37 @@ void check_values(const SceneDescription& description, const MaterialChange& cha
   if (change.exitance) {
     check_exitance(*change.exitance, place);
   }
+  if (change.lobe) {
+    check_lobe(*change.lobe, place);
+  }
 }
 
-/// The parts of NAME=V,V,V.
-std::pair<std::string, Rgb> named_values(const std::string& text) {
-  const auto refuse = [&] {
-    throw InputError(in_quotes(text) + " is not NAME=VALUE or NAME=RED,GREEN,BLUE");
-  };
+/// The parts of NAME=V,V,…: the name and the numbers; none where the text has another form.
+std::pair<std::string, std::vector<double>> named_numbers(const std::string& text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) {
-    refuse();
+    return {};
   }
-  std::array<double, 3> values{};
-  std::size_t count = 0;
-  for (std::size_t begin = equals + 1; begin <= text.size(); ++count) {
+  std::vector<double> values;
+  for (std::size_t begin = equals + 1; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const auto number = parse_number(std::string_view(text).substr(begin, end - begin));
-    if (!number || count == values.size()) {
-      refuse();
+    if (!number) {
+      return {};
     }
-    values[count] = *number;
+    values.push_back(*number);
     begin = end + 1;
   }
-  if (count == 1) {
-    values = {values[0], values[0], values[0]};
-  } else if (count != values.size()) {
-    refuse();
+  return {text.substr(0, equals), values};
+}
+
+/// The parts of NAME=V or NAME=V,V,V.
+std::pair<std::string, Rgb> named_values(const std::string& text) {
+  const auto [name, values] = named_numbers(text);
+  if (values.size() != 1 && values.size() != 3) {
+    throw InputError(in_quotes(text) + " is not NAME=VALUE or NAME=RED,GREEN,BLUE");
   }
-  return {text.substr(0, equals), {values[0], values[1], values[2]}};
+  return {name, {values[0], values[values.size() / 2], values[values.size() - 1]}};
 }
 
 bool suggests_light(const std::string& name) {
@@ -314,6 +319,18 @@ MaterialChange exitance_change(const std::string& text) {
 MaterialChange reflectance_change(const std::string& text) {
   auto [target, reflectance] = named_values(text);
   return {.target = std::move(target), .reflectance = reflectance};
+}
+
+MaterialChange lobe_change(const std::string& text) {
+  const auto [target, values] = named_numbers(text);
+  if (values.size() != 2 && values.size() != 4) {
+    throw InputError(in_quotes(text) +
+                     " is not NAME=SHARE,EXPONENT or NAME=RED,GREEN,BLUE,EXPONENT");
+  }
+  const std::size_t last = values.size() - 1;
+  Lobe lobe{.reflectance = {values[0], values[last / 2], values[last - 1]}};
+  lobe.exponent = values[last];
+  return {.target = target, .lobe = lobe};
 }
 
 void change_materials(SceneDescription& description, std::span<const MaterialChange> changes) {

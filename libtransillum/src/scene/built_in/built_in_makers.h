@@ -16,6 +16,7 @@ void make_furnace(SceneMaker& maker, const ParameterValues& values, const Cancel
 void make_flatland(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
 void make_boards(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
 void make_rooms(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
+void make_gallery(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
 void make_stars(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
 
 }  // namespace transillum

@@ -48,6 +48,11 @@ const std::vector<BuiltIn>& registry() {
        {{"n", 24, 0, 2'000'000}, {"rooms", 3, 1, 1000}, {"seed", 1, 0, 1'000'000'000}},
        make_rooms},
       {"stars", "A room with n small, bright light sources.", {{"n", 12, 1, 1000}}, make_stars},
+      {"gallery",
+       "A room with a shining floor and a polished ball, lit by three colored lamps: for solves "
+       "with lobes.",
+       {{"tiles", 2, 1, 100}, {"slices", 24, 3, 1024}, {"stacks", 12, 2, 1024}},
+       make_gallery},
       {"flatland",
        "A section of a room, 1 m deep, with two boards: small enough to compute by hand.",
        {},

@@ -8,8 +8,8 @@
 namespace transillum {
 
 SceneMaker::MaterialNumber SceneMaker::material(const std::string& name, const Rgb& reflectance,
-                                                const Rgb& exitance) {
-  description_.materials.push_back({name, reflectance, exitance});
+                                                const Rgb& exitance, const Lobe& lobe) {
+  description_.materials.push_back({name, reflectance, exitance, lobe});
   return static_cast<MaterialNumber>(description_.materials.size()) - 1;
 }
 

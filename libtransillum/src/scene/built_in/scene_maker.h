@@ -15,8 +15,8 @@ class SceneMaker {
  public:
   using MaterialNumber = int;
 
-  MaterialNumber material(const std::string& name, const Rgb& reflectance,
-                          const Rgb& exitance = {});
+  MaterialNumber material(const std::string& name, const Rgb& reflectance, const Rgb& exitance = {},
+                          const Lobe& lobe = {});
   PointId point(const Vec3& position) { return table_.id_of(position); }
   /// Adds a face; corners counter-clockwise seen from the lit side.
   void face(const std::vector<PointId>& outline, MaterialNumber material);

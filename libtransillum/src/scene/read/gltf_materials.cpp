@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Materials of glTF describe more than diffuse surfaces. What is left out is noted: the part of a
-// metal, which reflects like a mirror, and what is transparent.
+// Materials of glTF describe more than diffuse surfaces and lobes. What is left out is noted: what
+// a diffuse solve leaves out of a metal, and what is transparent.
 #include "scene/read/gltf_materials.h"
 
 #include <fmt/format.h>
@@ -52,7 +52,35 @@ TextureWrap wrap_of(int mode) {
                                                          : TextureWrap::repeat;
 }
 
+/// What surfaces that are no metals reflect without entering it (glTF 2.0, appendix B).
+constexpr double dielectric_share = 0.04;
+/// A smoother surface is a mirror, which no set of directions resolves.
+constexpr double least_roughness = 0.01;
+
 }  // namespace
+
+SurfaceColors& SurfaceColors::operator+=(const SurfaceColors& other) {
+  reflectance += other.reflectance;
+  exitance += other.exitance;
+  lobe += other.lobe;
+  roughness += other.roughness;
+  return *this;
+}
+
+SurfaceColors operator*(double factor, const SurfaceColors& colors) {
+  return {factor * colors.reflectance, factor * colors.exitance, factor * colors.lobe,
+          factor * colors.roughness};
+}
+
+Lobe SurfaceColors::ggx() const {
+  constexpr double nearly = 1 - 1e-9;  // means of textures are rounded
+  if (roughness >= nearly && max_abs(lobe) <= dielectric_share) {
+    return {};
+  }
+  Lobe lobe_of{.reflectance = lobe, .shape = LobeShape::ggx};
+  lobe_of.roughness = std::min(roughness, 1.0);
+  return lobe_of;
+}
 
 GltfMaterials::GltfMaterials(const GltfFile& file, const ReadOptions& options, Warnings& notes,
                              const Cancellation& cancellation)
@@ -97,6 +125,7 @@ GltfMaterials::Surface GltfMaterials::surface_of(const tinygltf::Material& mater
   surface.double_sided = material.doubleSided;
   surface.base = color_of(pbr.baseColorFactor, {1, 1, 1});
   surface.metallic = pbr.metallicFactor;
+  surface.roughness = pbr.roughnessFactor;
   surface.base_texture = texture_of(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord,
                                     pbr.baseColorTexture.extensions, false);
   surface.metallic_texture =
@@ -114,6 +143,9 @@ GltfMaterials::Surface GltfMaterials::surface_of(const tinygltf::Material& mater
   surface.exitance = std::numbers::pi * strength / (options_.photometric ? lumens_per_watt : 1) *
                      color_of(material.emissiveFactor, {});
   const std::string place = place_of(number, surface.name);
+  if (!(surface.roughness >= 0 && surface.roughness <= 1)) {
+    surface.roughness = surface.roughness > 0 ? 1 : 0;  // diffuse solves do not need it
+  }
   for (const double v : {surface.base.r, surface.base.g, surface.base.b, surface.metallic}) {
     if (!(v >= 0 && v <= 1)) {
       file_.fail(fmt::format("{}: a color factor of {} is not in the range 0 to 1", place, v));
@@ -122,7 +154,7 @@ GltfMaterials::Surface GltfMaterials::surface_of(const tinygltf::Material& mater
   if (surface.metallic == 1 && !surface.metallic_texture && !(max_abs(surface.base) == 0)) {
     notes_.add("materials that are metals",
                fmt::format("{}: {} is a metal (metallic factor 1), which has no diffuse "
-                           "reflectance; rho = 0",
+                           "reflectance; rho = 0, all that it reflects is its lobe",
                            file_.files().front(), place));
   }
   if (material.alphaMode == "BLEND" || material.extensions.contains("KHR_materials_transmission")) {
@@ -141,6 +173,8 @@ void GltfMaterials::use_specular_glossiness(Surface& surface, const tinygltf::Ma
   }
   surface.base = color_of(numbers_of(*older, "diffuseFactor"), {1, 1, 1});
   surface.metallic = 0;
+  surface.roughness = 1 - number_of(*older, "glossinessFactor", 1);
+  surface.specular = color_of(numbers_of(*older, "specularFactor"), {1, 1, 1});
   surface.metallic_texture.reset();
   surface.base_texture.reset();
   if (older->Has("diffuseTexture") && older->Get("diffuseTexture").IsObject()) {
@@ -201,21 +235,33 @@ void GltfMaterials::place(Texture& texture, const tinygltf::ExtensionMap& extens
   texture.set = static_cast<int>(number_of(*transform, "texCoord", texture.set));
 }
 
-DiffuseColors GltfMaterials::colors(std::int32_t material) const {
+SurfaceColors GltfMaterials::colors(std::int32_t material) const {
   const Surface& surface = at(surfaces_, material);
-  return {(1 - surface.metallic) * surface.base, surface.exitance};
+  return colors_of(surface, surface.base, surface.metallic, surface.roughness, surface.exitance);
 }
 
-DiffuseColors GltfMaterials::colors(std::int32_t material, const Vertices& vertices,
+SurfaceColors GltfMaterials::colors_of(const Surface& surface, const Rgb& base, double metallic,
+                                       double roughness, const Rgb& exitance) {
+  const double plain = dielectric_share * (1 - metallic);
+  const Rgb lobe = surface.specular.value_or(Rgb{plain, plain, plain} + metallic * base);
+  return {(1 - metallic) * base,
+          exitance,
+          {std::max(lobe.r, 0.0), std::max(lobe.g, 0.0), std::max(lobe.b, 0.0)},
+          std::max(roughness, least_roughness)};
+}
+
+SurfaceColors GltfMaterials::colors(std::int32_t material, const Vertices& vertices,
                                     const std::array<std::uint32_t, 3>& corners) {
   const Surface& surface = at(surfaces_, material);
   Rgb base = surface.base, exitance = surface.exitance;
-  double metallic = surface.metallic;
+  double metallic = surface.metallic, roughness = surface.roughness;
   if (surface.base_texture) {
     base = base * average(*surface.base_texture, vertices, corners);
   }
   if (surface.metallic_texture) {
-    metallic *= average(*surface.metallic_texture, vertices, corners).b;
+    const Rgb factors = average(*surface.metallic_texture, vertices, corners);
+    metallic *= factors.b;
+    roughness *= factors.g;
   }
   if (surface.emissive_texture) {
     exitance = exitance * average(*surface.emissive_texture, vertices, corners);
@@ -228,7 +274,7 @@ DiffuseColors GltfMaterials::colors(std::int32_t material, const Vertices& verti
     }
     base = base * (1.0 / 3 * sum);
   }
-  return {(1 - metallic) * base, exitance};
+  return colors_of(surface, base, metallic, roughness, exitance);
 }
 
 Rgb GltfMaterials::average(const Texture& texture, const Vertices& vertices,

@@ -18,13 +18,20 @@
 
 namespace transillum {
 
-/// rho and E of a surface.
-struct DiffuseColors {
-  Rgb reflectance, exitance;
+/// rho and E of a surface, what its lobe reflects, and its roughness.
+struct SurfaceColors {
+  Rgb reflectance, exitance, lobe;
+  double roughness = 0;
+
+  SurfaceColors& operator+=(const SurfaceColors& other);
+  friend SurfaceColors operator*(double factor, const SurfaceColors& colors);
+  /// The lobe; none of a rough surface that is no metal, which is diffuse.
+  Lobe ggx() const;
 };
 
-/// The diffuse part of a file's materials: rho = base color (1 - metallic), E = pi times the
-/// emissive factor and strength, each times the average of its texture.
+/// A file's materials: rho = base color (1 - metallic), E = pi times the emissive factor and
+/// strength, a lobe that reflects 0.04 (1 - metallic) + base color · metallic; each times the
+/// average of its texture.
 class GltfMaterials {
  public:
   /// What a primitive's vertices have for its material.
@@ -44,10 +51,10 @@ class GltfMaterials {
   /// Sets of texture coordinates that a material's textures use.
   std::vector<int> texture_sets(std::int32_t material) const;
   /// Without textures and colors of vertices.
-  DiffuseColors colors(std::int32_t material) const;
+  SurfaceColors colors(std::int32_t material) const;
   /// Averaged over a triangle of these vertices.
   /// @throws Canceled
-  DiffuseColors colors(std::int32_t material, const Vertices& vertices,
+  SurfaceColors colors(std::int32_t material, const Vertices& vertices,
                        const std::array<std::uint32_t, 3>& corners);
 
  private:
@@ -62,14 +69,18 @@ class GltfMaterials {
   struct Surface {
     std::string name;
     Rgb base{1, 1, 1};
-    double metallic = 1;
+    double metallic = 1, roughness = 1;
     Rgb exitance;
+    /// What the lobe reflects, where a file has it; else by the base color.
+    std::optional<Rgb> specular = std::nullopt;
     bool double_sided = false;
     std::optional<Texture> base_texture, metallic_texture, emissive_texture;
   };
 
   Surface surface_of(const tinygltf::Material& material, std::size_t number);
   void use_specular_glossiness(Surface& surface, const tinygltf::Material& material);
+  static SurfaceColors colors_of(const Surface& surface, const Rgb& base, double metallic,
+                                 double roughness, const Rgb& exitance);
   std::optional<Texture> texture_of(int index, int set, const tinygltf::ExtensionMap& extensions,
                                     bool linear);
   static void place(Texture& texture, const tinygltf::ExtensionMap& extensions);

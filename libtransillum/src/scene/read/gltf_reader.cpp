@@ -238,7 +238,7 @@ class GltfReader {
   }
 
   /// Keeps the colors of the last triangle, from the first that differs from its material on.
-  void add_colors(const DiffuseColors& colors, bool varies) {
+  void add_colors(const SurfaceColors& colors, bool varies) {
     if (!varies && varying_.empty()) {
       return;
     }
@@ -352,9 +352,9 @@ class GltfReader {
 
   void finish_materials() {
     for (std::int32_t m = 0; m <= materials_.none(); ++m) {
-      const DiffuseColors colors = materials_.colors(m);
+      const SurfaceColors colors = materials_.colors(m);
       description_.materials.push_back(
-          limited({materials_.name(m), colors.reflectance, colors.exitance}, true));
+          limited({materials_.name(m), colors.reflectance, colors.exitance, colors.ggx()}, true));
     }
   }
 
@@ -396,7 +396,7 @@ class GltfReader {
     if (varying_.empty()) {
       return;
     }
-    std::vector<DiffuseColors> sums(d.face_count());
+    std::vector<SurfaceColors> sums(d.face_count());
     std::vector<double> areas(d.face_count(), 0.0);
     for (std::size_t t = 0; t < description_.face_count(); ++t) {
       const std::span<const PointId> outline = description_.outline(t);
@@ -406,20 +406,19 @@ class GltfReader {
       // Faces without area have a color too.
       const double weight = std::max(area, 1e-300);
       const std::size_t f = face_of(t);
-      sums[f].reflectance += weight * varying_[t].reflectance;
-      sums[f].exitance += weight * varying_[t].exitance;
+      sums[f] += weight * varying_[t];
       areas[f] += weight;
     }
-    std::map<std::pair<std::int32_t, std::array<double, 6>>, std::int32_t> numbers;
+    std::map<std::pair<std::int32_t, std::array<double, 9>>, std::int32_t> numbers;
     for (std::size_t f = 0; f < d.face_count(); ++f) {
-      assign(d, f, {1 / areas[f] * sums[f].reflectance, 1 / areas[f] * sums[f].exitance}, numbers);
+      assign(d, f, 1 / areas[f] * sums[f], numbers);
     }
   }
 
   template <class Numbers>
-  void assign(SceneDescription& d, std::size_t face, const DiffuseColors& mean, Numbers& numbers) {
+  void assign(SceneDescription& d, std::size_t face, const SurfaceColors& mean, Numbers& numbers) {
     const std::int32_t base = d.face_material[face];
-    const DiffuseColors plain = materials_.colors(base);
+    const SurfaceColors plain = materials_.colors(base);
     // A material without textures keeps its colors to the bit.
     const auto rounded = [](const Rgb& value, const Rgb& whole) {
       const auto channel = [](double v, double of) {
@@ -433,14 +432,17 @@ class GltfReader {
     const Rgb rho =
         metal ? rounded(mean.reflectance, {1, 1, 1}) : rounded(mean.reflectance, plain.reflectance);
     const Rgb e = rounded(mean.exitance, plain.exitance);
+    // Of other materials the lobe is nearly the same everywhere, and the first face's is taken.
+    const Rgb lobe = metal ? rounded(mean.lobe, {1, 1, 1}) : plain.lobe;
+    const bool same_lobe = !metal || max_abs(lobe - plain.lobe) <= 1 / color_parts;
     const auto next = static_cast<std::int32_t>(d.materials.size());
-    if (rho == plain.reflectance && e == plain.exitance) {
+    if (rho == plain.reflectance && e == plain.exitance && same_lobe) {
       return;
     }
-    const auto [entry, is_new] =
-        numbers.try_emplace({base, {rho.r, rho.g, rho.b, e.r, e.g, e.b}}, next);
+    const auto [entry, is_new] = numbers.try_emplace(
+        {base, {rho.r, rho.g, rho.b, e.r, e.g, e.b, lobe.r, lobe.g, lobe.b}}, next);
     if (is_new) {
-      d.materials.push_back(limited({materials_.name(base), rho, e}, false));
+      d.materials.push_back(limited({materials_.name(base), rho, e, mean.ggx()}, false));
     }
     d.face_material[face] = entry->second;
   }
@@ -479,7 +481,7 @@ class GltfReader {
   const GltfFile file_;
   GltfMaterials materials_;
   SceneDescription description_;        ///< triangles; face_material: number in the file
-  std::vector<DiffuseColors> varying_;  ///< by triangle; empty: no texture or color of a vertex
+  std::vector<SurfaceColors> varying_;  ///< by triangle; empty: no texture or color of a vertex
   double rounding_ = 0;
   std::size_t first_point_ = 0;  ///< of the primitive that is read
   std::string place_, group_name_;

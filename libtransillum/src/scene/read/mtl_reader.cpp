@@ -51,6 +51,8 @@ class MtlDefinitions {
     bool has_reflectance = false;
     std::string texture;
     std::int32_t texture_line = 0;
+    std::optional<double> roughness;  ///< Pr
+    bool without_lobe = false;        ///< illum 0 or 1: no highlights
   };
 
   MtlDefinitions(const std::string& file, Warnings& notes) : file_(file), notes_(notes) {}
@@ -67,6 +69,9 @@ class MtlDefinitions {
       }
       (reflectance ? current_->material.reflectance : current_->material.exitance) = color(line);
       current_->has_reflectance |= reflectance;
+    } else if (current_ && (line.keyword == "Ks" || line.keyword == "Ns" || line.keyword == "Pr" ||
+                            line.keyword == "illum")) {
+      read_lobe(line);
     } else if (line.keyword == "map_Kd" && current_) {
       current_->texture = texture_name(line.rest);
       current_->texture_line = line.number;
@@ -87,13 +92,46 @@ class MtlDefinitions {
           fmt::format("{}:{}: newmtl has no name; the definition is ignored", file_, line.number));
     }
     return completed(
-        std::exchange(current_, Definition{{name, {}, {}}, line.number, false, {}, 0}));
+        std::exchange(current_, Definition{{name, {}, {}}, line.number, false, {}, 0, {}, false}));
+  }
+  /// A line about the lobe. Diffuse solves do not need it, so what cannot be read is left out.
+  void read_lobe(const TextLine& line) {
+    split_words(line.rest, words_, 4);
+    std::vector<double> values;
+    for (const std::string_view word : words_) {
+      const std::optional<double> number = parse_number(word);
+      if (!number || !(*number >= 0) || !(*number <= largest_exponent)) {
+        break;
+      }
+      values.push_back(*number);
+    }
+    Lobe& lobe = current_->material.lobe;
+    const bool colors = line.keyword == "Ks";
+    if (values.size() != words_.size() || (values.size() != 1 && !(colors && values.size() == 3))) {
+      notes_.add("lines of lobes that cannot be read, ignored",
+                 fmt::format("{}:{}: material {}: {} is ignored", file_, line.number,
+                             in_quotes(current_->material.name), line.keyword));
+    } else if (colors) {
+      lobe.reflectance = {values[0], values[values.size() / 2], values.back()};
+    } else if (line.keyword == "Ns") {
+      lobe.exponent = values[0];
+    } else if (line.keyword == "Pr") {
+      current_->roughness = std::min(values[0], 1.0);
+    } else {
+      current_->without_lobe = values[0] < 2;
+    }
   }
   /// Without the texture of a material that has a color of its own.
   std::optional<Definition> completed(std::optional<Definition> definition) {
     if (definition && !definition->texture.empty() && !is_black(definition->material.reflectance)) {
       ignore_texture(definition->texture_line, "map_Kd");
       definition->texture.clear();
+    }
+    if (definition && definition->without_lobe) {
+      definition->material.lobe = {};
+    } else if (definition && definition->roughness) {
+      definition->material.lobe.shape = LobeShape::ggx;
+      definition->material.lobe.roughness = *definition->roughness;
     }
     return definition;
   }

@@ -1,0 +1,147 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Beyond diffuse surfaces (the paper's last sentence; ALGORITHM.md 6.13). A patch keeps what
+// arrives along each direction of the set, and reflects it by a diffuse part and a lobe. The
+// radiance of a patch is constant over it and depends on the direction:
+//   L_i(omega) = (E_i + rho_i H_i) / pi + k_i w sum_d f_i(omega_d, omega) Phi_i(d),
+//   w = 4 pi / (2M).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "transillum/bsp_tree.h"
+#include "transillum/cancellation.h"
+#include "transillum/engine.h"
+#include "transillum/export.h"
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+
+namespace TRANSILLUM_API transillum {
+
+/// The lobe of a material as a glossy solve uses it: where rho + k would be 1 or more, or within
+/// 1e-6 of it, k is lowered, per channel, so that they add up to 0.98, or to rho if that is more.
+Lobe used_lobe(const Material& material);
+/// Whether the lobe of any patch reflects something.
+bool has_lobes(const Scene& scene);
+/// The exponent of the Phong lobe that is about as wide: of LobeShape::ggx, with alpha =
+/// roughness², ln 2 / alpha², which falls to a quarter at the same angle.
+double equivalent_exponent(const Lobe& lobe);
+/// Largest equivalent_exponent() that M passes resolve: M/10, ten directions within a lobe.
+double resolved_exponent(int directions);
+/// Sentences about the lobes of the scene's patches: which are lowered (used_lobe()), and which are
+/// too narrow for M passes.
+std::vector<std::string> lobe_warnings(const Scene& scene, int directions);
+
+/// The reflectance distribution of a lobe that reflects all light, in the limit of infinitely many
+/// directions: f(a, b) = p(a, b) s(cos a) s(cos b), with p = cos^n of the angle between b and the
+/// mirror's direction of a, or p = 1 / (1 + (alpha² - 1) cos² h)², h being the half vector's angle.
+/// s is the function with which the integral of f cos over the hemisphere is 1 for every direction;
+/// the shadowing of microfacets and the like are such products already.
+///
+/// Threads: immutable once made.
+class LobeFunction {
+ public:
+  /// Computes s. `lobe` gives shape, exponent and roughness.
+  explicit LobeFunction(const Lobe& lobe);
+  ~LobeFunction();
+  /// The moved-from object may only be destroyed or assigned to.
+  LobeFunction(LobeFunction&&) noexcept;
+  /// The moved-from object may only be destroyed or assigned to.
+  LobeFunction& operator=(LobeFunction&&) noexcept;
+
+  /// s of a direction whose cosine with the normal is `cosine`, 0 to 1.
+  double scale(double cosine) const;
+  /// f(a, b), 1/sr; 0 where one of them is below the surface.
+  /// @param a, b, normal unit vectors; a and b point away from the surface.
+  double value(const Vec3& a, const Vec3& b, const Vec3& normal) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Radiance by direction, of all patches of a scene.
+///
+/// Threads: immutable, so any number of threads may read it.
+class GlossyLight {
+ public:
+  struct Data;
+  /// For GlossySolver.
+  explicit GlossyLight(std::shared_ptr<const Data> data);
+
+  /// The scene.
+  const Scene& scene() const;
+  /// omega of each pass; the set are these and their opposites.
+  const std::vector<Vec3>& directions() const;
+  /// Whether patch i has a lobe, so that the functions below differ by direction.
+  bool is_glossy(PatchId i) const;
+  /// The direction of the set along which patch i sends and receives light in a pass: omega, or its
+  /// opposite, whichever is above the patch. Unit.
+  Vec3 direction(PatchId i, int pass) const;
+  /// Phi_i: flux density that arrives along direction(i, pass), W/(m² sr), one per pass; it
+  /// contains the cosine. Empty for a patch without a lobe.
+  std::span<const Rgb> arriving(PatchId i) const;
+  /// Radiance that patch i sends along direction(i, pass), W/(m² sr), by which the last iteration
+  /// gathered.
+  Rgb leaving(PatchId i, int pass) const;
+  /// Radiance of patch i in any direction, W/(m² sr): the last reflection is evaluated for it. 0
+  /// below the patch.
+  /// @param toward unit, away from the surface.
+  Rgb radiance(PatchId i, const Vec3& toward) const;
+  /// Radiance of each patch from its center toward a point.
+  /// @param eye m
+  /// @param threads 0: all cores
+  std::vector<Rgb> radiance_toward(const Vec3& eye, int threads = 0) const;
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
+/// Solves for radiance that depends on the direction, by the same passes as a RadiositySolver.
+///
+/// Threads: at most one thread at a time may call it. Passes and lobes are distributed over
+/// options.threads threads; the bits of the result do not depend on their number.
+class GlossySolver {
+ public:
+  /// Prepares a solve; makes no pass.
+  /// @param scene the scene.
+  /// @param options of the solve run; `glossy` must be set.
+  /// @param tree BSP tree of `scene`; built here if null.
+  /// @param cancellation checked here and in solve().
+  /// @param engine makes the passes; options.engine if null.
+  /// @throws InputError, Canceled
+  GlossySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+               std::shared_ptr<const BspTree> tree = nullptr, const Cancellation& cancellation = {},
+               TransferEngine engine = {});
+  ~GlossySolver();
+  /// The moved-from object may only be destroyed or assigned to.
+  GlossySolver(GlossySolver&&) noexcept;
+  /// The moved-from object may only be destroyed or assigned to.
+  GlossySolver& operator=(GlossySolver&&) noexcept;
+
+  /// Called after each group of passes and each iteration; returns whether to go on.
+  using Observer = std::function<bool(const SolveProgress&)>;
+  /// Iterates until the radiance settles or the observer returns false; may be called again.
+  /// Returns whether it has finished.
+  /// @throws Canceled: what is finished remains.
+  bool solve(const Observer& observer = {});
+  /// Replaces rho, E and lobes and starts to iterate again, with the transfers that are kept. Where
+  /// a patch gets a lobe that had none, the passes are made again.
+  /// @param materials as many as the scene has, for the same patches.
+  /// @throws InputError
+  void set_materials(const std::vector<Material>& materials);
+  /// The current state.
+  SolveProgress progress() const;
+  /// The result so far; complete once the solve has finished. `scene` is that of the constructor.
+  Solution solution() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace TRANSILLUM_API transillum

@@ -1,0 +1,215 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Iterations of a glossy solve: L(n+1) from what L(n) brings along each direction.
+//
+// Notation: i a patch; g a glossy patch; H irradiance; k share that a lobe reflects; Phi what
+// arrives by direction, cosine included.
+#include "radiosity/glossy/glossy_iteration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "base/seconds_since.h"
+#include "radiosity/memory_limit.h"
+#include "radiosity/ratio.h"
+#include "radiosity/solver/pass_plan.h"
+#include "transillum/at.h"
+#include "transillum/solve_errors.h"
+
+namespace transillum {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double pi = std::numbers::pi;
+constexpr double rounding = 1e-12;  ///< of changes, as in a diffuse solve
+
+}  // namespace
+
+GlossySolver::Impl::Impl(SolverInput solver_input)
+    : input(std::move(solver_input)),
+      materials(input.scene->materials()),
+      light(std::make_shared<GlossyLight::Data>()) {
+  light->scene = input.scene;
+  light->directions = PassPlan(input.options).directions(0);
+  find_glossy();
+  forget_passes();
+  start();
+}
+
+void GlossySolver::Impl::find_glossy() {
+  glossy.clear();
+  light->index_of.assign(input.patch_count(), -1);
+  for (std::size_t i = 0; i < input.patch_count(); ++i) {
+    if (used_lobe(material(i)).present()) {
+      light->index_of[i] = static_cast<std::int32_t>(glossy.size());
+      glossy.push_back(static_cast<PatchId>(i));
+    }
+  }
+}
+
+void GlossySolver::Impl::forget_passes() {
+  const PatchId patches = input.scene->patch_count();
+  statistics = std::make_unique<PassStatistics>(*input.scene, true, *input.shot,
+                                                PatchShare(nullptr, patches), 1);
+  std::vector<char> directional(input.patch_count());
+  for (std::size_t i = 0; i < directional.size(); ++i) {
+    directional[i] = light->index_of[i] >= 0 ? 1 : 0;
+  }
+  kept =
+      std::make_unique<DirectionalExchanges>(std::move(directional), static_cast<int>(passes()),
+                                             memory_limit(input.options.memory), input.requested);
+  known_passes = 0;
+  kept_finished = false;
+  const std::size_t slots = glossy.size() * passes();
+  seen.assign(slots, 0.0);
+  sky_seen.assign(input.options.sky.set() ? slots : 0, 0.0);
+  sky_area.assign(input.options.sky.set() ? input.patch_count() : 0, 0.0);
+}
+
+void GlossySolver::Impl::start() {
+  std::vector<Lobe> lobes;
+  std::vector<Vec3> normals;
+  light->shares.clear();
+  for (const PatchId i : glossy) {
+    lobes.push_back(used_lobe(material(static_cast<std::size_t>(i))));
+    normals.push_back(input.scene->patch(i).normal);
+    light->shares.push_back(lobes.back().reflectance);
+  }
+  WorkerThreads workers(input.threads);
+  const auto begin = Clock::now();
+  light->lobes = std::make_shared<const LobeTables>(lobes, normals, light->directions, workers,
+                                                    input.requested);
+  timing.seconds_iterate += seconds_since(begin);
+  const std::size_t slots = glossy.size() * passes();
+  light->arriving.assign(slots, Rgb{});
+  light->reflected.assign(slots, Rgb{});
+  light->lambertian.resize(input.patch_count());
+  for (std::size_t i = 0; i < input.patch_count(); ++i) {
+    light->lambertian[i] = 1 / pi * material(i).exitance;
+  }
+  irradiance.assign(input.patch_count(), Rgb{});
+  from_sky.clear();
+  gathered.assign(input.patch_count(), Rgb{});
+  records.clear();
+  last_change = 0;
+  finished = converged = false;
+  pass = 0;
+}
+
+double GlossySolver::Impl::scale(std::size_t i) const {
+  const double projected = statistics->areas().projected[i];
+  if (input.options.normalize == Normalization::rows) {
+    return projected > 0 ? pi / projected : 0.0;
+  }
+  return 2 * pi / (static_cast<double>(passes()) * input.scene->patches()[i].area);
+}
+
+bool GlossySolver::Impl::iterate(const Observer& observer) {
+  if (light.use_count() > 1) {
+    light = std::make_shared<GlossyLight::Data>(*light);
+  }
+  iteration_seconds = pass > 0 ? iteration_seconds : 0.0;
+  WorkerThreads workers(input.threads);
+  if (!gather_passes(workers, observer)) {
+    return false;
+  }
+  finish_iteration(workers);
+  return !observer || observer(progress());
+}
+
+/// Power received against power sent, by what was gathered.
+double GlossySolver::Impl::defect_of_energy() const {
+  Rgb received, sent;
+  const std::vector<double>& rows = statistics->areas().rows;
+  for (std::size_t i = 0; i < gathered.size(); ++i) {
+    received += gathered[i];
+    sent += rows[i] * light->lambertian[i];
+  }
+  for (std::size_t s = 0; s < seen.size(); ++s) {
+    sent += seen[s] * light->reflected[s];
+  }
+  return ratio_or_zero(max_abs(received - sent), max_abs(sent));
+}
+
+void GlossySolver::Impl::finish_iteration(WorkerThreads& workers) {
+  const auto start = Clock::now();
+  if (!kept_finished && kept->available()) {
+    kept->finish();
+    kept_finished = true;
+  }
+  energy_defect = defect_of_energy();
+  std::vector<Rgb> before, after;
+  for (const PatchId i : glossy) {
+    before.push_back(at(light->lambertian, i));
+  }
+  LobeTables::Change change;
+  const bool has_sky = input.options.sky.set();
+  from_sky.resize(has_sky ? input.patch_count() : 0);
+  for (std::size_t i = 0; i < input.patch_count(); ++i) {
+    irradiance[i] = scale(i) * gathered[i];
+    if (has_sky) {
+      from_sky[i] = scale(i) * sky_area[i] / pi * input.options.sky.exitance;
+      irradiance[i] += from_sky[i];
+    }
+    const Rgb radiance = 1 / pi * (material(i).exitance + material(i).reflectance * irradiance[i]);
+    if (light->index_of[i] < 0) {
+      change.change = std::max(change.change, max_abs(radiance - light->lambertian[i]));
+      change.largest = std::max(change.largest, max_abs(radiance));
+    } else {
+      after.push_back(radiance);
+    }
+    light->lambertian[i] = radiance;
+  }
+  const LobeTables::Change of_lobes = light->lobes->reflect(
+      light->arriving, light->shares, before, after, light->reflected, workers, input.requested);
+  change.change = std::max(change.change, of_lobes.change);
+  change.largest = std::max(change.largest, of_lobes.largest);
+  const double seconds = seconds_since(start);
+  timing.seconds_iterate += seconds;
+  iteration_seconds += seconds;
+  record(change);
+}
+
+double GlossySolver::Impl::rho_max() const {
+  double largest = 0;
+  for (std::size_t i = 0; i < input.patch_count(); ++i) {
+    largest =
+        std::max(largest, max_abs(material(i).reflectance + used_lobe(material(i)).reflectance));
+  }
+  return largest;
+}
+
+void GlossySolver::Impl::record(const LobeTables::Change& change) {
+  IterationRecord now{
+      .change = ratio_or_zero(change.change, change.largest),
+      .contraction = records.empty() ? 0.0 : ratio_or_zero(change.change, last_change),
+      .seconds = iteration_seconds};
+  const double rho = rho_max();
+  const double factor = now.change > rounding ? std::max(now.contraction, rho) : rho;
+  now.remainder =
+      factor < 1 ? rho * now.change / (1 - factor) : std::numeric_limits<double>::infinity();
+  const bool is_rounding =
+      !records.empty() && now.change <= rounding && now.change >= records.back().change;
+  if (!std::isfinite(change.change) || !std::isfinite(change.largest)) {
+    throw NotConvergent(
+        fmt::format("the iteration does not converge for M = {}: radiance exceeds the range of "
+                    "numbers",
+                    passes()),
+        Remedy::directions_or_row_normalization);
+  }
+  last_change = change.change;
+  records.push_back(now);
+  const int asked = input.options.iterations;
+  const bool settled = now.change <= input.options.tolerance || is_rounding;
+  converged = settled;
+  finished = asked > 0 ? std::ssize(records) >= asked : settled;
+  pass = 0;
+}
+
+}  // namespace transillum

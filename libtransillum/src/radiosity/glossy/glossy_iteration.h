@@ -1,0 +1,80 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The state of a glossy solve: GlossySolver::Impl. glossy_passes.cpp gathers along passes,
+// glossy_iteration.cpp ends iterations, glossy_solver.cpp has the public class and the results.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/worker_threads.h"
+#include "radiosity/glossy/directional_exchanges.h"
+#include "radiosity/glossy/glossy_data.h"
+#include "radiosity/solver/pass_statistics.h"
+#include "radiosity/solver/solver_input.h"
+#include "radiosity/solver/solver_timing.h"
+
+namespace transillum {
+
+struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
+  SolverInput input;
+  std::vector<Material> materials;  ///< of the scene, or those that replaced them
+  std::shared_ptr<GlossyLight::Data> light;
+  std::vector<PatchId> glossy;  ///< the glossy patches, by index
+  std::unique_ptr<PassStatistics> statistics;
+  std::unique_ptr<DirectionalExchanges> kept;
+  int known_passes = 0;          ///< that `statistics` has, and `kept` where available
+  bool kept_finished = false;    ///< all passes are in `kept`
+  std::vector<Rgb> irradiance;   ///< H of the last finished iteration, W/m²
+  std::vector<Rgb> from_sky;     ///< the part of it from the sky; empty without one
+  std::vector<Rgb> gathered;     ///< sum_p sum_j A(i,j,p) L_j(p) of the iteration under way, W/sr
+  std::vector<double> sky_area;  ///< uncovered area times relative radiance, over all passes
+  std::vector<double> sky_seen;  ///< the same by glossy patch and pass, over the patch's area
+  std::vector<double> seen;      ///< by glossy patch and pass: area that receivers see of it, m²
+  std::vector<IterationRecord> records;
+  double last_change = 0;  ///< of radiance, W/(m² sr)
+  bool finished = false, converged = false;
+  int pass = 0;  ///< passes done in the iteration under way
+  double energy_defect = 0;
+  SolverTiming timing;
+  double iteration_seconds = 0;
+
+  explicit Impl(SolverInput solver_input);
+
+  const Material& material(std::size_t i) const {
+    return materials[static_cast<std::size_t>(input.scene->patches()[i].material)];
+  }
+  std::size_t passes() const { return light->directions.size(); }
+  /// The factor from gathered() to H.
+  double scale(std::size_t i) const;
+  /// Makes the lobes of `materials` and sets radiance to that of E.
+  void start();
+  void find_glossy();
+  /// Forgets all passes.
+  void forget_passes();
+  /// One iteration; returns false where the observer did.
+  bool iterate(const Observer& observer);
+  SolveProgress progress() const;
+  SolveStatistics solve_statistics() const;
+
+ private:
+  /// What a pass brings, of patches by their number.
+  struct PassLight {
+    std::vector<Rgb> gathered;
+    Pass pass;  ///< of a new direction: for statistics
+    DirectionalExchanges::Run run;
+  };
+  bool gather_passes(WorkerThreads& workers, const Observer& observer);
+  PassLight make(int k, bool from_kept) const;
+  void gather(const std::vector<Transfer>& exchanges, int k, std::vector<Rgb>& sum) const;
+  /// Sets what is kept by glossy patch and pass, which no other pass writes.
+  void set_of_pass(int k, bool is_new, const PassLight& made);
+  void add_new(int k, PassLight& made);
+  void add_all(const std::vector<PassLight>& batch, WorkerThreads& workers);
+  void finish_iteration(WorkerThreads& workers);
+  double defect_of_energy() const;
+  double rho_max() const;
+  void record(const LobeTables::Change& change);
+};
+
+}  // namespace transillum

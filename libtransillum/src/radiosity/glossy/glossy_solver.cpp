@@ -1,0 +1,162 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The public class of glossy solves, and what they report.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "radiosity/glossy/glossy_iteration.h"
+#include "radiosity/ratio.h"
+#include "scene/build/description_check.h"
+#include "transillum/at.h"
+#include "transillum/bounds.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+double sum(const Rgb& value) { return value.r + value.g + value.b; }
+
+SolverInput checked(SolverInput input) {
+  if (!input.options.glossy) {
+    throw InputError("glossy: a solver of lobes requires that option");
+  }
+  return input;
+}
+
+}  // namespace
+
+GlossySolver::GlossySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+                           std::shared_ptr<const BspTree> tree, const Cancellation& cancellation,
+                           TransferEngine engine)
+    : impl_(std::make_unique<Impl>(
+          checked(SolverInput(std::move(scene), options, std::move(tree), cancellation, nullptr,
+                              std::move(engine), nullptr)))) {}
+GlossySolver::~GlossySolver() = default;
+GlossySolver::GlossySolver(GlossySolver&&) noexcept = default;
+GlossySolver& GlossySolver::operator=(GlossySolver&&) noexcept = default;
+
+bool GlossySolver::solve(const Observer& observer) {
+  bool going = true;
+  while (going && !impl_->finished) {
+    impl_->input.requested.throw_if_canceled();
+    going = impl_->iterate(observer);
+  }
+  return impl_->finished;
+}
+
+void GlossySolver::set_materials(const std::vector<Material>& materials) {
+  Impl& s = *impl_;
+  if (materials.size() != s.materials.size()) {
+    throw InputError(fmt::format("{}: {} materials were given, but there are {}",
+                                 s.input.scene->name(), materials.size(), s.materials.size()));
+  }
+  for (const Material& material : materials) {
+    check_material(material, s.input.scene->name() + ": ");
+  }
+  s.materials = materials;
+  if (s.light.use_count() > 1) {
+    s.light = std::make_shared<GlossyLight::Data>(*s.light);
+  }
+  bool all_known = true;
+  for (std::size_t i = 0; i < s.input.patch_count(); ++i) {
+    all_known = all_known && (s.light->index_of[i] >= 0 || !used_lobe(s.material(i)).present());
+  }
+  if (!all_known) {
+    s.find_glossy();
+    s.forget_passes();
+  }
+  s.start();
+}
+
+SolveProgress GlossySolver::Impl::progress() const {
+  SolveProgress now;
+  now.iteration = static_cast<int>(records.size());
+  now.direction = pass;
+  now.passes = static_cast<int>(passes());
+  now.finished = finished;
+  now.change = records.empty() ? 0.0 : records.back().change;
+  now.seconds_transfers = timing.seconds_transfers;
+  if (pass > 0 && iteration_seconds > 0) {
+    now.passes_per_second = pass / iteration_seconds;
+    now.seconds_left = (now.passes - pass) / now.passes_per_second;
+    now.last_direction = at(light->directions, pass - 1);
+  }
+  return now;
+}
+
+SolveStatistics GlossySolver::Impl::solve_statistics() const {
+  SolveStatistics result;
+  const Scene& scene = *input.scene;
+  result.patches = scene.patch_count();
+  result.fragments = std::ssize(input.tree->fragments());
+  result.passes = static_cast<int>(passes());
+  result.directions = 2 * result.passes;
+  result.passes_made = timing.passes_made;
+  result.threads = input.threads;
+  result.kept_form_factors = kept_finished;
+  result.form_factors = kept->size();
+  statistics->write_to(result);
+  result.iterations = static_cast<int>(records.size());
+  result.iteration_records = records;
+  result.converged = converged;
+  result.energy_defect = energy_defect;
+  double absorbed = 0, emitted = 0;
+  for (std::size_t i = 0; i < irradiance.size(); ++i) {
+    const double area = scene.patches()[i].area;
+    const Rgb kept_share =
+        Rgb{1, 1, 1} - material(i).reflectance - used_lobe(material(i)).reflectance;
+    absorbed += area * sum(kept_share * irradiance[i]);
+    emitted +=
+        area * sum(from_sky.empty() ? material(i).exitance : material(i).exitance + from_sky[i]);
+  }
+  result.energy_balance = ratio_or_zero(absorbed, emitted);
+  result.rho_max = rho_max();
+  result.predicted_contraction =
+      contraction_bound(result.rho_max, quadrature_error_bound(result.directions));
+  GlossyFigures& figures = result.glossy;
+  figures.patches = std::ssize(glossy);
+  light->lobes->write_to(figures);
+  figures.radiance_bytes =
+      2 * light->arriving.size() * sizeof(Rgb) + (seen.size() + sky_seen.size()) * sizeof(double);
+  figures.transfer_bytes = kept_finished ? kept->bytes() : 0;
+  result.seconds_bsp = input.seconds_bsp;
+  result.seconds_transfers = timing.seconds_transfers;
+  result.seconds_iterate = timing.seconds_iterate;
+  result.seconds_total = result.seconds_bsp + result.seconds_transfers + result.seconds_iterate;
+  return result;
+}
+
+SolveProgress GlossySolver::progress() const { return impl_->progress(); }
+
+Solution GlossySolver::solution() const {
+  const Impl& s = *impl_;
+  Solution solution;
+  solution.scene = s.input.scene;
+  solution.sky = s.input.options.sky;
+  solution.irradiance = s.irradiance;
+  solution.radiosity.resize(s.irradiance.size());
+  for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
+    const Material& material = s.material(i);
+    solution.radiosity[i] =
+        material.exitance +
+        (material.reflectance + used_lobe(material).reflectance) * s.irradiance[i];
+  }
+  const VisibleAreaSums& areas = s.statistics->areas();
+  if (areas.passes > 0) {
+    for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
+      const bool rows = s.input.options.normalize == Normalization::rows;
+      const double exact = areas.passes * s.input.scene->patches()[i].area / 2;
+      const double whole = rows ? areas.projected[i] : exact;
+      solution.form_factor_sums.push_back(ratio_or_zero(areas.rows[i], whole));
+      solution.sky_shares.push_back(ratio_or_zero(areas.uncovered[i], whole));
+    }
+    solution.sky_irradiance = s.from_sky;
+  }
+  solution.statistics = s.solve_statistics();
+  solution.complete = s.finished;
+  solution.glossy = std::make_shared<const GlossyLight>(s.light);
+  return solution;
+}
+
+}  // namespace transillum

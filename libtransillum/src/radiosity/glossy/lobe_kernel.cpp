@@ -1,0 +1,124 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Shapes of lobes. Powers with whole exponents are products, row by row, so that the compiler
+// computes several at once.
+#include "radiosity/glossy/lobe_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "transillum/glossy.h"
+
+namespace transillum {
+namespace {
+
+constexpr double largest_whole_exponent = 1 << 20;
+constexpr double least_alpha = 1e-4;
+
+double alpha_of(const Lobe& lobe) { return std::max(lobe.roughness * lobe.roughness, least_alpha); }
+
+}  // namespace
+
+double equivalent_exponent(const Lobe& lobe) {
+  // The half vector is at the angle t/2 where the mirror's direction is at t: GGX falls to a
+  // quarter at t/2 = alpha, Phong's lobe about where n t²/2 = ln 4.
+  const double alpha = alpha_of(lobe);
+  return lobe.shape == LobeShape::phong ? lobe.exponent : std::numbers::ln2 / (alpha * alpha);
+}
+
+Hemisphere::Hemisphere(const std::vector<Vec3>& directions, const Vec3& normal) {
+  for (const Vec3& omega : directions) {
+    const double c = dot(omega, normal);
+    const Vec3 above = c < 0 ? -omega : omega;
+    x.push_back(above.x);
+    y.push_back(above.y);
+    z.push_back(above.z);
+    cosine.push_back(std::abs(c));
+  }
+}
+
+LobeKernel::LobeKernel(const Lobe& lobe)
+    : shape_(lobe.shape),
+      exponent_(lobe.exponent),
+      is_whole_(lobe.exponent <= largest_whole_exponent &&
+                lobe.exponent == std::floor(lobe.exponent)),
+      alpha2_(alpha_of(lobe) * alpha_of(lobe)),
+      width_(equivalent_exponent(lobe)) {
+  whole_exponent_ = is_whole_ ? static_cast<unsigned>(lobe.exponent) : 0;
+  constexpr double log_of_least = -69;
+  least_ = exponent_ > 0 ? std::exp(log_of_least / exponent_) : 0.0;
+}
+
+double LobeKernel::power(double base) const {
+  if (!is_whole_) {
+    return std::pow(base, exponent_);
+  }
+  double value = 1;
+  for (unsigned e = whole_exponent_; e > 0; e >>= 1) {
+    value = (e & 1) != 0 ? value * base : value;
+    base *= base;
+  }
+  return value;
+}
+
+void LobeKernel::raise(std::vector<double>& values, std::vector<double>& base) const {
+  const std::size_t count = values.size();
+  if (!is_whole_) {
+    for (double& v : values) {
+      v = v > 0 ? std::pow(v, exponent_) : 0.0;
+    }
+    return;
+  }
+  base = values;
+  std::fill(values.begin(), values.end(), 1.0);
+  for (unsigned e = whole_exponent_; e > 0; e >>= 1) {
+    if ((e & 1) != 0) {
+      for (std::size_t q = 0; q < count; ++q) {
+        values[q] *= base[q];
+      }
+    }
+    for (std::size_t q = 0; q < count; ++q) {
+      base[q] *= base[q];
+    }
+  }
+}
+
+double LobeKernel::value(double cosine_a, double cosine_b, double between) const {
+  if (shape_ == LobeShape::phong) {
+    const double mirror = 2 * (cosine_a * cosine_b) - between;
+    return exponent_ == 0 ? 1.0 : mirror > least_ ? power(mirror) : 0.0;
+  }
+  const double sum = cosine_a + cosine_b;
+  const double half = std::min(sum * sum / std::max(2 + 2 * between, 1e-30), 1.0);
+  const double ratio = alpha2_ / (1 + (alpha2_ - 1) * half);
+  return ratio * ratio;
+}
+
+void LobeKernel::row(const Vec3& a, double cosine, const Hemisphere& directions,
+                     std::vector<double>& values, std::vector<double>& spare) const {
+  const std::size_t count = directions.size();
+  values.resize(count);
+  const auto &x = directions.x, &y = directions.y, &z = directions.z, &c = directions.cosine;
+  if (shape_ == LobeShape::phong) {
+    if (exponent_ == 0) {
+      std::fill(values.begin(), values.end(), 1.0);
+      return;
+    }
+    for (std::size_t q = 0; q < count; ++q) {
+      const double mirror = 2 * (cosine * c[q]) - (a.x * x[q] + a.y * y[q] + a.z * z[q]);
+      values[q] = mirror > least_ ? mirror : 0.0;
+    }
+    raise(values, spare);
+    return;
+  }
+  for (std::size_t q = 0; q < count; ++q) {
+    const double between = a.x * x[q] + a.y * y[q] + a.z * z[q];
+    const double sum = cosine + c[q];
+    const double half = std::min(sum * sum / std::max(2 + 2 * between, 1e-30), 1.0);
+    const double ratio = alpha2_ / (1 + (alpha2_ - 1) * half);
+    values[q] = ratio * ratio;
+  }
+}
+
+}  // namespace transillum

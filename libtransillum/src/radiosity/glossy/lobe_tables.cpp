@@ -1,0 +1,226 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Lobes on a set of directions (decisions/0074-lobes-scaled-on-the-set.md): scaling, so that each
+// reflects its share exactly and stays reciprocal, and reflection.
+//
+// Notation: p, q passes, whose direction above the surface is meant; w = 4 pi / (2M), the solid
+// angle of a direction; c cosines with the normal; g a glossy patch.
+#include "radiosity/glossy/lobe_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/for_each_index.h"
+#include "transillum/at.h"
+#include "transillum/glossy.h"
+
+namespace transillum {
+namespace {
+
+/// Rows of a table that a task computes.
+constexpr std::size_t rows_per_task = 32;
+
+/// Equal for patches whose normals differ by rounding, mostly.
+std::array<std::int64_t, 4> key_of(std::size_t kernel, const Vec3& normal) {
+  const auto rounded = [](double v) { return std::llround(std::ldexp(v, 36)); };
+  return {static_cast<std::int64_t>(kernel), rounded(normal.x), rounded(normal.y),
+          rounded(normal.z)};
+}
+
+double largest_of(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+double difference_from_one(const std::vector<double>& values) {
+  double worst = 0;
+  for (const double v : values) {
+    worst = std::max(worst, std::abs(v - 1));
+  }
+  return worst;
+}
+
+}  // namespace
+
+LobeTables::LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals,
+                       const std::vector<Vec3>& directions, WorkerThreads& workers,
+                       const Cancellation& cancellation)
+    : directions_(directions) {
+  add_patches(lobes, normals);
+  std::vector<std::unique_ptr<LobeFunction>> functions(shapes_.size());
+  for_each_index(workers, std::size_t{0}, shapes_.size(),
+                 [&](std::size_t k) { functions[k] = std::make_unique<LobeFunction>(shapes_[k]); });
+  for_each_index(workers, std::size_t{0}, tables_.size(), [&](std::size_t t) {
+    LobeTable& table = tables_[t];
+    const Hemisphere above(directions_, table.normal);
+    for (const double c : above.cosine) {
+      table.scale.push_back(functions[table.kernel]->scale(c));
+    }
+    scale(table, above.cosine, cancellation);
+  });
+}
+
+void LobeTables::add_patches(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals) {
+  std::map<std::array<std::int64_t, 4>, std::size_t> known;
+  for (std::size_t g = 0; g < lobes.size(); ++g) {
+    Lobe shape = lobes[g];
+    shape.reflectance = {};
+    const auto found = std::find(shapes_.begin(), shapes_.end(), shape);
+    const auto kernel = static_cast<std::size_t>(found - shapes_.begin());
+    if (found == shapes_.end()) {
+      shapes_.push_back(shape);
+      kernels_.emplace_back(shape);
+    }
+    const auto [entry, is_new] = known.try_emplace(key_of(kernel, normals[g]), tables_.size());
+    if (is_new) {
+      tables_.push_back({.kernel = kernel, .normal = normals[g]});
+      members_.emplace_back();
+    }
+    table_of_.push_back(entry->second);
+    members_[entry->second].push_back(g);
+  }
+}
+
+double LobeTables::weight() const {
+  return 2 * std::numbers::pi / static_cast<double>(directions_.size());
+}
+
+void LobeTables::sums(const LobeTable& table, const Hemisphere& above, std::vector<double>& result,
+                      const Cancellation& cancellation) const {
+  const LobeKernel& kernel = kernels_[table.kernel];
+  const std::size_t count = above.size();
+  std::vector<double> row, spare, factor(count);
+  for (std::size_t q = 0; q < count; ++q) {
+    factor[q] = weight() * table.scale[q] * above.cosine[q];
+  }
+  result.resize(count);
+  for (std::size_t p = 0; p < count; ++p) {
+    if (p % rows_per_task == 0) {
+      cancellation.throw_if_canceled();
+    }
+    kernel.row(above.direction(p), above.cosine[p], above, row, spare);
+    double sum = 0;
+    for (std::size_t q = 0; q < count; ++q) {
+      sum += row[q] * factor[q];
+    }
+    result[p] = table.scale[p] * sum;
+  }
+}
+
+/// Sinkhorn's iteration from the scales of the continuous lobe: a full step removes what varies
+/// from direction to direction, a damped one what is common to all. What then is left, at most the
+/// largest sum's excess over each, is made up for by a part that is a product of two functions.
+void LobeTables::scale(LobeTable& table, const std::vector<double>& cosine,
+                       const Cancellation& cancellation) const {
+  constexpr int most_sweeps = 8;
+  constexpr double enough = 1e-13, largest_step = 16;
+  const Hemisphere above(directions_, table.normal);
+  const std::size_t count = above.size();
+  std::vector<double> sum;
+  sums(table, above, sum, cancellation);
+  table.albedo_error = difference_from_one(sum);
+  for (int sweep = 0; sweep < most_sweeps && difference_from_one(sum) > enough; ++sweep) {
+    for (std::size_t p = 0; p < count; ++p) {
+      const double step = std::clamp(sum[p], 1 / largest_step, largest_step);
+      table.scale[p] /= sweep % 2 == 0 ? step : std::sqrt(step);
+    }
+    sums(table, above, sum, cancellation);
+  }
+  const double most = largest_of(sum);  // 0 where the mirrors of all directions are too far away
+  const double excess = most > 0 ? std::sqrt(most) : 1.0;
+  for (double& s : table.scale) {
+    s /= excess;
+  }
+  sums(table, above, sum, cancellation);
+  table.spread.resize(count);
+  double total = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    table.spread[p] = std::max(1 - sum[p], 0.0);
+    total += weight() * cosine[p] * table.spread[p];
+  }
+  table.spread_share = largest_of(table.spread);
+  double all = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    table.spread[p] = total > 0 ? table.spread[p] / std::sqrt(total) : 0.0;
+    all += weight() * cosine[p] * table.spread[p];
+  }
+  for (std::size_t p = 0; p < count; ++p) {
+    sum[p] += table.spread[p] * all;
+  }
+  table.albedo_defect = difference_from_one(sum);
+}
+
+LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
+                                       const std::vector<Rgb>& shares,
+                                       const std::vector<Rgb>& lambertian_before,
+                                       const std::vector<Rgb>& lambertian_after,
+                                       std::vector<Rgb>& reflected, WorkerThreads& workers,
+                                       const Cancellation& cancellation) const {
+  const std::size_t count = directions_.size();
+  const std::size_t blocks = (count + rows_per_task - 1) / rows_per_task;
+  std::vector<Change> changes(tables_.size() * blocks);
+  for_each_index(workers, std::size_t{0}, changes.size(), [&](std::size_t task) {
+    const LobeTable& table = tables_[task / blocks];
+    const std::vector<std::size_t>& members = members_[task / blocks];
+    const LobeKernel& kernel = kernels_[table.kernel];
+    const Hemisphere above(directions_, table.normal);
+    std::vector<double> row, spare;
+    const std::size_t first = rows_per_task * (task % blocks);
+    for (std::size_t p = first; p < std::min(first + rows_per_task, count); ++p) {
+      cancellation.throw_if_canceled();
+      kernel.row(above.direction(p), above.cosine[p], above, row, spare);
+      for (std::size_t q = 0; q < count; ++q) {
+        row[q] = weight() *
+                 (row[q] * table.scale[p] * table.scale[q] + table.spread[p] * table.spread[q]);
+      }
+      for (const std::size_t g : members) {
+        const Rgb* from = arriving.data() + g * count;
+        Rgb sum;
+        for (std::size_t q = 0; q < count; ++q) {
+          sum += row[q] * from[q];
+        }
+        Rgb& to = reflected[g * count + p];
+        const Rgb before = to + lambertian_before[g];
+        to = shares[g] * sum;
+        const Rgb after = to + lambertian_after[g];
+        changes[task].change = std::max(changes[task].change, max_abs(after - before));
+        changes[task].largest = std::max(changes[task].largest, max_abs(after));
+      }
+    }
+  });
+  Change result;
+  for (const Change& change : changes) {
+    result.change = std::max(result.change, change.change);
+    result.largest = std::max(result.largest, change.largest);
+  }
+  return result;
+}
+
+Rgb LobeTables::reflected_toward(const Rgb* arriving, std::size_t g, const Vec3& toward) const {
+  const LobeTable& table = tables_[table_of_[g]];
+  const Hemisphere above(directions_, table.normal);
+  std::vector<double> row, spare;
+  kernels_[table.kernel].row(toward, dot(toward, table.normal), above, row, spare);
+  Rgb sum;
+  double all = 0;
+  for (std::size_t q = 0; q < above.size(); ++q) {
+    sum += row[q] * table.scale[q] * arriving[q];
+    all += row[q] * table.scale[q] * above.cosine[q];
+  }
+  return all > 0 ? 1 / all * sum : Rgb{};
+}
+
+void LobeTables::write_to(GlossyFigures& figures) const {
+  figures.lobes = std::ssize(tables_);
+  for (const LobeTable& table : tables_) {
+    figures.albedo_error = std::max(figures.albedo_error, table.albedo_error);
+    figures.albedo_defect = std::max(figures.albedo_defect, table.albedo_defect);
+    figures.spread = std::max(figures.spread, table.spread_share);
+    figures.exponent = std::max(figures.exponent, kernels_[table.kernel].exponent());
+    figures.lobe_bytes += (table.scale.size() + table.spread.size()) * sizeof(double);
+  }
+}
+
+}  // namespace transillum

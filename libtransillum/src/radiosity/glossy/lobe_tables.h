@@ -1,0 +1,72 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/worker_threads.h"
+#include "radiosity/glossy/lobe_kernel.h"
+#include "transillum/cancellation.h"
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// A lobe on the discrete set, for surfaces of one orientation:
+///   f(p, q) = kernel(p, q) scale_p scale_q + spread_p spread_q,
+/// symmetric, and w sum_q f(p, q) cosine_q = 1 for every direction p, to rounding.
+struct LobeTable {
+  std::size_t kernel = 0;  ///< index of its shape
+  Vec3 normal;
+  std::vector<double> scale = {}, spread = {};                   ///< by pass
+  double albedo_error = 0, albedo_defect = 0, spread_share = 0;  ///< as GlossyFigures
+};
+
+/// The lobes of all glossy patches on a set of directions: a table for each shape and orientation.
+class LobeTables {
+ public:
+  /// @param lobes, normals of the glossy patches
+  /// @throws Canceled
+  LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals,
+             const std::vector<Vec3>& directions, WorkerThreads& workers,
+             const Cancellation& cancellation);
+
+  /// reflected = w sum_q f(p, q) arriving_q k for all patches and directions p; both by patch, then
+  /// by pass. Returns the largest change of `reflected` plus `lambertian`, the change of the
+  /// patch's other radiance, and its largest new value, in `largest`.
+  struct Change {
+    double change = 0, largest = 0;
+  };
+  /// @param shares k of each patch
+  /// @param lambertian_before, lambertian_after radiance of each patch without its lobe
+  Change reflect(const std::vector<Rgb>& arriving, const std::vector<Rgb>& shares,
+                 const std::vector<Rgb>& lambertian_before,
+                 const std::vector<Rgb>& lambertian_after, std::vector<Rgb>& reflected,
+                 WorkerThreads& workers, const Cancellation& cancellation) const;
+  /// The mean of what arrives at patch `g`, weighted by its lobe toward any direction above it.
+  Rgb reflected_toward(const Rgb* arriving, std::size_t g, const Vec3& toward) const;
+
+  /// Adds figures about the lobes.
+  void write_to(GlossyFigures& figures) const;
+
+ private:
+  void add_patches(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals);
+  void scale(LobeTable& table, const std::vector<double>& start,
+             const Cancellation& cancellation) const;
+  /// w sum_q kernel(p, q) scale_p scale_q cosine_q for each p
+  void sums(const LobeTable& table, const Hemisphere& above, std::vector<double>& result,
+            const Cancellation& cancellation) const;
+  std::vector<double> start_of(const LobeTable& table, std::size_t kernel) const;
+  double weight() const;
+
+  std::vector<Vec3> directions_;
+  std::vector<Lobe> shapes_;  ///< of the kernels
+  std::vector<LobeKernel> kernels_;
+  std::vector<LobeTable> tables_;
+  std::vector<std::size_t> table_of_;              ///< by glossy patch
+  std::vector<std::vector<std::size_t>> members_;  ///< glossy patches, by table
+};
+
+}  // namespace transillum

@@ -1,0 +1,135 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// `solve --glossy` as a program: what it is refused with, its files and messages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program_run.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Arguments = std::vector<std::string>;
+
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+const Arguments shining{"solve", "cornell-box", "-q", "-m", "24", "--lobe", "white=0.2,8"};
+
+TEST(CliGlossy, IsRefusedInOneLineWhereItIsNotAvailable) {
+  const std::pair<Arguments, const char*> calls[] = {
+      {{"--engine", "hemicube"}, "which have no directions"},
+      {{"--engine", "pairs"}, "which have no directions"},
+      {{"--one-way"}, "not available with one-way passes"},
+      {{"--basis", "linear"}, "not available with a linear basis"},
+      {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
+      {{"--scheme", "growing"}, "another scheme than fixed"},
+      {{"--scheme", "semi-iterative"}, "another scheme than fixed"},
+      {{"--scheme", "conjugate-gradients"}, "another scheme than fixed"},
+      {{"--first-shot", "auto"}, "not available with a first shot"},
+      {{"--replicas", "2"}, "not available with replicas"},
+      {{"--accuracy", "1%"}, "an accuracy or a time limit"},
+      {{"--seconds", "1"}, "an accuracy or a time limit"},
+      {{"--factors", "f.npz"}, "--factors: not used with --glossy"},
+      {{"--by", "material"}, "--by: not used with --glossy"},
+      {{"--series", "s.pvd"}, "--series: not used with --glossy"},
+      {{"--checkpoint", "c.tck"}, "--checkpoint: not used with --glossy"},
+      {{"--diffuse-only"}, "excludes"},
+      {{"--eye", "1,2"}, "three finite numbers X,Y,Z"},
+      {{"--lobe", "white=0.5"}, "is not NAME=SHARE,EXPONENT"},
+      {{"--lobe", "white=0.5,-1"}, "the exponent of the lobe (Ns) is -1"},
+  };
+  for (const auto& [options, message] : calls) {
+    SCOPED_TRACE(::testing::PrintToString(options));
+    const ProgramResult result = run_program(shining + Arguments{"--glossy"} + options);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_EQ(line_count(result.err), 1U) << result.err;
+  }
+  const ProgramResult eye = run_program(shining + Arguments{"--eye", "1,2,3"});
+  EXPECT_EQ(eye.status, 2);
+  EXPECT_THAT(eye.err, HasSubstr("--eye: used only with --glossy"));
+}
+
+TEST(CliGlossy, WorksWithTheOtherOptions) {
+  const Arguments options[] = {{"--normalize", "rows"},
+                               {"--memory", "1k", "--iterations", "3"},
+                               {"--sky", "1"},
+                               {"--two-sided"},
+                               {"--engine", "local"},
+                               {"--engine", "zbuffer"},
+                               {"--engine", "rays"},
+                               {"--max-patch-area", "0.1"},
+                               {"--sampling", "fibonacci"},
+                               {"--rotate", "3"}};
+  for (const Arguments& option : options) {
+    SCOPED_TRACE(::testing::PrintToString(option));
+    const ProgramResult result = run_program(shining + Arguments{"--glossy"} + option);
+    EXPECT_EQ(result.status, 0) << result.err;
+  }
+}
+
+TEST(CliGlossy, FilesHaveTheRadianceTowardAnEye) {
+  TemporaryFolder folder;
+  const ProgramResult result =
+      run_program(shining + Arguments{"--glossy", "--eye", "0.3,0.3,0.1", "--out", folder / "r.csv",
+                                      "--out", folder / "r.ply", "--out", folder / "r.vtp",
+                                      "--stats", folder / "s.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(read_file(folder / "r.csv"),
+              HasSubstr(",rho_lobe_r,rho_lobe_g,rho_lobe_b,L_r,L_g,L_b\n"));
+  EXPECT_THAT(read_file(folder / "r.ply"), HasSubstr("property double L_b\nend_header"));
+  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  EXPECT_EQ(json["options"]["glossy"], true);
+  EXPECT_GT(json["glossy"]["patches"], 10);
+  EXPECT_GT(json["glossy"]["transfer_bytes"], 0);
+  EXPECT_LE(json["glossy"]["albedo_defect"], 1e-13);
+  EXPECT_NEAR(json["energy_balance"], 1, 0.05);
+}
+
+TEST(CliGlossy, SaysWhatItDoesWithLobes) {
+  const Arguments loud{"solve", "cornell-box", "-m", "16", "--lobe", "white=0.5,100"};
+  EXPECT_THAT(run_program(loud).err, HasSubstr("lobes of materials are left out (--glossy"));
+  EXPECT_THAT(run_program(loud + Arguments{"--diffuse-only"}).err, Not(HasSubstr("lobes")));
+  const ProgramResult glossy = run_program(loud + Arguments{"--glossy"});
+  EXPECT_THAT(glossy.err, HasSubstr("too narrow for 16 passes"));
+  EXPECT_THAT(glossy.err, HasSubstr("more than a surface can"));
+  EXPECT_THAT(glossy.out, HasSubstr("sums over directions off by"));
+  const ProgramResult none =
+      run_program({"solve", "cornell-box", "-m", "16", "-q", "--glossy", "--out", "-"});
+  EXPECT_THAT(none.err, HasSubstr("no material has a lobe"));
+  EXPECT_EQ(none.out, run_program({"solve", "cornell-box", "-m", "16", "-q", "--out", "-"}).out);
+}
+
+/// A lobe that is left out changes no bit.
+TEST(CliGlossy, DiffuseSolvesIgnoreLobes) {
+  const Arguments plain{"solve", "cornell-box", "-q", "-m", "24", "--out", "-"};
+  EXPECT_EQ(run_program(shining + Arguments{"--out", "-"}).out, run_program(plain).out);
+  EXPECT_EQ(run_program(shining + Arguments{"--out", "-", "--diffuse-only"}).out,
+            run_program(plain).out);
+}
+
+/// Through an OBJ with its MTL, to the bit.
+TEST(CliGlossy, LobesAreWrittenAndRead) {
+  TemporaryFolder folder;
+  const std::string file = folder / "s.obj";
+  const ProgramResult written = run_program({"scene", "cornell-box", "--lobe", "white=0.2,8",
+                                             "--lobe", "red=0.1,0.2,0.3,2.5", "--out", file});
+  ASSERT_EQ(written.status, 0) << written.err;
+  EXPECT_THAT(read_file(folder / "s.mtl"), HasSubstr("Ks 0.1 0.2 0.3\nNs 2.5\n"));
+  const Arguments rest{"-q", "-m", "24", "--glossy", "--out", "-"};
+  EXPECT_EQ(run_program(Arguments{"solve", file} + rest).out,
+            run_program(Arguments{"solve", "cornell-box", "--lobe", "white=0.2,8", "--lobe",
+                                  "red=0.1,0.2,0.3,2.5"} +
+                        rest)
+                .out);
+}
+
+}  // namespace
+}  // namespace transillum::testing
