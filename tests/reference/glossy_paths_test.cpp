@@ -360,12 +360,12 @@ void expect_agreement(const Problem& problem, int directions, int paths) {
 }
 
 TEST(GlossyPaths, AgreeInARoomWithAShiningFloor) {
-  expect_agreement(shining_floor(), 4096, 20'000);
+  expect_agreement(shining_floor(), 2048, 4'000);
 }
-TEST(GlossyPaths, AgreeWithAMetalBox) { expect_agreement(metal_box(), 4096, 20'000); }
-TEST(GlossyPaths, AgreeUnderASky) { expect_agreement(outside(), 4096, 20'000); }
+TEST(GlossyPaths, AgreeWithAMetalBox) { expect_agreement(metal_box(), 2048, 4'000); }
+TEST(GlossyPaths, AgreeUnderASky) { expect_agreement(outside(), 2048, 4'000); }
 
-/// RMS error of B against 8,192 passes of another rotation: as for diffuse light, nearly as 1/M.
+/// RMS error of B against 4,096 passes of another rotation: as for diffuse light, nearly as 1/M.
 TEST(GlossyConvergence, ErrorsDecreaseWithTheNumberOfPasses) {
   const Problem problem = shining_floor();
   const auto solved = [&](int directions, std::uint64_t rotation) {
@@ -374,11 +374,11 @@ TEST(GlossyConvergence, ErrorsDecreaseWithTheNumberOfPasses) {
                {.directions = directions, .rotation = rotation, .tolerance = 1e-9, .glossy = true})
         .radiosity;
   };
-  const std::vector<Rgb> reference = solved(8192, 99);
+  const std::vector<Rgb> reference = solved(4096, 99);
   std::vector<double> errors;
-  for (const int directions : {64, 256, 1024}) {
+  for (const int directions : {32, 128, 512}) {
     double mean = 0, size = 0;
-    constexpr int rotations = 4;
+    constexpr int rotations = 3;
     for (std::uint64_t r = 1; r <= rotations; ++r) {
       const std::vector<Rgb> b = solved(directions, r);
       for (std::size_t i = 0; i < b.size(); ++i) {

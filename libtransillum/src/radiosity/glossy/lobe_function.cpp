@@ -43,26 +43,28 @@ std::vector<Node> gauss_nodes(int count) {
   return nodes;
 }
 
-/// Integrals of a kernel over the azimuth between two directions.
+/// Integrals of a kernel over the azimuth between two directions. Nodes are dense about the
+/// mirror's azimuth, pi: GGX is narrow there where both directions are at grazing angles.
 class Azimuth {
  public:
   Azimuth(const LobeKernel& kernel, int count) : kernel_(kernel) {
-    for (int k = 0; k < count; ++k) {
-      cosines_.push_back(std::cos(pi * (k + 0.5) / count));
+    for (const Node& node : gauss_nodes(count)) {
+      cosines_.push_back(std::cos(pi * (1 - node.at * node.at)));
+      weights_.push_back(4 * pi * node.at * node.weight);
     }
   }
   double integral(double theta, double other) const {
     const double c = std::cos(theta) * std::cos(other), s = std::sin(theta) * std::sin(other);
     double sum = 0;
-    for (const double cosine : cosines_) {
-      sum += kernel_.value(std::cos(theta), std::cos(other), c + s * cosine);
+    for (std::size_t k = 0; k < cosines_.size(); ++k) {
+      sum += weights_[k] * kernel_.value(std::cos(theta), std::cos(other), c + s * cosines_[k]);
     }
-    return 2 * pi / static_cast<double>(cosines_.size()) * sum;
+    return sum;
   }
 
  private:
   const LobeKernel& kernel_;
-  std::vector<double> cosines_;
+  std::vector<double> cosines_, weights_;
 };
 
 }  // namespace
@@ -75,10 +77,10 @@ struct LobeFunction::Impl {
     const std::vector<double> scales = scales_at(nodes, azimuth);
     logarithms.resize(intervals + 1);
     for (std::size_t k = 0; k <= intervals; ++k) {
-      const double theta = pi / 2 * static_cast<double>(k) / intervals;
+      const double theta = angle_of(static_cast<double>(k) / intervals);
       double sum = 0;
       for (std::size_t m = 0; m < nodes.size(); ++m) {
-        sum += weight_of(nodes[m]) * azimuth.integral(theta, angle_of(nodes[m])) * scales[m];
+        sum += weight_of(nodes[m]) * azimuth.integral(theta, angle_of(nodes[m].at)) * scales[m];
       }
       // Lobes narrower than the distance of nodes may fall between them.
       const auto nearest =
@@ -88,11 +90,12 @@ struct LobeFunction::Impl {
     }
   }
 
-  static double angle_of(const Node& node) { return pi / 2 * node.at; }
+  /// Angles from 0 to pi/2 by a place from 0 to 1: dense toward grazing ones, where s changes most.
+  static double angle_of(double place) { return pi / 2 * (1 - (1 - place) * (1 - place)); }
   /// Of an integral over the hemisphere with the cosine, less the azimuth.
   static double weight_of(const Node& node) {
-    const double theta = angle_of(node);
-    return pi / 2 * node.weight * std::sin(theta) * std::cos(theta);
+    const double theta = angle_of(node.at);
+    return pi * (1 - node.at) * node.weight * std::sin(theta) * std::cos(theta);
   }
   /// s at the nodes: s sum_m w_m p_m s_m = 1, by the damped form of Sinkhorn's iteration.
   static std::vector<double> scales_at(const std::vector<Node>& nodes, const Azimuth& azimuth) {
@@ -100,7 +103,7 @@ struct LobeFunction::Impl {
     std::vector<double> matrix(n * n);
     for (std::size_t k = 0; k < n; ++k) {
       for (std::size_t m = k; m < n; ++m) {
-        const double value = azimuth.integral(angle_of(nodes[k]), angle_of(nodes[m]));
+        const double value = azimuth.integral(angle_of(nodes[k].at), angle_of(nodes[m].at));
         matrix[k * n + m] = value;
         matrix[m * n + k] = value;
       }
@@ -127,7 +130,7 @@ struct LobeFunction::Impl {
 
   static constexpr std::size_t intervals = 128;
   LobeKernel kernel;
-  std::vector<double> logarithms;  ///< of s, at equal steps of the angle
+  std::vector<double> logarithms;  ///< of s, at equal steps of the place
 };
 
 LobeFunction::LobeFunction(const Lobe& lobe) : impl_(std::make_unique<Impl>(lobe)) {}
@@ -136,8 +139,8 @@ LobeFunction::LobeFunction(LobeFunction&&) noexcept = default;
 LobeFunction& LobeFunction::operator=(LobeFunction&&) noexcept = default;
 
 double LobeFunction::scale(double cosine) const {
-  const double place =
-      std::acos(std::clamp(cosine, 0.0, 1.0)) / (pi / 2) * static_cast<double>(Impl::intervals);
+  const double rest = 1 - std::acos(std::clamp(cosine, 0.0, 1.0)) / (pi / 2);
+  const double place = (1 - std::sqrt(std::max(rest, 0.0))) * static_cast<double>(Impl::intervals);
   const std::size_t k = std::min(static_cast<std::size_t>(place), Impl::intervals - 1);
   const double part = place - static_cast<double>(k);
   return std::exp((1 - part) * impl_->logarithms[k] + part * impl_->logarithms[k + 1]);
