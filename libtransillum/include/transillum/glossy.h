@@ -69,7 +69,7 @@ class LobeFunction {
 /// Threads: immutable, so any number of threads may read it.
 class GlossyLight {
  public:
-  struct Data;
+  struct Data;  ///< what it consists of; private to the library
   /// For GlossySolver.
   explicit GlossyLight(std::shared_ptr<const Data> data);
 
