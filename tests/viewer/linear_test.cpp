@@ -286,7 +286,8 @@ class LinearTest : public QObject {
              qPrintable(QString::number(spread_within_a_patch(*shown.scene_view, flat))));
     smooth->trigger();
     QTest::qWait(50);
-    QVERIFY(spread_within_a_patch(*shown.scene_view, shown.scene_view->picture(1)) > 30);
+    const int smoothed = spread_within_a_patch(*shown.scene_view, shown.scene_view->picture(1));
+    QVERIFY2(smoothed > 10, qPrintable(QString::number(smoothed)));
     // Linear again: as without it.
     shown.window->colors.set_quantity(Quantity::radiosity);
     const Compared all =
