@@ -26,7 +26,7 @@ namespace transillum {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rounding = 1e-12;  ///< of changes, as in a diffuse solve
 
 }  // namespace

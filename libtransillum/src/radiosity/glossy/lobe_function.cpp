@@ -17,7 +17,7 @@
 namespace transillum {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Node {
   double at = 0, weight = 0;

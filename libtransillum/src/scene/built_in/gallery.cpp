@@ -10,8 +10,8 @@
 namespace transillum {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double length = 6, width = 4, height = 3;
+using std::numbers::pi;
+constexpr double hall_length = 6, hall_width = 4, hall_height = 3;
 
 class Gallery {
  public:
@@ -26,21 +26,25 @@ class Gallery {
         day_(maker.material("white-lamp", {}, {16, 15, 13})) {}
 
   void add_room() {
-    lit_side({0, 0, 0}, {0, width, 0}, {0, 0, height}, red_);
-    lit_side({length, width, 0}, {0, -width, 0}, {0, 0, height}, blue_);
-    maker_.face(std::vector<Vec3>{{0, 0, 0}, {0, 0, height}, {length, 0, height}, {length, 0, 0}},
-                white_);
+    lit_side({0, 0, 0}, {0, hall_width, 0}, {0, 0, hall_height}, red_);
+    lit_side({hall_length, hall_width, 0}, {0, -hall_width, 0}, {0, 0, hall_height}, blue_);
     maker_.face(
         std::vector<Vec3>{
-            {0, width, 0}, {length, width, 0}, {length, width, height}, {0, width, height}},
+            {0, 0, 0}, {0, 0, hall_height}, {hall_length, 0, hall_height}, {hall_length, 0, 0}},
         white_);
-    maker_.lit_ceiling({0, length, 0, width}, {2.25, 3.75, 1.5, 2.5}, height, white_, day_);
+    maker_.face(std::vector<Vec3>{{0, hall_width, 0},
+                                  {hall_length, hall_width, 0},
+                                  {hall_length, hall_width, hall_height},
+                                  {0, hall_width, hall_height}},
+                white_);
+    maker_.lit_ceiling({0, hall_length, 0, hall_width}, {2.25, 3.75, 1.5, 2.5}, hall_height, white_,
+                       day_);
   }
   /// Tiles of half a meter, `divisions` along each side; none below the pedestal.
   void add_floor(int divisions) {
     const int nx = 12 * divisions, ny = 8 * divisions;
-    const auto x = [&](int i) { return length * i / nx; };
-    const auto y = [&](int j) { return width * j / ny; };
+    const auto x = [&](int i) { return hall_length * i / nx; };
+    const auto y = [&](int j) { return hall_width * j / ny; };
     for (int i = 0; i < nx; ++i) {
       for (int j = 0; j < ny; ++j) {
         const bool below =
