@@ -13,12 +13,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-using Arguments = std::vector<std::string>;
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 const Arguments shining{"solve", "cornell-box", "-q", "-m", "24", "--lobe", "white=0.2,8"};
 

@@ -19,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const Arguments box{"solve", "cornell-box", "-q", "--basis", "linear"};
+const Arguments linear_box{"solve", "cornell-box", "-q", "--basis", "linear"};
 
 TEST(CliLinearBasis, IsRefusedInOneLineWhereItIsNotAvailable) {
   const std::pair<Arguments, const char*> calls[] = {
@@ -37,7 +37,7 @@ TEST(CliLinearBasis, IsRefusedInOneLineWhereItIsNotAvailable) {
   };
   for (const auto& [options, message] : calls) {
     SCOPED_TRACE(::testing::PrintToString(options));
-    const ProgramResult result = run_program(box + Arguments{"-m", "8"} + options);
+    const ProgramResult result = run_program(linear_box + Arguments{"-m", "8"} + options);
     EXPECT_EQ(result.status, 2);
     EXPECT_THAT(result.err, HasSubstr(message));
     EXPECT_EQ(line_count(result.err), 1U) << result.err;
@@ -55,15 +55,15 @@ TEST(CliLinearBasis, WorksWithTheOtherOptions) {
                                {"--engine", "local"},   {"--by", "material"}};
   for (const Arguments& option : options) {
     SCOPED_TRACE(::testing::PrintToString(option));
-    const ProgramResult result = run_program(box + Arguments{"-m", "16"} + option);
+    const ProgramResult result = run_program(linear_box + Arguments{"-m", "16"} + option);
     EXPECT_EQ(result.status, 0) << result.err;
   }
   // Exchanges by form factors of constant functions would be others.
-  const ProgramResult table = run_program(box + Arguments{"-m", "16", "--by", "material"});
+  const ProgramResult table = run_program(linear_box + Arguments{"-m", "16", "--by", "material"});
   EXPECT_THAT(table.out, HasSubstr("absorbed, W"));
   EXPECT_THAT(table.out, Not(HasSubstr("power, W")));
   EXPECT_THAT(table.err, HasSubstr("exchanges between groups are not available"));
-  const ProgramResult accuracy = run_program(box + Arguments{"--accuracy", "10%"});
+  const ProgramResult accuracy = run_program(linear_box + Arguments{"--accuracy", "10%"});
   EXPECT_EQ(accuracy.status, 0) << accuracy.err;
 }
 
@@ -95,7 +95,7 @@ double column(const std::string& csv, const std::string& name) {
 
 TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
   const TemporaryFolder folder;
-  Arguments call = box + Arguments{"-m", "16", "--stats", folder / "r.json"};
+  Arguments call = linear_box + Arguments{"-m", "16", "--stats", folder / "r.json"};
   for (const char* ending : {"csv", "vtp", "ply", "obj", "glb", "gltf"}) {
     call = call + Arguments{"--out", folder / (std::string("r.") + ending)};
   }
@@ -131,7 +131,7 @@ TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
 
 TEST(CliLinearBasis, ShardsCheckpointsAndThreadsGiveTheSameBits) {
   const TemporaryFolder folder;
-  const Arguments solve = box + Arguments{"-m", "60", "--max-patch-area", "0.3"};
+  const Arguments solve = linear_box + Arguments{"-m", "60", "--max-patch-area", "0.3"};
   const auto expect_ok = [](const Arguments& arguments) {
     const ProgramResult result = run_program(arguments);
     ASSERT_EQ(result.status, 0) << result.err;
