@@ -13,6 +13,7 @@
 #include "transillum/pixel_map.h"
 #include "transillum/power_table.h"
 #include "transillum/radiosity.h"
+#include "transillum/refinement.h"
 #include "transillum/scene.h"
 #include "transillum/sky.h"
 #include "transillum/study.h"
@@ -40,6 +41,7 @@ Names choices_of(const std::string& command, const std::string& option) {
       {"sampling", sampling_names()},
       {"normalize", normalization_names()},
       {"basis", basis_names()},
+      {"refine-by", refine_by_names()},
       {"scheme", scheme_names()},
       {"sky-model", sky_model_names()},
       {"order", painters_order_names()},
