@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Beyond diffuse surfaces (the paper's last sentence; ALGORITHM.md 6.13). A patch keeps what
+// Beyond diffuse surfaces (the paper's last sentence; ALGORITHM.md 6.14). A patch keeps what
 // arrives along each direction of the set, and reflects it by a diffuse part and a lobe. The
 // radiance of a patch is constant over it and depends on the direction:
 //   L_i(omega) = (E_i + rho_i H_i) / pi + k_i w sum_d f_i(omega_d, omega) Phi_i(d),
