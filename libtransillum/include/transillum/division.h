@@ -13,7 +13,7 @@ namespace TRANSILLUM_API transillum {
 
 /// A scene in which some patches of another are divided.
 struct DividedScene {
-  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const Scene> scene;  ///< with the patches divided
   std::vector<PatchId> parent;  ///< of each of its patches, the patch of the other that it is in
 };
 
