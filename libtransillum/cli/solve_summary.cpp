@@ -118,7 +118,7 @@ std::string glossy_text(const GlossyFigures& figures) {
       fmt::format("of {} patches, {} orientations; sums over directions off by {:.1e} "
                   "before scaling, {:.0e} after; {:.3g} MiB by direction, {:.3g} MiB of "
                   "transfers kept",
-                  figures.patches, figures.lobes, figures.albedo_error, figures.albedo_defect,
+                  figures.patches, figures.lobes, figures.sum_error, figures.sum_defect,
                   static_cast<double>(figures.radiance_bytes + figures.lobe_bytes) / mebibyte,
                   static_cast<double>(figures.transfer_bytes) / mebibyte));
 }

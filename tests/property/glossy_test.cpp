@@ -149,7 +149,7 @@ TEST(GlossyFurnace, HasTheSameRadianceEverywhere) {
     options.normalize = Normalization::rows;
     const Solution solution = solve(scene, options);
     ASSERT_NE(solution.glossy, nullptr);
-    EXPECT_LE(solution.statistics.glossy.albedo_defect, 1e-13);
+    EXPECT_LE(solution.statistics.glossy.sum_defect, 1e-13);
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
       EXPECT_NEAR(at(solution.radiosity, i).r, 2, 1e-11);
       for (int p = 0; p < 60; ++p) {
@@ -354,7 +354,7 @@ TEST(GlossyLobes, StayWithinTheirShareWhereTheSetIsTooCoarse) {
   });
   const Solution solution = solve(scene, glossy_options(24));
   EXPECT_TRUE(solution.statistics.converged);
-  EXPECT_LE(solution.statistics.glossy.albedo_defect, 1e-12);
+  EXPECT_LE(solution.statistics.glossy.sum_defect, 1e-12);
   EXPECT_LE(solution.statistics.energy_defect, 1e-12);
 }
 

@@ -57,7 +57,7 @@ class Lobed {
 
   /// 1/sr, of two directions above the surface with the normal (0, 0, 1).
   double value(const Vec3& a, const Vec3& b) const { return shape(a, b) * scale(a.z) * scale(b.z); }
-  /// Samples b about the mirror's direction of a; and the density of doing so.
+  /// Samples b about the mirror direction of a; and the density of doing so.
   Vec3 sample(const Vec3& a, double u, double v) const {
     if (lobe_.shape == LobeShape::phong) {
       const double c = std::pow(u, 1 / (lobe_.exponent + 1));

@@ -83,7 +83,7 @@ TEST(CliGlossy, FilesHaveTheRadianceTowardAnEye) {
   EXPECT_EQ(json["options"]["glossy"], true);
   EXPECT_GT(json["glossy"]["patches"], 10);
   EXPECT_GT(json["glossy"]["transfer_bytes"], 0);
-  EXPECT_LE(json["glossy"]["albedo_defect"], 1e-13);
+  EXPECT_LE(json["glossy"]["sum_defect"], 1e-13);
   EXPECT_NEAR(json["energy_balance"], 1, 0.05);
 }
 

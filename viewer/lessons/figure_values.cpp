@@ -12,6 +12,7 @@
 #include "colors/color_scale.h"
 #include "model/form_factor_views.h"
 #include "transillum/function_comparison.h"
+#include "transillum/patch_count.h"
 #include "transillum/refinement.h"
 #include "transillum/study.h"
 
@@ -156,6 +157,10 @@ const Solution& FigureValues::divided(double patch_area, const SolveOptions& opt
     throw InputError("a result has the patches of its file; other patches need its scene");
   }
   SceneOptions scene_options = loaded_->scene->options();
+  scene_options.max_patch_area = 0;
+  const Scene whole(*loaded_->description, scene_options, cancellation_);
+  check_memory(whole.name(), count_patches(whole, patch_area), options.replicas,
+               options.basis == Basis::linear ? 3 : 1);
   scene_options.max_patch_area = patch_area;
   const auto scene =
       std::make_shared<const Scene>(*loaded_->description, scene_options, cancellation_);

@@ -13,8 +13,13 @@ JumpFinder::JumpFinder(QObject* parent)
       finder_(
           *this,
           [](const Request& snapshot, const Cancellation& cancellation) {
+            // As the materials are now, which may have been changed.
+            std::vector<Rgb> reflectance;
+            for (PatchId i = 0; i < snapshot->loaded->scene->patch_count(); ++i) {
+              reflectance.push_back(material_of(*snapshot, i).reflectance);
+            }
             return PatchJumps{snapshot->loaded->scene,
-                              radiosity_jumps(solution_of(*snapshot), cancellation)};
+                              radiosity_jumps(solution_of(*snapshot), reflectance, cancellation)};
           },
           [this](const Request&, std::shared_ptr<const PatchJumps> jumps, const QString& error) {
             jumps_ = std::move(jumps);

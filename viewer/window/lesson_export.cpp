@@ -74,7 +74,10 @@ void LessonExport::export_to(const QString& path) {
   progress_->setObjectName("lesson_export_progress");
   progress_->setWindowTitle(tr("Export the lesson"));
   progress_->setMinimumDuration(0);
-  connect(progress_, &QProgressDialog::canceled, this, &LessonExport::end);
+  connect(progress_, &QProgressDialog::canceled, this, [this] {
+    end();
+    emit failed(tr("The export was canceled."));
+  });
   progress_->setValue(0);
   show_next();
 }

@@ -26,7 +26,7 @@ class LessonExport : public QObject {
   LessonExport(const WindowParts& parts, std::function<bool()> settled);
 
   QAction* action() const { return action_; }
-  /// Writes the file whole, or not at all; errors are shown in the window, too.
+  /// Writes the file whole, or not at all; errors are also shown in the window.
   void export_to(const QString& path);
   bool busy() const { return !path_.isEmpty(); }
 

@@ -38,7 +38,7 @@ std::vector<std::string> lobe_warnings(const Scene& scene, int directions);
 
 /// The reflectance distribution of a lobe that reflects all light, in the limit of infinitely many
 /// directions: f(a, b) = p(a, b) s(cos a) s(cos b), with p = cos^n of the angle between b and the
-/// mirror's direction of a, or p = 1 / (1 + (alpha² - 1) cos² h)², h being the half vector's angle.
+/// mirror direction of a, or p = 1 / (1 + (alpha² - 1) cos² h)², h being the half vector's angle.
 /// s is the function with which the integral of f cos over the hemisphere is 1 for every direction;
 /// the shadowing of microfacets and the like are such products already.
 ///
@@ -46,7 +46,8 @@ std::vector<std::string> lobe_warnings(const Scene& scene, int directions);
 class LobeFunction {
  public:
   /// Computes s. `lobe` gives shape, exponent and roughness.
-  explicit LobeFunction(const Lobe& lobe);
+  /// @throws Canceled
+  explicit LobeFunction(const Lobe& lobe, const Cancellation& cancellation = {});
   ~LobeFunction();
   /// The moved-from object may only be destroyed or assigned to.
   LobeFunction(LobeFunction&&) noexcept;

@@ -194,10 +194,10 @@ struct GlossyFigures {
   std::int64_t lobes = 0;    ///< different ones: by shape and orientation
   /// Largest difference from 1 of the sum over the directions of a lobe that reflects everything,
   /// before it was scaled: above a few percent, the directions are too few for it.
-  double albedo_error = 0;
+  double sum_error = 0;
   /// The same after scaling: rounding.
-  double albedo_defect = 0;
-  /// Share of the light of lobes that scaling could not put around the mirror's direction, largest.
+  double sum_defect = 0;
+  /// Share of the light of lobes that scaling could not put around the mirror direction, largest.
   double spread = 0;
   double exponent = 0;               ///< largest exponent; of ggx, of the Phong lobe as wide
   std::uint64_t radiance_bytes = 0;  ///< memory of radiances by direction
@@ -452,7 +452,7 @@ struct Solution {
 std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i);
 
 /// Solves in one call, by a GlossySolver where options.glossy is set and materials have lobes; it
-/// then calls no observer, and is alone. If `cancellation` is set during the passes, it returns the
+/// then calls no observer and ignores `group`. If `cancellation` is set during the passes, it returns the
 /// best estimate so far, with complete = false.
 /// @param scene the scene.
 /// @param options of the solve run.

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,14 @@ const std::string& name_of(RefineBy by);
 ///
 /// Neighbors are the patches of the same plane that touch the edge. Where a patch has none of these
 /// they are those that touch it at an angle; where it has none of these either, the jump is the
-/// radiosity itself: nothing is known about how it varies.
+/// reflected radiosity itself, as beside darkness: nothing is known about how it varies.
 /// @throws Canceled
 std::vector<double> radiosity_jumps(const Solution& solution,
+                                    const Cancellation& cancellation = {});
+/// The same with other reflectances than those of the scene's materials.
+/// @param reflectance by patch; with the share of its lobe, if lobes take part.
+/// @throws Canceled
+std::vector<double> radiosity_jumps(const Solution& solution, std::span<const Rgb> reflectance,
                                     const Cancellation& cancellation = {});
 
 /// What refine() does.

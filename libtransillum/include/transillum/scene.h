@@ -31,7 +31,7 @@ inline constexpr std::int32_t no_group = -1;
 
 /// How a lobe spreads light about the direction in which a mirror would reflect it.
 enum class LobeShape {
-  phong,  ///< cos^n of the angle to the mirror's direction (Lafortune and Willems 1994)
+  phong,  ///< cos^n of the angle to the mirror direction (Lafortune and Willems 1994)
   ggx,    ///< microfacets of the distribution GGX (Walter et al. 2007)
 };
 

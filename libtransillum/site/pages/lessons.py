@@ -20,7 +20,8 @@ RULES = ("svg.map", ".steps", ".question")
 def write(tree: Tree, exported: Path) -> list[str]:
     """@returns the pages"""
     pages, cards = [], []
-    for file in sorted((tree.source / "data/lessons").glob("*.json")):
+    for file in sorted((tree.source / "data/lessons").glob("*.json"),
+                       key=lambda file: int(file.stem.split("-")[0])):
         lesson = json.loads(file.read_text())
         page = f"lessons/{file.stem}"
         text = (exported / f"{file.stem}.html").read_text()
@@ -65,7 +66,7 @@ def index(pages: list[str], cards: list[str]) -> str:
     entries = "\n".join("/" + page for page in pages)
     return f"""# Lessons
 
-Nine lessons explain the method from the light that one patch receives to the error of a solution. Here they can be read, their questions answered, and their visibility maps
+Ten lessons explain the method from the light that one patch receives to the error of a solution. Here they can be read, their questions answered, and their visibility maps
 stepped through. In the program, a page also sets up the scene and the solve, and everything can be turned and changed: *Lesson ▸ Lessons*, or `transillum-viewer --lesson 1`.
 
 {raw('<div class="cards">' + "".join(cards) + '</div>')}

@@ -69,8 +69,8 @@ Json glossy_json(const GlossyFigures& figures) {
   }
   return {{"patches", figures.patches},
           {"lobes", figures.lobes},
-          {"albedo_error", figures.albedo_error},
-          {"albedo_defect", figures.albedo_defect},
+          {"sum_error", figures.sum_error},
+          {"sum_defect", figures.sum_defect},
           {"spread", figures.spread},
           {"exponent", figures.exponent},
           {"radiance_bytes", figures.radiance_bytes},

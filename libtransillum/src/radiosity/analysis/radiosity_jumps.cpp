@@ -8,6 +8,7 @@
 #include "geometry/box_tree.h"
 #include "radiosity/sum_of_squares.h"
 #include "transillum/at.h"
+#include "transillum/glossy.h"
 #include "transillum/refinement.h"
 
 namespace transillum {
@@ -82,7 +83,8 @@ class PiecesByPlace {
 /// The irradiance of a result as a function of the point.
 class Irradiance {
  public:
-  explicit Irradiance(const Solution& solution) : solution_(solution) {
+  Irradiance(const Solution& solution, std::span<const Rgb> reflectance)
+      : solution_(solution), reflectance_(reflectance) {
     if (!solution.linear_parts.empty()) {
       bases_ = linear_bases(*solution.scene);
     }
@@ -94,7 +96,7 @@ class Irradiance {
       const auto [first, second] = at(bases_, i).at(point);
       const LinearPart& part = at(solution_.linear_parts, i);
       const Rgb slope = first * part.first + second * part.second;
-      const Rgb& rho = solution_.scene->reflectance(i);
+      const Rgb& rho = at(reflectance_, i);
       // Where nothing is reflected, B tells nothing about how H varies.
       h.r += rho.r > 0 ? slope.r / rho.r : 0;
       h.g += rho.g > 0 ? slope.g / rho.g : 0;
@@ -105,6 +107,7 @@ class Irradiance {
 
  private:
   const Solution& solution_;
+  std::span<const Rgb> reflectance_;
   std::vector<LinearBasis> bases_;
 };
 
@@ -121,8 +124,11 @@ struct EdgeMean {
 
 class Jumps {
  public:
-  explicit Jumps(const Solution& solution)
-      : scene_(*solution.scene), places_(scene_), irradiance_(solution) {}
+  Jumps(const Solution& solution, std::span<const Rgb> reflectance)
+      : scene_(*solution.scene),
+        reflectance_(reflectance),
+        places_(scene_),
+        irradiance_(solution, reflectance) {}
 
   double of(PatchId i) const {
     const auto outline = scene_.outline(i);
@@ -136,14 +142,14 @@ class Jumps {
         const Vec3 point = a + place * (b - a);
         const double weight = norm(b - a) / 2;
         const Rgb own = irradiance_.at_point(i, point);
-        alone.add(sum_of_squares(scene_.reflectance(i) * own), weight);
+        alone.add(sum_of_squares(at(reflectance_, i) * own), weight);
         for (const PatchId j : places_.near(point, near)) {
           const double cosine = dot(scene_.patch(i).normal, scene_.patch(j).normal);
           if (j == i || cosine < -same_plane) {
             continue;
           }
           EdgeMean& mean = cosine > same_plane ? in_plane : at_angle;
-          mean.add(sum_of_squares(scene_.reflectance(i) * (own - irradiance_.at_point(j, point))),
+          mean.add(sum_of_squares(at(reflectance_, i) * (own - irradiance_.at_point(j, point))),
                    weight);
         }
       }
@@ -155,6 +161,7 @@ class Jumps {
 
  private:
   const Scene& scene_;
+  std::span<const Rgb> reflectance_;
   PiecesByPlace places_;
   Irradiance irradiance_;
 };
@@ -162,7 +169,19 @@ class Jumps {
 }  // namespace
 
 std::vector<double> radiosity_jumps(const Solution& solution, const Cancellation& cancellation) {
-  const Jumps jumps(solution);
+  std::vector<Rgb> reflectance;
+  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+    const Material& material = solution.scene->material(i);
+    reflectance.push_back(solution.statistics.glossy.patches > 0
+                              ? material.reflectance + used_lobe(material).reflectance
+                              : material.reflectance);
+  }
+  return radiosity_jumps(solution, reflectance, cancellation);
+}
+
+std::vector<double> radiosity_jumps(const Solution& solution, std::span<const Rgb> reflectance,
+                                    const Cancellation& cancellation) {
+  const Jumps jumps(solution, reflectance);
   std::vector<double> result;
   result.reserve(solution.scene->patches().size());
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {

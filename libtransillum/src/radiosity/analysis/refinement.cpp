@@ -140,15 +140,21 @@ std::vector<PatchId> worst(const Scene& scene, const std::vector<double>& square
 
 /// The scene divided at its worst patches, with no more than `most`; null where nothing is left.
 /// Patches on the same points are divided together: fewer are chosen where that makes too many.
-std::shared_ptr<const Scene> divide_worst(const Scene& scene, const std::vector<double>& squares,
+std::shared_ptr<const Scene> divide_worst(const Scene& scene, std::vector<double> squares,
                                           std::int64_t most, const Cancellation& cancellation) {
-  std::vector<PatchId> chosen = worst(scene, squares, most);
-  while (!chosen.empty()) {
+  for (std::vector<PatchId> chosen = worst(scene, squares, most); !chosen.empty();) {
     const DividedScene divided = divide(scene, chosen, cancellation);
-    if (divided.scene->patch_count() <= most) {
-      return divided.scene->patch_count() > scene.patch_count() ? divided.scene : nullptr;
+    const PatchId count = divided.scene->patch_count();
+    if (count > most) {
+      chosen.resize(chosen.size() / 2);
+    } else if (count > scene.patch_count()) {
+      return divided.scene;
+    } else {  // all were too thin
+      for (const PatchId i : chosen) {
+        at(squares, i) = 0;
+      }
+      chosen = worst(scene, squares, most);
     }
-    chosen.resize(chosen.size() / 2);
   }
   return nullptr;
 }
@@ -178,6 +184,7 @@ class Rounds {
       solution = solved(scene);
       finding.squares = squares_by_jump(solution, cancellation_);
     } else {
+      check(*scene, 4 * static_cast<std::int64_t>(scene->patch_count()));
       const DividedScene divided = divide(*scene, all_patches(*scene), cancellation_);
       solution = solved(divided.scene);
       finding.squares = squares_by_error(*scene, divided, solution);
@@ -193,8 +200,11 @@ class Rounds {
   }
 
  private:
+  void check(const Scene& scene, std::int64_t patches) const {
+    check_memory(scene.name(), patches, options_.replicas, options_.basis == Basis::linear ? 3 : 1);
+  }
   Solution solved(const std::shared_ptr<const Scene>& scene) const {
-    check_memory(scene->name(), scene->patch_count(), options_.replicas);
+    check(*scene, scene->patch_count());
     Solution solution = solve(scene, options_, observer_, cancellation_);
     // Patches divided by half a solve would not be the worst.
     cancellation_.throw_if_canceled();

@@ -15,6 +15,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/free_memory.h"
 #include "base/seconds_since.h"
 #include "radiosity/memory_limit.h"
 #include "radiosity/ratio.h"
@@ -50,6 +51,22 @@ void GlossySolver::Impl::find_glossy() {
       light->index_of[i] = static_cast<std::int32_t>(glossy.size());
       glossy.push_back(static_cast<PatchId>(i));
     }
+  }
+  check_radiance_memory();
+}
+
+/// Refuses what would not fit before it is allocated.
+void GlossySolver::Impl::check_radiance_memory() const {
+  // Phi, its successor, the lobe's radiance, its successor, and areas seen.
+  const std::uint64_t per_slot =
+      4 * sizeof(Rgb) + (input.options.sky.set() ? 2 : 1) * sizeof(double);
+  const std::uint64_t needed = glossy.size() * passes() * per_slot;
+  if (const std::uint64_t available = free_memory(); needed > available) {
+    throw std::runtime_error(
+        fmt::format("{}: the radiance of {} glossy patches along {} directions takes {:.2g} GB of "
+                    "memory, but only {:.2g} GB are free",
+                    input.scene->name(), glossy.size(), passes(),
+                    1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(available)));
   }
 }
 
@@ -89,6 +106,7 @@ void GlossySolver::Impl::start() {
   const std::size_t slots = glossy.size() * passes();
   light->arriving.assign(slots, Rgb{});
   light->reflected.assign(slots, Rgb{});
+  incoming.assign(slots, Rgb{});
   light->lambertian.resize(input.patch_count());
   for (std::size_t i = 0; i < input.patch_count(); ++i) {
     light->lambertian[i] = 1 / pi * material(i).exitance;
@@ -144,30 +162,37 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers) {
     kept_finished = true;
   }
   energy_defect = defect_of_energy();
-  std::vector<Rgb> before, after;
+  // Nothing of the iteration before is changed until this one cannot be canceled any more.
+  std::vector<Rgb> before, after, lambertian = light->lambertian, reflected = light->reflected;
+  std::vector<Rgb> received(input.patch_count());
   for (const PatchId i : glossy) {
     before.push_back(at(light->lambertian, i));
   }
   LobeTables::Change change;
   const bool has_sky = input.options.sky.set();
-  from_sky.resize(has_sky ? input.patch_count() : 0);
+  std::vector<Rgb> sky_light(has_sky ? input.patch_count() : 0);
   for (std::size_t i = 0; i < input.patch_count(); ++i) {
-    irradiance[i] = scale(i) * gathered[i];
+    received[i] = scale(i) * gathered[i];
     if (has_sky) {
-      from_sky[i] = scale(i) * sky_area[i] / pi * input.options.sky.exitance;
-      irradiance[i] += from_sky[i];
+      sky_light[i] = scale(i) * sky_area[i] / pi * input.options.sky.exitance;
+      received[i] += sky_light[i];
     }
-    const Rgb radiance = 1 / pi * (material(i).exitance + material(i).reflectance * irradiance[i]);
+    const Rgb radiance = 1 / pi * (material(i).exitance + material(i).reflectance * received[i]);
     if (light->index_of[i] < 0) {
       change.change = std::max(change.change, max_abs(radiance - light->lambertian[i]));
       change.largest = std::max(change.largest, max_abs(radiance));
     } else {
       after.push_back(radiance);
     }
-    light->lambertian[i] = radiance;
+    lambertian[i] = radiance;
   }
-  const LobeTables::Change of_lobes = light->lobes->reflect(
-      light->arriving, light->shares, before, after, light->reflected, workers, input.requested);
+  const LobeTables::Change of_lobes = light->lobes->reflect(incoming, light->shares, before, after,
+                                                            reflected, workers, input.requested);
+  irradiance.swap(received);
+  from_sky.swap(sky_light);
+  light->lambertian.swap(lambertian);
+  light->reflected.swap(reflected);
+  light->arriving.swap(incoming);
   change.change = std::max(change.change, of_lobes.change);
   change.largest = std::max(change.largest, of_lobes.largest);
   const double seconds = seconds_since(start);

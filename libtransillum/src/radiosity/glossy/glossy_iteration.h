@@ -28,6 +28,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   std::vector<Rgb> irradiance;   ///< H of the last finished iteration, W/m²
   std::vector<Rgb> from_sky;     ///< the part of it from the sky; empty without one
   std::vector<Rgb> gathered;     ///< sum_p sum_j A(i,j,p) L_j(p) of the iteration under way, W/sr
+  std::vector<Rgb> incoming;     ///< Phi by glossy patch and pass, of the iteration under way
   std::vector<double> sky_area;  ///< uncovered area times relative radiance, over all passes
   std::vector<double> sky_seen;  ///< the same by glossy patch and pass, over the patch's area
   std::vector<double> seen;      ///< by glossy patch and pass: area that receivers see of it, m²
@@ -49,7 +50,9 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   double scale(std::size_t i) const;
   /// Makes the lobes of `materials` and sets radiance to that of E.
   void start();
+  /// @throws std::runtime_error where what is kept of them by direction does not fit into memory
   void find_glossy();
+  void check_radiance_memory() const;
   /// Forgets all passes.
   void forget_passes();
   /// One iteration; returns false where the observer did.

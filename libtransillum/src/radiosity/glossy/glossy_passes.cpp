@@ -91,7 +91,7 @@ void GlossySolver::Impl::set_of_pass(int k, bool is_new, const PassLight& made) 
     }
   }
   for (std::size_t g = 0; g < glossy.size(); ++g) {
-    Rgb& arriving = light->arriving[slot(g)];
+    Rgb& arriving = incoming[slot(g)];
     arriving = 1 / input.scene->patch(glossy[g]).area * at(made.gathered, glossy[g]);
     if (sky.set()) {
       arriving += sky_seen[slot(g)] / std::numbers::pi * sky.exitance;

@@ -118,7 +118,7 @@ SolveStatistics GlossySolver::Impl::solve_statistics() const {
   figures.patches = std::ssize(glossy);
   light->lobes->write_to(figures);
   figures.radiance_bytes =
-      2 * light->arriving.size() * sizeof(Rgb) + (seen.size() + sky_seen.size()) * sizeof(double);
+      3 * light->arriving.size() * sizeof(Rgb) + (seen.size() + sky_seen.size()) * sizeof(double);
   figures.transfer_bytes = kept_finished ? kept->bytes() : 0;
   result.seconds_bsp = input.seconds_bsp;
   result.seconds_transfers = timing.seconds_transfers;

@@ -23,7 +23,7 @@ struct Node {
   double at = 0, weight = 0;
 };
 
-/// Nodes of Gauss and Legendre on [0, 1].
+/// Gauss–Legendre nodes on [0, 1].
 std::vector<Node> gauss_nodes(int count) {
   std::vector<Node> nodes;
   for (int k = 0; k < count; ++k) {
@@ -54,10 +54,11 @@ class Azimuth {
     }
   }
   double integral(double theta, double other) const {
-    const double c = std::cos(theta) * std::cos(other), s = std::sin(theta) * std::sin(other);
+    const double cosine = std::cos(theta), other_cosine = std::cos(other);
+    const double c = cosine * other_cosine, s = std::sin(theta) * std::sin(other);
     double sum = 0;
     for (std::size_t k = 0; k < cosines_.size(); ++k) {
-      sum += weights_[k] * kernel_.value(std::cos(theta), std::cos(other), c + s * cosines_[k]);
+      sum += weights_[k] * kernel_.value(cosine, other_cosine, c + s * cosines_[k]);
     }
     return sum;
   }
@@ -70,13 +71,14 @@ class Azimuth {
 }  // namespace
 
 struct LobeFunction::Impl {
-  explicit Impl(const Lobe& lobe) : kernel(lobe) {
+  Impl(const Lobe& lobe, const Cancellation& cancellation) : kernel(lobe) {
     const double root = std::sqrt(std::min(kernel.exponent(), 4e3));
     const Azimuth azimuth(kernel, 64 + static_cast<int>(8 * root));
     const std::vector<Node> nodes = gauss_nodes(48 + static_cast<int>(3 * root));
-    const std::vector<double> scales = scales_at(nodes, azimuth);
+    const std::vector<double> scales = scales_at(nodes, azimuth, cancellation);
     logarithms.resize(intervals + 1);
     for (std::size_t k = 0; k <= intervals; ++k) {
+      cancellation.throw_if_canceled();
       const double theta = angle_of(static_cast<double>(k) / intervals);
       double sum = 0;
       for (std::size_t m = 0; m < nodes.size(); ++m) {
@@ -98,10 +100,12 @@ struct LobeFunction::Impl {
     return pi * (1 - node.at) * node.weight * std::sin(theta) * std::cos(theta);
   }
   /// s at the nodes: s sum_m w_m p_m s_m = 1, by the damped form of Sinkhorn's iteration.
-  static std::vector<double> scales_at(const std::vector<Node>& nodes, const Azimuth& azimuth) {
+  static std::vector<double> scales_at(const std::vector<Node>& nodes, const Azimuth& azimuth,
+                                       const Cancellation& cancellation) {
     const std::size_t n = nodes.size();
     std::vector<double> matrix(n * n);
     for (std::size_t k = 0; k < n; ++k) {
+      cancellation.throw_if_canceled();
       for (std::size_t m = k; m < n; ++m) {
         const double value = azimuth.integral(angle_of(nodes[k].at), angle_of(nodes[m].at));
         matrix[k * n + m] = value;
@@ -133,7 +137,8 @@ struct LobeFunction::Impl {
   std::vector<double> logarithms;  ///< of s, at equal steps of the place
 };
 
-LobeFunction::LobeFunction(const Lobe& lobe) : impl_(std::make_unique<Impl>(lobe)) {}
+LobeFunction::LobeFunction(const Lobe& lobe, const Cancellation& cancellation)
+    : impl_(std::make_unique<Impl>(lobe, cancellation)) {}
 LobeFunction::~LobeFunction() = default;
 LobeFunction::LobeFunction(LobeFunction&&) noexcept = default;
 LobeFunction& LobeFunction::operator=(LobeFunction&&) noexcept = default;

@@ -21,7 +21,7 @@ double alpha_of(const Lobe& lobe) { return std::max(lobe.roughness * lobe.roughn
 }  // namespace
 
 double equivalent_exponent(const Lobe& lobe) {
-  // The half vector is at the angle t/2 where the mirror's direction is at t: GGX falls to a
+  // The half vector is at the angle t/2 where the mirror direction is at t: GGX falls to a
   // quarter at t/2 = alpha, Phong's lobe about where n t²/2 = ln 4.
   const double alpha = alpha_of(lobe);
   return lobe.shape == LobeShape::phong ? lobe.exponent : std::numbers::ln2 / (alpha * alpha);

@@ -50,8 +50,9 @@ LobeTables::LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& 
     : directions_(directions) {
   add_patches(lobes, normals);
   std::vector<std::unique_ptr<LobeFunction>> functions(shapes_.size());
-  for_each_index(workers, std::size_t{0}, shapes_.size(),
-                 [&](std::size_t k) { functions[k] = std::make_unique<LobeFunction>(shapes_[k]); });
+  for_each_index(workers, std::size_t{0}, shapes_.size(), [&](std::size_t k) {
+    functions[k] = std::make_unique<LobeFunction>(shapes_[k], cancellation);
+  });
   for_each_index(workers, std::size_t{0}, tables_.size(), [&](std::size_t t) {
     LobeTable& table = tables_[t];
     const Hemisphere above(directions_, table.normal);
@@ -120,7 +121,7 @@ void LobeTables::scale(LobeTable& table, const std::vector<double>& cosine,
   const std::size_t count = above.size();
   std::vector<double> sum;
   sums(table, above, sum, cancellation);
-  table.albedo_error = difference_from_one(sum);
+  table.sum_error = difference_from_one(sum);
   for (int sweep = 0; sweep < most_sweeps && difference_from_one(sum) > enough; ++sweep) {
     for (std::size_t p = 0; p < count; ++p) {
       const double step = std::clamp(sum[p], 1 / largest_step, largest_step);
@@ -149,7 +150,7 @@ void LobeTables::scale(LobeTable& table, const std::vector<double>& cosine,
   for (std::size_t p = 0; p < count; ++p) {
     sum[p] += table.spread[p] * all;
   }
-  table.albedo_defect = difference_from_one(sum);
+  table.sum_defect = difference_from_one(sum);
 }
 
 LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
@@ -209,14 +210,20 @@ Rgb LobeTables::reflected_toward(const Rgb* arriving, std::size_t g, const Vec3&
     sum += row[q] * table.scale[q] * arriving[q];
     all += row[q] * table.scale[q] * above.cosine[q];
   }
+  if (!(all > 0)) {  // the lobe falls between directions: what the table spreads
+    for (std::size_t q = 0; q < table.spread.size() && q < above.size(); ++q) {
+      sum += table.spread[q] * arriving[q];
+      all += table.spread[q] * above.cosine[q];
+    }
+  }
   return all > 0 ? 1 / all * sum : Rgb{};
 }
 
 void LobeTables::write_to(GlossyFigures& figures) const {
   figures.lobes = std::ssize(tables_);
   for (const LobeTable& table : tables_) {
-    figures.albedo_error = std::max(figures.albedo_error, table.albedo_error);
-    figures.albedo_defect = std::max(figures.albedo_defect, table.albedo_defect);
+    figures.sum_error = std::max(figures.sum_error, table.sum_error);
+    figures.sum_defect = std::max(figures.sum_defect, table.sum_defect);
     figures.spread = std::max(figures.spread, table.spread_share);
     figures.exponent = std::max(figures.exponent, kernels_[table.kernel].exponent());
     figures.lobe_bytes += (table.scale.size() + table.spread.size()) * sizeof(double);

@@ -21,7 +21,7 @@ struct LobeTable {
   std::size_t kernel = 0;  ///< index of its shape
   Vec3 normal;
   std::vector<double> scale = {}, spread = {};                   ///< by pass
-  double albedo_error = 0, albedo_defect = 0, spread_share = 0;  ///< as GlossyFigures
+  double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< as GlossyFigures
 };
 
 /// The lobes of all glossy patches on a set of directions: a table for each shape and orientation.
@@ -53,12 +53,11 @@ class LobeTables {
 
  private:
   void add_patches(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals);
-  void scale(LobeTable& table, const std::vector<double>& start,
+  void scale(LobeTable& table, const std::vector<double>& cosine,
              const Cancellation& cancellation) const;
   /// w sum_q kernel(p, q) scale_p scale_q cosine_q for each p
   void sums(const LobeTable& table, const Hemisphere& above, std::vector<double>& result,
             const Cancellation& cancellation) const;
-  std::vector<double> start_of(const LobeTable& table, std::size_t kernel) const;
   double weight() const;
 
   std::vector<Vec3> directions_;

@@ -49,7 +49,7 @@ const std::vector<BuiltIn>& registry() {
        make_rooms},
       {"stars", "A room with n small, bright light sources.", {{"n", 12, 1, 1000}}, make_stars},
       {"gallery",
-       "A room with a shining floor and a polished ball, lit by three colored lamps: for solves "
+       "A room with a glossy floor and a polished ball, lit by three colored lamps: for solves "
        "with lobes.",
        {{"tiles", 2, 1, 100}, {"slices", 24, 3, 1024}, {"stacks", 12, 2, 1024}},
        make_gallery},

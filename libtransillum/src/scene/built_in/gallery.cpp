@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Built-in scene `gallery`: a room of 6 by 4 by 3 m with a shining floor of tiles, a polished ball
+// Built-in scene `gallery`: a room of 6 by 4 by 3 m with a glossy floor of tiles, a polished ball
 // above a pedestal, and three lamps of different colors. Its lobes are as narrow as some 250 passes
 // resolve.
 #include <cmath>

@@ -26,8 +26,10 @@ namespace {
 
 /// Vertices and triangles of a scene, each: with instances, a small file can have any number.
 constexpr std::size_t most_elements = 20'000'000;
-/// rho and E of textured faces are rounded to this many parts, so that they share materials.
-constexpr double emission_parts = 1024;
+/// rho, E and lobes of textured faces are rounded to this many parts, so that they share materials.
+constexpr double part_count = 1024;
+/// Their roughness to fewer: each is a lobe of its own.
+constexpr double roughness_parts = 64;
 
 /// An affine map: columns, then the origin.
 struct Placement {
@@ -409,7 +411,7 @@ class GltfReader {
       sums[f] += weight * varying_[t];
       areas[f] += weight;
     }
-    std::map<std::pair<std::int32_t, std::array<double, 9>>, std::int32_t> numbers;
+    std::map<std::pair<std::int32_t, std::array<double, 10>>, std::int32_t> numbers;
     for (std::size_t f = 0; f < d.face_count(); ++f) {
       assign(d, f, 1 / areas[f] * sums[f], numbers);
     }
@@ -423,7 +425,7 @@ class GltfReader {
     const auto rounded = [](const Rgb& value, const Rgb& whole) {
       const auto channel = [](double v, double of) {
         return of > 0 && std::abs(v - of) > 1e-9 * of
-                   ? of * std::round(v / of * emission_parts) / emission_parts
+                   ? of * std::round(v / of * part_count) / part_count
                    : of;
       };
       return Rgb{channel(value.r, whole.r), channel(value.g, whole.g), channel(value.b, whole.b)};
@@ -432,17 +434,25 @@ class GltfReader {
     const Rgb rho =
         metal ? rounded(mean.reflectance, {1, 1, 1}) : rounded(mean.reflectance, plain.reflectance);
     const Rgb e = rounded(mean.exitance, plain.exitance);
-    // Of other materials the lobe is nearly the same everywhere, and the first face's is taken.
-    const Rgb lobe = metal ? rounded(mean.lobe, {1, 1, 1}) : plain.lobe;
-    const bool same_lobe = !metal || max_abs(lobe - plain.lobe) <= 1 / color_parts;
+    // Of other materials the lobe is nearly the same everywhere, but where a texture has it.
+    const bool of_face = metal || max_abs(mean.lobe - plain.lobe) > 1 / part_count ||
+                         std::abs(mean.roughness - plain.roughness) > 1 / roughness_parts;
+    const SurfaceColors used{
+        rho, e, of_face ? rounded(mean.lobe, {1, 1, 1}) : plain.lobe,
+        of_face ? std::round(mean.roughness * roughness_parts) / roughness_parts : plain.roughness};
+    const bool same_lobe = max_abs(used.lobe - plain.lobe) <= 1 / part_count &&
+                           std::abs(used.roughness - plain.roughness) <= 1 / roughness_parts;
     const auto next = static_cast<std::int32_t>(d.materials.size());
     if (rho == plain.reflectance && e == plain.exitance && same_lobe) {
       return;
     }
-    const auto [entry, is_new] = numbers.try_emplace(
-        {base, {rho.r, rho.g, rho.b, e.r, e.g, e.b, lobe.r, lobe.g, lobe.b}}, next);
+    const auto [entry, is_new] =
+        numbers.try_emplace({base,
+                             {rho.r, rho.g, rho.b, e.r, e.g, e.b, used.lobe.r, used.lobe.g,
+                              used.lobe.b, used.roughness}},
+                            next);
     if (is_new) {
-      d.materials.push_back(limited({materials_.name(base), rho, e, mean.ggx()}, false));
+      d.materials.push_back(limited({materials_.name(base), rho, e, used.ggx()}, false));
     }
     d.face_material[face] = entry->second;
   }
