@@ -79,7 +79,7 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   escaped_->setText(!any_pass              ? none
                     : s.escaped < rounding ? tr("0: closed scene")
                                            : tr("%1 %").arg(number_text(100 * s.escaped)));
-  negative_->setText(snapshot.linear_parts.empty() ? tr("B is constant on patches")
+  negative_->setText(snapshot.linear_parts.empty() ? tr("constant B")
                                                    : count_text(s.negative_corners));
   error_->setText(snapshot.error.replicas > 0
                       ? tr("%1 %, at most %2 %")
