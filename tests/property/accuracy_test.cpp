@@ -18,7 +18,7 @@
 #include "transillum/solve_errors.h"
 #include "transillum/study.h"
 
-namespace transillum {
+namespace transillum::accuracy_test {
 namespace {
 
 using ScenePtr = std::shared_ptr<const Scene>;
@@ -345,4 +345,4 @@ INSTANTIATE_TEST_SUITE_P(EightScenes, NightlyAccuracy,
                                            CoverageCase{"boards", 0, 0.0005, true}));
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::accuracy_test

@@ -19,7 +19,7 @@
 #include "transillum/engine.h"
 #include "transillum/files.h"
 
-namespace transillum {
+namespace transillum::agreement_test {
 namespace {
 
 using testing::TransferDifference;
@@ -247,4 +247,4 @@ TEST_P(NightlyAgreementImperfect, OnRoundedAndTurnedScenes) {
 INSTANTIATE_TEST_SUITE_P(FiveHundreds, NightlyAgreementImperfect, ::testing::Range(1, 21));
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::agreement_test

@@ -14,7 +14,7 @@
 #include "transillum/at.h"
 #include "transillum/engine.h"
 
-namespace transillum {
+namespace transillum::closure_test {
 namespace {
 
 using testing::test_directions;
@@ -162,4 +162,4 @@ TEST(Reciprocity, OppositeDirectionsGiveTheSameAreas) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::closure_test

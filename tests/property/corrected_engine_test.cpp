@@ -15,7 +15,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/transfer_comparison.h"
 
-namespace transillum {
+namespace transillum::corrected_engine_test {
 namespace {
 
 using testing::test_directions;
@@ -212,4 +212,4 @@ TEST(CorrectedMap, ShowsTheEnginesErrors) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::corrected_engine_test

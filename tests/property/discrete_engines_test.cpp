@@ -12,7 +12,7 @@
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::discrete_engines_test {
 namespace {
 
 using testing::areas_of;
@@ -261,4 +261,4 @@ TEST_P(DiscreteEngines, CanBeCanceledAndCheckTheResolution) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::discrete_engines_test

@@ -11,7 +11,7 @@
 #include "support/scenes.h"
 #include "transillum/engine.h"
 
-namespace transillum {
+namespace transillum::exact_engines_test {
 namespace {
 
 using testing::Sketch;
@@ -193,4 +193,4 @@ INSTANTIATE_TEST_SUITE_P(BuiltIns, MapsAgree,
                                            "sphere-flake:levels=1,slices=6,stacks=4"));
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::exact_engines_test

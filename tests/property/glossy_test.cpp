@@ -18,7 +18,7 @@
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::glossy_test {
 namespace {
 
 using test::refusal;
@@ -434,4 +434,4 @@ TEST(GlossySolver, SolvesAgainWithOtherMaterials) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::glossy_test

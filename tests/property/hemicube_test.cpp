@@ -16,7 +16,7 @@
 #include "transillum/hemicube_image.h"
 #include "visibility/pixels/hemicube.h"
 
-namespace transillum {
+namespace transillum::hemicube_test {
 namespace {
 
 using testing::Sketch;
@@ -311,4 +311,4 @@ TEST(HemicubeSolve, RefusesUnsupportedOptions) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::hemicube_test

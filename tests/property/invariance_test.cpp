@@ -11,7 +11,7 @@
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::invariance_test {
 namespace {
 
 using testing::Sketch;
@@ -173,4 +173,4 @@ TEST(Invariance, KeptAndRecomputedFormFactorsAgree) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::invariance_test

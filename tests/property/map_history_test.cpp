@@ -12,7 +12,7 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 
-namespace transillum {
+namespace transillum::map_history_test {
 namespace {
 
 using ::testing::ElementsAreArray;
@@ -267,4 +267,4 @@ TEST(MapHistory, OfAnEmptyRecordIsEmpty) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::map_history_test

@@ -10,7 +10,7 @@
 #include "transillum/map_history.h"
 #include "transillum/visibility_map.h"
 
-namespace transillum {
+namespace transillum::map_record_test {
 namespace {
 
 double area_of(std::span<const Vec2> outline) {
@@ -153,4 +153,4 @@ TEST(MapRecord, RowsReferToTheirParents) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::map_record_test

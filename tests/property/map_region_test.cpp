@@ -11,7 +11,7 @@
 
 #include "support/scenes.h"
 
-namespace transillum {
+namespace transillum::map_region_test {
 namespace {
 
 MapHistory history_of(const Scene& scene, const Vec3& omega) {
@@ -243,4 +243,4 @@ TEST(MapRegion, IsTheSameFromAllItsPoints) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::map_region_test

@@ -16,7 +16,7 @@
 #include "transillum/errors.h"
 #include "transillum/linear_basis.h"
 
-namespace transillum {
+namespace transillum::moments_test {
 namespace {
 
 using testing::Sketch;
@@ -308,4 +308,4 @@ TEST(Moments, OtherEnginesRefuseThem) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::moments_test

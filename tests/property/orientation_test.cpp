@@ -13,7 +13,7 @@
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::orientation_test {
 namespace {
 
 using testing::Sketch;
@@ -156,4 +156,4 @@ TEST(Orientation, IsTheSameForAnyNumberOfThreadsAndRigidMotion) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::orientation_test

@@ -16,7 +16,7 @@
 #include "transillum/form_factor_solve.h"
 #include "transillum/study.h"
 
-namespace transillum {
+namespace transillum::pair_form_factors_test {
 namespace {
 
 using testing::box_in_cube;
@@ -203,4 +203,4 @@ TEST(PairSolve, IsExactAtOnceWhereNothingIsBetween) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::pair_form_factors_test

@@ -14,7 +14,7 @@
 #include "support/scenes.h"
 #include "transillum/errors.h"
 
-namespace transillum {
+namespace transillum::patch_count_test {
 namespace {
 
 double total_area(const Scene& scene) {
@@ -128,4 +128,4 @@ TEST(MaxPatchAreaFor, RefusesImpossibleNumbersAndCanBeCanceled) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::patch_count_test

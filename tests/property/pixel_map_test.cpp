@@ -16,7 +16,7 @@
 #include "transillum/errors.h"
 #include "transillum/map_files.h"
 
-namespace transillum {
+namespace transillum::pixel_map_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -245,4 +245,4 @@ TEST(PixelMap, RefusesEnginesWithoutPixelsAndBadResolutions) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::pixel_map_test

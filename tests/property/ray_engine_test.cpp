@@ -13,7 +13,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/visibility_map.h"
 
-namespace transillum {
+namespace transillum::ray_engine_test {
 namespace {
 
 using testing::areas_of;
@@ -293,4 +293,4 @@ TEST(RayEngine, FurnaceHasRadiosityTwo) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::ray_engine_test

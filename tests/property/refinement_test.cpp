@@ -13,7 +13,7 @@
 #include "transillum/function_comparison.h"
 #include "transillum/patch_count.h"
 
-namespace transillum {
+namespace transillum::refinement_test {
 namespace {
 
 using ::testing::Each;
@@ -188,4 +188,4 @@ TEST(Refinement, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::refinement_test

@@ -10,7 +10,7 @@
 #include "support/scenes.h"
 #include "transillum/visibility_map.h"
 
-namespace transillum {
+namespace transillum::sampled_order_test {
 namespace {
 
 using testing::Sketch;
@@ -157,4 +157,4 @@ TEST(SampledOrder, TreeOrderIsTheOrderOfHeights) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::sampled_order_test

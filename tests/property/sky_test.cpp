@@ -18,7 +18,7 @@
 #include "transillum/power_table.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::sky_test {
 namespace {
 
 using test::refusal;
@@ -215,4 +215,4 @@ TEST(Sky, IsRefusedWhereItCannotBe) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::sky_test

@@ -13,7 +13,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/study.h"
 
-namespace transillum {
+namespace transillum::units_test {
 namespace {
 
 using testing::Sketch;
@@ -150,4 +150,4 @@ TEST(Units, ScaleBringsNumbersNearOne) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::units_test

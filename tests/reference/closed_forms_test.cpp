@@ -9,7 +9,7 @@
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::closed_forms_test {
 namespace {
 
 using testing::Sketch;
@@ -159,4 +159,4 @@ TEST(ClosedForms, ALoneSquareKeepsItsExitance) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::closed_forms_test

@@ -5,7 +5,7 @@
 
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::directions_needed_test {
 namespace {
 
 /// Reflectance 0.6 everywhere, the enclosure included.
@@ -44,4 +44,4 @@ TEST(DirectionsNeeded, DefaultSetReachesOnePercentOnTheFlakeWithin150Passes) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::directions_needed_test

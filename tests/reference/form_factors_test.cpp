@@ -9,7 +9,7 @@
 #include "transillum/form_factors.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::form_factors_test {
 namespace {
 
 using testing::Sketch;
@@ -192,4 +192,4 @@ TEST(FormFactors, ThatDoNotContractAreReported) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::form_factors_test

@@ -16,7 +16,7 @@
 #include "transillum/picking.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::glossy_paths_test {
 namespace {
 
 using testing::Sketch;
@@ -395,4 +395,4 @@ TEST(GlossyConvergence, ErrorsDecreaseWithTheNumberOfPasses) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::glossy_paths_test

@@ -14,7 +14,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/sky.h"
 
-namespace transillum {
+namespace transillum::linear_radiosity_test {
 namespace {
 
 using testing::Sketch;
@@ -297,4 +297,4 @@ TEST(LinearFormFactors, AreThoseOfConstantFunctions) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::linear_radiosity_test

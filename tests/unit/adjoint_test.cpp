@@ -14,7 +14,7 @@
 #include "transillum/material_changes.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::adjoint_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -175,4 +175,4 @@ TEST(LightPaths, AreTheStrongestOfAllPaths) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::adjoint_test

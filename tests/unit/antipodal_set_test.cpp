@@ -12,7 +12,7 @@
 #include "transillum/at.h"
 #include "transillum/discrepancy.h"
 
-namespace transillum {
+namespace transillum::antipodal_set_test {
 namespace {
 
 std::vector<DirectionSample> axes(int count) {
@@ -190,4 +190,4 @@ TEST(DefaultSampling, DependsOnWhatAPassServes) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::antipodal_set_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace transillum {
+namespace transillum::boundary_cut_test {
 namespace {
 
 using Points = std::vector<std::pair<double, double>>;
@@ -261,4 +261,4 @@ TEST(BoundaryCut, FarLines) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::boundary_cut_test

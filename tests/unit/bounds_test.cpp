@@ -11,7 +11,7 @@
 #include "transillum/discrepancy.h"
 #include "transillum/errors.h"
 
-namespace transillum {
+namespace transillum::bounds_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -157,4 +157,4 @@ TEST(EstimatedPasses, FollowTheSlope) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::bounds_test

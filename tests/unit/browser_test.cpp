@@ -16,7 +16,7 @@
 #include "transillum/files.h"
 #include "transillum/radiosity.h"
 
-namespace transillum::testing {
+namespace transillum::testing::browser_test {
 namespace {
 
 using nlohmann::json;
@@ -180,4 +180,4 @@ TEST_F(Browser, NightlyShowsTheColorsOfAGltfRoom) { expect_colors(false); }
 TEST_F(Browser, NightlyShowsTheLightMapOfAGltfRoom) { expect_colors(true); }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::browser_test

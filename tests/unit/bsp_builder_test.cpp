@@ -13,7 +13,7 @@
 #include "visibility/bsp/clean_planes.h"
 #include "visibility/bsp/disk_tree.h"
 
-namespace transillum {
+namespace transillum::bsp_builder_test {
 namespace {
 
 using testing::Sketch;
@@ -209,4 +209,4 @@ TEST(CleanPlanes, AgreeInSmallAndLargeSets) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::bsp_builder_test

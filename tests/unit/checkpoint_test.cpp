@@ -17,7 +17,7 @@
 #include "support/temporary_folder.h"
 #include "transillum/study_checkpoint.h"
 
-namespace transillum {
+namespace transillum::checkpoint_test {
 namespace {
 
 using test::refusal;
@@ -358,4 +358,4 @@ TEST(StudyCheckpointFile, AStudyGoesOnAfterAnyPoint) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::checkpoint_test

@@ -7,7 +7,7 @@
 
 #include "scene_test_support.h"
 
-namespace transillum {
+namespace transillum::closed_surface_test {
 namespace {
 
 using Outlines = std::vector<std::vector<PointId>>;
@@ -83,4 +83,4 @@ TEST(ClosedSurface, OfBuiltIns) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::closed_surface_test

@@ -8,7 +8,7 @@
 #include "support/scenes.h"
 #include "transillum/bsp_tree.h"
 
-namespace transillum::testing {
+namespace transillum::testing::coplanar_overlap_test {
 namespace {
 
 std::vector<Vec3> rectangle(double x0, double y0, double x1, double y1) {
@@ -86,4 +86,4 @@ TEST(CoplanarOverlaps, DoNotOccurInBuiltInScenes) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::coplanar_overlap_test

@@ -9,7 +9,7 @@
 #include "transillum/directions.h"
 #include "transillum/errors.h"
 
-namespace transillum {
+namespace transillum::directions_test {
 namespace {
 
 /// RMS of 4 mean(max(n·omega, 0)) - 1 over normals: the error of irradiance under a uniform sky.
@@ -328,4 +328,4 @@ TEST(Directions, RejectsInvalidCountsAndNames) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::directions_test

@@ -7,7 +7,7 @@
 
 #include "transillum/discrepancy.h"
 
-namespace transillum {
+namespace transillum::discrepancy_test {
 namespace {
 
 /// All boxes whose upper sides are at a point or at 1, with and without their upper sides.
@@ -172,4 +172,4 @@ TEST(Discrepancies, CanBeCanceled) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::discrepancy_test

@@ -13,7 +13,7 @@
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::division_test {
 namespace {
 
 using ::testing::Each;
@@ -144,4 +144,4 @@ TEST(Division, LeavesWhatIsTooThin) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::division_test

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace transillum {
+namespace transillum::documents_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -196,4 +196,4 @@ TEST(Documents, CodeInTheReadmeIsThatOfAnExample) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::documents_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace transillum {
+namespace transillum::exact_side_test {
 namespace {
 
 using Fraction = boost::multiprecision::cpp_rational;
@@ -222,4 +222,4 @@ TEST(ExactMeeting, DetectsParallelLines) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::exact_side_test

@@ -20,7 +20,7 @@
 #include "transillum/directions.h"
 #include "transillum/engine.h"
 
-namespace transillum {
+namespace transillum::fast_engine_test {
 namespace {
 
 using testing::Sketch;
@@ -515,4 +515,4 @@ TEST(FastEngine, GivesTheSameBitsAgainAndInManyThreads) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::fast_engine_test

@@ -23,7 +23,7 @@
 #include "transillum/sensor_files.h"
 #include "transillum/study_files.h"
 
-namespace transillum::testing {
+namespace transillum::testing::file_tables_test {
 namespace {
 
 using ::testing::ElementsAreArray;
@@ -220,4 +220,4 @@ TEST_F(FileTables, DirectionsAndBounds) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::file_tables_test

@@ -8,7 +8,7 @@
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::first_shot_solve_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -134,4 +134,4 @@ TEST(FirstShot, OptionsAreParsedAndChecked) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::first_shot_solve_test

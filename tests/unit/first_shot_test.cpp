@@ -9,7 +9,7 @@
 #include "transillum/at.h"
 #include "visibility/pairs/patch_exchange.h"
 
-namespace transillum {
+namespace transillum::first_shot_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -186,4 +186,4 @@ TEST(Shoot, CanBeCanceledAndReportsProgress) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::first_shot_test

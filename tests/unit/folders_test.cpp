@@ -16,7 +16,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace transillum {
+namespace transillum::folders_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -345,4 +345,4 @@ TEST_F(PlantedIncludes, ThatCloseACycleAreReported) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::folders_test

@@ -22,7 +22,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/small_form_factors.h"
 
-namespace transillum::testing {
+namespace transillum::testing::form_factor_files_test {
 namespace {
 
 using test::refusal;
@@ -330,4 +330,4 @@ TEST_F(CliFactorFiles, LeavesOutTinyOnesAndNamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::form_factor_files_test

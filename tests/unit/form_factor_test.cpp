@@ -10,7 +10,7 @@
 #include "geometry/edge_integral.h"
 #include "support/scenes.h"
 
-namespace transillum {
+namespace transillum::form_factor_test {
 namespace {
 
 using Polygon = std::vector<Vec3>;
@@ -256,4 +256,4 @@ TEST(EdgePairIntegral, IsTheDoubleIntegralOfTheLogarithm) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::form_factor_test

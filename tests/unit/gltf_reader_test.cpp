@@ -16,14 +16,14 @@
 #include "scene_test_support.h"
 #include "transillum/files.h"
 
-namespace transillum {
+namespace transillum::gltf_reader_test {
 namespace {
 
 using nlohmann::json;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::SizeIs;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 /// A glTF file with one buffer.
 class File {
@@ -427,4 +427,4 @@ TEST(Gltf, BoundsWhatInstancesMultiply) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::gltf_reader_test

@@ -29,7 +29,7 @@
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
-namespace transillum::testing {
+namespace transillum::testing::io_writers_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -414,4 +414,4 @@ TEST(IoFiles, RefusesPipesInAdvance) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::io_writers_test

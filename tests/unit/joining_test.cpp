@@ -15,11 +15,11 @@
 #include "scene_test_support.h"
 #include "transillum/at.h"
 
-namespace transillum {
+namespace transillum::joining_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
 
 /// Turns by a rotation of no special angle and moves.
 Vec3 turned(const Vec3& p) {
@@ -241,4 +241,4 @@ TEST(Joining, IsCanceled) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::joining_test

@@ -12,7 +12,7 @@
 #include "support/refusal.h"
 #include "support/temporary_folder.h"
 
-namespace transillum::testing {
+namespace transillum::testing::json_text_test {
 namespace {
 
 using test::refusal;
@@ -117,4 +117,4 @@ TEST(JsonText, FilesAreReadWithinLimits) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::json_text_test

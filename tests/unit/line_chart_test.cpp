@@ -13,7 +13,7 @@
 #include "support/temporary_folder.h"
 #include "transillum/errors.h"
 
-namespace transillum::testing {
+namespace transillum::testing::line_chart_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -179,4 +179,4 @@ TEST(LineChart, NothingIsLeftBehindIfWritingFails) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::line_chart_test

@@ -19,7 +19,7 @@
 #include "transillum/study_files.h"
 #include "transillum/visibility_map.h"
 
-namespace transillum::testing {
+namespace transillum::testing::locale_test {
 namespace {
 
 using test::CommaLocale;
@@ -167,4 +167,4 @@ TEST(Locale, TheProgramWritesTheSameWithADecimalComma) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::locale_test

@@ -30,7 +30,7 @@
 #include "transillum/at.h"
 #include "transillum/errors.h"
 
-namespace transillum::testing {
+namespace transillum::testing::map_files_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -517,4 +517,4 @@ TEST_F(MapFiles, EndingsAreChecked) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::map_files_test

@@ -8,12 +8,12 @@
 
 #include "scene_test_support.h"
 
-namespace transillum {
+namespace transillum::material_changes_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// Five faces: 0 and 1 of wall, 2 of lamp, 3 and 4 of floor; 1, 2 and 3 are in the group east.
 SceneDescription five_faces() {
@@ -198,4 +198,4 @@ TEST(SuggestedLight, IsANameOfTheScene) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::material_changes_test

@@ -5,7 +5,7 @@
 
 #include "support/scenes.h"
 
-namespace transillum {
+namespace transillum::merged_pieces_test {
 namespace {
 
 using testing::Sketch;
@@ -69,4 +69,4 @@ TEST(MergedPieces, CoverTheSameAreaAsThePatches) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::merged_pieces_test

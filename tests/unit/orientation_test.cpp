@@ -13,7 +13,7 @@
 #include "transillum/form_factor_solve.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::orientation_test {
 namespace {
 
 using testing::Sketch;
@@ -351,4 +351,4 @@ TEST(BackShare, DoesNotDependOnThreads) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::orientation_test

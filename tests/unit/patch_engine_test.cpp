@@ -10,7 +10,7 @@
 #include "support/scenes.h"
 #include "visibility/fast/patch_shaft.h"
 
-namespace transillum {
+namespace transillum::patch_engine_test {
 namespace {
 
 std::vector<Transfer> of_patch(const Transfers& transfers, PatchId patch) {
@@ -88,4 +88,4 @@ TEST(PatchEngine, OtherEnginesAreRestrictedToThePatch) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::patch_engine_test

@@ -9,7 +9,7 @@
 #include "transillum/at.h"
 #include "transillum/form_factors.h"
 
-namespace transillum {
+namespace transillum::patch_exchange_test {
 namespace {
 
 using testing::Sketch;
@@ -172,4 +172,4 @@ TEST(PatchExchange, RowsOfClosedScenesSumToOne) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::patch_exchange_test

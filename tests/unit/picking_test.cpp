@@ -4,7 +4,7 @@
 #include "support/scenes.h"
 #include "transillum/picking.h"
 
-namespace transillum {
+namespace transillum::picking_test {
 namespace {
 
 using testing::Sketch;
@@ -94,4 +94,4 @@ TEST(Picker, IsAccurateFromFarAway) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::picking_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace transillum {
+namespace transillum::plane_region_test {
 namespace {
 
 struct Polygon {
@@ -150,4 +150,4 @@ TEST(PlaneRegion, DoesNotDependOnTheOrder) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::plane_region_test

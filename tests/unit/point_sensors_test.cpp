@@ -17,7 +17,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/sensor_files.h"
 
-namespace transillum::testing {
+namespace transillum::testing::point_sensors_test {
 namespace {
 
 using test::refusal;
@@ -216,4 +216,4 @@ TEST(CliSensors, WritesFormFactorsAndIrradiance) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::point_sensors_test

@@ -11,7 +11,7 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 
-namespace transillum::testing {
+namespace transillum::testing::power_table_test {
 namespace {
 
 using test::refusal;
@@ -182,4 +182,4 @@ TEST(CliSolveSky, ChecksItsOptions) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::power_table_test

@@ -10,7 +10,7 @@
 
 #include "transillum/transillum.h"
 
-namespace transillum {
+namespace transillum::public_headers_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ TEST(PublicHeaders, DeclareTheirClassesFirst) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::public_headers_test

@@ -10,7 +10,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/solve_errors.h"
 
-namespace transillum {
+namespace transillum::radiosity_schemes_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -417,4 +417,4 @@ TEST(SchemeOptions, ReportInvalidCombinations) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::radiosity_schemes_test

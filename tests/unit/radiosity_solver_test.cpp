@@ -13,7 +13,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/solve_errors.h"
 
-namespace transillum {
+namespace transillum::radiosity_solver_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -203,4 +203,4 @@ TEST(SolveOptions, ReportValuesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::radiosity_solver_test

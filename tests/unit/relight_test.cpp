@@ -15,7 +15,7 @@
 #include "transillum/material_changes.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace transillum::relight_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -463,4 +463,4 @@ TEST(Relight, RejectsInvalidMaterialsAndThoseOfAnotherScene) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::relight_test

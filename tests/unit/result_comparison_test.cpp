@@ -12,7 +12,7 @@
 #include "support/scenes.h"
 #include "transillum/files.h"
 
-namespace transillum::testing {
+namespace transillum::testing::result_comparison_test {
 namespace {
 
 using test::refusal;
@@ -167,4 +167,4 @@ TEST_F(CliCompare, RefusesWhatCannotBeCompared) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::result_comparison_test

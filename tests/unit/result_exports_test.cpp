@@ -17,7 +17,7 @@
 #include "transillum/at.h"
 #include "transillum/files.h"
 
-namespace transillum::testing {
+namespace transillum::testing::result_exports_test {
 namespace {
 
 using nlohmann::json;
@@ -369,4 +369,4 @@ TEST(CliExports, WritesASeriesOverDirections) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::result_exports_test

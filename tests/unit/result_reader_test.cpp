@@ -24,7 +24,7 @@
 #include "transillum/files.h"
 #include "transillum/radiosity.h"
 
-namespace transillum::testing {
+namespace transillum::testing::result_reader_test {
 namespace {
 
 using test::refusal;
@@ -367,4 +367,4 @@ TEST(CliResult, DamagedOnesAreNamed) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::result_reader_test

@@ -8,10 +8,10 @@
 
 #include "scene_test_support.h"
 
-namespace transillum {
+namespace transillum::scene_built_in_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 struct Expected {
   const char* spec;
@@ -19,13 +19,13 @@ struct Expected {
   double area;  ///< m²; 0: not known in closed form
 };
 
-class BuiltIns : public testing::TestWithParam<Expected> {};
+class BuiltIns : public ::testing::TestWithParam<Expected> {};
 
 TEST_P(BuiltIns, HaveExpectedPatchesAndNoWarnings) {
   const auto scene = load_scene(GetParam().spec);
   EXPECT_EQ(scene->patch_count(), GetParam().patches);
   EXPECT_EQ(scene->report().faces, GetParam().patches);
-  EXPECT_TRUE(scene->report().warnings.empty()) << testing::PrintToString(scene->report().warnings);
+  EXPECT_TRUE(scene->report().warnings.empty()) << ::testing::PrintToString(scene->report().warnings);
   if (GetParam().area > 0) {
     EXPECT_NEAR(test::total_area(*scene), GetParam().area, 1e-12 * GetParam().area);
   }
@@ -33,7 +33,7 @@ TEST_P(BuiltIns, HaveExpectedPatchesAndNoWarnings) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scene, BuiltIns,
-    testing::Values(Expected{"sphere-flake", 145 * 136 + 256, 0},
+    ::testing::Values(Expected{"sphere-flake", 145 * 136 + 256, 0},
                     Expected{"sphere-flake:levels=2,slices=17,stacks=8", 19'976, 0},
                     Expected{"sphere-flake:levels=0,slices=3,stacks=2", 6 + 256, 0},
                     Expected{"sphere-flake:levels=1,slices=4,stacks=3", 13 * 12 + 256, 0},
@@ -237,4 +237,4 @@ TEST(BuiltInScenes, WrongParametersAreReported) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_built_in_test

@@ -6,7 +6,7 @@
 
 #include "geometry/convex_partition.h"
 
-namespace transillum {
+namespace transillum::scene_convex_partition_test {
 namespace {
 
 using Outline = std::vector<PlanePoint>;
@@ -90,4 +90,4 @@ TEST(ConvexPartition, IsEmptyForCrossingOutlines) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_convex_partition_test

@@ -8,7 +8,7 @@
 
 #include "scene_test_support.h"
 
-namespace transillum {
+namespace transillum::scene_corpus_test {
 namespace {
 
 struct Entry {
@@ -55,7 +55,7 @@ std::string path_of(const Entry& entry) {
   return std::string(TRANSILLUM_DATA_DIR) + "/" + entry.file;
 }
 
-class Corpus : public testing::TestWithParam<Entry> {};
+class Corpus : public ::testing::TestWithParam<Entry> {};
 
 TEST_P(Corpus, LoadsWithAReport) {
   const Entry& e = GetParam();
@@ -119,7 +119,7 @@ TEST_P(Corpus, DamagedFileLoadsOrIsRefused) {
   EXPECT_EQ(loaded + refused, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scene, Corpus, testing::ValuesIn(entries()), [](const auto& entry) {
+INSTANTIATE_TEST_SUITE_P(Scene, Corpus, ::testing::ValuesIn(entries()), [](const auto& entry) {
   std::string name;
   for (const char c : std::string(entry.param.file)) {
     if (std::isalnum(static_cast<unsigned char>(c))) {
@@ -130,4 +130,4 @@ INSTANTIATE_TEST_SUITE_P(Scene, Corpus, testing::ValuesIn(entries()), [](const a
 });
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_corpus_test

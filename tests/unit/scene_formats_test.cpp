@@ -11,12 +11,12 @@
 
 #include "scene_test_support.h"
 
-namespace transillum {
+namespace transillum::scene_formats_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 SceneDescription read(const std::string& name, const std::string& text,
                       const ReadOptions& options = {}) {
@@ -139,7 +139,7 @@ TEST(SceneFormats, PlyIgnoresWhatFollowsOnALineAndUnknownLinesOfTheHeader) {
            "property list uchar int vertex_index\nend_header\n"
            "0 0 0 1\n1 0 0 1\n0 1 0\n3 0 1 2 9 1 1\n3 2 1 0\n");
   EXPECT_THAT(d.outline(1), ElementsAre(2, 1, 0));
-  EXPECT_THAT(d.notes, testing::Contains(HasSubstr("a.ply:3: `Created` is not a keyword")));
+  EXPECT_THAT(d.notes, ::testing::Contains(HasSubstr("a.ply:3: `Created` is not a keyword")));
 }
 
 TEST(SceneFormats, PlyRefusesWhatIsBroken) {
@@ -337,7 +337,7 @@ TEST(SceneFormats, RadiancePolygonsHaveTheDiffusePartOfTheirMaterials) {
             (Rgb{2 * std::numbers::pi, std::numbers::pi, 0.5 * std::numbers::pi}));
   EXPECT_EQ(material(2).name, "red");
   EXPECT_THAT(d.groups, ElementsAre("floor.1", "ceiling", "wall"));
-  EXPECT_THAT(d.notes, testing::Contains(HasSubstr("sphere `ball` is not a polygon; left out")));
+  EXPECT_THAT(d.notes, ::testing::Contains(HasSubstr("sphere `ball` is not a polygon; left out")));
 }
 
 TEST(SceneFormats, RadianceRefusesCommandsAndWhatIsBroken) {
@@ -368,4 +368,4 @@ TEST(SceneFormats, AreFoundByTheEndingInAnyCaseAndListedWhenItIsUnknown) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_formats_test

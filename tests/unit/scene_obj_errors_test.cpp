@@ -8,11 +8,11 @@
 
 #include "scene_test_support.h"
 
-namespace transillum {
+namespace transillum::scene_obj_errors_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::string white = "newmtl white\nKd .7 .7 .7\n";
@@ -131,7 +131,7 @@ std::vector<Row> mtl_rows() {
   };
 }
 
-class ObjErrors : public testing::TestWithParam<Row> {};
+class ObjErrors : public ::testing::TestWithParam<Row> {};
 
 TEST_P(ObjErrors, NamePlaceAndReason) {
   const Row& row = GetParam();
@@ -148,9 +148,9 @@ TEST_P(ObjErrors, NamePlaceAndReason) {
   EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
 }
 
-INSTANTIATE_TEST_SUITE_P(Obj, ObjErrors, testing::ValuesIn(obj_rows()),
+INSTANTIATE_TEST_SUITE_P(Obj, ObjErrors, ::testing::ValuesIn(obj_rows()),
                          [](const auto& row) { return row.param.name; });
-INSTANTIATE_TEST_SUITE_P(Mtl, ObjErrors, testing::ValuesIn(mtl_rows()),
+INSTANTIATE_TEST_SUITE_P(Mtl, ObjErrors, ::testing::ValuesIn(mtl_rows()),
                          [](const auto& row) { return row.param.name; });
 
 TEST(ObjFile, MissingIsReported) {
@@ -211,4 +211,4 @@ TEST(ObjFile, ReadingStopsWhenCanceled) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_obj_errors_test

@@ -7,12 +7,12 @@
 #include "scene_test_support.h"
 #include "transillum/files.h"
 
-namespace transillum {
+namespace transillum::scene_obj_reader_test {
 namespace {
 
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -229,4 +229,4 @@ TEST(ObjWriter, LeavesNoFileIfItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_obj_reader_test

@@ -11,15 +11,15 @@
 #include "scene_test_support.h"
 #include "transillum/at.h"
 
-namespace transillum {
+namespace transillum::scene_patches_test {
 namespace {
 
 using test::polygon;
 using test::polygons;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::SizeIs;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 /// Each piece is convex and oriented as its patch, and the areas of the pieces add up to the
 /// patch's.
@@ -248,4 +248,4 @@ TEST(ScenePatches, RefuseInvalidDescriptions) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_patches_test

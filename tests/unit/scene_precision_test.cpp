@@ -14,7 +14,7 @@
 #include "transillum/engine.h"
 #include "transillum/files.h"
 
-namespace transillum {
+namespace transillum::scene_precision_test {
 namespace {
 
 /// A scene, turned, its coordinates printed with so many digits.
@@ -151,4 +151,4 @@ TEST(Precision, ABendLargerThanTheRoundingIsAFeature) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_precision_test

@@ -10,11 +10,11 @@
 #include "scene/read/obj_reader.h"
 #include "scene_test_support.h"
 
-namespace transillum {
+namespace transillum::scene_reader_limits_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::string white = "newmtl white\nKd .7 .7 .7\n";
@@ -43,7 +43,7 @@ void expect_memory(const std::string& path, std::size_t most) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "memory that is freed is kept for a while";
 #endif
-  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(
       {
         const std::size_t before = peak_memory();
@@ -52,7 +52,7 @@ void expect_memory(const std::string& path, std::size_t most) {
         std::fprintf(stderr, "%zu bytes\n", used);
         std::exit(used <= most ? 0 : 1);
       },
-      testing::ExitedWithCode(0), "bytes");
+      ::testing::ExitedWithCode(0), "bytes");
 }
 
 // Each line used to be searched again from its beginning for every continuation: hours.
@@ -134,7 +134,7 @@ TEST(ReaderLimits, AMaterialFileIsReadOnce) {
       read_obj(folder.write("s.obj", repeated("mtllib gone.mtl s.mtl\n", 10'000) + use));
   EXPECT_EQ(d.materials.size(), 1u);
   EXPECT_THAT(d.notes,
-              testing::ElementsAre(testing::HasSubstr("s.obj:1: MTL file `gone.mtl` not found")));
+              ::testing::ElementsAre(::testing::HasSubstr("s.obj:1: MTL file `gone.mtl` not found")));
 }
 
 // The whole name, of any length, was part of the message.
@@ -145,7 +145,7 @@ TEST(ReaderLimits, MessagesQuoteTheBeginningOfLongNames) {
   const std::string message = test::refusal([&] {
     read_obj(folder.write("s.obj", "mtllib s.mtl\n" + square + "usemtl " + name + "\nf 1 2 3\n"));
   });
-  EXPECT_THAT(message, testing::HasSubstr("s.mtl:1: material `aaaa"));
+  EXPECT_THAT(message, ::testing::HasSubstr("s.mtl:1: material `aaaa"));
   EXPECT_LT(message.size(), 300u);
 }
 
@@ -155,8 +155,8 @@ TEST(ReaderLimits, MessagesContainNoControlCharacters) {
   folder.write("s.mtl", "newmtl whit\x1b\nKd .5 .5 .5\n");
   const SceneDescription d =
       read_obj(folder.write("s.obj", "mtllib s.mtl\n" + square + "usemtl white\nf 1 2 3\n"));
-  EXPECT_THAT(d.notes, testing::ElementsAre(testing::EndsWith("assumed for 1 face")));
+  EXPECT_THAT(d.notes, ::testing::ElementsAre(::testing::EndsWith("assumed for 1 face")));
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_reader_limits_test

@@ -7,7 +7,7 @@
 
 #include "scene_test_support.h"
 
-namespace transillum {
+namespace transillum::scene_refinement_test {
 namespace {
 
 Scene refined(const SceneDescription& d, double max_area, bool two_sided = false) {
@@ -106,4 +106,4 @@ TEST(Refinement, RefusesTooManyPatches) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_refinement_test

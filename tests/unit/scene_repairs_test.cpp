@@ -8,21 +8,21 @@
 
 #include "scene_test_support.h"
 
-namespace transillum {
+namespace transillum::scene_repairs_test {
 namespace {
 
-using testing::AllOf;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::string face = "f 1 2 3\n";
 const std::string textures = std::string(TRANSILLUM_DATA_DIR) + "/corpus/textures/";
 
 /// A folder with s.obj and s.mtl.
-class SceneRepairs : public testing::Test {
+class SceneRepairs : public ::testing::Test {
  protected:
   SceneDescription read(const std::string& obj, const std::string& mtl = "",
                         const ReadOptions& options = {}) const {
@@ -264,4 +264,4 @@ TEST(CoveredFaces, AreThoseThatAreNotSeen) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::scene_repairs_test

@@ -14,7 +14,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/study.h"
 
-namespace transillum {
+namespace transillum::semi_iterative_test {
 namespace {
 
 using ::testing::Each;
@@ -290,4 +290,4 @@ TEST(SemiIterative, StudiesCountTheIterationsOfTheBurnIn) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::semi_iterative_test

@@ -14,7 +14,7 @@
 #include "support/refusal.h"
 #include "support/temporary_folder.h"
 
-namespace transillum {
+namespace transillum::shard_files_test {
 namespace {
 
 using test::refusal;
@@ -179,4 +179,4 @@ TEST(ShareText, IsKOfN) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::shard_files_test

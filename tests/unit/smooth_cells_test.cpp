@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace transillum {
+namespace transillum::smooth_cells_test {
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -58,4 +58,4 @@ TEST(SmoothCells, AreFewAndMakeUpThePolygon) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::smooth_cells_test

@@ -14,7 +14,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/solve_errors.h"
 
-namespace transillum {
+namespace transillum::solver_group_test {
 namespace {
 
 using testing::run_in_group;
@@ -293,4 +293,4 @@ TEST(SolverGroup, FailsTogether) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::solver_group_test

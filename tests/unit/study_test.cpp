@@ -19,7 +19,7 @@
 #include "transillum/reference_cache.h"
 #include "transillum/study_files.h"
 
-namespace transillum::testing {
+namespace transillum::testing::study_test {
 namespace {
 
 using ::testing::AnyOf;
@@ -490,4 +490,4 @@ TEST(StudyPlot, ExtremeValuesCanBeDrawn) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::study_test

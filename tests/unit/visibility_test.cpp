@@ -14,7 +14,7 @@
 #include "transillum/engine.h"
 #include "visibility/plane/plane_index.h"
 
-namespace transillum {
+namespace transillum::visibility_test {
 namespace {
 
 using testing::Sketch;
@@ -278,4 +278,4 @@ TEST(ExchangeSums, StopWhenCanceled) {
 }
 
 }  // namespace
-}  // namespace transillum
+}  // namespace transillum::visibility_test

@@ -24,7 +24,7 @@
 #include "transillum/files.h"
 #include "transillum/radiosity.h"
 
-namespace transillum::testing {
+namespace transillum::testing::vtk_reader_test {
 namespace {
 
 using test::refusal;
@@ -381,4 +381,4 @@ TEST_F(VtkReader, CanBeCanceled) {
 }
 
 }  // namespace
-}  // namespace transillum::testing
+}  // namespace transillum::testing::vtk_reader_test

@@ -24,9 +24,9 @@
 #include "window/dock_layouts.h"
 #include "window/key_list.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::appearance_test {
+
+using namespace test;
 
 namespace {
 
@@ -402,5 +402,8 @@ class AppearanceTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(AppearanceTest)
+const test::Registered registered("appearance", test::run_as_viewer<AppearanceTest>);
+
+}  // namespace transillum::viewer::appearance_test
+
 #include "appearance_test.moc"

@@ -8,7 +8,9 @@
 #include <new>
 #include <stdexcept>
 
-using namespace transillum::viewer;
+#include "registered.h"
+
+namespace transillum::viewer::application_test {
 
 class ApplicationTest : public QObject {
   Q_OBJECT
@@ -52,9 +54,12 @@ class ApplicationTest : public QObject {
   Application& application_;
 };
 
-int main(int argc, char** argv) {
+const test::Registered registered("application", [](int argc, char** argv) {
   Application application(argc, argv);
   ApplicationTest test(application);
   return QTest::qExec(&test, argc, argv);
-}
+});
+
+}  // namespace transillum::viewer::application_test
+
 #include "application_test.moc"

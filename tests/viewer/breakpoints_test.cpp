@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 
+#include "registered.h"
 #include "state/algorithm_state.h"
 #include "state/camera_views.h"
 #include "state/step_events.h"
@@ -21,8 +22,7 @@
 #include "transillum/directions.h"
 #include "transillum/map_region.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
+namespace transillum::viewer::breakpoints_test {
 
 namespace {
 
@@ -594,5 +594,8 @@ class BreakpointsTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(BreakpointsTest)
+const test::Registered registered("breakpoints", test::run_without_widgets<BreakpointsTest>);
+
+}  // namespace transillum::viewer::breakpoints_test
+
 #include "breakpoints_test.moc"

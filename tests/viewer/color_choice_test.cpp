@@ -9,10 +9,10 @@
 #include <cmath>
 
 #include "model/form_factor_views.h"
+#include "registered.h"
 #include "solved_snapshot.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
+namespace transillum::viewer::color_choice_test {
 
 namespace {
 
@@ -309,5 +309,8 @@ class ColorChoiceTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(ColorChoiceTest)
+const test::Registered registered("color_choice", test::run_without_application<ColorChoiceTest>);
+
+}  // namespace transillum::viewer::color_choice_test
+
 #include "color_choice_test.moc"

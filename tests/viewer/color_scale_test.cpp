@@ -6,11 +6,11 @@
 #include <QTest>
 #include <cmath>
 
+#include "registered.h"
 #include "support/number_text.h"
 #include "widgets/log_chart.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
+namespace transillum::viewer::color_scale_test {
 
 namespace {
 
@@ -155,5 +155,8 @@ class ColorScaleTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(ColorScaleTest)
+const test::Registered registered("color_scale", test::run_without_application<ColorScaleTest>);
+
+}  // namespace transillum::viewer::color_scale_test
+
 #include "color_scale_test.moc"

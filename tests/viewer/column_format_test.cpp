@@ -4,7 +4,9 @@
 #include <QTest>
 #include <cmath>
 
-using namespace transillum::viewer;
+#include "registered.h"
+
+namespace transillum::viewer::column_format_test {
 
 class ColumnFormatTest : public QObject {
   Q_OBJECT
@@ -47,5 +49,8 @@ class ColumnFormatTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(ColumnFormatTest)
+const test::Registered registered("column_format", test::run_without_application<ColumnFormatTest>);
+
+}  // namespace transillum::viewer::column_format_test
+
 #include "column_format_test.moc"

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <sstream>
 
-using namespace transillum;
-using namespace transillum::viewer;
+#include "registered.h"
+
+namespace transillum::viewer::command_line_test {
 
 namespace {
 
@@ -183,5 +184,8 @@ class CommandLineTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(CommandLineTest)
+const test::Registered registered("command_line", test::run_without_application<CommandLineTest>);
+
+}  // namespace transillum::viewer::command_line_test
+
 #include "command_line_test.moc"

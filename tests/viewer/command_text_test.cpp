@@ -15,9 +15,9 @@
 #include "solved_window.h"
 #include "transillum/at.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::command_text_test {
+
+using namespace test;
 
 namespace {
 
@@ -146,5 +146,8 @@ class CommandTextTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(CommandTextTest)
+const test::Registered registered("command_text", test::run_as_viewer<CommandTextTest>);
+
+}  // namespace transillum::viewer::command_text_test
+
 #include "command_text_test.moc"

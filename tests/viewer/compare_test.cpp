@@ -23,9 +23,9 @@
 #include "state/breakpoints.h"
 #include "widgets/engine_text.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::compare_test {
+
+using namespace test;
 
 namespace {
 
@@ -447,5 +447,8 @@ class CompareTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(CompareTest)
+const test::Registered registered("compare", test::run_as_viewer<CompareTest>);
+
+}  // namespace transillum::viewer::compare_test
+
 #include "compare_test.moc"

@@ -24,9 +24,9 @@
 #include "stepping/watch_chart.h"
 #include "transillum/at.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::debugging_test {
+
+using namespace test;
 
 namespace {
 
@@ -506,5 +506,8 @@ class DebuggingTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(DebuggingTest)
+const test::Registered registered("debugging", test::run_as_viewer<DebuggingTest>);
+
+}  // namespace transillum::viewer::debugging_test
+
 #include "debugging_test.moc"

@@ -16,8 +16,9 @@
 #include "transillum/files.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "window_support.h"
 
-using namespace transillum;
+namespace transillum::viewer::desktop_test {
 
 namespace {
 
@@ -168,5 +169,8 @@ class DesktopTest : public QObject {
   QTemporaryDir data_;
 };
 
-QTEST_MAIN(DesktopTest)
+const test::Registered registered("desktop", test::run_as_viewer<DesktopTest>);
+
+}  // namespace transillum::viewer::desktop_test
+
 #include "desktop_test.moc"

@@ -14,9 +14,9 @@
 #include "state/step_events.h"
 #include "transillum/at.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::direction_view_test {
+
+using namespace test;
 
 namespace {
 
@@ -190,5 +190,8 @@ class DirectionViewTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(DirectionViewTest)
+const test::Registered registered("direction_view", test::run_as_viewer<DirectionViewTest>);
+
+}  // namespace transillum::viewer::direction_view_test
+
 #include "direction_view_test.moc"

@@ -5,11 +5,11 @@
 #include <QTest>
 #include <algorithm>
 
+#include "registered.h"
 #include "transillum/at.h"
 #include "transillum/directions.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
+namespace transillum::viewer::focus_test {
 
 namespace {
 
@@ -354,5 +354,8 @@ class FocusTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(FocusTest)
+const test::Registered registered("focus", test::run_without_widgets<FocusTest>);
+
+}  // namespace transillum::viewer::focus_test
+
 #include "focus_test.moc"

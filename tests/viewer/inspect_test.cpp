@@ -39,9 +39,9 @@
 #include "state/camera_views.h"
 #include "window/inspection_panels.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::inspect_test {
+
+using namespace test;
 
 namespace {
 
@@ -1015,5 +1015,8 @@ class InspectTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(InspectTest)
+const test::Registered registered("inspect", test::run_as_viewer<InspectTest>);
+
+}  // namespace transillum::viewer::inspect_test
+
 #include "inspect_test.moc"

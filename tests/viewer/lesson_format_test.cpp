@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "lessons/lesson.h"
+#include "registered.h"
 #include "transillum/errors.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
+namespace transillum::viewer::lesson_format_test {
 
 namespace {
 
@@ -294,5 +294,8 @@ class LessonFormatTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(LessonFormatTest)
+const test::Registered registered("lesson_format", test::run_without_widgets<LessonFormatTest>);
+
+}  // namespace transillum::viewer::lesson_format_test
+
 #include "lesson_format_test.moc"

@@ -16,9 +16,9 @@
 #include "transillum/at.h"
 #include "window/lesson_export.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::lesson_html_test {
+
+using namespace test;
 
 namespace {
 
@@ -187,5 +187,8 @@ class LessonHtmlTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(LessonHtmlTest)
+const test::Registered registered("lesson_html", test::run_as_viewer<LessonHtmlTest>);
+
+}  // namespace transillum::viewer::lesson_html_test
+
 #include "lesson_html_test.moc"

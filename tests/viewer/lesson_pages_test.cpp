@@ -19,6 +19,7 @@
 #include "colors/color_scale.h"
 #include "lessons/lesson.h"
 #include "model/recorded_map.h"
+#include "registered.h"
 #include "scene/direction_glyph.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
@@ -30,8 +31,7 @@
 #include "transillum/study.h"
 #include "widgets/theme.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
+namespace transillum::viewer::lesson_pages_test {
 
 namespace {
 
@@ -805,5 +805,8 @@ class LessonPagesTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(LessonPagesTest)
+const test::Registered registered("lesson_pages", test::run_without_widgets<LessonPagesTest>);
+
+}  // namespace transillum::viewer::lesson_pages_test
+
 #include "lesson_pages_test.moc"

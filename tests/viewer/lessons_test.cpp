@@ -18,9 +18,9 @@
 #include "window/export_actions.h"
 #include "window/view_state_applier.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::lessons_test {
+
+using namespace test;
 
 namespace {
 
@@ -424,5 +424,8 @@ class LessonsTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(LessonsTest)
+const test::Registered registered("lessons", test::run_as_viewer<LessonsTest>);
+
+}  // namespace transillum::viewer::lessons_test
+
 #include "lessons_test.moc"

@@ -19,9 +19,9 @@
 #include "transillum/relight.h"
 #include "window/export_actions.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::light_test {
+
+using namespace test;
 
 namespace {
 
@@ -297,5 +297,8 @@ class LightTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(LightTest)
+const test::Registered registered("light", test::run_as_viewer<LightTest>);
+
+}  // namespace transillum::viewer::light_test
+
 #include "light_test.moc"

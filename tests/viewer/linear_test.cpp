@@ -20,9 +20,9 @@
 #include "transillum/files.h"
 #include "window/export_actions.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::linear_test {
+
+using namespace test;
 
 namespace {
 
@@ -429,5 +429,8 @@ class LinearTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(LinearTest)
+const test::Registered registered("linear", test::run_as_viewer<LinearTest>);
+
+}  // namespace transillum::viewer::linear_test
+
 #include "linear_test.moc"

@@ -12,9 +12,9 @@
 #include "lessons/session_file.h"
 #include "solved_window.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::locale_test {
+
+using namespace test;
 
 class LocaleTest : public QObject {
   Q_OBJECT
@@ -65,5 +65,8 @@ class LocaleTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(LocaleTest)
+const test::Registered registered("locale", test::run_as_viewer<LocaleTest>);
+
+}  // namespace transillum::viewer::locale_test
+
 #include "locale_test.moc"

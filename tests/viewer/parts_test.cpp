@@ -29,9 +29,9 @@
 #include "window/view_state_applier.h"
 #include "window/window_session.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::parts_test {
+
+using namespace test;
 
 namespace {
 
@@ -390,5 +390,8 @@ class PartsTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(PartsTest)
+const test::Registered registered("parts", test::run_as_viewer<PartsTest>);
+
+}  // namespace transillum::viewer::parts_test
+
 #include "parts_test.moc"

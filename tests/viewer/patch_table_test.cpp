@@ -12,12 +12,13 @@
 
 #include "colors/color_scale.h"
 #include "patches/patch_columns.h"
+#include "registered.h"
 #include "solved_snapshot.h"
 #include "transillum/at.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::patch_table_test {
+
+using namespace test;
 
 namespace {
 
@@ -217,5 +218,8 @@ class PatchTableTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(PatchTableTest)
+const test::Registered registered("patch_table", test::run_without_application<PatchTableTest>);
+
+}  // namespace transillum::viewer::patch_table_test
+
 #include "patch_table_test.moc"

@@ -19,9 +19,9 @@
 #include "transillum/patch_count.h"
 #include "window/view_state_applier.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::pictures_test {
+
+using namespace test;
 
 namespace {
 
@@ -224,5 +224,8 @@ class PicturesTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(PicturesTest)
+const test::Registered registered("pictures", test::run_as_viewer<PicturesTest>);
+
+}  // namespace transillum::viewer::pictures_test
+
 #include "pictures_test.moc"

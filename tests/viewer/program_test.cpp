@@ -10,6 +10,10 @@
 #include <QTest>
 #include <csignal>
 
+#include "registered.h"
+
+namespace transillum::viewer::program_test {
+
 namespace {
 
 /// The program, started by a shell after `prefix`.
@@ -190,5 +194,8 @@ class ProgramTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(ProgramTest)
+const test::Registered registered("program", test::run_without_widgets<ProgramTest>);
+
+}  // namespace transillum::viewer::program_test
+
 #include "program_test.moc"

@@ -23,9 +23,9 @@
 #include "solved_window.h"
 #include "transillum/at.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::questions_test {
+
+using namespace test;
 
 namespace {
 
@@ -530,5 +530,8 @@ class QuestionsTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(QuestionsTest)
+const test::Registered registered("questions", test::run_as_viewer<QuestionsTest>);
+
+}  // namespace transillum::viewer::questions_test
+
 #include "questions_test.moc"

@@ -13,7 +13,9 @@
 #include <utility>
 #include <vector>
 
-namespace transillum::viewer {
+#include "registered.h"
+
+namespace transillum::viewer::request_worker_test {
 
 namespace {
 
@@ -184,8 +186,8 @@ class RequestWorkerTest : public QObject {
   }
 };
 
-}  // namespace transillum::viewer
+const test::Registered registered("request_worker", test::run_without_widgets<RequestWorkerTest>);
 
-QTEST_GUILESS_MAIN(transillum::viewer::RequestWorkerTest)
+}  // namespace transillum::viewer::request_worker_test
 
 #include "request_worker_test.moc"

@@ -12,9 +12,9 @@
 
 #include "window_support.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::responsiveness_test {
+
+using namespace test;
 
 namespace {
 
@@ -187,5 +187,8 @@ class ResponsivenessTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(ResponsivenessTest)
+const test::Registered registered("responsiveness", test::run_as_viewer<ResponsivenessTest>);
+
+}  // namespace transillum::viewer::responsiveness_test
+
 #include "responsiveness_test.moc"

@@ -12,9 +12,9 @@
 #include "window/export_actions.h"
 #include "window/file_actions.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::result_test {
+
+using namespace test;
 
 namespace {
 
@@ -130,5 +130,8 @@ class ResultTest : public QObject {
   Solution written_;
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(ResultTest)
+const test::Registered registered("result", test::run_as_viewer<ResultTest>);
+
+}  // namespace transillum::viewer::result_test
+
 #include "result_test.moc"

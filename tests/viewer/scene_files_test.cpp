@@ -35,9 +35,9 @@
 #include "window/reading_dialog.h"
 #include "window/reading_memory.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::scene_files_test {
+
+using namespace test;
 
 namespace {
 
@@ -339,5 +339,8 @@ class SceneFilesTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(SceneFilesTest)
+const test::Registered registered("scene_files", test::run_as_viewer<SceneFilesTest>);
+
+}  // namespace transillum::viewer::scene_files_test
+
 #include "scene_files_test.moc"

@@ -6,6 +6,10 @@
 #include <QTemporaryDir>
 #include <QTest>
 
+#include "registered.h"
+
+namespace transillum::viewer::screenshot_test {
+
 class ScreenshotTest : public QObject {
   Q_OBJECT
 
@@ -140,5 +144,8 @@ class ScreenshotTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(ScreenshotTest)
+const test::Registered registered("screenshot", test::run_without_widgets<ScreenshotTest>);
+
+}  // namespace transillum::viewer::screenshot_test
+
 #include "screenshot_test.moc"

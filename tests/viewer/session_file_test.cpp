@@ -39,9 +39,9 @@
 #include "window/window_session.h"
 #include "window/work_guard.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::session_file_test {
+
+using namespace test;
 
 namespace {
 
@@ -850,5 +850,8 @@ class SessionFileTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(SessionFileTest)
+const test::Registered registered("session_file", test::run_as_viewer<SessionFileTest>);
+
+}  // namespace transillum::viewer::session_file_test
+
 #include "session_file_test.moc"

@@ -10,8 +10,9 @@
 #include <QTest>
 #include <QThread>
 
-using namespace transillum;
-using namespace transillum::viewer;
+#include "registered.h"
+
+namespace transillum::viewer::solve_runner_test {
 
 namespace {
 
@@ -314,5 +315,8 @@ class SolveRunnerTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(SolveRunnerTest)
+const test::Registered registered("solve_runner", test::run_without_widgets<SolveRunnerTest>);
+
+}  // namespace transillum::viewer::solve_runner_test
+
 #include "solve_runner_test.moc"

@@ -19,9 +19,9 @@
 #include "transillum/errors.h"
 #include "widgets/log_chart.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::stepping_test {
+
+using namespace test;
 
 namespace {
 
@@ -516,5 +516,8 @@ class SteppingTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(SteppingTest)
+const test::Registered registered("stepping", test::run_as_viewer<SteppingTest>);
+
+}  // namespace transillum::viewer::stepping_test
+
 #include "stepping_test.moc"

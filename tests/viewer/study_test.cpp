@@ -18,9 +18,9 @@
 #include "support/number_text.h"
 #include "widgets/banner.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::study_test {
+
+using namespace test;
 
 namespace {
 
@@ -190,5 +190,8 @@ class StudyTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(StudyTest)
+const test::Registered registered("study", test::run_as_viewer<StudyTest>);
+
+}  // namespace transillum::viewer::study_test
+
 #include "study_test.moc"

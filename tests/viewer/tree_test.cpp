@@ -18,9 +18,9 @@
 #include "tree/tree_path_table.h"
 #include "tree/tree_text.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::tree_test {
+
+using namespace test;
 
 namespace {
 
@@ -286,5 +286,8 @@ class TreeTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(TreeTest)
+const test::Registered registered("tree", test::run_as_viewer<TreeTest>);
+
+}  // namespace transillum::viewer::tree_test
+
 #include "tree_test.moc"

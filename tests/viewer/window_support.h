@@ -13,6 +13,7 @@
 
 #include "map/map_canvas.h"
 #include "map/map_view.h"
+#include "registered.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "solve/settings_panel.h"
@@ -89,16 +90,15 @@ inline void save_picture(QWidget& window, const QString& name) {
   }
 }
 
-}  // namespace transillum::viewer::test
+/// Runs a test with Qt set up as main.cpp does.
+template <class Test>
+int run_as_viewer(int argc, char** argv) {
+  QStandardPaths::setTestModeEnabled(true);
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  QApplication application(argc, argv);
+  use_decimal_point();
+  theme::apply(application);
+  return run_without_application<Test>(argc, argv);
+}
 
-/// Sets Qt up as main.cpp does.
-#define TRANSILLUM_VIEWER_TEST_MAIN(TestClass)                                 \
-  int main(int argc, char** argv) {                                            \
-    QStandardPaths::setTestModeEnabled(true);                                  \
-    QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat()); \
-    QApplication application(argc, argv);                                      \
-    transillum::viewer::use_decimal_point();                                   \
-    transillum::viewer::theme::apply(application);                             \
-    TestClass test;                                                            \
-    return QTest::qExec(&test, argc, argv);                                    \
-  }
+}  // namespace transillum::viewer::test

@@ -26,12 +26,13 @@
 #include "scene/color_controls.h"
 #include "scene/welcome_page.h"
 #include "solved_window.h"
+#include "transillum/at.h"
 #include "transillum/patch_count.h"
 #include "window/view_state_applier.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::window_test {
+
+using namespace test;
 
 namespace {
 
@@ -665,6 +666,8 @@ class WindowTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(WindowTest)
-#include "transillum/at.h"
+const test::Registered registered("window", test::run_as_viewer<WindowTest>);
+
+}  // namespace transillum::viewer::window_test
+
 #include "window_test.moc"

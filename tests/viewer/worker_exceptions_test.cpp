@@ -334,5 +334,5 @@ class WorkerExceptionsTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(WorkerExceptionsTest)
+int main(int argc, char** argv) { return run_as_viewer<WorkerExceptionsTest>(argc, argv); }
 #include "worker_exceptions_test.moc"
