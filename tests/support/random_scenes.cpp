@@ -76,10 +76,10 @@ std::vector<Vec3> placed(const std::vector<std::array<double, 2>>& figure, const
   return outline;
 }
 
-struct Axes {
+struct PlaneAxes {
   Vec3 u, v;
 };
-Axes any_axes(SceneGenerator& generator) {
+PlaneAxes any_axes(SceneGenerator& generator) {
   const Vec3 normal = generator.unit();
   const Vec3 u = normalized(cross(normal, generator.unit()));
   return {u, cross(normal, u)};
@@ -123,7 +123,7 @@ void add_triangles(SceneGenerator& generator, int count) {
 
 void add_stars(SceneGenerator& generator, int count, bool straight_corners) {
   for (int k = 0; k < count; ++k) {
-    const Axes axes = any_axes(generator);
+    const PlaneAxes axes = any_axes(generator);
     generator.face(placed(star(generator, generator.some(4, 9), straight_corners),
                           generator.point(0.7), axes.u, axes.v));
   }
@@ -160,7 +160,8 @@ void boxes_in_a_room(SceneGenerator& generator) {
 
 /// Tiles that touch, overlap or coincide, in a few parallel planes.
 void stacks_of_tiles(SceneGenerator& generator) {
-  const Axes axes = generator.chance(0.5) ? Axes{{1, 0, 0}, {0, 1, 0}} : any_axes(generator);
+  const PlaneAxes axes =
+      generator.chance(0.5) ? PlaneAxes{{1, 0, 0}, {0, 1, 0}} : any_axes(generator);
   const Vec3 normal = cross(axes.u, axes.v);
   const int planes = generator.some(1, 4);
   for (int plane = 0; plane < planes; ++plane) {
@@ -175,7 +176,7 @@ void stacks_of_tiles(SceneGenerator& generator) {
 }
 
 /// A rectangle subdivided recursively, so that corners lie inside the edges of other parts.
-void cut_rectangle(SceneGenerator& generator, const Axes& axes, const Vec3& at, double x0,
+void cut_rectangle(SceneGenerator& generator, const PlaneAxes& axes, const Vec3& at, double x0,
                    double x1, double y0, double y1, int depth, bool reversed) {
   if (depth > 0) {
     const double share = generator.uniform(0.2, 0.8);
@@ -195,9 +196,9 @@ void cut_rectangle(SceneGenerator& generator, const Axes& axes, const Vec3& at, 
 }
 
 void grids_with_t_junctions(SceneGenerator& generator) {
-  const Axes flat{{1, 0, 0}, {0, 1, 0}};
+  const PlaneAxes flat{{1, 0, 0}, {0, 1, 0}};
   cut_rectangle(generator, flat, {-1, -1, 0}, 0, 2, 0, 2, generator.some(2, 5), false);
-  const Axes above = generator.chance(0.5) ? flat : any_axes(generator);
+  const PlaneAxes above = generator.chance(0.5) ? flat : any_axes(generator);
   cut_rectangle(generator, above, {-0.5, -0.5, generator.uniform(0.2, 1.5)}, -1, 1, -1, 1,
                 generator.some(1, 5), generator.chance(0.7));
   add_triangles(generator, generator.pick(4));
@@ -207,7 +208,7 @@ void grids_with_t_junctions(SceneGenerator& generator) {
 void slivers(SceneGenerator& generator) {
   const int count = generator.some(5, 20);
   for (int k = 0; k < count; ++k) {
-    const Axes axes = any_axes(generator);
+    const PlaneAxes axes = any_axes(generator);
     const double width = std::pow(10.0, -generator.uniform(1, 7));
     const Vec3 at = generator.point(0.5);
     if (generator.chance(0.5)) {
@@ -249,7 +250,7 @@ void both_sides_of_everything(SceneGenerator& generator) {
 void coincident_faces(SceneGenerator& generator) {
   const int count = generator.some(3, 12);
   for (int k = 0; k < count; ++k) {
-    const Axes axes = any_axes(generator);
+    const PlaneAxes axes = any_axes(generator);
     const Vec3 at = generator.point(0.6);
     const auto figure = star(generator, generator.some(3, 6), false);
     const int copies = generator.some(1, 3);
