@@ -95,7 +95,7 @@ void write_png(std::ostream& out, const std::vector<LineChart>& charts, const Ch
 
 using ChartWriter = void (*)(std::ostream&, const std::vector<LineChart>&, const ChartPage&);
 
-ChartWriter writer_for(const std::filesystem::path& path) {
+ChartWriter chart_writer_for(const std::filesystem::path& path) {
   const std::string ending = lower_case_ending(path);
   if (ending == ".svg") {
     return write_svg;
@@ -122,13 +122,13 @@ ChartArea paint_chart(const LineChart& chart, const ChartPixels& pixels, double 
 }
 
 void check_chart_path(const std::filesystem::path& path) {
-  writer_for(path);
+  chart_writer_for(path);
   check_writable(path);
 }
 
 void write_charts(const std::filesystem::path& path, const std::vector<LineChart>& charts,
                   const ChartPage& page) {
-  const ChartWriter write = writer_for(path);
+  const ChartWriter write = chart_writer_for(path);
   write_file_whole(path, [&](std::ostream& out) { write(out, charts, page); });
 }
 
