@@ -211,6 +211,9 @@ void ColorChoice::refit() {
   scale_.map = traits.is_signed ? ColorMap::diverging : map_;
   scale_.logarithmic = logarithmic_choice() && !traits.is_signed;
   scale_.marks_zero = scale_.logarithmic || traits.spans_decades;
+  if (!traits.by_jumps) {
+    jump_finder_.clear();
+  }
   if (!snapshot_) {
     return;
   }

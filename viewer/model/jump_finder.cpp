@@ -42,4 +42,11 @@ void JumpFinder::request(std::shared_ptr<const SolverSnapshot> snapshot) {
   }
 }
 
+void JumpFinder::clear() {
+  finder_.clear();
+  wanted_ = started_ = nullptr;
+  jumps_ = nullptr;
+  error_.clear();
+}
+
 }  // namespace transillum::viewer

@@ -29,6 +29,8 @@ class JumpFinder : public QObject {
 
   /// Nothing happens if it is the snapshot of the last call.
   void request(std::shared_ptr<const SolverSnapshot> snapshot);
+  /// Releases the snapshot and its jumps; a computation that runs is canceled.
+  void clear();
   /// The newest, which may be of an older snapshot; null: none has been computed, or it failed.
   std::shared_ptr<const PatchJumps> jumps() const { return jumps_; }
   /// Why the last request failed; else empty.
