@@ -110,17 +110,12 @@ void add_scheme(CLI::App& command, SolveCall& call) {
 }
 
 void add_refinement(CLI::App& command, SolveCall& call) {
-  auto* by = add_parsed_option(
-      command, "--refine-by", "NAME",
-      "divide faces in rounds, worst patches first, until there are --patches of them; jump: where "
-      "B jumps across edges; error: where a solve with every patch divided differs most",
-      [&call](const std::string& text) {
-        call.refine_by = refine_by_from_name(text);
-        call.scene.in_rounds = true;
-      });
-  add_parsed_option(command, "--refine-until", "P%|X",
-                    "end the rounds when their figure is this small: relative RMS jump, or "
-                    "relative L2 error",
+  auto* by = add_parsed_option(command, "--refine-by", "NAME", description_of("refine-by"),
+                               [&call](const std::string& text) {
+                                 call.refine_by = refine_by_from_name(text);
+                                 call.scene.in_rounds = true;
+                               });
+  add_parsed_option(command, "--refine-until", "P%|X", description_of("refine-until"),
                     [&call](const std::string& text) {
                       call.refine_until = parse_accuracy("--refine-until", text);
                     })

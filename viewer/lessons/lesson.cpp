@@ -130,6 +130,13 @@ ErrorRuns errors_from_json(const json& value, const std::string& where, const js
   return runs;
 }
 
+// Whether patches of the page may differ from those that figures are about.
+bool refines(const Lesson::Page& page) {
+  return page.state.options.refine.set() ||
+         std::any_of(page.controls.begin(), page.controls.end(),
+                     [](const PageControl& control) { return control.target == "refine-by"; });
+}
+
 }  // namespace
 
 Lesson lesson_from_text(const std::string& text, const std::string& name,
@@ -182,6 +189,9 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
     if (controls) {
       page.controls = controls_from_json(*controls, page_object.where("controls"),
                                          state.value("options", json()), page.text);
+    }
+    if (question && refines(page)) {
+      page_object.fail_at("question", "not on a page whose patches are divided by \"refine-by\"");
     }
     if (question) {
       page.question =

@@ -317,6 +317,7 @@ void LessonPanel::show_text(const Lesson::Page& page) {
 
 void LessonPanel::show_snapshot(const SolverSnapshot& snapshot) {
   options_.solve = snapshot.options;
+  options_.refine = snapshot.refine;
   for (ControlWidget* control : controls_) {
     control->show_options(options_);
   }

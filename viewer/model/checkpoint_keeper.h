@@ -21,6 +21,8 @@ class RemovedAtEnd {
   }
   RemovedAtEnd(const RemovedAtEnd&) = delete;
   RemovedAtEnd& operator=(const RemovedAtEnd&) = delete;
+  /// It is not removed.
+  void keep() { file_.clear(); }
 
  private:
   std::string file_;

@@ -123,8 +123,9 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
   Line line("transillum solve");
   add_scene(line, scene, options, changes);
   const SolveOptions& solve = options.solve;
-  std::vector<std::string> others{"read", "two-way",   "two-sided", "max-patch-area",
-                                  "sky",  "sky-model", "up"};
+  std::vector<std::string> others{"read",    "two-way",     "two-sided", "max-patch-area",
+                                  "sky",     "sky-model",   "up",        "refine-by",
+                                  "patches", "refine-until"};
   if (solve.goal.set()) {
     // Chosen by the goal.
     others.insert(others.end(), {"directions", "replicas", "tolerance"});
@@ -136,6 +137,13 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
     line.add("--one-way");
   }
   add_sky(line, solve.sky);
+  if (options.refine.set()) {
+    line.add("refine-by", name_of(*options.refine.by));
+    line.add("patches", fmt::format("{}", options.refine.patches));
+    if (options.refine.until > 0) {
+      line.add("refine-until", fmt::format("{}", options.refine.until));
+    }
+  }
   if (solve.engine_options.order != EngineOptions().order) {
     line.add("order", "newell");
   }

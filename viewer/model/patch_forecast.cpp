@@ -18,7 +18,7 @@ PatchForecast::PatchForecast(QObject* parent)
 
 void PatchForecast::request(std::shared_ptr<const LoadedScene> loaded,
                             const SceneOptions& options) {
-  worker_.request({std::move(loaded), options});
+  worker_.request({whole_of(loaded), options});
 }
 
 std::shared_ptr<const Scene> PatchForecast::unrefined(const Request& request,

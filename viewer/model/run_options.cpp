@@ -57,6 +57,25 @@ void read_sky(JsonObject& object, Sky& sky) {
   sky.up = std::abs(length - 1) < 1e-12 ? up : normalized(up);
 }
 
+void read_refinement(JsonObject& object, const SolveOptions& solve, RefineChoice& refine) {
+  std::string by = "none";
+  object.read("refine-by", by);
+  object.read("patches", refine.patches, 0, 1 << 26);
+  object.read("refine-until", refine.until);
+  if (by == "none") {
+    return;
+  }
+  try {
+    refine.by = refine_by_from_name(by);
+    refine.options().validate();
+  } catch (const InputError& error) {
+    object.fail_at("refine-by", error.what());
+  }
+  if (solve.goal.seconds > 0) {
+    object.fail_at("refine-by", "not together with \"seconds\"");
+  }
+}
+
 SceneInput input_from(const json& value, const std::string& where) {
   SceneInput input;
   JsonObject object(value, where);
@@ -137,6 +156,7 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   if (!(options.scene.max_patch_area >= 0)) {
     object.fail_at("max-patch-area", "must be an area in m², or 0 for no limit");
   }
+  read_refinement(object, solve, options.refine);
   if (const json* input = object.find("read")) {
     options.input = input_from(*input, object.where("read"));
   }
@@ -173,7 +193,10 @@ json to_json(const RunOptions& options) {
                  {"sky-model", name_of(solve.sky.model)},
                  {"up", to_json(solve.sky.up)},
                  {"two-sided", options.scene.two_sided},
-                 {"max-patch-area", options.scene.max_patch_area}};
+                 {"max-patch-area", options.scene.max_patch_area},
+                 {"refine-by", options.refine.set() ? name_of(*options.refine.by) : "none"},
+                 {"patches", options.refine.patches},
+                 {"refine-until", options.refine.until}};
   if (!(options.input == SceneInput{})) {
     result["read"] = to_json(options.input);
   }

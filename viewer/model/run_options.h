@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "transillum/material_changes.h"
 #include "transillum/radiosity.h"
+#include "transillum/refinement.h"
 #include "transillum/scene.h"
 #include "transillum/settings.h"
 
@@ -30,15 +32,33 @@ struct SceneInput {
   }
 };
 
+/// Whether and how patches are divided in rounds.
+struct RefineChoice {
+  std::optional<RefineBy> by;  ///< unset: they are not
+  int patches = 0;             ///< RefineOptions::patches
+  double until = 0;            ///< RefineOptions::until
+
+  bool set() const { return by.has_value(); }
+  /// Requires set().
+  RefineOptions options() const { return {*by, patches, until}; }
+
+  /// Limits without a criterion change nothing.
+  friend bool operator==(const RefineChoice& a, const RefineChoice& b) {
+    return a.by == b.by && (!a.set() || (a.patches == b.patches && a.until == b.until));
+  }
+};
+
 /// All options of a solve run.
 struct RunOptions {
   SolveOptions solve;
   SceneOptions scene = {};
   SceneInput input = {};
+  RefineChoice refine = {};
 
   friend bool operator==(const RunOptions& a, const RunOptions& b) {
     return a.solve == b.solve && a.scene.two_sided == b.scene.two_sided &&
-           a.scene.max_patch_area == b.scene.max_patch_area && a.input == b.input;
+           a.scene.max_patch_area == b.scene.max_patch_area && a.input == b.input &&
+           a.refine == b.refine;
   }
 };
 

@@ -55,8 +55,9 @@ void SolveRunner::load(const OpenRequest& request) {
     if (request.options.solve.first_shot) {
       post_load_progress(tr("Computing the first shot"), -1);
     }
-    replace_scene(request, loaded, make_solver(*loaded, request.options.solve, cancellation),
-                  cancellation);
+    RunRequest run{request.options.solve, request.options.refine};
+    PreparedRun prepared = prepare(loaded, run, cancellation);
+    replace_scene(request, run, std::move(prepared), cancellation);
   } catch (...) {
     post_current_failure(tr("%1 does not fit into memory").arg(name));
   }
@@ -112,27 +113,45 @@ void SolveRunner::build_tree(LoadedScene& loaded, const Cancellation& cancellati
   loaded.seconds_bsp = seconds(timer);
 }
 
-void SolveRunner::replace_scene(const OpenRequest& request,
-                                const std::shared_ptr<const LoadedScene>& loaded,
-                                PlannedSolver solver, const Cancellation& cancellation) {
+/// The same scene with other patches.
+std::shared_ptr<const LoadedScene> SolveRunner::divided(
+    const std::shared_ptr<const LoadedScene>& whole, const std::shared_ptr<const Scene>& scene,
+    const Cancellation& cancellation) {
+  if (scene == whole->scene) {
+    return whole;
+  }
+  auto loaded = std::make_shared<LoadedScene>();
+  loaded->scene = scene;
+  loaded->description = whole->description;
+  loaded->back_share = whole->back_share;
+  loaded->seconds_load = whole->seconds_load;
+  loaded->whole = whole;
+  loaded->picker = std::make_shared<const Picker>(scene, cancellation);
+  loaded->measures = measure(*scene, cancellation);
+  build_tree(*loaded, cancellation);
+  return loaded;
+}
+
+void SolveRunner::replace_scene(const OpenRequest& request, const RunRequest& options,
+                                PreparedRun run, const Cancellation& cancellation) {
   {
     // From here on, stop() stops the solve of the new scene.
     const std::lock_guard lock(mutex_);
     cancellation.throw_if_canceled();
     solve_cancellation_ = cancellation;
     loading_ = false;
-    options_ = request.options.solve;
+    options_ = options;
     goal_ = request.then;
     ++goal_number_;
   }
-  loaded_ = loaded;
-  keeper_.begin(loaded->scene, request.options.solve);
-  replace_solver(std::move(solver));
+  loaded_ = run.loaded;
+  keeper_.begin(loaded_->scene, options.solve);
+  replace_run(std::move(run), options);
   {
     const std::lock_guard lock(mutex_);
     pending_snapshot_ = nullptr;  // of the previous scene
   }
-  post([this, loaded] {
+  post([this, loaded = loaded_] {
     announced_ = loaded;
     emit scene_loaded(loaded);
     deliver_snapshot();
@@ -140,10 +159,26 @@ void SolveRunner::replace_scene(const OpenRequest& request,
   post_snapshot();
 }
 
+/// @param run without rounds, if the scene is that of a result file.
+SolveRunner::PreparedRun SolveRunner::prepare(const std::shared_ptr<const LoadedScene>& whole,
+                                              RunRequest& run, const Cancellation& cancellation) {
+  PreparedRun prepared{whole, {}, {}};
+  if (whole->stored) {
+    run.refine = {};
+  }
+  if (run.refine.set()) {
+    prepared.rounds.emplace(whole->scene, run.solve, run.refine.options(), cancellation);
+    prepared.loaded = divided(whole, prepared.rounds->scene(), cancellation);
+  }
+  const bool last = !prepared.rounds || prepared.rounds->finished();
+  prepared.solver = make_solver(*prepared.loaded, run.solve, last, cancellation);
+  return prepared;
+}
+
 SolveRunner::PlannedSolver SolveRunner::make_solver(const LoadedScene& loaded,
-                                                    const SolveOptions& options,
+                                                    const SolveOptions& options, bool last,
                                                     const Cancellation& cancellation) {
-  if (std::optional<PlannedSolver> old = resumed(loaded, options, cancellation)) {
+  if (std::optional<PlannedSolver> old = resumed(loaded, options, last, cancellation)) {
     return std::move(*old);
   }
   PlannedSolver made;
@@ -155,9 +190,10 @@ SolveRunner::PlannedSolver SolveRunner::make_solver(const LoadedScene& loaded,
   return made;
 }
 
-/// Nothing where there is no checkpoint, or none of this solve.
+/// Nothing where there is no checkpoint, or none of this solve: it may be of a later round.
 std::optional<SolveRunner::PlannedSolver> SolveRunner::resumed(const LoadedScene& loaded,
                                                                const SolveOptions& options,
+                                                               bool last,
                                                                const Cancellation& cancellation) {
   std::string file;
   {
@@ -167,7 +203,7 @@ std::optional<SolveRunner::PlannedSolver> SolveRunner::resumed(const LoadedScene
   if (file.empty()) {
     return std::nullopt;
   }
-  const RemovedAtEnd removed(file);
+  RemovedAtEnd removed(file);
   try {
     Checkpoint::Resumed old =
         Checkpoint(file, *loaded.scene, options)
@@ -175,6 +211,11 @@ std::optional<SolveRunner::PlannedSolver> SolveRunner::resumed(const LoadedScene
     return PlannedSolver{std::make_unique<RadiositySolver>(std::move(old.solver)),
                          std::move(old.plan), old.seconds};
   } catch (const InputError&) {
+    const std::lock_guard lock(mutex_);
+    if (!last && go_on_with_.empty()) {
+      removed.keep();
+      go_on_with_ = file;
+    }
     return std::nullopt;
   }
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/patch_materials.h"
+#include "model/run_options.h"
 #include "support/has_index.h"
 #include "transillum/accuracy_plan.h"
 #include "transillum/at.h"
@@ -34,6 +35,21 @@ struct LoadedScene {
   std::string file;                        ///< path of the result file
   double seconds_load = 0;                 ///< wall-clock time of reading
   double seconds_bsp = 0;                  ///< wall-clock time of building the tree
+  /// The scene before patches were divided in rounds; null: none were.
+  std::shared_ptr<const LoadedScene> whole;
+};
+
+/// The scene as it was read, before rounds of refinement.
+inline std::shared_ptr<const LoadedScene> whole_of(
+    const std::shared_ptr<const LoadedScene>& loaded) {
+  return loaded && loaded->whole ? loaded->whole : loaded;
+}
+
+/// How far the rounds of a refinement are; those that are done are in
+/// SolveStatistics::refinement.
+struct RefinementState {
+  PatchId patches = 0;  ///< of the scene so far
+  bool left = false;    ///< the solve is that of a round, not yet that of the refined scene
 };
 
 /// The sum of the passes of all iterations so far. A pass that several iterations use (in the
@@ -56,6 +72,8 @@ struct ErrorBand {
 struct SolverSnapshot {
   std::shared_ptr<const LoadedScene> loaded;
   SolveOptions options;
+  RefineChoice refine;
+  RefinementState refinement;  ///< if `refine` is set
   SolveProgress progress;
   std::shared_ptr<const std::vector<Vec3>>
       directions;  ///< omega of each pass of the newest iteration

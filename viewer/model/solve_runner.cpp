@@ -88,13 +88,13 @@ void SolveRunner::stop() {
   wake_.notify_one();
 }
 
-void SolveRunner::restart(const SolveOptions& options, Goal then) {
+void SolveRunner::restart(const SolveOptions& options, Goal then, const RefineChoice& refine) {
   {
     const std::lock_guard lock(mutex_);
     if (!loading_) {
       solve_cancellation_.cancel();
     }
-    restart_request_ = options;
+    restart_request_ = {options, refine};
     goal_ = then;
     ++goal_number_;
     interrupted_ = true;
@@ -168,8 +168,8 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
   } else if (restart_request_) {
     solve_cancellation_ = Cancellation();
     options_ = *std::exchange(restart_request_, std::nullopt);
-    const SolveOptions options = options_;
-    run_unlocked(lock, [&] { start_solve(options); });
+    const RunRequest run = options_;
+    run_unlocked(lock, [&] { start_solve(run); });
   } else if (form_factors_requested_) {
     form_factors_requested_ = false;
     run_unlocked(lock, [&] { post_form_factors(); });
@@ -184,17 +184,18 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
   }
 }
 
-void SolveRunner::start_solve(const SolveOptions& options) {
+void SolveRunner::start_solve(RunRequest run) {
   if (!loaded_) {
     return;
   }
   try {
     // The old solver has been canceled: if this fails, the next goal tries again.
-    failed_start_ = options;
+    failed_start_ = run;
     more_to_do_ = true;
-    PlannedSolver solver = make_solver(*loaded_, options, solve_cancellation_);
-    keeper_.begin(loaded_->scene, options);
-    replace_solver(std::move(solver));
+    PreparedRun prepared = prepare(whole_of(loaded_), run, solve_cancellation_);
+    keeper_.begin(prepared.loaded->scene, run.solve);
+    show_patches(prepared.loaded);
+    replace_run(std::move(prepared), run);
     post_snapshot();
   } catch (...) {
     if (failed_start_) {
@@ -205,6 +206,28 @@ void SolveRunner::start_solve(const SolveOptions& options) {
     }
     post_current_failure();
   }
+}
+
+void SolveRunner::show_patches(const std::shared_ptr<const LoadedScene>& loaded) {
+  if (loaded == loaded_) {
+    return;
+  }
+  loaded_ = loaded;
+  {
+    const std::lock_guard lock(mutex_);
+    pending_snapshot_ = nullptr;  // with the patches before
+  }
+  post([this, loaded] {
+    announced_ = loaded;
+    emit patches_changed(loaded);
+    deliver_snapshot();
+  });
+}
+
+void SolveRunner::replace_run(PreparedRun run, const RunRequest& request) {
+  run_ = request;
+  rounds_ = std::move(run.rounds);
+  replace_solver(std::move(run.solver));
 }
 
 void SolveRunner::replace_solver(PlannedSolver made) {
@@ -229,17 +252,21 @@ std::int64_t SolveRunner::passes_so_far() const {
 
 void SolveRunner::advance(const Goal& goal) {
   if (failed_start_) {
-    const SolveOptions options = *failed_start_;
-    start_solve(options);
+    const RunRequest run = *failed_start_;
+    start_solve(run);
   }
   if (!solver_ || !more_to_do_ || failed_start_) {
     return;
   }
-  if (goal.kind == Goal::Kind::passes && passes_so_far() >= goal.passes) {
+  const bool by_passes = goal.kind == Goal::Kind::passes;
+  if (by_passes && !in_rounds() && passes_so_far() >= goal.passes) {
     return;
   }
   post_state(RunState::running);
-  while (advance_stage(goal) && goal.kind == Goal::Kind::finished && !interrupted_) {
+  bool another = true;
+  while (another) {
+    const Goal next = by_passes && in_rounds() ? Goal{Goal::Kind::finished} : goal;
+    another = advance_stage(next) && next.kind == Goal::Kind::finished && !interrupted_;
   }
 }
 
@@ -294,12 +321,12 @@ bool SolveRunner::advance_stage(const Goal& goal) {
 /// @returns whether there is one.
 bool SolveRunner::begin_next_stage() {
   if (!plan_) {
-    return false;
+    return begin_next_round();
   }
   store_errors();
   const AccuracyPlan::Next next = plan_->next(*solver_, seconds_running_);
   if (next == AccuracyPlan::Next::done) {
-    return false;
+    return begin_next_round();
   }
   if (next == AccuracyPlan::Next::replica) {
     solver_->add_replica();
@@ -307,6 +334,24 @@ bool SolveRunner::begin_next_stage() {
     return true;
   }
   begin_stage();
+  return true;
+}
+
+/// Divides patches by the solve that has finished.
+/// @returns whether a solve follows; if no round is left, that of the refined scene.
+bool SolveRunner::begin_next_round() {
+  if (!in_rounds()) {
+    return false;
+  }
+  const Cancellation& cancellation = solve_cancellation_;
+  post_snapshot();  // the end of the round
+  rounds_->assess(solver_->solution(), seconds_running_, cancellation);
+  rounds_->divide_worst(cancellation);
+  const auto loaded = divided(whole_of(loaded_), rounds_->scene(), cancellation);
+  PlannedSolver solver = make_solver(*loaded, run_.solve, !in_rounds(), cancellation);
+  keeper_.begin(loaded->scene, run_.solve);
+  show_patches(loaded);
+  replace_solver(std::move(solver));
   return true;
 }
 
@@ -415,6 +460,7 @@ void SolveRunner::post_snapshot() {
   auto snapshot = std::make_shared<SolverSnapshot>();
   snapshot->loaded = loaded_;
   snapshot->options = solver_->options();
+  snapshot->refine = run_.refine;
   snapshot->progress = solver_->progress();
   store_directions();
   snapshot->kept_directions = kept_directions_;
@@ -423,6 +469,10 @@ void SolveRunner::post_snapshot() {
                              ? kept_directions_.back()
                              : std::make_shared<const std::vector<Vec3>>(solver_->directions());
   snapshot->statistics = solver_->statistics();
+  if (rounds_) {
+    snapshot->refinement = {rounds_->refined()->patch_count(), in_rounds()};
+    snapshot->statistics.refinement = rounds_->rounds();
+  }
   snapshot->radiosity = solver_->running_estimate();
   snapshot->linear_parts = solver_->linear_parts();
   snapshot->irradiance = solver_->irradiance();

@@ -20,10 +20,12 @@
 #include "model/snapshot.h"
 #include "transillum/accuracy_plan.h"
 #include "transillum/cancellation.h"
+#include "transillum/refinement.h"
 
 namespace transillum::viewer {
 
-/// What the solver is to reach before it pauses.
+/// What the solver is to reach before it pauses. With rounds of refinement: `finished` and `passes`
+/// are about the solve after the last round.
 struct Goal {
   enum class Kind { pause, direction, iteration, passes, finished };
   Kind kind = Kind::pause;
@@ -59,7 +61,8 @@ class SolveRunner : public QObject {
   /// Cancels loading; or discards the solve and returns to the first direction.
   void stop();
   /// Starts a new solve run of the open scene.
-  void restart(const SolveOptions& options, Goal then);
+  /// @param refine rounds that come first; not of a result file
+  void restart(const SolveOptions& options, Goal then, const RefineChoice& refine = {});
 
   /// From now on, the solve is kept in `file`: every minute, some seconds after iterations and when
   /// it pauses; with an interval of 0 after every pass. Of a solve that is replaced, nothing is
@@ -80,6 +83,8 @@ class SolveRunner : public QObject {
  signals:
   void state_changed(transillum::viewer::RunState state);
   void scene_loaded(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
+  /// The open scene has other patches, of a round of refinement or of a new run.
+  void patches_changed(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
   void snapshot_ready(std::shared_ptr<const transillum::viewer::SolverSnapshot> snapshot);
   /// @param share  done, 0 to 1; negative: unknown
   void load_progressed(const QString& phase, double share);
@@ -93,28 +98,49 @@ class SolveRunner : public QObject {
     std::optional<AccuracyPlan> plan;
     double seconds = 0;  ///< running, before this program
   };
-  PlannedSolver make_solver(const LoadedScene& loaded, const SolveOptions& options,
+  /// What a run is made of.
+  struct RunRequest {
+    SolveOptions solve;
+    RefineChoice refine;
+  };
+  /// The beginning of a run.
+  struct PreparedRun {
+    std::shared_ptr<const LoadedScene> loaded;  ///< with the patches of the first round
+    std::optional<RefinementPlan> rounds;
+    PlannedSolver solver;
+  };
+  PreparedRun prepare(const std::shared_ptr<const LoadedScene>& whole, RunRequest& run,
+                      const Cancellation& cancellation);
+  /// @param last no round follows
+  PlannedSolver make_solver(const LoadedScene& loaded, const SolveOptions& options, bool last,
                             const Cancellation& cancellation);
   std::optional<PlannedSolver> resumed(const LoadedScene& loaded, const SolveOptions& options,
-                                       const Cancellation& cancellation);
+                                       bool last, const Cancellation& cancellation);
 
   void deliver_snapshot();
   // The rest runs on the worker's thread.
   void work();
   void work_once(std::unique_lock<std::mutex>& lock);
   void load(const OpenRequest& request);
+  std::shared_ptr<const LoadedScene> divided(const std::shared_ptr<const LoadedScene>& whole,
+                                             const std::shared_ptr<const Scene>& scene,
+                                             const Cancellation& cancellation);
   void read_scene(const OpenRequest& request, LoadedScene& loaded,
                   const Cancellation& cancellation);
   SceneDescription describe(const OpenRequest& request, const Cancellation& cancellation);
   void build_tree(LoadedScene& loaded, const Cancellation& cancellation);
-  void replace_scene(const OpenRequest& request, const std::shared_ptr<const LoadedScene>& loaded,
-                     PlannedSolver solver, const Cancellation& cancellation);
-  void start_solve(const SolveOptions& options);
+  void replace_scene(const OpenRequest& request, const RunRequest& options, PreparedRun run,
+                     const Cancellation& cancellation);
+  void start_solve(RunRequest run);
+  void replace_run(PreparedRun run, const RunRequest& request);
+  void show_patches(const std::shared_ptr<const LoadedScene>& loaded);
   void replace_solver(PlannedSolver solver);
   void advance(const Goal& goal);
   bool advance_stage(const Goal& goal);
   bool begin_next_stage();
   void begin_stage();
+  bool begin_next_round();
+  bool in_rounds() const { return rounds_ && !rounds_->finished(); }
   void advance_exactly(std::int64_t passes);
   std::int64_t passes_so_far() const;
   void on_pass(const RadiositySolver& solver);
@@ -141,13 +167,13 @@ class SolveRunner : public QObject {
   std::mutex mutex_;  // guards all down to `pending_snapshot_`
   std::condition_variable wake_;
   std::optional<OpenRequest> open_request_;
-  std::optional<SolveOptions> restart_request_;
+  std::optional<RunRequest> restart_request_;
   Goal goal_;
   std::uint64_t goal_number_ = 0;
   bool form_factors_requested_ = false;
   bool quit_ = false;
   bool loading_ = false;
-  SolveOptions options_;
+  RunRequest options_;
   Cancellation load_cancellation_;   // of the running or the last load
   Cancellation solve_cancellation_;  // that solver_ was created with
   std::shared_ptr<const SolverSnapshot> pending_snapshot_;
@@ -163,8 +189,10 @@ class SolveRunner : public QObject {
   std::shared_ptr<const LoadedScene> loaded_;
   std::unique_ptr<RadiositySolver> solver_;
   std::optional<AccuracyPlan> plan_;
-  double seconds_running_ = 0;     // of the solve, all stages
-  std::vector<ErrorBand> errors_;  // as in SolverSnapshot
+  RunRequest run_;                        // of solver_
+  std::optional<RefinementPlan> rounds_;  // of run_; none without refinement
+  double seconds_running_ = 0;            // of the solve of the round, all stages
+  std::vector<ErrorBand> errors_;         // as in SolverSnapshot
   std::vector<std::shared_ptr<const std::vector<Vec3>>> kept_directions_;
   std::vector<int> kept_passes_;
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity_;
@@ -175,7 +203,7 @@ class SolveRunner : public QObject {
   std::int64_t form_factors_passes_ = 0;  // number of passes in form_factors_
   bool form_factors_fit_ = true;
   bool more_to_do_ = false;
-  std::optional<SolveOptions> failed_start_;  // of a run that failed to start; solver_ is canceled
+  std::optional<RunRequest> failed_start_;  // of a run that failed to start; solver_ is canceled
   QElapsedTimer since_snapshot_;
   double snapshot_cost_ms_ = 0;
   std::vector<double> iteration_changes_;  // of the newest iteration with all its passes

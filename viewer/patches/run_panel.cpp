@@ -34,7 +34,7 @@ constexpr int name_column = 0, column_count = 6;
 QString settings_tip(const KeptRun& run) {
   const SolverSnapshot& snapshot = *run.snapshot;
   const Scene& scene = *snapshot.loaded->scene;
-  const RunOptions options{snapshot.options, scene.options(), {}};
+  const RunOptions options{snapshot.options, scene.options(), {}, snapshot.refine};
   return snapshot.of_file
              ? RunPanel::tr("Values of the file %1").arg(QString::fromStdString(scene.name()))
              : RunPanel::tr("Settings: %1")

@@ -145,6 +145,8 @@ SceneView::~SceneView() = default;
 QWidget* SceneView::canvas() const { return canvas_; }
 
 void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
+  // Other patches of the same scene: the camera stays.
+  const bool stays = loaded_ && whole_of(loaded) == whole_of(loaded_);
   loaded_ = std::move(loaded);
   snapshot_ = nullptr;
   mesh_ = std::make_unique<SceneMesh>(loaded_->scene);
@@ -160,7 +162,9 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   feature_edges_->show_scene(loaded_);
   path_glyph_->hide();
   show_selection();
-  reset_view();
+  if (!stays) {
+    reset_view();
+  }
   overlays_->show_scene(loaded_, mesh_->surface(), 5e-4 * radius_);
   overlays_->leave_out(hidden_.flags());
 }

@@ -56,6 +56,8 @@ class SceneView : public QWidget {
   ~SceneView() override;
 
   void show_scene(std::shared_ptr<const LoadedScene> loaded);
+  /// The scene shown; null before the first.
+  const std::shared_ptr<const LoadedScene>& loaded() const { return loaded_; }
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void set_direction_shown(bool shown);
   void set_outlines_shown(bool shown);

@@ -143,6 +143,11 @@ void ProgressLine::show_solve() {
                      ? progress.passes
                      : progress.direction);
 
+  const auto& rounds = snapshot_->statistics.refinement;
+  const QString round =
+      snapshot_->refinement.left
+          ? tr("Round %1: ").arg(count_text(static_cast<std::int64_t>(rounds.size()) + 1))
+          : QString();
   const QString at = within_iteration || progress.iteration == 0
                          ? tr("Iteration %1, direction %2 of %3")
                                .arg(count_text(progress.iteration + 1),
@@ -159,10 +164,10 @@ void ProgressLine::show_solve() {
     phase_->setText(tr("From the file: %1 of %2 passes each")
                         .arg(iterations_text(snapshot_->statistics.iterations),
                              count_text(snapshot_->statistics.passes)));
-  } else if (progress.iteration == 0 && progress.direction == 0) {
-    phase_->setText(running ? tr("Starting") : tr("Ready: run, or process one direction"));
+  } else if (progress.iteration == 0 && progress.direction == 0 && (running || rounds.empty())) {
+    phase_->setText(running ? round + tr("Starting") : tr("Ready: run, or process one direction"));
   } else {
-    phase_->setText(running ? at : tr("Paused: %1").arg(at));
+    phase_->setText(running ? round + at : tr("Paused: %1").arg(round + at));
   }
 
   const bool timed = running && progress.passes_per_second > 0;

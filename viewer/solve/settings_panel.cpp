@@ -26,6 +26,8 @@
 #include <limits>
 
 #include "model/run_options.h"
+#include "solve/refine_controls.h"
+#include "solve/round_panel.h"
 #include "support/number_text.h"
 #include "widgets/engine_text.h"
 
@@ -74,6 +76,9 @@ SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
   add_sky_rows(*form);
   connect_solve_rows();
   add_scene_rows(*form);
+  refine_ = new RefineControls;
+  form->addRow(tr("Refine by"), refine_);
+  connect(refine_, &RefineControls::changed, this, &SettingsPanel::show_state);
   restart_ = new QPushButton(tr("Solve again"));
   restart_->setObjectName("restart");
   auto* layout = new QVBoxLayout(this);
@@ -81,6 +86,8 @@ SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
   layout->setSpacing(10);
   layout->addLayout(form);
   layout->addWidget(restart_);
+  rounds_ = new RoundPanel;
+  layout->addWidget(rounds_);
   layout->addStretch(1);
   connect(restart_, &QPushButton::clicked, this, &SettingsPanel::restart_clicked);
   set_options({}, {});
@@ -419,6 +426,14 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   }
 }
 
+RefineChoice SettingsPanel::refinement() const {
+  RefineChoice refine = refine_->choice();
+  if (fixed_) {
+    refine.by.reset();
+  }
+  return refine;
+}
+
 AccuracyGoal SettingsPanel::goal() const {
   AccuracyGoal goal = base_.goal;
   if (accuracy_->text() != exact_text(100 * goal.accuracy)) {
@@ -492,9 +507,16 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   show_state();
 }
 
-void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions& scene) {
+void SettingsPanel::set_options(const RunOptions& options) {
+  refine_->set_choice(options.refine);
+  set_options(options.solve, options.scene);
+}
+
+void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions& scene,
+                                  const RefineChoice& refine) {
   solve_in_effect_ = solve;
   scene_in_effect_ = scene;
+  refine_in_effect_ = refine;
   if (same(scene_options(), scene)) {
     forecast_->hide();
   }
@@ -509,7 +531,8 @@ bool SettingsPanel::differ_from_effect() const {
     given.replicas = solve_in_effect_.replicas;
     given.tolerance = solve_in_effect_.tolerance;
   }
-  return !(given == solve_in_effect_) || !same(scene_options(), scene_in_effect_);
+  return !(given == solve_in_effect_) || !same(scene_options(), scene_in_effect_) ||
+         !(refinement() == refine_in_effect_);
 }
 
 void SettingsPanel::set_restart_enabled(bool enabled) {
@@ -518,6 +541,7 @@ void SettingsPanel::set_restart_enabled(bool enabled) {
 }
 
 void SettingsPanel::set_scene_fixed(bool fixed) {
+  fixed_ = fixed;
   for (QWidget* widget :
        {static_cast<QWidget*>(max_patch_area_), static_cast<QWidget*>(two_sided_)}) {
     widget->setEnabled(!fixed);
@@ -525,6 +549,7 @@ void SettingsPanel::set_scene_fixed(bool fixed) {
   const QString why = tr("Given by the result file");
   max_patch_area_->setToolTip(fixed ? why : tip("max-patch-area"));
   two_sided_->setToolTip(fixed ? why : tip("two-sided"));
+  show_state();
 }
 
 void SettingsPanel::want_forecast() {
@@ -557,6 +582,7 @@ void SettingsPanel::show_state() {
   engine_->setToolTip(engine_sentence(engine));
   show_sky_state();
   show_basis_state();
+  refine_->set_available(!fixed_);
   show_row(order_label_, order_, engine == Engine::painter);
   show_row(resolution_label_, resolution_, takes_resolution(engine));
   const bool rays = engine == Engine::rays;

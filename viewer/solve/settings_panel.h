@@ -21,6 +21,9 @@ class QStackedWidget;
 
 namespace transillum::viewer {
 
+class RefineControls;
+class RoundPanel;
+
 /// Controls for the options of the next solve.
 class SettingsPanel : public QWidget {
   Q_OBJECT
@@ -30,10 +33,14 @@ class SettingsPanel : public QWidget {
 
   SolveOptions solve_options() const;
   SceneOptions scene_options() const;
-  RunOptions options() const { return {solve_options(), scene_options()}; }
+  RefineChoice refinement() const;
+  RunOptions options() const { return {solve_options(), scene_options(), {}, refinement()}; }
+  /// Leaves refinement() as it is.
   void set_options(const SolveOptions& solve, const SceneOptions& scene);
+  void set_options(const RunOptions& options);
   /// Sets the options of the current solve; the button is emphasized while the panel differs.
-  void set_in_effect(const SolveOptions& solve, const SceneOptions& scene);
+  void set_in_effect(const SolveOptions& solve, const SceneOptions& scene,
+                     const RefineChoice& refine = {});
   bool differ_from_effect() const;
   void set_restart_enabled(bool enabled);
   /// The share of the light of all patches that escapes from the open scene; unset: not known yet.
@@ -43,6 +50,8 @@ class SettingsPanel : public QWidget {
   void set_scene_up(const Vec3& up);
   /// Whether the patches are those of a result file, so that the scene options cannot change.
   void set_scene_fixed(bool fixed);
+  /// The rounds of the current solve, below the button.
+  RoundPanel* rounds() const { return rounds_; }
   /// Shows what scene_options() would make of the scene, unless they have changed since.
   /// @param text empty: nothing
   void show_forecast(const SceneOptions& options, const QString& text);
@@ -75,6 +84,8 @@ class SettingsPanel : public QWidget {
   SolveOptions base_;  ///< carries options without a control, such as threads and memory
   SolveOptions solve_in_effect_;
   SceneOptions scene_in_effect_;
+  RefineChoice refine_in_effect_;
+  bool fixed_ = false;  ///< set_scene_fixed()
   bool enabled_ = false;
   QFormLayout* form_;
   QSpinBox* directions_;
@@ -105,7 +116,9 @@ class SettingsPanel : public QWidget {
   QCheckBox* two_sided_;
   QLineEdit* max_patch_area_;
   QLabel* forecast_;
+  RefineControls* refine_;
   QPushButton* restart_ = nullptr;
+  RoundPanel* rounds_;
 };
 
 }  // namespace transillum::viewer

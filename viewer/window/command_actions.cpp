@@ -49,7 +49,8 @@ void CommandActions::add_to(QMenu& menu) const {
 }
 
 RunOptions CommandActions::options() const {
-  return {parts_.scene.snapshot()->options, parts_.scene.options(), parts_.scene.input()};
+  const SolverSnapshot& snapshot = *parts_.scene.snapshot();
+  return {snapshot.options, parts_.scene.options(), parts_.scene.input(), snapshot.refine};
 }
 
 void CommandActions::copy_solve() {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <utility>
 
 #include "model/run_options.h"
 #include "transillum/errors.h"
@@ -21,7 +22,7 @@ constexpr int screenshot_directions = 128;
 // As the command line keeps them, before names become enumerators.
 struct Names {
   std::string sampling, engine, normalize, scheme, basis, first_shot, burn_in = "auto";
-  std::string accuracy, accuracy_of = "rms";
+  std::string accuracy, accuracy_of = "rms", refine_until;
   bool one_way = false, two_way = false;
 };
 
@@ -137,7 +138,7 @@ void add_change_option(CLI::App& app, const std::string& name, const std::string
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void add_scene_options(CLI::App& app, CommandLine& line) {
+void add_scene_options(CLI::App& app, CommandLine& line, Names& names) {
   ReadOptions& read = line.input.read;
   app.add_option("--default-reflectance", read.default_reflectance,
                  "reflectance where a file defines none")
@@ -172,9 +173,19 @@ void add_scene_options(CLI::App& app, CommandLine& line) {
                               description_of("max-patch-area"))
                    ->check(CLI::PositiveNumber);
   app.add_option("--patches", line.input.patches,
-                 "divide faces into about this number of patches, by a limit of their area")
-      ->check(CLI::PositiveNumber)
+                 "divide faces into about this number of patches, by a limit of their area; with "
+                 "--refine-by: the most patches to make")
+      ->check(CLI::Range(1, 1 << 26))
       ->excludes(area);
+  auto* by =
+      app.add_option_function<std::string>(
+             "--refine-by",
+             [&line](const std::string& name) { line.refine.by = refine_by_from_name(name); },
+             described("refine-by", refine_by_names()))
+          ->needs("--patches");
+  app.add_option("--refine-until", names.refine_until, description_of("refine-until"))
+      ->type_name("P%|X")
+      ->needs(by);
 }
 
 /// @throws InputError where the file has another ending, or no folder
@@ -217,6 +228,14 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
     solve.directions = screenshot_directions;
   }
   solve.validate();
+  if (line.refine.set()) {
+    line.refine.patches = static_cast<int>(std::exchange(line.input.patches, 0));
+    line.refine.until = names.refine_until.empty() ? 0 : accuracy_from_text(names.refine_until);
+    line.refine.options().validate();
+    if (solve.goal.seconds > 0) {
+      throw InputError("--seconds: not used with --refine-by");
+    }
+  }
   line.input.read.validate();
   for (const char* option : {"--default-reflectance", "--max-reflectance", "--scale", "--units",
                              "--join", "--photometric", "--orient"}) {
@@ -278,7 +297,7 @@ struct Definitions {
                    "a scene file or a built-in scene, solved at once (default: sphere-flake); or a "
                    "result (.vtp), a session or a lesson (.json)");
     add_solve_options(app, line, names);
-    add_scene_options(app, line);
+    add_scene_options(app, line, names);
     add_window_options(app, line);
   }
 };

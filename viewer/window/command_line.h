@@ -22,6 +22,7 @@ struct CommandLine {
   SceneInput input;            ///< how the scene is read
   bool reading_given = false;  ///< whether the arguments say so, were it as is usual
   SolveOptions solve_options;
+  RefineChoice refine;
   std::string lesson;       ///< number of a built-in lesson, or a file; empty: none
   int page = 1;             ///< of the lesson, from 1
   std::string screenshot;   ///< path of a PNG; empty: none

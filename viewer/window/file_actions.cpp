@@ -226,6 +226,7 @@ void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& i
   }
   if (parts_.scene.loaded() && spec.toStdString() != parts_.scene.spec()) {
     options.scene = {};  // those of the open scene
+    options.refine = {};
   }
   parts_.scene.open(spec.toStdString(), options, goal);
 }

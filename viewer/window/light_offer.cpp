@@ -102,7 +102,7 @@ void LightOffer::make_emit(const std::string& target) {
       return;
     }
     RunOptions options{parts_.settings.solve_options(), parts_.scene.options(),
-                       parts_.scene.input()};
+                       parts_.scene.input(), parts_.settings.refinement()};
     options.input.changes.push_back({target, {}, white});
     applier_.open_again(options);
     return;

@@ -35,6 +35,7 @@
 #include "scene/show_menu.h"
 #include "solve/convergence_view.h"
 #include "solve/progress_line.h"
+#include "solve/round_panel.h"
 #include "solve/settings_panel.h"
 #include "solve/solve_actions.h"
 #include "solve/solve_summary.h"
@@ -155,7 +156,8 @@ void MainWindow::make_views() {
         QStringLiteral("/tallies"));
   }
   lesson_panel_->question().set_scene_source([this](const ViewState& page) {
-    return state_.scene.is_open(page.scene, page.options) ? state_.scene.loaded() : nullptr;
+    return state_.scene.is_open(page.scene, page.options) ? whole_of(state_.scene.loaded())
+                                                          : nullptr;
   });
   notes_ = new QPlainTextEdit;
   notes_->setObjectName("notes");
@@ -311,6 +313,20 @@ void MainWindow::show_title_and_warnings(const LoadedScene& loaded) {
   }
 }
 
+/// Views of the patches begin with other ones.
+void MainWindow::show_patches(const std::shared_ptr<const LoadedScene>& loaded) {
+  state_.selection.select(no_patch);
+  state_.focus_feed.clear();
+  inspection_->show_scene(*loaded);
+  map_view_->clear();
+  direction_view_->clear();
+  received_view_->clear();
+  compare_view_->clear();
+  page_->scene_view()->show_scene(loaded);
+  progress_->show_scene(*loaded);
+  study_->show_scene(loaded);
+}
+
 /// Connects every view with the open scene: the one place where scenes and snapshots go out.
 void MainWindow::connect_scene() {
   using Loaded = std::shared_ptr<const LoadedScene>;
@@ -324,22 +340,20 @@ void MainWindow::connect_scene() {
     settings_->set_scene_up(initial_view(*loaded->scene, 1).up);
     settings_->show_escape({});
     show_debugging_of_scene();
-    state_.selection.select(no_patch);
-    state_.focus_feed.clear();
-    inspection_->show_scene(*loaded);
-    map_view_->clear();
-    direction_view_->clear();
-    received_view_->clear();
-    compare_view_->clear();
     page_->show_scene();
-    page_->scene_view()->show_scene(loaded);
+    show_patches(loaded);
     page_->color_controls()->set_outlines(state_.scene.outlined_by_default());
-    progress_->show_scene(*loaded);
-    study_->show_scene(loaded);
     show_title_and_warnings(*loaded);
   });
+  connect(&state_.scene, &OpenScene::patches_changed, this, [this](const Loaded& loaded) {
+    const bool first = !page_->scene_view()->loaded()->whole && loaded->whole;
+    show_patches(loaded);
+    if (first) {
+      page_->color_controls()->set_outlines(true);  // to see what the rounds divide
+    }
+  });
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
-    settings_->set_in_effect(snapshot->options, state_.scene.options());
+    settings_->set_in_effect(snapshot->options, state_.scene.options(), snapshot->refine);
     settings_->show_escape(escape_of(*snapshot));
     study_->set_solve(snapshot->options);
     state_.colors.fit(snapshot);
@@ -363,6 +377,7 @@ void MainWindow::connect_scene() {
   send_to(inspection_);
   send_to(algorithm_);
   send_to(summary_);
+  send_to(settings_->rounds());
   send_to(progress_);
   send_to(timeline_);
   send_to(lesson_panel_);

@@ -73,6 +73,7 @@ class MainWindow : public QMainWindow {
   void connect_scene();
   void show_debugging_of_scene();
   void connect_failures();
+  void show_patches(const std::shared_ptr<const LoadedScene>& loaded);
   void show_title_and_warnings(const LoadedScene& loaded);
   void make_menus();
   void make_file_menu();

@@ -10,6 +10,7 @@ namespace transillum::viewer {
 OpenScene::OpenScene(SolveRunner& runner, Relighting& relighting)
     : runner_(runner), relighting_(relighting) {
   connect(&runner_, &SolveRunner::scene_loaded, this, &OpenScene::take_scene);
+  connect(&runner_, &SolveRunner::patches_changed, this, &OpenScene::take_patches);
   connect(&runner_, &SolveRunner::snapshot_ready, this, &OpenScene::take_snapshot);
   connect(&runner_, &SolveRunner::failed, this, [this] { opening_ = false; });
   connect(&relighting_, &Relighting::changed, this, &OpenScene::show_again);
@@ -30,13 +31,15 @@ bool OpenScene::is_open(const std::string& spec, const RunOptions& options) cons
 }
 
 bool OpenScene::at_start() const {
-  return !shown_ || (shown_->progress.iteration == 0 && shown_->progress.direction == 0);
+  return !shown_ || (shown_->progress.iteration == 0 && shown_->progress.direction == 0 &&
+                     shown_->statistics.refinement.empty());
 }
 
 bool OpenScene::outlined_by_default() const {
-  // Without outlines, a few large patches of similar brightness cannot be told apart.
+  // Without outlines, a few large patches of similar brightness cannot be told apart, nor can what
+  // rounds have divided.
   constexpr PatchId few_patches = 64;
-  return loaded_ && loaded_->scene->patch_count() <= few_patches;
+  return loaded_ && (loaded_->scene->patch_count() <= few_patches || loaded_->whole);
 }
 
 void OpenScene::show_again() {
@@ -56,6 +59,18 @@ void OpenScene::take_scene(std::shared_ptr<const LoadedScene> loaded) {
   relighting_.show_scene(loaded_->scene);
   emit scene_loaded(loaded_);
   emit scene_shown();
+}
+
+void OpenScene::take_patches(std::shared_ptr<const LoadedScene> loaded) {
+  if (whole_of(loaded) != whole_of(loaded_)) {
+    return;  // of the scene before
+  }
+  loaded_ = std::move(loaded);
+  newest_ = shown_ = nullptr;
+  const std::vector<MaterialChange> edits = relighting_.edits().changes();
+  relighting_.show_scene(loaded_->scene);
+  relighting_.edits().start_over(edits);  // all fit: faces, groups and materials are the same
+  emit patches_changed(loaded_);
 }
 
 void OpenScene::take_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {

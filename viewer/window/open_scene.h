@@ -45,7 +45,8 @@ class OpenScene : public QObject {
   bool is_open(const std::string& spec, const RunOptions& options) const;
   /// Whether the solve has processed no direction yet.
   bool at_start() const;
-  /// Whether the scene has so few patches that their outlines are shown by default.
+  /// Whether the scene has so few patches that their outlines are shown by default, or they are
+  /// divided in rounds.
   bool outlined_by_default() const;
   /// Sends the snapshot out again, to views whose colors have changed.
   void show_again();
@@ -57,6 +58,8 @@ class OpenScene : public QObject {
   void scene_loaded(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
   /// After all views have received scene_loaded().
   void scene_shown();
+  /// For views: the open scene has other patches, of a round of refinement or of a new run.
+  void patches_changed(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
   /// For views: a new snapshot of the open scene.
   void snapshot_ready(std::shared_ptr<const transillum::viewer::SolverSnapshot> snapshot);
   /// After all views have received snapshot_ready().
@@ -64,6 +67,7 @@ class OpenScene : public QObject {
 
  private:
   void take_scene(std::shared_ptr<const LoadedScene> loaded);
+  void take_patches(std::shared_ptr<const LoadedScene> loaded);
   void take_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
   SolveRunner& runner_;

@@ -125,7 +125,8 @@ void OrientationOffer::turn() {
   if (!parts_.guard.may_lose(&parts_.window, tr("Turn them"))) {
     return;
   }
-  RunOptions options{parts_.settings.solve_options(), parts_.scene.options(), parts_.scene.input()};
+  RunOptions options{parts_.settings.solve_options(), parts_.scene.options(), parts_.scene.input(),
+                     parts_.settings.refinement()};
   options.input.orient = true;
   applier_.open_again(options);
 }

@@ -9,6 +9,7 @@
 
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "solve/round_panel.h"
 #include "solve/settings_panel.h"
 #include "solve/solve_actions.h"
 #include "support/number_text.h"
@@ -64,6 +65,7 @@ SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
       open_again();
     }
   });
+  connect(parts_.settings.rounds(), &RoundPanel::canceled, &runner, &SolveRunner::stop);
   connect(&parts_.page, &ScenePage::replicas_requested, this, &SolveControl::solve_with_replicas);
 }
 
@@ -94,8 +96,11 @@ void SolveControl::solve_again() {
   parts_.notifier.dismiss();
   RunOptions options = parts_.settings.options();
   options.input = parts_.scene.input();
+  if (options.refine.set() && !may_refine(options.refine.patches)) {
+    return;
+  }
   if (parts_.scene.is_open(parts_.scene.spec(), options)) {
-    parts_.runner.restart(options.solve, {Goal::Kind::finished});
+    parts_.runner.restart(options.solve, {Goal::Kind::finished}, options.refine);
   } else if (parts_.scene.loaded()->description) {
     awaits_forecast_ = true;
     forecast_.request(parts_.scene.loaded(), options.scene);

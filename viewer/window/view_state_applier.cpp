@@ -69,6 +69,10 @@ void ViewStateApplier::show_page(const ViewState& page) {
 
 void ViewStateApplier::set_option(const std::string& name, const std::string& value) {
   ViewState now = arrived() ? state() : requested_;
+  if (!now.options.refine.set()) {
+    now.options.refine = requested_.options.refine;  // the page's limits
+    now.options.refine.by.reset();
+  }
   now.options = with_option(now.options, name, value);
   now.solve = {Goal::Kind::finished};
   if (now.focus && now.focus->direction >= now.options.solve.directions) {
@@ -83,8 +87,7 @@ void ViewStateApplier::leave_lesson() {
   opened_here_ = false;
   leaving_ = true;
   if (before_lesson_ && parts_.settings.options() == applied_options_) {
-    const RunOptions& options = before_lesson_->options;
-    parts_.settings.set_options(options.solve, options.scene);
+    parts_.settings.set_options(before_lesson_->options);
   }
 }
 
@@ -153,7 +156,7 @@ void ViewStateApplier::open_again(const RunOptions& options) {
 void ViewStateApplier::open_requested() {
   awaits_ = Awaits::scene;
   opened_here_ = true;
-  parts_.settings.set_options(requested_.options.solve, requested_.options.scene);
+  parts_.settings.set_options(requested_.options);
   parts_.scene.open(requested_.scene, requested_.options, requested_.solve);
 }
 
@@ -173,7 +176,7 @@ void ViewStateApplier::start_run() {
   const RunOptions now = parts_.settings.options();
   solve.threads = now.solve.threads;
   solve.memory = now.solve.memory;
-  parts_.settings.set_options(solve, requested_.options.scene);
+  parts_.settings.set_options(requested_.options);
   applied_options_ = parts_.settings.options();
   RunOptions options = applied_options_;
   options.input = requested_.options.input;
@@ -187,10 +190,11 @@ void ViewStateApplier::start_run() {
   awaits_ = Awaits::run;
   const bool beyond =
       requested_.solve.kind != Goal::Kind::finished &&
-      passes_done(snapshot->progress, snapshot->kept_passes) > requested_.solve.passes;
-  if (beyond || !(snapshot->options == solve)) {
+      (passes_done(snapshot->progress, snapshot->kept_passes) > requested_.solve.passes ||
+       (requested_.solve.passes == 0 && !snapshot->statistics.refinement.empty()));
+  if (beyond || !is_requested(*snapshot)) {
     run_before_ = snapshot->kept_directions.front();
-    parts_.runner.restart(solve, requested_.solve);
+    parts_.runner.restart(solve, requested_.solve, requested_.options.refine);
   } else {
     parts_.runner.set_goal(requested_.solve);
   }
@@ -228,8 +232,19 @@ bool ViewStateApplier::run_has_started() const {
   if (requested_.scene.empty()) {
     return true;
   }
-  return snapshot->options == requested_.options.solve &&
-         snapshot->kept_directions.front() != run_before_;
+  return is_requested(*snapshot) && snapshot->kept_directions.front() != run_before_;
+}
+
+bool ViewStateApplier::is_requested(const SolverSnapshot& snapshot) const {
+  return snapshot.options == requested_.options.solve &&
+         (snapshot.refine == requested_.options.refine || snapshot.loaded->stored);
+}
+
+// Until the last round is done, there are other patches than the state is about; where nothing is
+// to be solved, there are no others.
+bool ViewStateApplier::has_patches() const {
+  return requested_.scene.empty() || requested_.solve.kind == Goal::Kind::pause ||
+         !parts_.scene.snapshot()->refinement.left;
 }
 
 // Judged by the snapshot: the runner's state may still be that of the previous run.
@@ -254,6 +269,10 @@ void ViewStateApplier::on_snapshot() {
   if (awaits_ == Awaits::run && run_has_started()) {
     run_before_ = nullptr;
     apply_view();
+    awaits_ = Awaits::rounds;
+  }
+  if (awaits_ == Awaits::rounds && has_patches()) {
+    apply_selection();
     awaits_ = Awaits::iteration;
   }
   if (awaits_ != Awaits::iteration) {
@@ -280,7 +299,6 @@ void ViewStateApplier::apply_view() {
   } else {
     view->reset_view();
   }
-  apply_selection();
   parts_.page.color_controls()->set_direction(requested_.direction_shown);
   parts_.page.color_controls()->set_outlines(
       requested_.outlines.value_or(parts_.scene.outlined_by_default()));
@@ -369,10 +387,12 @@ ViewState ViewStateApplier::state() const {
   // A scene that has just been loaded has no snapshot yet.
   const auto snapshot = parts_.scene.snapshot();
   state.options = {snapshot ? snapshot->options : parts_.settings.solve_options(),
-                   parts_.scene.options(), parts_.scene.input()};
+                   parts_.scene.options(), parts_.scene.input(),
+                   snapshot ? snapshot->refine : parts_.settings.refinement()};
   const RunState run = parts_.runner.state();
-  if (parts_.scene.loaded()->stored && !snapshot) {
-    state.solve = {};
+  if ((parts_.scene.loaded()->stored && !snapshot) ||
+      (snapshot && snapshot->refinement.left && run != RunState::running)) {
+    state.solve = {};  // a place within the rounds cannot be named
   } else if (snapshot && run != RunState::finished && run != RunState::running) {
     const std::int64_t passes = passes_done(snapshot->progress, snapshot->kept_passes);
     state.solve = passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{};

@@ -49,7 +49,7 @@ class ViewStateApplier : public QObject {
   void unreachable(const QString& message);
 
  private:
-  enum class Awaits { nothing, scene, run, iteration, direction };
+  enum class Awaits { nothing, scene, run, rounds, iteration, direction };
 
   void apply(const ViewState& state);
   /// Colors, overlays, labels.
@@ -63,6 +63,8 @@ class ViewStateApplier : public QObject {
   void on_snapshot();
   void on_direction();
   bool run_has_started() const;
+  bool is_requested(const SolverSnapshot& snapshot) const;
+  bool has_patches() const;
   bool run_is_over() const;
   void fail(const QString& message);
   void apply_view();

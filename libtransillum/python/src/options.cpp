@@ -176,7 +176,9 @@ py::list option_list() {
   py::list list;
   for (const Setting& setting : settings()) {
     const std::string name = setting.name;
-    if (name == "two-sided" || name == "max-patch-area") {  // of scenes
+    static const std::vector<std::string> of_scenes{"two-sided", "max-patch-area", "refine-by",
+                                                    "patches", "refine-until"};
+    if (std::find(of_scenes.begin(), of_scenes.end(), name) != of_scenes.end()) {
       continue;
     }
     if (setters().count(name) == 0) {

@@ -159,64 +159,11 @@ std::shared_ptr<const Scene> divide_worst(const Scene& scene, std::vector<double
   return nullptr;
 }
 
-/// What a round finds out about a scene.
-struct Finding {
-  std::vector<double> squares;  ///< per patch
-  RefinementRound round;
-};
+using Clock = std::chrono::steady_clock;
 
-class Rounds {
- public:
-  Rounds(const SolveOptions& options, const RefineOptions& refine, const RoundObserver& rounds,
-         const RadiositySolver::Observer& observer, const Cancellation& cancellation)
-      : options_(options),
-        refine_(refine),
-        rounds_(rounds),
-        observer_(observer),
-        cancellation_(cancellation) {}
-
-  Finding find(const std::shared_ptr<const Scene>& scene) const {
-    const auto start = std::chrono::steady_clock::now();
-    Finding finding;
-    finding.round.patches = scene->patch_count();
-    Solution solution;
-    if (refine_.by == RefineBy::jump) {
-      solution = solved(scene);
-      finding.squares = squares_by_jump(solution, cancellation_);
-    } else {
-      check(*scene, 4 * static_cast<std::int64_t>(scene->patch_count()));
-      const DividedScene divided = divide(*scene, all_patches(*scene), cancellation_);
-      solution = solved(divided.scene);
-      finding.squares = squares_by_error(*scene, divided, solution);
-    }
-    const double sum = std::accumulate(finding.squares.begin(), finding.squares.end(), 0.0);
-    finding.round.figure = sum > 0 ? std::sqrt(sum / square_integral(solution)) : 0;
-    finding.round.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (rounds_) {
-      rounds_(finding.round, solution);
-    }
-    return finding;
-  }
-
- private:
-  void check(const Scene& scene, std::int64_t patches) const {
-    check_memory(scene.name(), patches, options_.replicas, options_.basis == Basis::linear ? 3 : 1);
-  }
-  Solution solved(const std::shared_ptr<const Scene>& scene) const {
-    check(*scene, scene->patch_count());
-    Solution solution = solve(scene, options_, observer_, cancellation_);
-    // Patches divided by half a solve would not be the worst.
-    cancellation_.throw_if_canceled();
-    return solution;
-  }
-
-  const SolveOptions& options_;
-  const RefineOptions& refine_;
-  const RoundObserver& rounds_;
-  const RadiositySolver::Observer& observer_;
-  const Cancellation& cancellation_;
-};
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -241,34 +188,96 @@ void RefineOptions::validate() const {
   }
 }
 
-Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                  const RefineOptions& refine, const RoundObserver& rounds,
-                  const RadiositySolver::Observer& observer, const Cancellation& cancellation) {
+RefinementPlan::RefinementPlan(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+                               const RefineOptions& refine, const Cancellation& cancellation)
+    : options_(options), refine_(refine), refined_(std::move(scene)) {
   refine.validate();
   options.validate();
   if (!takes_directions(options.engine)) {
     throw InputError(fmt::format("refinement: not available with engine {}, which makes no passes",
                                  name_of(options.engine)));
   }
-  const Rounds solves(options, refine, rounds, observer, cancellation);
-  Refinement result{std::move(scene), {}};
-  while (result.scene->patch_count() < refine.patches || refine.by == RefineBy::error) {
-    const Finding finding = solves.find(result.scene);
-    result.rounds.push_back(finding.round);
-    // What is smaller than the tolerance is left over by the iteration.
-    if (finding.round.figure <= std::max(refine.until, options.tolerance)) {
-      break;
-    }
-    const auto most =
-        std::min(refine.patches,
-                 static_cast<std::int64_t>(std::ceil(growth * result.scene->patch_count())) + 3);
-    const auto finer = divide_worst(*result.scene, finding.squares, most, cancellation);
-    if (!finer) {
-      break;
-    }
-    result.scene = finer;
+  // The error is known only after a round.
+  if (refined_->patch_count() < refine.patches || refine.by == RefineBy::error) {
+    begin_round(cancellation);
+  } else {
+    finish();
   }
-  return result;
+}
+
+void RefinementPlan::begin_round(const Cancellation& cancellation) {
+  const auto start = Clock::now();
+  const auto check = [this](std::int64_t patches) {
+    check_memory(refined_->name(), patches, options_.replicas,
+                 options_.basis == Basis::linear ? 3 : 1);
+  };
+  parent_.clear();
+  scene_ = refined_;
+  if (refine_.by == RefineBy::error) {
+    check(4 * static_cast<std::int64_t>(refined_->patch_count()));
+    DividedScene divided = divide(*refined_, all_patches(*refined_), cancellation);
+    scene_ = std::move(divided.scene);
+    parent_ = std::move(divided.parent);
+  }
+  check(scene_->patch_count());
+  seconds_ = seconds_since(start);
+}
+
+void RefinementPlan::finish() {
+  scene_ = refined_;
+  finished_ = true;
+}
+
+const RefinementRound& RefinementPlan::assess(const Solution& solution, double seconds,
+                                              const Cancellation& cancellation) {
+  const auto start = Clock::now();
+  squares_ = refine_.by == RefineBy::jump
+                 ? squares_by_jump(solution, cancellation)
+                 : squares_by_error(*refined_, {scene_, parent_}, solution);
+  const double sum = std::accumulate(squares_.begin(), squares_.end(), 0.0);
+  RefinementRound& round = rounds_.emplace_back();
+  round.patches = refined_->patch_count();
+  round.figure = sum > 0 ? std::sqrt(sum / square_integral(solution)) : 0;
+  round.seconds = seconds_ + seconds + seconds_since(start);
+  return round;
+}
+
+bool RefinementPlan::divide_worst(const Cancellation& cancellation) {
+  // What is smaller than the tolerance is left over by the iteration.
+  if (rounds_.back().figure <= std::max(refine_.until, options_.tolerance)) {
+    finish();
+    return false;
+  }
+  const auto most = std::min(
+      refine_.patches, static_cast<std::int64_t>(std::ceil(growth * refined_->patch_count())) + 3);
+  const auto finer = transillum::divide_worst(*refined_, squares_, most, cancellation);
+  if (finer) {
+    refined_ = finer;
+  }
+  if (!finer || (refine_.by == RefineBy::jump && refined_->patch_count() >= refine_.patches)) {
+    finish();
+    return false;
+  }
+  begin_round(cancellation);
+  return true;
+}
+
+Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+                  const RefineOptions& refine, const RoundObserver& rounds,
+                  const RadiositySolver::Observer& observer, const Cancellation& cancellation) {
+  RefinementPlan plan(std::move(scene), options, refine, cancellation);
+  while (!plan.finished()) {
+    const auto start = Clock::now();
+    const Solution solution = solve(plan.scene(), options, observer, cancellation);
+    // Patches divided by half a solve would not be the worst.
+    cancellation.throw_if_canceled();
+    const RefinementRound& round = plan.assess(solution, seconds_since(start), cancellation);
+    if (rounds) {
+      rounds(round, solution);
+    }
+    plan.divide_worst(cancellation);
+  }
+  return {plan.scene(), plan.rounds()};
 }
 
 }  // namespace transillum

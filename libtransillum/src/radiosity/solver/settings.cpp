@@ -126,6 +126,15 @@ std::vector<Setting> scene_settings(const SceneOptions& scene) {
        yes_or_no(scene.two_sided)},
       {"max-patch-area", "m2, 0: none", "divide faces into patches of at most this area, in m2",
        fmt::to_string(scene.max_patch_area)},
+      {"refine-by", "a name, or none",
+       "divide faces in rounds, worst patches first, until there are as many patches as asked "
+       "for; jump: where B jumps across edges; error: where a solve with every patch divided "
+       "differs most",
+       "none"},
+      {"patches", "a number", "with rounds of refinement: the most patches to make", "0"},
+      {"refine-until", "a percentage or a number, 0: none",
+       "end the rounds when their figure is this small: relative RMS jump, or relative L2 error",
+       "none"},
   };
 }
 

@@ -1,0 +1,98 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "solve/refine_controls.h"
+
+#include <QComboBox>
+#include <QDoubleValidator>
+#include <QFormLayout>
+#include <QLineEdit>
+#include <QLocale>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int usual_patches = 600;  // until a number is entered
+
+QString percent_text(double share) {
+  return share > 0 ? QString::number(100 * share, 'g', QLocale::FloatingPointShortest) : QString();
+}
+
+}  // namespace
+
+RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
+  by_ = new QComboBox;
+  by_->setObjectName("refine_by");
+  by_->addItems({tr("None"), tr("Jumps"), tr("Error")});
+  by_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  by_->setMinimumContentsLength(8);
+  by_->setToolTip(
+      tr("Rounds of refinement before the solve: each solves, and divides the patches that are "
+         "worst\nJumps: where B jumps most to neighboring patches\nError: where a solve with every "
+         "patch divided differs most; rounds take about five times as long"));
+  patches_ = new QSpinBox;
+  patches_->setObjectName("refine_patches");
+  patches_->setRange(1, 1 << 24);
+  patches_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  patches_->setValue(usual_patches);
+  patches_->setToolTip(tr("The most patches to make"));
+  until_ = new QLineEdit;
+  until_->setObjectName("refine_until");
+  auto* percent = new QDoubleValidator(0, 99, 6, until_);
+  percent->setLocale(QLocale::c());
+  until_->setValidator(percent);
+  until_->setPlaceholderText(tr("No limit"));
+  until_->setToolTip(
+      tr("The rounds end when their figure, in percent of B, is this small:\nthe RMS jump, or the "
+         "L2 error"));
+  limits_ = new QWidget;
+  auto* limits = new QFormLayout(limits_);
+  limits->setContentsMargins(0, 2, 0, 0);
+  limits->setHorizontalSpacing(6);
+  limits->setVerticalSpacing(4);
+  limits->addRow(tr("Patches"), patches_);
+  limits->addRow(tr("Until, %"), until_);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  layout->addWidget(by_);
+  layout->addWidget(limits_);
+  show_limits();
+  connect(by_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+    show_limits();
+    emit changed();
+  });
+  connect(patches_, qOverload<int>(&QSpinBox::valueChanged), this, &RefineControls::changed);
+  connect(until_, &QLineEdit::textChanged, this, &RefineControls::changed);
+}
+
+RefineChoice RefineControls::choice() const {
+  RefineChoice choice = base_;
+  choice.by.reset();
+  if (by_->currentIndex() > 0) {
+    choice.by = static_cast<RefineBy>(by_->currentIndex() - 1);
+  }
+  choice.patches = patches_->value();
+  if (until_->text() != percent_text(base_.until)) {
+    choice.until = QLocale::c().toDouble(until_->text()) / 100;
+  }
+  return choice;
+}
+
+void RefineControls::set_choice(const RefineChoice& choice) {
+  base_ = choice;
+  patches_->setValue(choice.patches > 0 ? choice.patches : usual_patches);
+  until_->setText(percent_text(choice.until));
+  by_->setCurrentIndex(choice.set() ? static_cast<int>(*choice.by) + 1 : 0);
+}
+
+void RefineControls::set_available(bool available) {
+  available_ = available;
+  by_->setEnabled(available);
+  show_limits();
+}
+
+void RefineControls::show_limits() { limits_->setVisible(by_->currentIndex() > 0 && available_); }
+
+}  // namespace transillum::viewer
