@@ -82,9 +82,10 @@ RoundPanel::RoundPanel(QWidget* parent) : QWidget(parent) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
-  layout->addWidget(table_);
+  // Above the table, which grows.
   layout->addWidget(phase_);
   layout->addLayout(row);
+  layout->addWidget(table_);
   hide();
 }
 
