@@ -145,6 +145,7 @@ void SolveRunner::replace_scene(const OpenRequest& request, const RunRequest& op
     ++goal_number_;
   }
   loaded_ = run.loaded;
+  patches_to_announce_ = false;
   keeper_.begin(loaded_->scene, options.solve);
   replace_run(std::move(run), options);
   {

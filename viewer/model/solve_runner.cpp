@@ -194,7 +194,7 @@ void SolveRunner::start_solve(RunRequest run) {
     more_to_do_ = true;
     PreparedRun prepared = prepare(whole_of(loaded_), run, solve_cancellation_);
     keeper_.begin(prepared.loaded->scene, run.solve);
-    show_patches(prepared.loaded);
+    take_patches(prepared.loaded);
     replace_run(std::move(prepared), run);
     post_snapshot();
   } catch (...) {
@@ -208,16 +208,31 @@ void SolveRunner::start_solve(RunRequest run) {
   }
 }
 
-void SolveRunner::show_patches(const std::shared_ptr<const LoadedScene>& loaded) {
+void SolveRunner::take_patches(const std::shared_ptr<const LoadedScene>& loaded) {
   if (loaded == loaded_) {
     return;
   }
   loaded_ = loaded;
+  patches_to_announce_ = true;
+  since_patches_.start();
+}
+
+/// The first passes of a round would show a dark scene in place of the finished one before it.
+bool SolveRunner::holds_patches_back() const {
+  constexpr qint64 longest_ms = 1000;
+  return patches_to_announce_ && rounds_ && !rounds_->rounds().empty() &&
+         solver_->progress().iteration == 0 && since_patches_.elapsed() < longest_ms;
+}
+
+void SolveRunner::announce_patches() {
+  if (!std::exchange(patches_to_announce_, false)) {
+    return;
+  }
   {
     const std::lock_guard lock(mutex_);
     pending_snapshot_ = nullptr;  // with the patches before
   }
-  post([this, loaded] {
+  post([this, loaded = loaded_] {
     announced_ = loaded;
     emit patches_changed(loaded);
     deliver_snapshot();
@@ -311,7 +326,10 @@ bool SolveRunner::advance_stage(const Goal& goal) {
       begin_stage();
       stage_begins = true;
     }
-    post_snapshot();
+    const bool goes_on = stage_begins && goal.kind == Goal::Kind::finished && !interrupted_;
+    if (!goes_on || !holds_patches_back()) {
+      post_snapshot();
+    }
   } catch (...) {
     post_current_failure(tr("Not enough memory to show the result"));
   }
@@ -350,7 +368,7 @@ bool SolveRunner::begin_next_round() {
   const auto loaded = divided(whole_of(loaded_), rounds_->scene(), cancellation);
   PlannedSolver solver = make_solver(*loaded, run_.solve, !in_rounds(), cancellation);
   keeper_.begin(loaded->scene, run_.solve);
-  show_patches(loaded);
+  take_patches(loaded);
   replace_solver(std::move(solver));
   return true;
 }
@@ -401,7 +419,7 @@ void SolveRunner::on_pass(const RadiositySolver& solver) {
       std::max<double>(refresh_interval_.load(std::memory_order_relaxed), 5 * snapshot_cost_ms_);
   const bool due = !since_snapshot_.isValid() ||
                    static_cast<double>(since_snapshot_.nsecsElapsed()) > 1e6 * interval_ms;
-  if (due || form_factors_are_due(progress)) {
+  if ((due || form_factors_are_due(progress)) && !holds_patches_back()) {
     post_snapshot();
   }
 }
@@ -455,6 +473,7 @@ void SolveRunner::post_form_factors() {
 void SolveRunner::post_snapshot() {
   QElapsedTimer cost;
   cost.start();
+  announce_patches();
   store_radiosity();
   assemble_form_factors();
   auto snapshot = std::make_shared<SolverSnapshot>();

@@ -133,7 +133,9 @@ class SolveRunner : public QObject {
                      const Cancellation& cancellation);
   void start_solve(RunRequest run);
   void replace_run(PreparedRun run, const RunRequest& request);
-  void show_patches(const std::shared_ptr<const LoadedScene>& loaded);
+  void take_patches(const std::shared_ptr<const LoadedScene>& loaded);
+  bool holds_patches_back() const;
+  void announce_patches();
   void replace_solver(PlannedSolver solver);
   void advance(const Goal& goal);
   bool advance_stage(const Goal& goal);
@@ -191,8 +193,10 @@ class SolveRunner : public QObject {
   std::optional<AccuracyPlan> plan_;
   RunRequest run_;                        // of solver_
   std::optional<RefinementPlan> rounds_;  // of run_; none without refinement
-  double seconds_running_ = 0;            // of the solve of the round, all stages
-  std::vector<ErrorBand> errors_;         // as in SolverSnapshot
+  bool patches_to_announce_ = false;      // those of loaded_
+  QElapsedTimer since_patches_;
+  double seconds_running_ = 0;     // of the solve of the round, all stages
+  std::vector<ErrorBand> errors_;  // as in SolverSnapshot
   std::vector<std::shared_ptr<const std::vector<Vec3>>> kept_directions_;
   std::vector<int> kept_passes_;
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity_;
