@@ -386,7 +386,21 @@ TEST(GlossySolver, CanBeCanceledAndPaused) {
   while (!done) {
     done = solver.solve([&](const SolveProgress&) { return ++calls % 3 != 0; });
   }
-  EXPECT_EQ(solver.solution().radiosity, whole.radiosity);
+  const Solution paused = solver.solution();
+  EXPECT_EQ(paused.radiosity, whole.radiosity);
+  for (PatchId i = 0; i < scene->patch_count(); ++i) {
+    EXPECT_TRUE(std::ranges::equal(paused.glossy->arriving(i), whole.glossy->arriving(i))) << i;
+    const Vec3 toward = normalized(scene->patch(i).normal + Vec3{0.1, 0.2, 0.3});
+    EXPECT_EQ(paused.glossy->radiance(i, toward), whole.glossy->radiance(i, toward)) << i;
+  }
+  // Pass by pass, too.
+  GlossySolver stepped(scene, options);
+  EXPECT_TRUE(stepped.advance(RadiositySolver::Until::direction));
+  EXPECT_EQ(stepped.progress().direction, 1);
+  EXPECT_TRUE(stepped.advance(RadiositySolver::Until::iteration));
+  EXPECT_EQ(stepped.progress().iteration, 1);
+  EXPECT_FALSE(stepped.advance(RadiositySolver::Until::finished));
+  EXPECT_EQ(stepped.solution().radiosity, whole.radiosity);
   Cancellation cancellation;
   GlossySolver canceled(scene, options, nullptr, cancellation);
   EXPECT_THROW(canceled.solve([&](const SolveProgress& progress) {
@@ -399,6 +413,39 @@ TEST(GlossySolver, CanBeCanceledAndPaused) {
   EXPECT_EQ(canceled.progress().iteration, 2);
   EXPECT_FALSE(canceled.solution().complete);
   EXPECT_LE(largest_difference(canceled.solution().radiosity, whole.radiosity), 0.5);
+}
+
+/// From the light that there is, the same limit is reached in fewer iterations; materials can be
+/// given by patch.
+TEST(GlossySolver, GoesOnFromTheCurrentLight) {
+  const auto scene = glossy_box();
+  SolveOptions options = glossy_options(32);
+  options.tolerance = 1e-10;
+  std::vector<Material> other = scene->materials();
+  std::vector<std::int32_t> of_patch;
+  for (const Patch& patch : scene->patches()) {
+    of_patch.push_back(patch.material);
+  }
+  for (Material& m : other) {
+    if (m.lobe.present()) {
+      m.lobe.reflectance = 0.98 * m.lobe.reflectance;
+    }
+  }
+  GlossySolver from_emission(scene, options), from_current(scene, options);
+  from_emission.solve();
+  from_current.solve();
+  from_emission.set_materials(other);
+  from_emission.solve();
+  from_current.set_materials(other, of_patch, GlossySolver::Start::current);
+  from_current.solve();
+  const Solution a = from_emission.solution(), b = from_current.solution();
+  EXPECT_LT(b.statistics.iterations, a.statistics.iterations);
+  EXPECT_LE(largest_difference(a.radiosity, b.radiosity), 1e-7);
+  EXPECT_EQ(b.statistics.passes_made, 32);
+  of_patch.pop_back();
+  EXPECT_THROW(from_current.set_materials(other, of_patch), InputError);
+  of_patch.push_back(static_cast<std::int32_t>(other.size()));
+  EXPECT_THROW(from_current.set_materials(other, of_patch), InputError);
 }
 
 /// Another gloss from kept transfers has the bits of a solve with it.

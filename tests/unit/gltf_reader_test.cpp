@@ -309,6 +309,40 @@ std::string half_image(const test::TemporaryFolder& folder) {
   return path;
 }
 
+/// Of metal (blue) and roughness (green), which are linear: 188 of 255.
+TEST(Gltf, AveragesATextureOfMetalAndRoughness) {
+  File file;
+  file.root["images"] = {{{"uri", "half.png"}}};
+  file.root["textures"] = {{{"source", 0}}};
+  file.root["materials"] = {{{"name", "rust"},
+                             {"pbrMetallicRoughness",
+                              {{"baseColorFactor", {0.8, 0.4, 0.2, 1}},
+                               {"metallicRoughnessTexture", {{"index", 0}}},
+                               {"roughnessFactor", 0.5}}}}};
+  const auto add = [&](const std::vector<float>& uv, double z) {
+    json primitive = square_in(file, 0);
+    primitive["attributes"]["TEXCOORD_0"] = file.accessor(file.view(uv), 5126, "VEC2", 4);
+    file.add(primitive, {{"translation", {0, 0, z}}});
+  };
+  add({0, 0, 1, 0, 1, 1, 0, 1}, 0);        // all
+  add({0, 0, 0.5F, 0, 0.5F, 1, 0, 1}, 1);  // the left half: metal
+  add({0.5F, 0, 1, 0, 1, 1, 0.5F, 1}, 2);  // the right half: smooth and no metal
+  const test::TemporaryFolder folder;
+  (void)half_image(folder);
+  const SceneDescription d = describe_scene(folder.write("a.glb", file.glb()));
+  ASSERT_EQ(d.face_count(), 3U);
+  const double value = 188.0 / 255;
+  const std::array metals{value / 2, value, 0.0};
+  for (std::size_t f = 0; f < 3; ++f) {
+    const Material& material = material_of(d, f);
+    const double metal = metals[f];
+    EXPECT_NEAR(material.reflectance.r, (1 - metal) * 0.8, 0.012) << f;
+    EXPECT_NEAR(material.lobe.reflectance.r, 0.04 * (1 - metal) + metal * 0.8, 0.012) << f;
+    EXPECT_NEAR(material.lobe.reflectance.b, 0.04 * (1 - metal) + metal * 0.2, 0.012) << f;
+    EXPECT_NEAR(material.lobe.roughness, std::max(0.5 * metal, 0.01), 0.008) << f;
+  }
+}
+
 TEST(Gltf, AveragesATextureOverEachFace) {
   File file;
   file.root["images"] = {{{"uri", "half.png"}}};

@@ -7,6 +7,7 @@
 //   w = 4 pi / (2M).
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -130,13 +131,31 @@ class GlossySolver {
   /// Returns whether it has finished.
   /// @throws Canceled: what is finished remains.
   bool solve(const Observer& observer = {});
+  /// Continues the solve as far as `until` says, or until the observer returns false.
+  /// @returns whether the solve is unfinished.
+  /// @throws Canceled: what is finished remains.
+  bool advance(RadiositySolver::Until until, const Observer& observer = {});
+  /// Of iterations after a change of materials.
+  enum class Start {
+    emission,  ///< E, as a new solve: the same bits
+    current,   ///< the light that arrived in the last iteration, where there is one: fewer
+               ///< iterations if the change is small, with the same limit
+  };
   /// Replaces rho, E and lobes and starts to iterate again, with the transfers that are kept. Where
   /// a patch gets a lobe that had none, the passes are made again.
-  /// @param materials as many as the scene has, for the same patches.
-  /// @throws InputError
-  void set_materials(const std::vector<Material>& materials);
+  /// Lobes that stay the same are not made again.
+  /// @param materials as many as the scene has, for the same patches; with `of_patch`, any number.
+  /// @param of_patch index into `materials` of each patch; empty: that of the scene.
+  /// @param start what the iteration starts with.
+  /// @throws InputError, Canceled
+  void set_materials(const std::vector<Material>& materials,
+                     const std::vector<std::int32_t>& of_patch = {}, Start start = Start::emission);
+  /// The options it was constructed with.
+  const SolveOptions& options() const;
   /// The current state.
   SolveProgress progress() const;
+  /// omega of each pass.
+  const std::vector<Vec3>& directions() const;
   /// The result so far; complete once the solve has finished. `scene` is that of the constructor.
   Solution solution() const;
 

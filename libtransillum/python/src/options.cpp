@@ -57,6 +57,7 @@ const std::map<std::string, Setter>& setters() {
       {"random-lines", [](Options& o, Value v) { o.engine_options.gridded = !number<bool>(v); }},
       {"two-way", [](Options& o, Value v) { o.two_way = number<bool>(v); }},
       {"basis", [](Options& o, Value v) { o.basis = basis_from_name(text(v)); }},
+      {"glossy", [](Options& o, Value v) { o.glossy = number<bool>(v); }},
       {"normalize", [](Options& o, Value v) { o.normalize = normalization_from_name(text(v)); }},
       {"scheme", [](Options& o, Value v) { o.scheme = scheme_from_name(text(v)); }},
       {"first-shot",
@@ -99,10 +100,13 @@ std::string with(std::string name, char from, char to) {
 
 /// The values that an option accepts; some differ from those on the command line.
 std::string type_of(const std::string& name) {
-  static const std::map<std::string, std::string> of_python{
-      {"memory", "a number of bytes"},      {"rotate", "a number, or None"},
-      {"random-lines", "True or False"},    {"two-way", "True or False"},
-      {"sky", "one number or three, W/m²"}, {"up", "three numbers"}};
+  static const std::map<std::string, std::string> of_python{{"memory", "a number of bytes"},
+                                                            {"rotate", "a number, or None"},
+                                                            {"random-lines", "True or False"},
+                                                            {"two-way", "True or False"},
+                                                            {"glossy", "True or False"},
+                                                            {"sky", "one number or three, W/m²"},
+                                                            {"up", "three numbers"}};
   const auto own = of_python.find(name);
   if (own != of_python.end()) {
     return own->second;

@@ -113,7 +113,7 @@ py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
                        const py::object& progress) {
   refuse(keywords,
          {"accuracy", "accuracy_of", "seconds", "iterations", "tolerance", "scheme", "burn_in",
-          "first_shot", "basis", "sky", "sky_model", "up"},
+          "first_shot", "basis", "glossy", "sky", "sky_model", "up"},
          "form_factors()");
   SolveOptions options = options_from(keywords);
   const Cancellation cancellation;
@@ -154,6 +154,9 @@ class Run {
  public:
   Run(const ScenePtr& scene, const py::dict& keywords) {
     const SolveOptions options = options_from(keywords);
+    if (options.glossy) {
+      throw InputError("glossy is an option of solve(), not of Run");
+    }
     if (options.goal.set()) {
       throw InputError("accuracy and seconds are options of solve(), not of Run");
     }

@@ -7,6 +7,7 @@
 #include "base/choice.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/glossy.h"
 
 namespace transillum {
 namespace {
@@ -59,11 +60,14 @@ void add(PartPower& to, const PartPower& part) {
 PartPower power_of(const Solution& solution, PatchId i, const Material& material) {
   const double area = solution.scene->patch(i).area;
   const Rgb h = at(solution.irradiance, i);
+  const Rgb reflected = solution.statistics.glossy.patches > 0
+                            ? material.reflectance + used_lobe(material).reflectance
+                            : material.reflectance;
   PartPower power{.patches = 1,
                   .area = area,
                   .emitted = area * material.exitance,
                   .received = area * h,
-                  .absorbed = area * ((Rgb{1, 1, 1} - material.reflectance) * h)};
+                  .absorbed = area * ((Rgb{1, 1, 1} - reflected) * h)};
   if (!solution.sky_irradiance.empty()) {
     power.from_sky = area * at(solution.sky_irradiance, i);
   }

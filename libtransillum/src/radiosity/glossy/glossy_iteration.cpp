@@ -36,6 +36,9 @@ GlossySolver::Impl::Impl(SolverInput solver_input)
     : input(std::move(solver_input)),
       materials(input.scene->materials()),
       light(std::make_shared<GlossyLight::Data>()) {
+  for (const Patch& patch : input.scene->patches()) {
+    of_patch.push_back(patch.material);
+  }
   light->scene = input.scene;
   light->directions = PassPlan(input.options).directions(0);
   find_glossy();
@@ -82,14 +85,14 @@ void GlossySolver::Impl::forget_passes() {
       std::make_unique<DirectionalExchanges>(std::move(directional), static_cast<int>(passes()),
                                              memory_limit(input.options.memory), input.requested);
   known_passes = 0;
-  kept_finished = false;
+  kept_finished = has_light = false;
   const std::size_t slots = glossy.size() * passes();
   seen.assign(slots, 0.0);
   sky_seen.assign(input.options.sky.set() ? slots : 0, 0.0);
   sky_area.assign(input.options.sky.set() ? input.patch_count() : 0, 0.0);
 }
 
-void GlossySolver::Impl::start() {
+void GlossySolver::Impl::start(Start from) {
   std::vector<Lobe> lobes;
   std::vector<Vec3> normals;
   light->shares.clear();
@@ -100,9 +103,17 @@ void GlossySolver::Impl::start() {
   }
   WorkerThreads workers(input.threads);
   const auto begin = Clock::now();
-  light->lobes = std::make_shared<const LobeTables>(lobes, normals, light->directions, workers,
-                                                    input.requested);
+  light->lobes = std::make_shared<const LobeTables>(lobes, normals, light->directions,
+                                                    light->lobes.get(), workers, input.requested);
   timing.seconds_iterate += seconds_since(begin);
+  records.clear();
+  last_change = 0;
+  finished = converged = false;
+  pass = 0;
+  if (from == Start::current && has_light) {
+    start_from_current(workers);
+    return;
+  }
   const std::size_t slots = glossy.size() * passes();
   light->arriving.assign(slots, Rgb{});
   light->reflected.assign(slots, Rgb{});
@@ -114,10 +125,19 @@ void GlossySolver::Impl::start() {
   irradiance.assign(input.patch_count(), Rgb{});
   from_sky.clear();
   gathered.assign(input.patch_count(), Rgb{});
-  records.clear();
-  last_change = 0;
-  finished = converged = false;
-  pass = 0;
+}
+
+Rgb GlossySolver::Impl::lambertian_of(std::size_t i, const Rgb& received) const {
+  return 1 / pi * (material(i).exitance + material(i).reflectance * received);
+}
+
+void GlossySolver::Impl::start_from_current(WorkerThreads& workers) {
+  const std::vector<Rgb> none(glossy.size());  // changes are of no interest
+  light->lobes->reflect(light->arriving, light->shares, none, none, light->reflected, workers,
+                        input.requested);
+  for (std::size_t i = 0; i < input.patch_count(); ++i) {
+    light->lambertian[i] = lambertian_of(i, irradiance[i]);
+  }
 }
 
 double GlossySolver::Impl::scale(std::size_t i) const {
@@ -128,13 +148,13 @@ double GlossySolver::Impl::scale(std::size_t i) const {
   return 2 * pi / (static_cast<double>(passes()) * input.scene->patches()[i].area);
 }
 
-bool GlossySolver::Impl::iterate(const Observer& observer) {
+bool GlossySolver::Impl::iterate(const Observer& observer, bool one_pass) {
   if (light.use_count() > 1) {
     light = std::make_shared<GlossyLight::Data>(*light);
   }
   iteration_seconds = pass > 0 ? iteration_seconds : 0.0;
   WorkerThreads workers(input.threads);
-  if (!gather_passes(workers, observer)) {
+  if (!gather_passes(workers, observer, one_pass)) {
     return false;
   }
   finish_iteration(workers);
@@ -177,7 +197,7 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers) {
       sky_light[i] = scale(i) * sky_area[i] / pi * input.options.sky.exitance;
       received[i] += sky_light[i];
     }
-    const Rgb radiance = 1 / pi * (material(i).exitance + material(i).reflectance * received[i]);
+    const Rgb radiance = lambertian_of(i, received[i]);
     if (light->index_of[i] < 0) {
       change.change = std::max(change.change, max_abs(radiance - light->lambertian[i]));
       change.largest = std::max(change.largest, max_abs(radiance));
@@ -193,6 +213,7 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers) {
   light->lambertian.swap(lambertian);
   light->reflected.swap(reflected);
   light->arriving.swap(incoming);
+  has_light = true;
   change.change = std::max(change.change, of_lobes.change);
   change.largest = std::max(change.largest, of_lobes.largest);
   const double seconds = seconds_since(start);

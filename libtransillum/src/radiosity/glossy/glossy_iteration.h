@@ -18,13 +18,15 @@ namespace transillum {
 
 struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   SolverInput input;
-  std::vector<Material> materials;  ///< of the scene, or those that replaced them
+  std::vector<Material> materials;     ///< of the scene, or those that replaced them
+  std::vector<std::int32_t> of_patch;  ///< index into them, by patch
   std::shared_ptr<GlossyLight::Data> light;
   std::vector<PatchId> glossy;  ///< the glossy patches, by index
   std::unique_ptr<PassStatistics> statistics;
   std::unique_ptr<DirectionalExchanges> kept;
   int known_passes = 0;          ///< that `statistics` has, and `kept` where available
   bool kept_finished = false;    ///< all passes are in `kept`
+  bool has_light = false;        ///< an iteration was finished: irradiance and Phi are its
   std::vector<Rgb> irradiance;   ///< H of the last finished iteration, W/m²
   std::vector<Rgb> from_sky;     ///< the part of it from the sky; empty without one
   std::vector<Rgb> gathered;     ///< sum_p sum_j A(i,j,p) L_j(p) of the iteration under way, W/sr
@@ -43,20 +45,25 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   explicit Impl(SolverInput solver_input);
 
   const Material& material(std::size_t i) const {
-    return materials[static_cast<std::size_t>(input.scene->patches()[i].material)];
+    return materials[static_cast<std::size_t>(of_patch[i])];
   }
   std::size_t passes() const { return light->directions.size(); }
   /// The factor from gathered() to H.
   double scale(std::size_t i) const;
-  /// Makes the lobes of `materials` and sets radiance to that of E.
-  void start();
+  /// @throws InputError
+  void check_count(const std::vector<Material>& given,
+                   const std::vector<std::int32_t>& by_patch) const;
+  /// Makes the lobes of `materials`, and sets radiance to that of E or to what they reflect of the
+  /// light that arrived last.
+  void start(Start from = Start::emission);
   /// @throws std::runtime_error where what is kept of them by direction does not fit into memory
   void find_glossy();
   void check_radiance_memory() const;
   /// Forgets all passes.
   void forget_passes();
-  /// One iteration; returns false where the observer did.
-  bool iterate(const Observer& observer);
+  /// One iteration, or of its passes only the next; returns false where the observer did, or
+  /// where passes are left.
+  bool iterate(const Observer& observer, bool one_pass = false);
   SolveProgress progress() const;
   SolveStatistics solve_statistics() const;
 
@@ -67,7 +74,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
     Pass pass;  ///< of a new direction: for statistics
     DirectionalExchanges::Run run;
   };
-  bool gather_passes(WorkerThreads& workers, const Observer& observer);
+  bool gather_passes(WorkerThreads& workers, const Observer& observer, bool one_pass);
   PassLight make(int k, bool from_kept) const;
   void gather(const std::vector<Transfer>& exchanges, int k, std::vector<Rgb>& sum) const;
   /// Sets what is kept by glossy patch and pass, which no other pass writes.
@@ -75,6 +82,8 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   void add_new(int k, PassLight& made);
   void add_all(const std::vector<PassLight>& batch, WorkerThreads& workers);
   void finish_iteration(WorkerThreads& workers);
+  void start_from_current(WorkerThreads& workers);
+  Rgb lambertian_of(std::size_t i, const Rgb& received) const;
   double defect_of_energy() const;
   double rho_max() const;
   void record(const LobeTables::Change& change);

@@ -131,7 +131,8 @@ void GlossySolver::Impl::add_all(const std::vector<PassLight>& batch, WorkerThre
   });
 }
 
-bool GlossySolver::Impl::gather_passes(WorkerThreads& workers, const Observer& observer) {
+bool GlossySolver::Impl::gather_passes(WorkerThreads& workers, const Observer& observer,
+                                       bool one_pass) {
   const bool from_kept = kept_finished;
   const int all = static_cast<int>(passes());
   if (pass == 0) {
@@ -140,9 +141,10 @@ bool GlossySolver::Impl::gather_passes(WorkerThreads& workers, const Observer& o
       kept->gather_diffuse(light->lambertian, gathered);
     }
   }
+  const int most = one_pass && !from_kept ? 1 : batch_per_thread * input.threads;
   while (pass < all) {
     const auto start = Clock::now();
-    const int count = std::min(batch_per_thread * input.threads, all - pass);
+    const int count = std::min(most, all - pass);
     std::vector<PassLight> batch(static_cast<std::size_t>(count));
     for_each_index(workers, 0, count, [&](int b) {
       input.requested.throw_if_canceled();
@@ -161,7 +163,8 @@ bool GlossySolver::Impl::gather_passes(WorkerThreads& workers, const Observer& o
     (from_kept ? timing.seconds_iterate : timing.seconds_transfers) += seconds;
     iteration_seconds += seconds;
     timing.passes_made += from_kept ? 0 : count;
-    if (observer && pass < all && !observer(progress())) {
+    const bool goes_on = !observer || pass == all || observer(progress());
+    if (pass < all && (!goes_on || most == 1)) {
       return false;
     }
   }

@@ -26,6 +26,26 @@ SolverInput checked(SolverInput input) {
 
 }  // namespace
 
+void GlossySolver::Impl::check_count(const std::vector<Material>& given,
+                                     const std::vector<std::int32_t>& by_patch) const {
+  const std::string& name = input.scene->name();
+  const std::size_t expected = input.scene->materials().size();
+  if (by_patch.empty() && given.size() != expected) {
+    throw InputError(
+        fmt::format("{}: {} materials were given, but there are {}", name, given.size(), expected));
+  }
+  if (!by_patch.empty() && by_patch.size() != input.patch_count()) {
+    throw InputError(fmt::format("{}: materials of {} patches were given, but there are {}", name,
+                                 by_patch.size(), input.patch_count()));
+  }
+  for (const std::int32_t m : by_patch) {
+    if (m < 0 || static_cast<std::size_t>(m) >= given.size()) {
+      throw InputError(fmt::format("{}: material {} was given for a patch; valid are 0 to {}", name,
+                                   m, std::ssize(given) - 1));
+    }
+  }
+}
+
 GlossySolver::GlossySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                            std::shared_ptr<const BspTree> tree, const Cancellation& cancellation,
                            TransferEngine engine)
@@ -37,24 +57,30 @@ GlossySolver::GlossySolver(GlossySolver&&) noexcept = default;
 GlossySolver& GlossySolver::operator=(GlossySolver&&) noexcept = default;
 
 bool GlossySolver::solve(const Observer& observer) {
+  return !advance(RadiositySolver::Until::finished, observer);
+}
+
+bool GlossySolver::advance(RadiositySolver::Until until, const Observer& observer) {
+  using Until = RadiositySolver::Until;
   bool going = true;
   while (going && !impl_->finished) {
     impl_->input.requested.throw_if_canceled();
-    going = impl_->iterate(observer);
+    going = impl_->iterate(observer, until == Until::direction) && until == Until::finished;
   }
-  return impl_->finished;
+  return !impl_->finished;
 }
 
-void GlossySolver::set_materials(const std::vector<Material>& materials) {
+void GlossySolver::set_materials(const std::vector<Material>& materials,
+                                 const std::vector<std::int32_t>& of_patch, Start start) {
   Impl& s = *impl_;
-  if (materials.size() != s.materials.size()) {
-    throw InputError(fmt::format("{}: {} materials were given, but there are {}",
-                                 s.input.scene->name(), materials.size(), s.materials.size()));
-  }
+  s.check_count(materials, of_patch);
   for (const Material& material : materials) {
     check_material(material, s.input.scene->name() + ": ");
   }
   s.materials = materials;
+  for (std::size_t i = 0; i < s.input.patch_count(); ++i) {
+    s.of_patch[i] = of_patch.empty() ? s.input.scene->patches()[i].material : of_patch[i];
+  }
   if (s.light.use_count() > 1) {
     s.light = std::make_shared<GlossyLight::Data>(*s.light);
   }
@@ -66,7 +92,7 @@ void GlossySolver::set_materials(const std::vector<Material>& materials) {
     s.find_glossy();
     s.forget_passes();
   }
-  s.start();
+  s.start(start);
 }
 
 SolveProgress GlossySolver::Impl::progress() const {
@@ -127,7 +153,9 @@ SolveStatistics GlossySolver::Impl::solve_statistics() const {
   return result;
 }
 
+const SolveOptions& GlossySolver::options() const { return impl_->input.options; }
 SolveProgress GlossySolver::progress() const { return impl_->progress(); }
+const std::vector<Vec3>& GlossySolver::directions() const { return impl_->light->directions; }
 
 Solution GlossySolver::solution() const {
   const Impl& s = *impl_;

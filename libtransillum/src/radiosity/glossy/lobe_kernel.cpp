@@ -18,6 +18,14 @@ constexpr double least_alpha = 1e-4;
 
 double alpha_of(const Lobe& lobe) { return std::max(lobe.roughness * lobe.roughness, least_alpha); }
 
+/// (alpha² / (1 + (alpha² - 1) cos² h))², where cos² h = (cosine_a + cosine_b)² / (2 + 2 a·b), at
+/// most 1. One division.
+inline double ggx(double sum, double between, double alpha2) {
+  const double length2 = std::max(2 + 2 * between, 1e-30);
+  const double ratio = alpha2 * length2 / (length2 + (alpha2 - 1) * std::min(sum * sum, length2));
+  return ratio * ratio;
+}
+
 }  // namespace
 
 double equivalent_exponent(const Lobe& lobe) {
@@ -28,13 +36,17 @@ double equivalent_exponent(const Lobe& lobe) {
 }
 
 Hemisphere::Hemisphere(const std::vector<Vec3>& directions, const Vec3& normal) {
-  for (const Vec3& omega : directions) {
-    const double c = dot(omega, normal);
-    const Vec3 above = c < 0 ? -omega : omega;
-    x.push_back(above.x);
-    y.push_back(above.y);
-    z.push_back(above.z);
-    cosine.push_back(std::abs(c));
+  const std::size_t count = directions.size();
+  for (std::vector<double>* values : {&x, &y, &z, &cosine}) {
+    values->resize(count);
+  }
+  for (std::size_t q = 0; q < count; ++q) {
+    const double c = dot(directions[q], normal);
+    const double sign = c < 0 ? -1.0 : 1.0;
+    x[q] = sign * directions[q].x;
+    y[q] = sign * directions[q].y;
+    z[q] = sign * directions[q].z;
+    cosine[q] = std::abs(c);
   }
 }
 
@@ -89,10 +101,7 @@ double LobeKernel::value(double cosine_a, double cosine_b, double between) const
     const double mirror = 2 * (cosine_a * cosine_b) - between;
     return exponent_ == 0 ? 1.0 : mirror > least_ ? power(mirror) : 0.0;
   }
-  const double sum = cosine_a + cosine_b;
-  const double half = std::min(sum * sum / std::max(2 + 2 * between, 1e-30), 1.0);
-  const double ratio = alpha2_ / (1 + (alpha2_ - 1) * half);
-  return ratio * ratio;
+  return ggx(cosine_a + cosine_b, between, alpha2_);
 }
 
 void LobeKernel::row(const Vec3& a, double cosine, const Hemisphere& directions,
@@ -114,10 +123,7 @@ void LobeKernel::row(const Vec3& a, double cosine, const Hemisphere& directions,
   }
   for (std::size_t q = 0; q < count; ++q) {
     const double between = a.x * x[q] + a.y * y[q] + a.z * z[q];
-    const double sum = cosine + c[q];
-    const double half = std::min(sum * sum / std::max(2 + 2 * between, 1e-30), 1.0);
-    const double ratio = alpha2_ / (1 + (alpha2_ - 1) * half);
-    values[q] = ratio * ratio;
+    values[q] = ggx(cosine + c[q], between, alpha2_);
   }
 }
 

@@ -30,6 +30,39 @@ std::array<std::int64_t, 4> key_of(std::size_t kernel, const Vec3& normal) {
           rounded(normal.z)};
 }
 
+/// The scalar products of `row` with `planes` vectors that follow each other. Four sums for each:
+/// the compiler computes them at once, and their order is the same everywhere.
+template <std::size_t planes>
+std::array<double, planes> product(const double* row, const double* vectors, std::size_t count) {
+  constexpr std::size_t lanes = 4;
+  double sums[planes][lanes] = {};
+  const std::size_t whole = count - count % lanes;
+  for (std::size_t q = 0; q < whole; q += lanes) {
+    for (std::size_t k = 0; k < planes; ++k) {
+      for (std::size_t l = 0; l < lanes; ++l) {
+        sums[k][l] += row[q + l] * vectors[k * count + q + l];
+      }
+    }
+  }
+  std::array<double, planes> result{};
+  for (std::size_t k = 0; k < planes; ++k) {
+    for (std::size_t q = whole; q < count; ++q) {
+      sums[k][0] += row[q] * vectors[k * count + q];
+    }
+    result[k] = (sums[k][0] + sums[k][1]) + (sums[k][2] + sums[k][3]);
+  }
+  return result;
+}
+
+void set_planes(const Rgb* light, std::size_t count, std::vector<double>& planes) {
+  planes.resize(3 * count);
+  for (std::size_t q = 0; q < count; ++q) {
+    planes[q] = light[q].r;
+    planes[count + q] = light[q].g;
+    planes[2 * count + q] = light[q].b;
+  }
+}
+
 double largest_of(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
 }
@@ -45,16 +78,30 @@ double difference_from_one(const std::vector<double>& values) {
 }  // namespace
 
 LobeTables::LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals,
-                       const std::vector<Vec3>& directions, WorkerThreads& workers,
-                       const Cancellation& cancellation)
+                       const std::vector<Vec3>& directions, const LobeTables* before,
+                       WorkerThreads& workers, const Cancellation& cancellation)
     : directions_(directions) {
   add_patches(lobes, normals);
+  if (before != nullptr) {
+    copy_tables(*before);
+  }
+  std::vector<char> is_new(shapes_.size(), 0);
+  for (const LobeTable& table : tables_) {
+    if (table.scale.empty()) {
+      is_new[table.kernel] = 1;
+    }
+  }
   std::vector<std::unique_ptr<LobeFunction>> functions(shapes_.size());
   for_each_index(workers, std::size_t{0}, shapes_.size(), [&](std::size_t k) {
-    functions[k] = std::make_unique<LobeFunction>(shapes_[k], cancellation);
+    if (is_new[k] != 0) {
+      functions[k] = std::make_unique<LobeFunction>(shapes_[k], cancellation);
+    }
   });
   for_each_index(workers, std::size_t{0}, tables_.size(), [&](std::size_t t) {
     LobeTable& table = tables_[t];
+    if (!table.scale.empty()) {
+      return;
+    }
     const Hemisphere above(directions_, table.normal);
     for (const double c : above.cosine) {
       table.scale.push_back(functions[table.kernel]->scale(c));
@@ -84,6 +131,26 @@ void LobeTables::add_patches(const std::vector<Lobe>& lobes, const std::vector<V
   }
 }
 
+void LobeTables::copy_tables(const LobeTables& before) {
+  std::map<std::array<std::int64_t, 4>, std::size_t> known;
+  for (std::size_t t = 0; t < before.tables_.size(); ++t) {
+    const Lobe& shape = before.shapes_[before.tables_[t].kernel];
+    const auto found = std::find(shapes_.begin(), shapes_.end(), shape);
+    if (found != shapes_.end()) {
+      const auto kernel = static_cast<std::size_t>(found - shapes_.begin());
+      known.emplace(key_of(kernel, before.tables_[t].normal), t);
+    }
+  }
+  for (LobeTable& table : tables_) {
+    const auto found = known.find(key_of(table.kernel, table.normal));
+    if (found != known.end() && before.tables_[found->second].normal == table.normal) {
+      const std::size_t kernel = table.kernel;
+      table = before.tables_[found->second];
+      table.kernel = kernel;
+    }
+  }
+}
+
 double LobeTables::weight() const {
   return 2 * std::numbers::pi / static_cast<double>(directions_.size());
 }
@@ -102,11 +169,7 @@ void LobeTables::sums(const LobeTable& table, const Hemisphere& above, std::vect
       cancellation.throw_if_canceled();
     }
     kernel.row(above.direction(p), above.cosine[p], above, row, spare);
-    double sum = 0;
-    for (std::size_t q = 0; q < count; ++q) {
-      sum += row[q] * factor[q];
-    }
-    result[p] = table.scale[p] * sum;
+    result[p] = table.scale[p] * product<1>(row.data(), factor.data(), count)[0];
   }
 }
 
@@ -153,6 +216,28 @@ void LobeTables::scale(LobeTable& table, const std::vector<double>& cosine,
   table.sum_defect = difference_from_one(sum);
 }
 
+/// w f(p, q) for p from `first` to before `last` and all q.
+std::vector<double> LobeTables::rows_of(const LobeTable& table, std::size_t first,
+                                        std::size_t last) const {
+  const std::size_t count = directions_.size();
+  const LobeKernel& kernel = kernels_[table.kernel];
+  const Hemisphere above(directions_, table.normal);
+  const double* scale = table.scale.data();
+  const double* spread = table.spread.data();
+  std::vector<double> rows((last - first) * count), row, spare;
+  for (std::size_t p = first; p < last; ++p) {
+    kernel.row(above.direction(p), above.cosine[p], above, row, spare);
+    double* to = rows.data() + (p - first) * count;
+    const double w = weight(), scale_p = scale[p], spread_p = spread[p];
+    for (std::size_t q = 0; q < count; ++q) {
+      to[q] = w * (row[q] * scale_p * scale[q] + spread_p * spread[q]);
+    }
+  }
+  return rows;
+}
+
+/// For a block of directions, first the rows of the table, then patch by patch: its light as three
+/// planes, and the products of the rows with them.
 LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
                                        const std::vector<Rgb>& shares,
                                        const std::vector<Rgb>& lambertian_before,
@@ -163,31 +248,24 @@ LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
   const std::size_t blocks = (count + rows_per_task - 1) / rows_per_task;
   std::vector<Change> changes(tables_.size() * blocks);
   for_each_index(workers, std::size_t{0}, changes.size(), [&](std::size_t task) {
-    const LobeTable& table = tables_[task / blocks];
-    const std::vector<std::size_t>& members = members_[task / blocks];
-    const LobeKernel& kernel = kernels_[table.kernel];
-    const Hemisphere above(directions_, table.normal);
-    std::vector<double> row, spare;
     const std::size_t first = rows_per_task * (task % blocks);
-    for (std::size_t p = first; p < std::min(first + rows_per_task, count); ++p) {
+    const std::size_t last = std::min(first + rows_per_task, count);
+    cancellation.throw_if_canceled();
+    const std::vector<double> rows = rows_of(tables_[task / blocks], first, last);
+    std::vector<double> planes;
+    Change& change = changes[task];
+    for (const std::size_t g : members_[task / blocks]) {
       cancellation.throw_if_canceled();
-      kernel.row(above.direction(p), above.cosine[p], above, row, spare);
-      for (std::size_t q = 0; q < count; ++q) {
-        row[q] = weight() *
-                 (row[q] * table.scale[p] * table.scale[q] + table.spread[p] * table.spread[q]);
-      }
-      for (const std::size_t g : members) {
-        const Rgb* from = arriving.data() + g * count;
-        Rgb sum;
-        for (std::size_t q = 0; q < count; ++q) {
-          sum += row[q] * from[q];
-        }
+      set_planes(arriving.data() + g * count, count, planes);
+      for (std::size_t p = first; p < last; ++p) {
+        const std::array<double, 3> sum =
+            product<3>(rows.data() + (p - first) * count, planes.data(), count);
         Rgb& to = reflected[g * count + p];
         const Rgb before = to + lambertian_before[g];
-        to = shares[g] * sum;
+        to = shares[g] * Rgb{sum[0], sum[1], sum[2]};
         const Rgb after = to + lambertian_after[g];
-        changes[task].change = std::max(changes[task].change, max_abs(after - before));
-        changes[task].largest = std::max(changes[task].largest, max_abs(after));
+        change.change = std::max(change.change, max_abs(after - before));
+        change.largest = std::max(change.largest, max_abs(after));
       }
     }
   });

@@ -20,7 +20,7 @@ namespace transillum {
 struct LobeTable {
   std::size_t kernel = 0;  ///< index of its shape
   Vec3 normal;
-  std::vector<double> scale = {}, spread = {};                   ///< by pass
+  std::vector<double> scale = {}, spread = {};             ///< by pass
   double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< as GlossyFigures
 };
 
@@ -28,9 +28,10 @@ struct LobeTable {
 class LobeTables {
  public:
   /// @param lobes, normals of the glossy patches
+  /// @param before tables of the same directions, from which those that fit are copied; may be null
   /// @throws Canceled
   LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals,
-             const std::vector<Vec3>& directions, WorkerThreads& workers,
+             const std::vector<Vec3>& directions, const LobeTables* before, WorkerThreads& workers,
              const Cancellation& cancellation);
 
   /// reflected = w sum_q f(p, q) arriving_q k for all patches and directions p; both by patch, then
@@ -53,11 +54,14 @@ class LobeTables {
 
  private:
   void add_patches(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals);
+  /// Copies tables of the same shape and orientation.
+  void copy_tables(const LobeTables& before);
   void scale(LobeTable& table, const std::vector<double>& cosine,
              const Cancellation& cancellation) const;
   /// w sum_q kernel(p, q) scale_p scale_q cosine_q for each p
   void sums(const LobeTable& table, const Hemisphere& above, std::vector<double>& result,
             const Cancellation& cancellation) const;
+  std::vector<double> rows_of(const LobeTable& table, std::size_t first, std::size_t last) const;
   double weight() const;
 
   std::vector<Vec3> directions_;

@@ -74,7 +74,7 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
        name_of(solve.basis)},
       {"glossy", "yes or no",
        "lobes of materials (MTL: Ks with Ns or Pr; glTF: metallic and rough) reflect too",
-       yes_or_no(solve.glossy), false},
+       yes_or_no(solve.glossy)},
       {"first-shot", "none, auto or a number",
        "treat small bright sources separately before the iteration: those with R2/A of at least "
        "this ratio, R the scene's diagonal and A the source's area; auto: those for which it takes "
