@@ -20,7 +20,8 @@ namespace {
 void check_glossy(const SolveCall& call) {
   refuse_unless(call.options.glossy, *call.command, "--eye", "used only with --glossy");
   if (call.options.glossy) {
-    for (const char* option : {"--factors", "--by", "--series", "--checkpoint", "--shard"}) {
+    for (const char* option :
+         {"--factors", "--by", "--series", "--checkpoint", "--shard", "--refine-by"}) {
       refuse_unless(false, *call.command, option, "not used with --glossy");
     }
   }

@@ -5,6 +5,7 @@
 #include "colors/color_choice.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "colors/neutral_light.h"
@@ -28,8 +29,18 @@ void shade_gray(const Scene& scene, std::span<const Rgb> radiosity, std::vector<
 // Quantities that are 0 everywhere if nothing emits.
 bool needs_light(Quantity quantity) {
   return quantity == Quantity::radiosity || quantity == Quantity::exitance ||
-         quantity == Quantity::irradiance || quantity == Quantity::error ||
-         quantity == Quantity::last_change || quantity == Quantity::jump;
+         quantity == Quantity::irradiance || quantity == Quantity::eye_radiance ||
+         quantity == Quantity::error || quantity == Quantity::last_change ||
+         quantity == Quantity::jump;
+}
+
+/// B/pi: the mean of the radiance, weighted by the cosine.
+std::vector<Rgb> mean_radiance(const SolverSnapshot& snapshot) {
+  std::vector<Rgb> values = snapshot.radiosity;
+  for (Rgb& value : values) {
+    value = std::numbers::inv_pi * value;
+  }
+  return values;
 }
 
 }  // namespace
@@ -51,6 +62,11 @@ ColorChoice::ColorChoice(const Selection& selection, QObject* parent)
       change();
     }
   });
+  connect(&eye_radiance_, &EyeRadiance::changed, this, [this] {
+    if (traits_of(quantity_).by_eye) {
+      change();
+    }
+  });
   connect(&kept_runs_, &KeptRuns::compared_changed, this, [this] {
     shows_kept_run_ = shows_kept_run_ && run_a();
     change();
@@ -66,6 +82,12 @@ void ColorChoice::set_quantity(Quantity quantity) {
   change();
   if (traits_of(quantity).of_selection) {
     emit form_factors_requested();
+  }
+}
+
+void ColorChoice::show_lobes(bool take_part) {
+  if (quantity_ == (take_part ? Quantity::radiosity : Quantity::eye_radiance)) {
+    set_quantity(take_part ? Quantity::eye_radiance : Quantity::radiosity);
   }
 }
 
@@ -156,6 +178,21 @@ Rgb ColorChoice::value_at(PatchId i, const Vec3& point) const {
              : mean;
 }
 
+void ColorChoice::set_eye(const Vec3& eye) {
+  if (eye == eye_) {
+    return;
+  }
+  eye_ = eye;
+  emit eye_changed();
+  if (traits_of(quantity_).by_eye && snapshot_) {
+    const auto kept = run_a();
+    const auto& shown = shows_kept_run_ && kept ? kept : snapshot_;
+    if (shown->glossy) {
+      eye_radiance_.request(shown->glossy, eye_);  // change() follows
+    }
+  }
+}
+
 bool ColorChoice::keep_run() { return !snapshot_ || kept_runs_.keep(*snapshot_); }
 
 std::shared_ptr<const SolverSnapshot> ColorChoice::run_a() const {
@@ -229,12 +266,36 @@ void ColorChoice::refit() {
     values_ = values_of_kept(kept);
   } else {
     const auto& shown = quantity_ == Quantity::difference ? run_b() : snapshot_;
-    values_ = traits.by_response ? values_by_response(*shown)
-              : traits.by_jumps  ? values_by_jumps(shown)
-                                 : values_of(quantity_, *shown, selection_.patch(), kept.get());
+    values_ = values_of_shown(shown, kept.get());
     fit_range();
   }
   color();
+}
+
+PatchValues ColorChoice::values_of_shown(const std::shared_ptr<const SolverSnapshot>& snapshot,
+                                         const SolverSnapshot* other) {
+  const QuantityTraits& traits = traits_of(quantity_);
+  return traits.by_response ? values_by_response(*snapshot)
+         : traits.by_jumps  ? values_by_jumps(snapshot)
+         : traits.by_eye && snapshot->glossy
+             ? values_by_eye(snapshot)
+             : values_of(quantity_, *snapshot, selection_.patch(), other);
+}
+
+/// While a newer one is computed, the radiance of an older light of the scene.
+PatchValues ColorChoice::values_by_eye(const std::shared_ptr<const SolverSnapshot>& snapshot) {
+  eye_radiance_.request(snapshot->glossy, eye_);
+  const auto found = eye_radiance_.radiance();
+  PatchValues result;
+  if (found && &found->light->scene() == snapshot->loaded->scene.get()) {
+    result.values = found->values;
+    return result;
+  }
+  result = values_of(quantity_, *snapshot, no_patch, nullptr);
+  if (!eye_radiance_.error().isEmpty() && !eye_radiance_.busy()) {
+    result.missing = eye_radiance_.error();
+  }
+  return result;
 }
 
 PatchValues ColorChoice::values_by_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot) {
@@ -260,6 +321,9 @@ PatchValues ColorChoice::values_of_kept(const std::shared_ptr<const SolverSnapsh
   }
   if (traits_of(quantity_).by_jumps) {
     return values_by_jumps(kept);
+  }
+  if (traits_of(quantity_).by_eye && kept->glossy) {
+    return values_by_eye(kept);
   }
   // The tree is that of the open scene.
   const SolverSnapshot& shown = quantity_ == Quantity::fragments ? *snapshot_ : *kept;
@@ -292,19 +356,26 @@ void ColorChoice::fit_range() {
     // Reflectances are between 0 and 1: white is 1.
     if (quantity_ == Quantity::reflectance) {
       scale_.exposure = 0;
+    } else if (traits.by_eye) {
+      // By the mean over all directions: it stays the same while the camera moves.
+      scale_.fit_exposure(scene, mean_radiance(*snapshot_));
     } else {
       scale_.fit_exposure(scene, values_.values);
     }
     return;
   }
   const double low = scale_.low, high = scale_.high;
+  // While only the camera moves, the range is not fitted anew, so that colors stay comparable.
+  const auto light = traits.by_eye ? eye_radiance_.radiance() : nullptr;
+  const bool same_light = light && light->light == light_of_range_ && range_is_known_;
+  light_of_range_ = light ? light->light : nullptr;
   if (range_rule_ != RangeRule::fixed) {
     if (quantity_ == Quantity::radiosity) {
       scale_.fit_range(scene, values_.values);
     } else {
       scale_.fit_range(values_.values, traits.is_signed);
     }
-    if (range_rule_ == RangeRule::widening && range_is_known_) {
+    if ((range_rule_ == RangeRule::widening || same_light) && range_is_known_) {
       scale_.low = std::min(low, scale_.low);
       scale_.high = std::max(high, scale_.high);
     }

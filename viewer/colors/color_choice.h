@@ -10,6 +10,7 @@
 
 #include "colors/color_scale.h"
 #include "colors/quantity.h"
+#include "model/eye_radiance.h"
 #include "model/jump_finder.h"
 #include "model/snapshot.h"
 #include "state/kept_runs.h"
@@ -45,6 +46,9 @@ class ColorChoice : public QObject {
   bool exposure_is_automatic() const { return automatic_; }
 
   void set_quantity(Quantity quantity);
+  /// Shows the radiance toward the eye in place of B, or B in place of it: what a run in which
+  /// lobes take part, or do not, is looked at by.
+  void show_lobes(bool take_part);
   void set_mode(ColorMode mode);
   void set_map(ColorMap map);
   /// Of the quantities that span decades like the one shown, or of the others.
@@ -72,6 +76,10 @@ class ColorChoice : public QObject {
   void show_kept_run(bool shown);
   bool shows_kept_run() const { return shows_kept_run_; }
 
+  /// Sets the point, m, of quantities that depend on the camera.
+  void set_eye(const Vec3& eye);
+  const Vec3& eye() const { return eye_; }
+
   /// Fits range and exposure to a new snapshot. Emits fitted(), not changed(): the caller shows the
   /// snapshot in the views afterward.
   void fit(std::shared_ptr<const SolverSnapshot> snapshot);
@@ -90,17 +98,23 @@ class ColorChoice : public QObject {
   const QString& missing() const { return values_.missing; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
   /// Whether values() waits for a solve.
-  bool busy() const { return response_solver_.busy() || jump_finder_.busy(); }
+  bool busy() const {
+    return response_solver_.busy() || jump_finder_.busy() || eye_radiance_.busy();
+  }
 
  signals:
   void changed();  ///< all pictures must be recolored
   void fitted();
   void form_factors_requested();
+  void eye_changed();
 
  private:
   bool& logarithmic_choice();
   PatchValues values_by_response(const SolverSnapshot& snapshot);
   PatchValues values_by_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot);
+  PatchValues values_by_eye(const std::shared_ptr<const SolverSnapshot>& snapshot);
+  PatchValues values_of_shown(const std::shared_ptr<const SolverSnapshot>& snapshot,
+                              const SolverSnapshot* other);
   PatchValues values_of_kept(const std::shared_ptr<const SolverSnapshot>& kept);
   void refit();
   void fit_range();
@@ -126,6 +140,9 @@ class ColorChoice : public QObject {
   std::vector<Color8> patch_colors_;
   ResponseSolver response_solver_;
   JumpFinder jump_finder_;
+  Vec3 eye_;
+  std::shared_ptr<const GlossyLight> light_of_range_;  ///< that by_eye quantities were fitted to
+  EyeRadiance eye_radiance_;
 };
 
 }  // namespace transillum::viewer

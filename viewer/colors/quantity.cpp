@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "model/form_factor_views.h"
 #include "model/linear_values.h"
@@ -95,6 +96,19 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
   return result;
 }
 
+/// B/pi, the same in all directions.
+PatchValues diffuse_radiance(const SolverSnapshot& snapshot) {
+  constexpr double share = std::numbers::inv_pi;
+  PatchValues result{snapshot.radiosity, {}, snapshot.linear_parts, snapshot.bases};
+  for (Rgb& value : result.values) {
+    value = share * value;
+  }
+  for (LinearPart& part : result.linear_parts) {
+    part = {share * part.first, share * part.second};
+  }
+  return result;
+}
+
 constexpr QuantityTraits all_traits[] = {
     {.quantity = Quantity::radiosity,
      .name = QT_TRANSLATE_NOOP("Quantity", "Radiosity B"),
@@ -105,6 +119,18 @@ constexpr QuantityTraits all_traits[] = {
      .section = "2",
      .is_light = true,
      .has_channels = true},
+    {.quantity = Quantity::eye_radiance,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Radiance toward the eye L"),
+     .symbol = "L",
+     .unit = "W/(m² sr)",
+     .meaning = QT_TRANSLATE_NOOP(
+         "Quantity",
+         "Radiance that each patch sends from its center toward the camera: what the camera sees. "
+         "Of a diffuse patch B/π, from everywhere; lobes reflect differently toward each point"),
+     .section = "6.14",
+     .is_light = true,
+     .has_channels = true,
+     .by_eye = true},
     {.quantity = Quantity::exitance,
      .name = QT_TRANSLATE_NOOP("Quantity", "Emitted exitance E"),
      .symbol = "E",
@@ -322,6 +348,9 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
     }
     case Quantity::jump:
       return {{}, tr("Comparing neighbors…")};
+    case Quantity::eye_radiance:
+      return snapshot.glossy ? PatchValues{{}, tr("Computing the radiance toward the eye…")}
+                             : diffuse_radiance(snapshot);
     case Quantity::difference:
       return difference(snapshot, other);
     case Quantity::radiosity:

@@ -14,6 +14,7 @@ namespace transillum::viewer {
 /// A quantity of the patches that pictures and tables show.
 enum class Quantity {
   radiosity,
+  eye_radiance,
   exitance,
   reflectance,
   irradiance,
@@ -47,6 +48,7 @@ struct QuantityTraits {
   bool spans_decades = false;
   bool by_response = false;  ///< computed from a PatchResponse
   bool by_jumps = false;     ///< computed by a JumpFinder
+  bool by_eye = false;       ///< depends on the camera; where lobes take part by an EyeRadiance
 };
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();

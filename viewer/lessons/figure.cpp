@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lessons/view_state.h"
+#include "model/material_json.h"
 #include "support/json_object.h"
 
 namespace transillum::viewer {
@@ -30,7 +31,8 @@ enum Keys : unsigned {
   has_reference = 16,
   has_material = 32,
   has_parts = 64,
-  has_areas = 128
+  has_areas = 128,
+  has_eye = 256
 };
 
 struct FigureName {
@@ -51,6 +53,7 @@ constexpr FigureName names[] = {
     {"reflectance", FigureKind::reflectance, has_patch},
     {"radiosity", FigureKind::radiosity, has_patch | has_run},
     {"irradiance", FigureKind::irradiance, has_patch | has_run},
+    {"radiance", FigureKind::radiance, has_patch | has_run | has_eye},
     {"jump", FigureKind::jump, has_patch | has_run},
     {"projected-area", FigureKind::projected_area, has_patch | has_direction | has_run},
     {"visible-area", FigureKind::visible_area, has_patch | has_others | has_direction | has_run},
@@ -163,6 +166,14 @@ Figure figure_from_json(const json& value, const std::string& where, const json&
   }
   if (name.keys & has_direction) {
     read_direction(figure, object, page);
+  }
+  if (name.keys & has_eye) {
+    if (!object.find("eye") && !page.camera) {
+      object.fail_at("eye", "is missing, and the page has no camera");
+    }
+    figure.eye = page.camera ? page.camera->eye : Vec3{};
+    object.read("eye", figure.eye);
+    figure.changes = material_changes_from_json(object, "materials");
   }
   if (name.keys & has_reference) {
     figure.reference = 8 * page.options.solve.directions;

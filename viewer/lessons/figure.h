@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "transillum/material_changes.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
@@ -29,6 +30,7 @@ enum class FigureKind {
   reflectance,       ///< of patch i, luminance
   radiosity,         ///< of patch i, luminance, W/m²
   irradiance,        ///< of patch i, luminance, W/m²
+  radiance,          ///< of patch i toward Figure::eye, luminance, W/(m² sr)
   jump,              ///< of patch i: radiosity_jumps(), W/m²
   projected_area,    ///< of patch i
   visible_area,      ///< A(i, j, omega), summed over others; those above i, front or back
@@ -60,8 +62,10 @@ struct Figure {
   bool no_sources = false;      ///< rms_error over patches that do not emit
   double patch_area = 0;        ///< of function_error: SceneOptions::max_patch_area, m²
   double reference_area = 0;    ///< of function_error: that of the reference, m²
-  SolveOptions solve;           ///< the run: that of the page, with the figure's own changes
-  std::vector<Figure> parts;    ///< of a ratio
+  Vec3 eye;                     ///< of a radiance, m
+  std::vector<MaterialChange> changes;  ///< of a radiance: materials other than the scene's
+  SolveOptions solve;         ///< the run: that of the page, with the figure's own changes
+  std::vector<Figure> parts;  ///< of a ratio
 };
 
 /// Reads a number, or an object with the key `figure`.

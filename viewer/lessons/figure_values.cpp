@@ -6,12 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "colors/color_scale.h"
 #include "model/form_factor_views.h"
 #include "transillum/function_comparison.h"
+#include "transillum/glossy.h"
+#include "transillum/material_changes.h"
 #include "transillum/patch_count.h"
 #include "transillum/refinement.h"
 #include "transillum/study.h"
@@ -24,6 +28,8 @@ struct FigureValues::Run {
   RadiositySolver solver;
   FormFactors form_factors = {};
   std::vector<double> jumps = {};
+  /// Where lobes take part, by the changes of materials.
+  std::vector<std::pair<std::vector<MaterialChange>, Solution>> with_lobes = {};
 };
 
 /// A solve of the scene with other patches.
@@ -80,6 +86,48 @@ const RadiositySolver& FigureValues::solved(const SolveOptions& options) {
     run.solver.advance(RadiositySolver::Until::finished);
   }
   return run.solver;
+}
+
+const Solution* FigureValues::solved_with_lobes(const SolveOptions& options,
+                                                const std::vector<MaterialChange>& changes) {
+  if (!options.glossy || !has_lobes(*loaded_->scene)) {
+    return nullptr;
+  }
+  auto& known = run_of(options).with_lobes;
+  for (const auto& [of_changes, solution] : known) {
+    if (of_changes == changes) {
+      return &solution;
+    }
+  }
+  std::shared_ptr<const Scene> scene = loaded_->scene;
+  if (!changes.empty()) {
+    if (!loaded_->description) {
+      throw InputError("materials of a result cannot be changed");
+    }
+    SceneDescription changed = *loaded_->description;
+    change_materials(changed, changes);
+    scene = std::make_shared<const Scene>(changed, scene->options(), cancellation_);
+  }
+  GlossySolver solver(scene, options, changes.empty() ? loaded_->tree : nullptr, cancellation_);
+  solver.solve();
+  known.emplace_back(changes, solver.solution());
+  return &known.back().second;
+}
+
+Rgb FigureValues::light_of(const Figure& figure) {
+  const Solution* glossy = solved_with_lobes(figure.solve, figure.changes);
+  const PatchId patch = figure.patch;
+  if (figure.kind == FigureKind::irradiance) {
+    return at(glossy ? glossy->irradiance : solved(figure.solve).irradiance(), patch);
+  }
+  if (figure.kind == FigureKind::radiosity) {
+    return at(glossy ? glossy->radiosity : solved(figure.solve).radiosity(), patch);
+  }
+  if (glossy) {
+    const Vec3 to_eye = figure.eye - loaded_->scene->patch(patch).center;
+    return glossy->glossy->radiance(patch, normalized(to_eye));
+  }
+  return std::numbers::inv_pi * at(solved(figure.solve).radiosity(), patch);
 }
 
 const MapHistory& FigureValues::history_of(const Figure& figure) {
@@ -181,20 +229,22 @@ double FigureValues::function_error(const Figure& figure) {
 }
 
 double FigureValues::of_run(const Figure& figure) {
-  const RadiositySolver& solver = solved(figure.solve);
+  const Solution* glossy = solved_with_lobes(figure.solve);
+  const SolveStatistics statistics =
+      glossy ? glossy->statistics : solved(figure.solve).statistics();
   switch (figure.kind) {
     case FigureKind::directions:
-      return solver.statistics().directions;
+      return statistics.directions;
     case FigureKind::iterations:
-      return solver.statistics().iterations;
+      return statistics.iterations;
     case FigureKind::contraction:
-      return solver.statistics().iteration_records.back().contraction;
+      return statistics.iteration_records.back().contraction;
     case FigureKind::light_directions:
-      return solver.statistics().light_directions / figure.solve.replicas;
+      return statistics.light_directions / figure.solve.replicas;
     default:
       break;
   }
-  const ErrorEstimate estimate = estimate_of(solver);
+  const ErrorEstimate estimate = estimate_of(solved(figure.solve));
   return figure.kind == FigureKind::estimated_error ? estimate.rms : estimate.rms_limit;
 }
 
@@ -288,11 +338,11 @@ double FigureValues::of_patch(const Figure& figure) {
     case FigureKind::reflectance:
       return luminance(scene.material(figure.patch).reflectance);
     case FigureKind::radiosity:
-      return luminance(at(solved(figure.solve).radiosity(), figure.patch));
+    case FigureKind::irradiance:
+    case FigureKind::radiance:
+      return luminance(light_of(figure));
     case FigureKind::jump:
       return jump(figure);
-    case FigureKind::irradiance:
-      return luminance(at(solved(figure.solve).irradiance(), figure.patch));
     default:
       return form_factor(figure);
   }

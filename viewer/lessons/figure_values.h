@@ -36,6 +36,11 @@ class FigureValues {
   struct Run;
   Run& run_of(const SolveOptions& options);
   const RadiositySolver& solved(const SolveOptions& options);
+  /// Where lobes take part, else null.
+  const Solution* solved_with_lobes(const SolveOptions& options,
+                                    const std::vector<MaterialChange>& changes = {});
+  /// B or H of a patch, or its radiance toward the figure's eye.
+  Rgb light_of(const Figure& figure);
   const MapHistory& history_of(const Figure& figure);
   const std::vector<Rgb>& reference_of(const Figure& figure);
   double covered(const Figure& figure);

@@ -33,6 +33,7 @@ constexpr Name<ColorMode> color_modes[] = {{"true-color", ColorMode::true_color}
                                            {"green", ColorMode::green},
                                            {"blue", ColorMode::blue}};
 constexpr Name<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
+                                         {"eye-radiance", Quantity::eye_radiance},
                                          {"exitance", Quantity::exitance},
                                          {"reflectance", Quantity::reflectance},
                                          {"irradiance", Quantity::irradiance},

@@ -67,6 +67,11 @@ class Line {
       if (change.reflectance) {
         add_value("reflectance", change, *change.reflectance);
       }
+      if (change.lobe && change.lobe->shape == LobeShape::phong) {
+        const Rgb& k = change.lobe->reflectance;
+        add("lobe",
+            fmt::format("{}={},{},{},{}", change.target, k.r, k.g, k.b, change.lobe->exponent));
+      }
     }
   }
   const std::string& text() const { return text_; }
@@ -123,9 +128,9 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
   Line line("transillum solve");
   add_scene(line, scene, options, changes);
   const SolveOptions& solve = options.solve;
-  std::vector<std::string> others{"read",    "two-way",     "two-sided", "max-patch-area",
-                                  "sky",     "sky-model",   "up",        "refine-by",
-                                  "patches", "refine-until"};
+  std::vector<std::string> others{"read",      "two-way",   "two-sided",   "max-patch-area",
+                                  "sky",       "sky-model", "up",          "glossy",
+                                  "refine-by", "patches",   "refine-until"};
   if (solve.goal.set()) {
     // Chosen by the goal.
     others.insert(others.end(), {"directions", "replicas", "tolerance"});
@@ -135,6 +140,9 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
   line.add_differences(to_json(options), to_json(RunOptions{}), others);
   if (!solve.two_way) {
     line.add("--one-way");
+  }
+  if (solve.glossy) {
+    line.add("--glossy");
   }
   add_sky(line, solve.sky);
   if (options.refine.set()) {

@@ -40,6 +40,9 @@ std::vector<double> form_factors_to(const FormFactors& form_factors, PatchId i) 
 }
 
 QString why_no_form_factors(const SolverSnapshot& snapshot) {
+  if (snapshot.glossy) {
+    return tr("With lobes, transfers are kept by direction; there are no form factors.");
+  }
   if (snapshot.progress.iteration == 0) {
     return tr("Form factors are available after the first iteration.");
   }

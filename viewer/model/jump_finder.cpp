@@ -16,7 +16,10 @@ JumpFinder::JumpFinder(QObject* parent)
             // As the materials are now, which may have been changed.
             std::vector<Rgb> reflectance;
             for (PatchId i = 0; i < snapshot->loaded->scene->patch_count(); ++i) {
-              reflectance.push_back(material_of(*snapshot, i).reflectance);
+              const Material& material = material_of(*snapshot, i);
+              reflectance.push_back(snapshot->glossy
+                                        ? material.reflectance + used_lobe(material).reflectance
+                                        : material.reflectance);
             }
             return PatchJumps{snapshot->loaded->scene,
                               radiosity_jumps(solution_of(*snapshot), reflectance, cancellation)};

@@ -50,7 +50,7 @@ SceneDescription faces_of(const Scene& scene) {
 }
 
 bool same(const Material& a, const Material& b) {
-  return a.exitance == b.exitance && a.reflectance == b.reflectance;
+  return a.exitance == b.exitance && a.reflectance == b.reflectance && a.lobe == b.lobe;
 }
 
 /// `changes` with one more, in order of precedence; one of the same target is extended.
@@ -61,6 +61,7 @@ std::vector<MaterialChange> with(std::vector<MaterialChange> changes, const Mate
   if (same_target != changes.end()) {
     same_target->exitance = more.exitance ? more.exitance : same_target->exitance;
     same_target->reflectance = more.reflectance ? more.reflectance : same_target->reflectance;
+    same_target->lobe = more.lobe ? more.lobe : same_target->lobe;
     return changes;
   }
   const auto place = std::find_if(changes.begin(), changes.end(),
@@ -188,6 +189,10 @@ void MaterialEdits::set_exitance(const std::string& target, const Rgb& exitance)
 
 void MaterialEdits::set_reflectance(const std::string& target, const Rgb& reflectance) {
   push({target, reflectance, {}}, tr("change of %1").arg(target_text(target)));
+}
+
+void MaterialEdits::set_lobe(const std::string& target, const Lobe& lobe) {
+  push({.target = target, .lobe = lobe}, tr("change of %1").arg(target_text(target)));
 }
 
 void MaterialEdits::push(const MaterialChange& change, const QString& text) {

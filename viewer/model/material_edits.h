@@ -15,11 +15,11 @@
 
 namespace transillum::viewer {
 
-/// What a change of E or rho applies to.
+/// What a change of E, rho or a lobe applies to.
 enum class TargetKind { material, group, face };
 
-/// The user's changes of E and rho of materials, groups and faces, which can be undone. Of two
-/// changes for a face, that of the face holds before that of its group, and that before its
+/// The user's changes of E, rho and lobes of materials, groups and faces, which can be undone. Of
+/// two changes for a face, that of the face holds before that of its group, and that before its
 /// material's.
 ///
 /// A target is written as for change_materials(), with its kind: `material:NAME`, `group:NAME`,
@@ -61,6 +61,8 @@ class MaterialEdits : public QObject {
   /// Sets E (W/m²) or rho of a target. Changes since begin_drag() are undone together.
   void set_exitance(const std::string& target, const Rgb& exitance);
   void set_reflectance(const std::string& target, const Rgb& reflectance);
+  /// Sets the lobe of a target, which only glossy runs use.
+  void set_lobe(const std::string& target, const Lobe& lobe);
   void begin_drag() { ++drag_; }
   /// Discards all changes, as one undoable change.
   void restore();

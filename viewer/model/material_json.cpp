@@ -24,6 +24,30 @@ std::optional<Rgb> channels_from(JsonObject& object, const char* key, bool below
   return Rgb{c.x, c.y, c.z};
 }
 
+Lobe lobe_from(const json& value, const std::string& where) {
+  JsonObject object(value, where);
+  Lobe lobe;
+  const std::optional<Rgb> share = channels_from(object, "share", true);
+  if (!share) {
+    object.fail_at("share", "is missing");
+  }
+  lobe.reflectance = *share;
+  const bool is_rough = object.find("roughness");
+  object.read("exponent", lobe.exponent);
+  if (is_rough) {
+    object.read("roughness", lobe.roughness);
+    lobe.shape = LobeShape::ggx;
+  }
+  if (!(lobe.exponent >= 0 && std::isfinite(lobe.exponent))) {
+    object.fail_at("exponent", "must be at least 0");
+  }
+  if (!(lobe.roughness >= 0 && lobe.roughness <= 1)) {
+    object.fail_at("roughness", "must be between 0 and 1");
+  }
+  object.done();
+  return lobe;
+}
+
 MaterialChange change_from(const json& value, const std::string& where) {
   JsonObject object(value, where);
   MaterialChange change;
@@ -33,8 +57,11 @@ MaterialChange change_from(const json& value, const std::string& where) {
   }
   change.exitance = channels_from(object, "exitance", false);
   change.reflectance = channels_from(object, "reflectance", true);
-  if (!change.exitance && !change.reflectance) {
-    object.fail("needs an \"exitance\" or a \"reflectance\"");
+  if (const json* lobe = object.find("lobe")) {
+    change.lobe = lobe_from(*lobe, object.where("lobe"));
+  }
+  if (!change.exitance && !change.reflectance && !change.lobe) {
+    object.fail("needs an \"exitance\", a \"reflectance\" or a \"lobe\"");
   }
   object.done();
   return change;
@@ -68,6 +95,15 @@ json to_json(const std::vector<MaterialChange>& changes) {
     }
     if (change.reflectance) {
       one["reflectance"] = list(*change.reflectance);
+    }
+    if (change.lobe) {
+      json lobe = {{"share", list(change.lobe->reflectance)}};
+      if (change.lobe->shape == LobeShape::ggx) {
+        lobe["roughness"] = change.lobe->roughness;
+      } else {
+        lobe["exponent"] = change.lobe->exponent;
+      }
+      one["lobe"] = std::move(lobe);
     }
     result.push_back(std::move(one));
   }

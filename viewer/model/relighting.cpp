@@ -26,7 +26,7 @@ void Relighting::show_scene(std::shared_ptr<const Scene> scene) {
   snapshot_ = nullptr;
   used_ = nullptr;
   light_ = nullptr;
-  materials_ = nullptr;
+  materials_ = asked_ = nullptr;
   relighter_.clear();
   edits_.start_with(std::move(scene));
 }
@@ -40,12 +40,20 @@ QString Relighting::reason_unavailable() const {
         "The first shot, stored per material, exceeds the memory limit: solve without it to change "
         "the light.");
   }
+  if (snapshot_->glossy) {
+    return snapshot_->progress.iteration > 0 || snapshot_->materials || asked_
+               ? QString()
+               : tr("The light can be changed after the first iteration.");
+  }
   return snapshot_->form_factors ? QString() : why_no_form_factors(*snapshot_);
 }
 
 QString Relighting::method_note() const {
   if (!snapshot_) {
     return {};
+  }
+  if (snapshot_->glossy) {
+    return tr("Changed light is found from the kept transfers, by direction.");
   }
   if (snapshot_->options.basis == Basis::linear) {
     return tr(
@@ -63,7 +71,20 @@ QString Relighting::method_note() const {
   return {};
 }
 
+void Relighting::ask_solver() {
+  const auto wanted = edits_.any() ? edits_.materials() : nullptr;
+  if (wanted != asked_) {
+    asked_ = wanted;
+    emit solver_light_requested(wanted);
+  }
+}
+
 void Relighting::request_light() {
+  if (snapshot_ && snapshot_->glossy) {
+    ask_solver();
+    emit changed();
+    return;
+  }
   if (!edits_.any()) {
     relighter_.clear();
     light_ = nullptr;
@@ -85,6 +106,13 @@ void Relighting::request_light() {
 std::shared_ptr<const SolverSnapshot> Relighting::lit(
     std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
+  if (snapshot_->glossy) {
+    light_ = nullptr;
+    materials_ = nullptr;
+    used_ = nullptr;
+    ask_solver();
+    return snapshot_;
+  }
   // Form factors of more passes than those of the newest request.
   if (edits_.any() && snapshot_->form_factors && snapshot_->form_factors != used_) {
     request_light();

@@ -30,17 +30,25 @@ class Relighting : public QObject {
   /// A sentence for the user on how the light of edited materials is computed; empty if it is only
   /// from the form factors of the solve run.
   QString method_note() const;
+  /// Whether lobes take part in the run.
+  bool by_lobes() const { return snapshot_ && snapshot_->glossy; }
   /// Whether requested light has not been delivered yet.
-  bool busy() const { return relighter_.busy(); }
+  bool busy() const {
+    return relighter_.busy() || (snapshot_ && snapshot_->glossy && snapshot_->materials != asked_);
+  }
 
  signals:
   /// The result of lit() has changed.
   void changed();
   void form_factors_requested();
+  /// Of a run in which lobes take part: its solver is to find the light of these materials.
+  /// @param materials  null: those of the scene
+  void solver_light_requested(std::shared_ptr<const transillum::viewer::PatchMaterials> materials);
   void failed(const QString& message);
 
  private:
   void request_light();
+  void ask_solver();
 
   MaterialEdits edits_;
   Relighter relighter_;
@@ -48,6 +56,7 @@ class Relighting : public QObject {
   std::shared_ptr<const FormFactors> used_;          ///< of the newest request
   std::shared_ptr<const RelightResult> light_;       ///< null: the solver's light
   std::shared_ptr<const PatchMaterials> materials_;  ///< of light_
+  std::shared_ptr<const PatchMaterials> asked_;      ///< of solver_light_requested(), the newest
 };
 
 }  // namespace transillum::viewer

@@ -137,6 +137,7 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   read_named(object, "normalize", solve.normalize, normalization_from_name);
   read_named(object, "scheme", solve.scheme, scheme_from_name);
   read_named(object, "basis", solve.basis, basis_from_name);
+  object.read("glossy", solve.glossy);
   read_named(object, "first-shot", solve.first_shot, first_shot_from_name);
   if (object.find("burn-in")) {
     object.read("burn-in", solve.burn_in.emplace(), 0, 1'000'000);
@@ -181,6 +182,7 @@ json to_json(const RunOptions& options) {
                  {"normalize", name_of(solve.normalize)},
                  {"scheme", name_of(solve.scheme)},
                  {"basis", name_of(solve.basis)},
+                 {"glossy", solve.glossy},
                  {"first-shot", name_of_first_shot(solve.first_shot)},
                  {"burn-in", solve.burn_in ? json(*solve.burn_in) : json()},
                  {"replicas", solve.replicas},

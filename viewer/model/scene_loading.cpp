@@ -145,12 +145,14 @@ void SolveRunner::replace_scene(const OpenRequest& request, const RunRequest& op
     ++goal_number_;
   }
   loaded_ = run.loaded;
+  materials_ = nullptr;
   patches_to_announce_ = false;
   keeper_.begin(loaded_->scene, options.solve);
   replace_run(std::move(run), options);
   {
     const std::lock_guard lock(mutex_);
     pending_snapshot_ = nullptr;  // of the previous scene
+    relight_request_.reset();
   }
   post([this, loaded = loaded_] {
     announced_ = loaded;
@@ -186,8 +188,7 @@ SolveRunner::PlannedSolver SolveRunner::make_solver(const LoadedScene& loaded,
   if (options.goal.set()) {
     made.plan.emplace(options, *loaded.scene);
   }
-  made.solver = std::make_unique<RadiositySolver>(
-      loaded.scene, made.plan ? made.plan->stage() : options, loaded.tree, cancellation);
+  made.solver = RunningSolver::make(loaded, made.plan ? made.plan->stage() : options, cancellation);
   return made;
 }
 
@@ -201,7 +202,7 @@ std::optional<SolveRunner::PlannedSolver> SolveRunner::resumed(const LoadedScene
     const std::lock_guard lock(mutex_);
     file = std::exchange(go_on_with_, {});
   }
-  if (file.empty()) {
+  if (file.empty() || options.glossy) {
     return std::nullopt;
   }
   RemovedAtEnd removed(file);
@@ -209,8 +210,9 @@ std::optional<SolveRunner::PlannedSolver> SolveRunner::resumed(const LoadedScene
     Checkpoint::Resumed old =
         Checkpoint(file, *loaded.scene, options)
             .resume(loaded.scene, options, loaded.tree, nullptr, cancellation);
-    return PlannedSolver{std::make_unique<RadiositySolver>(std::move(old.solver)),
-                         std::move(old.plan), old.seconds};
+    return PlannedSolver{
+        std::make_unique<RunningSolver>(std::make_unique<RadiositySolver>(std::move(old.solver))),
+        std::move(old.plan), old.seconds};
   } catch (const InputError&) {
     const std::lock_guard lock(mutex_);
     if (!last && go_on_with_.empty()) {

@@ -17,6 +17,7 @@
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/bsp_tree.h"
+#include "transillum/glossy.h"
 #include "transillum/picking.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
@@ -93,7 +94,9 @@ struct SolverSnapshot {
   /// assembled.
   std::shared_ptr<const FormFactors> form_factors;
   std::shared_ptr<const DirectLight> shot;  ///< of the first shot; zeros without one
-  /// E and rho of radiosity and irradiance if they differ from the scene's; else null.
+  /// Radiance by direction, of the last finished iteration; null where no lobes take part.
+  std::shared_ptr<const GlossyLight> glossy;
+  /// E, rho and lobes of radiosity and irradiance if they differ from the scene's; else null.
   std::shared_ptr<const PatchMaterials> materials;
   /// The values are those of loaded->stored; nothing has been solved yet.
   bool of_file = false;

@@ -26,7 +26,7 @@ void SolveRunner::store_radiosity() {
   if (iteration < kept_radiosity_.size()) {
     return;
   }
-  const std::vector<Rgb>& radiosity = solver_->radiosity();
+  const std::vector<Rgb> radiosity = solver_->radiosity();
   kept_radiosity_.resize(iteration + 1);
   const bool linear = solver_->options().basis == Basis::linear;
   if (radiosity.size() * (iteration + 1) * sizeof(Rgb) * (linear ? 3 : 1) > most_kept_bytes) {

@@ -95,7 +95,19 @@ void SolveRunner::restart(const SolveOptions& options, Goal then, const RefineCh
       solve_cancellation_.cancel();
     }
     restart_request_ = {options, refine};
+    relight_request_.reset();
     goal_ = then;
+    ++goal_number_;
+    interrupted_ = true;
+  }
+  wake_.notify_one();
+}
+
+void SolveRunner::relight(std::shared_ptr<const PatchMaterials> materials) {
+  {
+    const std::lock_guard lock(mutex_);
+    relight_request_ = std::move(materials);
+    goal_ = {Goal::Kind::finished};
     ++goal_number_;
     interrupted_ = true;
   }
@@ -147,8 +159,8 @@ void SolveRunner::work() {
 /// Waits for the next request, then handles it without holding the lock.
 void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
   const auto has_work = [this] {
-    return quit_ || open_request_ || restart_request_ || form_factors_requested_ ||
-           goal_.kind != Goal::Kind::pause;
+    return quit_ || open_request_ || restart_request_ || relight_request_ ||
+           form_factors_requested_ || goal_.kind != Goal::Kind::pause;
   };
   if (!has_work()) {
     post_state(idle_state());
@@ -170,6 +182,9 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
     options_ = *std::exchange(restart_request_, std::nullopt);
     const RunRequest run = options_;
     run_unlocked(lock, [&] { start_solve(run); });
+  } else if (relight_request_) {
+    const auto materials = *std::exchange(relight_request_, std::nullopt);
+    run_unlocked(lock, [&] { change_light(materials); });
   } else if (form_factors_requested_) {
     form_factors_requested_ = false;
     run_unlocked(lock, [&] { post_form_factors(); });
@@ -193,6 +208,9 @@ void SolveRunner::start_solve(RunRequest run) {
     failed_start_ = run;
     more_to_do_ = true;
     PreparedRun prepared = prepare(whole_of(loaded_), run, solve_cancellation_);
+    if (prepared.solver.solver->glossy() != nullptr && materials_) {
+      set_materials(*prepared.solver.solver->glossy());
+    }
     keeper_.begin(prepared.loaded->scene, run.solve);
     take_patches(prepared.loaded);
     replace_run(std::move(prepared), run);
@@ -245,12 +263,40 @@ void SolveRunner::replace_run(PreparedRun run, const RunRequest& request) {
   replace_solver(std::move(run.solver));
 }
 
+/// Those of materials_, from the light of before.
+void SolveRunner::set_materials(GlossySolver& solver) const {
+  const auto from = GlossySolver::Start::current;
+  if (materials_) {
+    solver.set_materials(materials_->materials, materials_->of_patch, from);
+  } else {
+    solver.set_materials(loaded_->scene->materials(), {}, from);
+  }
+}
+
+void SolveRunner::change_light(const std::shared_ptr<const PatchMaterials>& materials) {
+  if (!solver_ || solver_->glossy() == nullptr || failed_start_) {
+    return;
+  }
+  try {
+    materials_ = materials;
+    set_materials(*solver_->glossy());
+    kept_radiosity_.clear();
+    restore_history();
+    more_to_do_ = true;
+  } catch (...) {
+    post_current_failure();
+  }
+}
+
 void SolveRunner::replace_solver(PlannedSolver made) {
   solver_ = std::move(made.solver);
   plan_ = std::move(made.plan);
   seconds_running_ = made.seconds;
   errors_.clear();
-  solver_->keep_form_factors();
+  iteration_changes_.clear();
+  if (solver_->diffuse() != nullptr) {
+    solver_->diffuse()->keep_form_factors();
+  }
   restore_history();
   kept_radiosity_.clear();
   kept_linear_parts_.clear();
@@ -288,7 +334,7 @@ void SolveRunner::advance(const Goal& goal) {
 /// Advances the solver; where its stage ends, begins the next.
 /// @returns whether a next stage has begun.
 bool SolveRunner::advance_stage(const Goal& goal) {
-  using Until = RadiositySolver::Until;
+  using Until = RunningSolver::Until;
   QElapsedTimer timer;
   timer.start();
   bool stage_begins = false, diverged = false;
@@ -299,13 +345,15 @@ bool SolveRunner::advance_stage(const Goal& goal) {
       const Until until = goal.kind == Goal::Kind::direction   ? Until::direction
                           : goal.kind == Goal::Kind::iteration ? Until::iteration
                                                                : Until::finished;
-      more_to_do_ = solver_->advance(until, [this](const RadiositySolver& solver) {
-        on_pass(solver);
+      more_to_do_ = solver_->advance(until, [this] {
+        on_pass();
         return !interrupted_.load(std::memory_order_relaxed);
       });
     }
     seconds_running_ += seconds(timer);
-    keeper_.save_soon(*solver_, plan_ ? &*plan_ : nullptr);
+    if (solver_->diffuse() != nullptr) {
+      keeper_.save_soon(*solver_->diffuse(), plan_ ? &*plan_ : nullptr);
+    }
     stage_begins = !more_to_do_ && begin_next_stage();
     more_to_do_ = more_to_do_ || stage_begins;
   } catch (const Canceled&) {
@@ -342,12 +390,12 @@ bool SolveRunner::begin_next_stage() {
     return begin_next_round();
   }
   store_errors();
-  const AccuracyPlan::Next next = plan_->next(*solver_, seconds_running_);
+  const AccuracyPlan::Next next = plan_->next(*solver_->diffuse(), seconds_running_);
   if (next == AccuracyPlan::Next::done) {
     return begin_next_round();
   }
   if (next == AccuracyPlan::Next::replica) {
-    solver_->add_replica();
+    solver_->diffuse()->add_replica();
     kept_directions_.front() = std::make_shared<const std::vector<Vec3>>(solver_->directions());
     return true;
   }
@@ -363,7 +411,7 @@ bool SolveRunner::begin_next_round() {
   }
   const Cancellation& cancellation = solve_cancellation_;
   post_snapshot();  // the end of the round
-  rounds_->assess(solver_->solution(), seconds_running_, cancellation);
+  rounds_->assess(solver_->diffuse()->solution(), seconds_running_, cancellation);
   rounds_->divide_worst(cancellation);
   const auto loaded = divided(whole_of(loaded_), rounds_->scene(), cancellation);
   PlannedSolver solver = make_solver(*loaded, run_.solve, !in_rounds(), cancellation);
@@ -375,45 +423,47 @@ bool SolveRunner::begin_next_round() {
 
 void SolveRunner::begin_stage() {
   const double running = seconds_running_;
-  auto solver = std::make_unique<RadiositySolver>(loaded_->scene, plan_->stage(), loaded_->tree,
-                                                  solve_cancellation_, solver_->direct_light());
-  replace_solver({std::move(solver), std::move(plan_), running});
+  auto solver =
+      std::make_unique<RadiositySolver>(loaded_->scene, plan_->stage(), loaded_->tree,
+                                        solve_cancellation_, solver_->diffuse()->direct_light());
+  replace_solver({std::make_unique<RunningSolver>(std::move(solver)), std::move(plan_), running});
 }
 
 void SolveRunner::advance_exactly(std::int64_t passes) {
-  // The solver finishes the passes that run on other threads before it pauses: stop early enough,
-  // then make the last passes one by one.
-  const int margin = 2 * std::max(solver_->statistics().threads, 1);
+  // The solver finishes the passes that run on other threads before it pauses, or its group of
+  // passes: stop early enough, then make the last passes one by one.
+  const int at_once = solver_->diffuse() != nullptr ? 2 : 4;  // by each thread
+  const int margin = at_once * std::max(solver_->statistics().threads, 1);
   const auto is_below = [this](std::int64_t target) {
     return more_to_do_ && !interrupted_.load(std::memory_order_relaxed) && passes_so_far() < target;
   };
   if (is_below(passes - margin)) {
-    more_to_do_ =
-        solver_->advance(RadiositySolver::Until::finished, [&](const RadiositySolver& solver) {
-          on_pass(solver);
-          return !interrupted_.load(std::memory_order_relaxed) && passes_so_far() < passes - margin;
-        });
+    more_to_do_ = solver_->advance(RunningSolver::Until::finished, [&] {
+      on_pass();
+      return !interrupted_.load(std::memory_order_relaxed) && passes_so_far() < passes - margin;
+    });
   }
   while (is_below(passes)) {
-    more_to_do_ =
-        solver_->advance(RadiositySolver::Until::direction, [this](const RadiositySolver& solver) {
-          on_pass(solver);
-          return true;
-        });
+    more_to_do_ = solver_->advance(RunningSolver::Until::direction, [this] {
+      on_pass();
+      return true;
+    });
   }
 }
 
-void SolveRunner::on_pass(const RadiositySolver& solver) {
+void SolveRunner::on_pass() {
   store_radiosity();
   store_directions();
   store_errors();
-  const SolveProgress progress = solver.progress();
+  const SolveProgress progress = solver_->progress();
   if (progress.direction == progress.passes) {
     // Store them: the solver clears them at the end of the iteration.
-    iteration_changes_ = solver.estimate_changes();
+    iteration_changes_ = solver_->estimate_changes();
     changes_iteration_ = progress.iteration;
   }
-  keeper_.save_if_due(solver, plan_ ? &*plan_ : nullptr);
+  if (solver_->diffuse() != nullptr) {
+    keeper_.save_if_due(*solver_->diffuse(), plan_ ? &*plan_ : nullptr);
+  }
   // Snapshots take at most a fifth of the solver's time.
   const double interval_ms =
       std::max<double>(refresh_interval_.load(std::memory_order_relaxed), 5 * snapshot_cost_ms_);
@@ -429,13 +479,15 @@ void SolveRunner::on_pass(const RadiositySolver& solver) {
 bool SolveRunner::form_factors_are_due(const SolveProgress& progress) const {
   const bool between_iterations = progress.direction == 0 && progress.iteration > 0;
   return includes_form_factors_ && between_iterations && form_factors_fit_ &&
+         solver_->diffuse() != nullptr &&
          solver_->statistics().passes_made >= 2 * form_factors_passes_;
 }
 
 void SolveRunner::assemble_form_factors() {
   const SolveProgress progress = solver_->progress();
   const bool between_iterations = progress.direction == 0 && progress.iteration > 0;
-  if (!includes_form_factors_ || !between_iterations || !form_factors_fit_) {
+  if (!includes_form_factors_ || !between_iterations || !form_factors_fit_ ||
+      solver_->diffuse() == nullptr) {
     return;
   }
   const SolveStatistics statistics = solver_->statistics();
@@ -452,7 +504,7 @@ void SolveRunner::assemble_form_factors() {
     return;
   }
   try {
-    form_factors_ = std::make_shared<const FormFactors>(solver_->form_factors());
+    form_factors_ = std::make_shared<const FormFactors>(solver_->diffuse()->form_factors());
     form_factors_passes_ = statistics.passes_made;
   } catch (const std::bad_alloc&) {
     form_factors_fit_ = false;
@@ -478,34 +530,23 @@ void SolveRunner::post_snapshot() {
   assemble_form_factors();
   auto snapshot = std::make_shared<SolverSnapshot>();
   snapshot->loaded = loaded_;
-  snapshot->options = solver_->options();
+  solver_->write_to(*snapshot);
   snapshot->refine = run_.refine;
-  snapshot->progress = solver_->progress();
+  snapshot->materials = solver_->glossy() != nullptr ? materials_ : nullptr;
   store_directions();
   snapshot->kept_directions = kept_directions_;
   snapshot->kept_passes = kept_passes_;
   snapshot->directions = kept_directions_.back()
                              ? kept_directions_.back()
                              : std::make_shared<const std::vector<Vec3>>(solver_->directions());
-  snapshot->statistics = solver_->statistics();
   if (rounds_) {
     snapshot->refinement = {rounds_->refined()->patch_count(), in_rounds()};
     snapshot->statistics.refinement = rounds_->rounds();
   }
-  snapshot->radiosity = solver_->running_estimate();
-  snapshot->linear_parts = solver_->linear_parts();
-  snapshot->irradiance = solver_->irradiance();
   snapshot->form_factors = form_factors_;
-  snapshot->shot = solver_->direct_light();
   snapshot->form_factors_fit = form_factors_fit_;
   snapshot->kept_radiosity = kept_radiosity_;
   snapshot->kept_linear_parts = kept_linear_parts_;
-  snapshot->form_factor_sums = solver_->form_factor_sums();
-  snapshot->sky_shares = solver_->sky_shares();
-  snapshot->sky_irradiance = solver_->sky_irradiance();
-  snapshot->estimate_changes = solver_->estimate_changes();
-  snapshot->quadrature_errors = solver_->quadrature_errors();
-  snapshot->error = solver_->error_estimate();
   store_errors();
   snapshot->errors = errors_;
   if (plan_ && !plan_->report().stages.empty()) {

@@ -17,6 +17,7 @@
 
 #include "model/checkpoint_keeper.h"
 #include "model/run_options.h"
+#include "model/running_solver.h"
 #include "model/snapshot.h"
 #include "transillum/accuracy_plan.h"
 #include "transillum/cancellation.h"
@@ -60,13 +61,17 @@ class SolveRunner : public QObject {
   void advance_one_iteration() { set_goal({Goal::Kind::iteration}); }
   /// Cancels loading; or discards the solve and returns to the first direction.
   void stop();
+  /// Solves for other materials with the kept transfers of a glossy run, which the snapshots then
+  /// have; newer ones replace these. Nothing happens in other runs.
+  /// @param materials null: those of the scene
+  void relight(std::shared_ptr<const PatchMaterials> materials);
   /// Starts a new solve run of the open scene.
   /// @param refine rounds that come first; not of a result file
   void restart(const SolveOptions& options, Goal then, const RefineChoice& refine = {});
 
   /// From now on, the solve is kept in `file`: every minute, some seconds after iterations and when
   /// it pauses; with an interval of 0 after every pass. Of a solve that is replaced, nothing is
-  /// kept. Empty: nothing is kept, and the file is removed.
+  /// kept, nor of glossy ones. Empty: nothing is kept, and the file is removed.
   /// @param interval s
   void keep_in(std::string file, double interval = 60);
   /// The next solve goes on with the checkpoint in `file`, if that is of the same scene and
@@ -94,7 +99,7 @@ class SolveRunner : public QObject {
  private:
   /// A solver, and the plan of its stages if the solve has a goal.
   struct PlannedSolver {
-    std::unique_ptr<RadiositySolver> solver;
+    std::unique_ptr<RunningSolver> solver;
     std::optional<AccuracyPlan> plan;
     double seconds = 0;  ///< running, before this program
   };
@@ -137,6 +142,8 @@ class SolveRunner : public QObject {
   bool holds_patches_back() const;
   void announce_patches();
   void replace_solver(PlannedSolver solver);
+  void set_materials(GlossySolver& solver) const;
+  void change_light(const std::shared_ptr<const PatchMaterials>& materials);
   void advance(const Goal& goal);
   bool advance_stage(const Goal& goal);
   bool begin_next_stage();
@@ -145,7 +152,7 @@ class SolveRunner : public QObject {
   bool in_rounds() const { return rounds_ && !rounds_->finished(); }
   void advance_exactly(std::int64_t passes);
   std::int64_t passes_so_far() const;
-  void on_pass(const RadiositySolver& solver);
+  void on_pass();
   void restore_history();
   void store_radiosity();
   void show_linear_parts(SolverSnapshot& snapshot);
@@ -170,6 +177,7 @@ class SolveRunner : public QObject {
   std::condition_variable wake_;
   std::optional<OpenRequest> open_request_;
   std::optional<RunRequest> restart_request_;
+  std::optional<std::shared_ptr<const PatchMaterials>> relight_request_;
   Goal goal_;
   std::uint64_t goal_number_ = 0;
   bool form_factors_requested_ = false;
@@ -189,7 +197,8 @@ class SolveRunner : public QObject {
 
   // Used by the worker's thread only.
   std::shared_ptr<const LoadedScene> loaded_;
-  std::unique_ptr<RadiositySolver> solver_;
+  std::unique_ptr<RunningSolver> solver_;
+  std::shared_ptr<const PatchMaterials> materials_;  // of glossy runs; null: the scene's
   std::optional<AccuracyPlan> plan_;
   RunRequest run_;                        // of solver_
   std::optional<RefinementPlan> rounds_;  // of run_; none without refinement

@@ -17,6 +17,7 @@
 
 #include "widgets/channel_sliders.h"
 #include "widgets/elided.h"
+#include "widgets/gloss_slider.h"
 
 namespace transillum::viewer {
 
@@ -85,6 +86,11 @@ QLayout* MaterialPanel::make_choice() {
 
 QWidget* MaterialPanel::make_sliders() {
   reflectance_ = new ChannelSliders("rho", tr("Reflectance ρ"), 3);
+  lobe_ = new ChannelSliders("lobe", tr("Lobe reflects k"), 3);
+  lobe_->setToolTip(
+      tr("<span>Share of the light that the lobe reflects, most of it about the mirror direction; "
+         "with ρ, at most 1 (where it is more, it is lowered)</span>"));
+  gloss_ = new GlossSlider;
   exitance_ = new ChannelSliders("exitance", tr("Emitted exitance E, W/m²"), 2);
   account_ = make_note("material_account");
   sliders_ = new QWidget;
@@ -96,13 +102,27 @@ QWidget* MaterialPanel::make_sliders() {
   column->setSpacing(4);
   column->addWidget(account_);
   column->addWidget(reflectance_);
+  column->addWidget(lobe_);
+  column->addWidget(gloss_);
   column->addWidget(exitance_);
   return sliders_;
 }
 
 void MaterialPanel::connect_edits() {
   MaterialEdits& edits = relighting_.edits();
-  for (ChannelSliders* sliders : {reflectance_, exitance_}) {
+  connect(gloss_, &GlossSlider::drag_began, this, &MaterialPanel::hold_exposure);
+  connect(gloss_, &GlossSlider::drag_began, &edits, &MaterialEdits::begin_drag);
+  connect(gloss_, &GlossSlider::moved, this, [this, &edits](double value) {
+    Lobe lobe = edits.values_of(target()).lobe;
+    (lobe.shape == LobeShape::phong ? lobe.exponent : lobe.roughness) = value;
+    edits.set_lobe(target(), lobe);
+  });
+  connect(lobe_, &ChannelSliders::moved, this, [this, &edits](const Rgb& value) {
+    Lobe lobe = edits.values_of(target()).lobe;
+    lobe.reflectance = value;
+    edits.set_lobe(target(), lobe);
+  });
+  for (ChannelSliders* sliders : {reflectance_, lobe_, exitance_}) {
     connect(sliders, &ChannelSliders::drag_began, this, &MaterialPanel::hold_exposure);
     connect(sliders, &ChannelSliders::drag_began, &edits, &MaterialEdits::begin_drag);
   }
@@ -193,6 +213,10 @@ void MaterialPanel::show_target(const std::string& target) {
 }
 
 void MaterialPanel::show_state() {
+  if (lobe_->isHidden() == relighting_.by_lobes()) {
+    lobe_->setVisible(relighting_.by_lobes());
+    gloss_->setVisible(relighting_.by_lobes());
+  }
   const QString reason = relighting_.reason_unavailable();
   sliders_->setEnabled(reason.isEmpty() && !target().empty());
   obstacle_->setText(reason);
@@ -221,10 +245,23 @@ void MaterialPanel::show_values() {
   if (scene_ && edits.materials()) {
     const Material shown = edits.values_of(target());
     reflectance_->show_value(shown.reflectance, largest_reflectance);
+    show_lobe(shown);
     exitance_->show_value(shown.exitance, slider_exitance(scene_->materials()));
     extent_->setText(extent_text());
   }
   show_state();
+}
+
+void MaterialPanel::show_lobe(const Material& shown) {
+  lobe_->setVisible(relighting_.by_lobes());
+  gloss_->setVisible(relighting_.by_lobes());
+  lobe_->show_value(shown.lobe.reflectance, largest_reflectance);
+  if (shown.lobe.shape == LobeShape::phong) {
+    gloss_->show_exponent(shown.lobe.exponent);
+  } else {
+    gloss_->show_roughness(shown.lobe.roughness);
+  }
+  gloss_->setEnabled(shown.lobe.present());
 }
 
 QString MaterialPanel::extent_text() const {

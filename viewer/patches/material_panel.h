@@ -17,6 +17,7 @@ class QPushButton;
 namespace transillum::viewer {
 
 class ChannelSliders;
+class GlossSlider;
 
 /// Sliders for E and rho of a material, a group of faces or a face; B is recomputed without a new
 /// pass.
@@ -41,6 +42,7 @@ class MaterialPanel : public QWidget {
   /// Lists the names of the chosen kind; `patch`, if any, selects one.
   void fill_names(PatchId patch);
   void show_values();
+  void show_lobe(const Material& shown);
   QString extent_text() const;
   /// Ends automatic exposure, which would compensate a change, so that the picture stays the same.
   void hold_exposure();
@@ -58,7 +60,8 @@ class MaterialPanel : public QWidget {
   QLabel* obstacle_;  ///< why materials cannot be changed now
   QLabel* account_;   ///< what B is computed from
   QWidget* sliders_;
-  ChannelSliders *reflectance_, *exitance_;
+  ChannelSliders *reflectance_, *lobe_, *exitance_;
+  GlossSlider* gloss_;
   QPushButton* restore_;
   bool holds_exposure_ = false;  ///< which was automatic before
 };

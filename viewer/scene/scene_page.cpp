@@ -39,6 +39,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   connect(welcome_, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);
   connect(welcome_, &WelcomePage::lesson_clicked, this, &ScenePage::lesson_clicked);
   connect(welcome_, &WelcomePage::built_in_clicked, this, &ScenePage::built_in_clicked);
+  connect(scene_view_, &SceneView::eye_moved, &colors, &ColorChoice::set_eye);
   connect(color_controls_, &ColorControls::direction_toggled, scene_view_,
           &SceneView::set_direction_shown);
   connect(color_controls_, &ColorControls::outlines_toggled, scene_view_,

@@ -489,6 +489,11 @@ void SceneView::show_selection() {
 void SceneView::follow_camera() {
   feature_edges_->follow_camera(vec3(renderer_->GetActiveCamera()->GetPosition()));
   outline_->SetOrigin(renderer_->GetActiveCamera()->GetPosition());
+  const Vec3 eye = vec3(renderer_->GetActiveCamera()->GetPosition());
+  if (loaded_ && !(eye_ && *eye_ == eye)) {
+    eye_ = eye;
+    emit eye_moved(eye);
+  }
   outline_->SetScale(1 - 5e-4);
 }
 

@@ -108,6 +108,10 @@ class SceneView : public QWidget {
   std::optional<PickedPoint> hit_at(const QPoint& position) const;
   QWidget* canvas() const;
 
+ signals:
+  /// The camera is at another point than in the picture before; emitted while a picture is drawn.
+  void eye_moved(const transillum::Vec3& eye);
+
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -143,6 +147,7 @@ class SceneView : public QWidget {
   std::vector<Color8> patch_colors_;
   Vec3 focus_point_;              ///< center of the part of interest, meters
   double radius_ = 1;             ///< its radius, meters
+  std::optional<Vec3> eye_;       ///< of the newest picture
   ViewPoint initial_view_point_;  ///< set by reset_view()
   bool direction_shown_ = true;
   bool antialiased_ = true;

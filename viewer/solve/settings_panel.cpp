@@ -203,6 +203,7 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   basis_column->addWidget(basis_);
   basis_column->addWidget(basis_note_);
   form.addRow(tr("B on a patch"), basis_column);
+  add_glossy_row(form);
   form.addRow(tr("Each pass"), pass_serves_);
   form.addRow(tr("Normalize"), normalize_);
   form.addRow(tr("Scheme"), scheme_);
@@ -361,20 +362,8 @@ void SettingsPanel::show_sky_state() {
   sky_up_label_->setEnabled(sky_up_->isEnabled());
 }
 
-void SettingsPanel::show_basis_state() {
-  const bool linear = basis_->currentIndex() == static_cast<int>(Basis::linear);
-  const QString note = !linear                             ? QString()
-                       : !has_moments(engine_of(*engine_)) ? tr("not with this engine")
-                       : normalize_->currentIndex() == static_cast<int>(Normalization::symmetric)
-                           ? tr("not with Symmetric")
-                       : scheme_->currentIndex() == static_cast<int>(Scheme::semi_iterative)
-                           ? tr("not with Semi-iterative")
-                           : QString();
-  basis_note_->setText(note);
-  basis_note_->setVisible(!note.isEmpty());
-}
-
 void SettingsPanel::connect_solve_rows() {
+  connect(glossy_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
   for (QComboBox* box : {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, basis_,
                          stop_at_, accuracy_of_, sky_model_, sky_up_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -447,7 +436,8 @@ SolveOptions SettingsPanel::solve_options() const {
   SolveOptions options = base_;
   options.goal = goal();
   options.basis = static_cast<Basis>(basis_->currentIndex());
-  if (options.basis == Basis::linear) {
+  options.glossy = glossy_->isChecked();
+  if (options.basis == Basis::linear || options.glossy) {
     options.first_shot.reset();  // is not available, and has no control here
   } else if (options.goal.set() && !options.first_shot) {
     options.first_shot = first_shot_where_it_pays;
@@ -497,6 +487,7 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
   scheme_->setCurrentIndex(static_cast<int>(solve.scheme));
   basis_->setCurrentIndex(static_cast<int>(solve.basis));
+  glossy_->setChecked(solve.glossy);
   replicas_->setValue(solve.replicas);
   stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
   iterations_->setValue(std::max(solve.iterations, 1));
@@ -583,6 +574,7 @@ void SettingsPanel::show_state() {
   show_sky_state();
   show_basis_state();
   refine_->set_available(!fixed_);
+  show_glossy_state();
   show_row(order_label_, order_, engine == Engine::painter);
   show_row(resolution_label_, resolution_, takes_resolution(engine));
   const bool rays = engine == Engine::rays;

@@ -34,6 +34,12 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
                     "they are drawn as 0"),
                  "6.12"));
   negative_->setObjectName("summary_negative");
+  lobes_ = grid->add_row(
+      tr("Lobes"), {},
+      symbol_tip(
+          tr("Patches whose lobes reflect, and the memory of their radiance by direction and "
+             "of the transfers kept for it"),
+          "6.14"));
   energy_ =
       grid->add_row(tr("Energy defect"), {},
                     tr("Difference between power received and power sent, relative to the latter"));
@@ -81,6 +87,12 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
                                            : tr("%1 %").arg(number_text(100 * s.escaped)));
   negative_->setText(snapshot.linear_parts.empty() ? tr("constant B")
                                                    : count_text(s.negative_corners));
+  const GlossyFigures& g = s.glossy;
+  const auto bytes = g.radiance_bytes + g.lobe_bytes + g.transfer_bytes;
+  lobes_->setText(g.patches > 0 ? tr("%1 patches, %2 MB")
+                                      .arg(count_text(g.patches),
+                                           number_text(1e-6 * static_cast<double>(bytes)))
+                                : tr("none reflect"));
   error_->setText(snapshot.error.replicas > 0
                       ? tr("%1 %, at most %2 %")
                             .arg(number_text(100 * snapshot.error.rms),

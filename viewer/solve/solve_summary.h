@@ -22,7 +22,7 @@ class SolveSummary : public QWidget {
   void show_directions_needed(const SolverSnapshot& snapshot);
 
   QLabel *patches_, *fragments_, *transfers_, *form_factors_, *closure_, *escaped_, *negative_,
-      *energy_, *contraction_, *error_, *bound_, *estimate_;
+      *lobes_, *energy_, *contraction_, *error_, *bound_, *estimate_;
 };
 
 }  // namespace transillum::viewer

@@ -31,6 +31,7 @@ std::shared_ptr<const SolverSnapshot> part_to_keep(const SolverSnapshot& snapsho
   kept->linear_parts = snapshot.linear_parts;
   kept->bases = snapshot.bases;
   kept->irradiance = snapshot.irradiance;
+  kept->glossy = snapshot.glossy;
   kept->materials = snapshot.materials;
   kept->of_file = snapshot.of_file;
   kept->form_factor_sums = snapshot.form_factor_sums;
@@ -68,6 +69,9 @@ std::int64_t bytes_of(const SolverSnapshot& snapshot) {
                        bytes_of(snapshot.sky_irradiance) + bytes_of(snapshot.error.standard_error);
   for (const auto& radiosity : snapshot.kept_radiosity) {
     bytes += radiosity ? bytes_of(*radiosity) : 0;
+  }
+  if (snapshot.glossy) {
+    bytes += static_cast<std::int64_t>(snapshot.statistics.glossy.radiance_bytes);
   }
   if (snapshot.materials) {
     bytes += bytes_of(snapshot.materials->of_patch) + bytes_of(snapshot.materials->materials);

@@ -99,6 +99,7 @@ void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
   app.add_option("--scheme", names.scheme, described("scheme", scheme_names()))
       ->capture_default_str();
   app.add_option("--basis", names.basis, described("basis", basis_names()))->capture_default_str();
+  app.add_flag("--glossy", solve.glossy, description_of("glossy"));
   app.add_option("--first-shot", names.first_shot,
                  described("first-shot", {"none", "auto", "a number"}))
       ->default_str("none");

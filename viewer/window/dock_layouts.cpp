@@ -21,7 +21,7 @@ namespace transillum::viewer {
 namespace {
 
 // To be raised when docks are added, removed or renamed: older saved layouts then become invalid.
-constexpr int layout_version = 10;
+constexpr int layout_version = 11;
 
 struct Widths {
   int left, right;

@@ -224,11 +224,31 @@ void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& i
     options.input.patches = input.patches;
     recalled_ = path;
   }
+  if (spec.toStdString() != parts_.scene.spec()) {
+    choose_lobes(spec, options.solve);
+  }
   if (parts_.scene.loaded() && spec.toStdString() != parts_.scene.spec()) {
     options.scene = {};  // those of the open scene
     options.refine = {};
   }
   parts_.scene.open(spec.toStdString(), options, goal);
+}
+
+/// Lobes take part in the built-in scene that is about them, where the other settings allow it; in
+/// other scenes only where they are asked for.
+void FileActions::choose_lobes(const QString& spec, SolveOptions& solve) {
+  const bool has_lobes = spec.section(QLatin1Char(':'), 0, 0) == QLatin1String("gallery");
+  if (!has_lobes && !parts_.scene.loaded()) {
+    return;  // what the command line says
+  }
+  solve.glossy = has_lobes;
+  try {
+    solve.validate();
+  } catch (const InputError&) {
+    solve.glossy = false;
+  }
+  parts_.settings.set_options(solve, parts_.settings.scene_options());
+  parts_.colors.show_lobes(solve.glossy);
 }
 
 QString FileActions::save_unasked() {

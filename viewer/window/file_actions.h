@@ -77,6 +77,7 @@ class FileActions : public QObject {
   void choose_session();
 
  private:
+  void choose_lobes(const QString& spec, SolveOptions& solve);
   void make_actions();
   void make_reading_bar();
   /// Asks how the open scene's file is read, and reads it so.

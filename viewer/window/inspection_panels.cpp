@@ -45,6 +45,7 @@ InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
           &SolveRunner::include_form_factors);
   connect(&relighting_, &Relighting::form_factors_requested, &runner,
           &SolveRunner::include_form_factors);
+  connect(&relighting_, &Relighting::solver_light_requested, &runner, &SolveRunner::relight);
   connect(tables_, &PatchTablePanel::form_factors_requested, &runner,
           &SolveRunner::include_form_factors);
   connect(paths_, &PathPanel::form_factors_requested, &runner, &SolveRunner::include_form_factors);

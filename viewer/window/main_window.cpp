@@ -20,6 +20,7 @@
 #include <optional>
 
 #include "directions/direction_view.h"
+#include "directions/lobe_view.h"
 #include "directions/received_view.h"
 #include "lessons/lesson_panel.h"
 #include "lessons/question_box.h"
@@ -51,6 +52,7 @@
 #include "stepping/timeline_lanes.h"
 #include "support/checked_bytes.h"
 #include "transillum/at.h"
+#include "transillum/glossy.h"
 #include "transillum/reference_cache.h"
 #include "tree/tree_view.h"
 #include "widgets/banner.h"
@@ -144,6 +146,7 @@ void MainWindow::make_views() {
   direction_view_ =
       new DirectionView(state_.focus, state_.selection, state_.colors, state_.visibility);
   received_view_ = new ReceivedView(state_.focus, state_.selection, state_.visibility);
+  lobe_view_ = new LobeView(state_.selection, state_.colors);
   compare_view_ = new CompareView(state_.focus, state_.selection, state_.colors);
   algorithm_ = new AlgorithmView(state_.focus, state_.selection);
   step_panel_ = new StepPanel(state_.focus, state_.selection);
@@ -223,6 +226,8 @@ void MainWindow::make_docks() {
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
                          {{teach, right, 400}, {inspect, right, 450}, {debug, right, 480}});
   docks_.add(tr("Error"), "error_dock", error_view_, {{teach, right, 400, true}});
+  docks_.add(tr("Lobes"), "lobe_dock", lobe_view_,
+             {{teach, right, 400, true}, {inspect, right, 450, true}});
   inspection_->add_tables_to(docks_);
   docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_),
              {{inspect, right, 450, true}, {debug, right, 480, true}});
@@ -320,6 +325,7 @@ void MainWindow::show_patches(const std::shared_ptr<const LoadedScene>& loaded) 
   inspection_->show_scene(*loaded);
   map_view_->clear();
   direction_view_->clear();
+  lobe_view_->clear();
   received_view_->clear();
   compare_view_->clear();
   page_->scene_view()->show_scene(loaded);
@@ -339,6 +345,7 @@ void MainWindow::connect_scene() {
     settings_->set_options(settings_->solve_options(), state_.scene.options());
     settings_->set_scene_up(initial_view(*loaded->scene, 1).up);
     settings_->show_escape({});
+    settings_->set_scene_has_lobes(has_lobes(*loaded->scene));
     show_debugging_of_scene();
     page_->show_scene();
     show_patches(loaded);
@@ -371,6 +378,7 @@ void MainWindow::connect_scene() {
   send_to(map_view_);
   send_to(convergence_view_);
   send_to(direction_view_);
+  send_to(lobe_view_);
   send_to(received_view_);
   send_to(compare_view_);
   send_to(inspector_);

@@ -23,6 +23,7 @@ class FileActions;
 class FrameRecorder;
 class InspectionPanels;
 class LessonExport;
+class LobeView;
 class PatchInspector;
 class ProgressLine;
 class ProjectorMode;
@@ -103,6 +104,7 @@ class MainWindow : public QMainWindow {
   ConvergenceView* convergence_view_;
   DirectionView* direction_view_;
   ReceivedView* received_view_;
+  LobeView* lobe_view_;
   CompareView* compare_view_;
   PatchInspector* inspector_;
   SettingsPanel* settings_;

@@ -95,6 +95,11 @@ void SolveControl::solve_again() {
   }
   parts_.notifier.dismiss();
   RunOptions options = parts_.settings.options();
+  const auto& shown = parts_.scene.snapshot();
+  if (shown && shown->options.glossy != options.solve.glossy &&
+      has_lobes(*parts_.scene.loaded()->scene)) {
+    parts_.colors.show_lobes(options.solve.glossy);
+  }
   options.input = parts_.scene.input();
   if (options.refine.set() && !may_refine(options.refine.patches)) {
     return;

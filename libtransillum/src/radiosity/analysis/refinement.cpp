@@ -197,6 +197,9 @@ RefinementPlan::RefinementPlan(std::shared_ptr<const Scene> scene, const SolveOp
     throw InputError(fmt::format("refinement: not available with engine {}, which makes no passes",
                                  name_of(options.engine)));
   }
+  if (options.glossy) {
+    throw InputError("refinement: not available with lobes (glossy)");
+  }
   // The error is known only after a round.
   if (refined_->patch_count() < refine.patches || refine.by == RefineBy::error) {
     begin_round(cancellation);

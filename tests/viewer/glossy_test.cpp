@@ -1,0 +1,247 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Runs in which lobes take part, in the window: radiance toward the camera, lobes of a patch,
+// sliders of lobes, and the start and stop of such runs.
+#include <QAction>
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QPushButton>
+#include <QSpinBox>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "directions/lobe_view.h"
+#include "model/command_text.h"
+#include "model/material_json.h"
+#include "model/snapshot_solution.h"
+#include "solved_window.h"
+#include "transillum/glossy.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+constexpr const char* small_gallery = "gallery:tiles=1,slices=6,stacks=4";
+
+struct GlossyWindow {
+  std::unique_ptr<TestWindow> window;
+  bool ready = false;
+
+  explicit GlossyWindow(const SolveOptions& options = {.directions = 64, .tolerance = 1e-6},
+                        const QString& scene = small_gallery) {
+    window = make_window(options);
+    window->files().open_scene(scene);
+    ready = settles();
+  }
+  bool settles() const {
+    return wait_for([this] {
+      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+    });
+  }
+  const SolverSnapshot& snapshot() const { return *window->snapshot(); }
+  SceneView& view() const { return *window->findChild<SceneView*>(); }
+  template <class Part>
+  Part* part(const char* name) const {
+    return window->findChild<Part*>(name);
+  }
+  /// Whether the scene shows the radiance toward its camera.
+  bool shows_radiance_toward_camera() const {
+    return window->colors.values() == snapshot().glossy->radiance_toward(view().view_point().eye);
+  }
+  PatchId patch_of(const char* material) const {
+    const Scene& scene = *snapshot().loaded->scene;
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      if (scene.material(i).name == material) {
+        return i;
+      }
+    }
+    return no_patch;
+  }
+};
+
+double largest_difference(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, max_abs(a[i] - b[i]));
+  }
+  return largest;
+}
+
+}  // namespace
+
+class GlossyTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void the_gallery_opens_glossy() {
+    auto window = make_window(64);
+    window->findChild<QPushButton*>("built_in_gallery")->click();
+    QVERIFY(wait_for([&] {
+      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+    }));
+    QVERIFY(window->snapshot()->glossy);
+    QVERIFY(window->snapshot()->options.glossy);
+    QVERIFY(window->findChild<QCheckBox*>("glossy")->isChecked());
+    QVERIFY(!window->parts().settings.differ_from_effect());
+    QCOMPARE(window->colors.quantity(), Quantity::eye_radiance);
+    QVERIFY(solution_of(*window->snapshot()).glossy != nullptr);
+    save_picture(*window, "glossy-gallery");
+    // The times of camera moves, for RESULTS.md.
+    auto* view = window->findChild<SceneView*>();
+    const GlossyLight& light = *window->snapshot()->glossy;
+    QElapsedTimer timer;
+    timer.start();
+    for (int k = 0; k < 10; ++k) {
+      (void)light.radiance_toward(view->view_point().eye);
+    }
+    qInfo("radiance toward an eye: %.2f ms", 0.1 * static_cast<double>(timer.elapsed()));
+    timer.start();
+    for (int k = 0; k < 10; ++k) {
+      view->turn(5, 0);
+      const auto colored = window->colors.values();
+      QVERIFY(wait_for([&] { return window->colors.values() != colored; }));
+    }
+    qInfo("a camera move, with two pictures: %.1f ms", 0.1 * static_cast<double>(timer.elapsed()));
+    QVERIFY(wait_for(
+        [&] { return window->colors.values() == light.radiance_toward(view->view_point().eye); }));
+    // Other scenes are diffuse, and B is shown again.
+    window->files().open_scene("cornell-box");
+    QVERIFY(wait_for([&] {
+      return window->snapshot() && !window->snapshot()->glossy && window->settled() &&
+             window->snapshot()->progress.finished;
+    }));
+    QVERIFY(!window->snapshot()->options.glossy);
+    QCOMPARE(window->colors.quantity(), Quantity::radiosity);
+  }
+
+  void the_radiance_follows_the_camera() {
+    GlossyWindow w;
+    QVERIFY(w.ready);
+    QVERIFY(w.shows_radiance_toward_camera());
+    const auto before = w.window->colors.values();
+    const double exposure = w.window->colors.scale().exposure;
+    w.view().turn(40, 10);
+    QVERIFY(wait_for([&] { return w.shows_radiance_toward_camera(); }));
+    QVERIFY(w.window->colors.values() != before);
+    QCOMPARE(w.window->colors.scale().exposure, exposure);
+    // A range is widened while the camera moves, not fitted anew.
+    w.window->colors.set_mode(ColorMode::luminance);
+    const double low = w.window->colors.scale().low, high = w.window->colors.scale().high;
+    for (int k = 0; k < 5; ++k) {
+      w.view().turn(30, 0);
+      QVERIFY(wait_for([&] { return w.shows_radiance_toward_camera(); }));
+      QVERIFY(w.window->colors.scale().low <= low && w.window->colors.scale().high >= high);
+    }
+    // Without lobes, L is B/pi from everywhere.
+    w.part<QCheckBox>("glossy")->setChecked(false);
+    w.window->runner.restart(w.window->parts().settings.solve_options(), {Goal::Kind::finished});
+    QVERIFY(wait_for([&] { return !w.window->snapshot()->glossy && w.settles(); }));
+    w.window->colors.set_quantity(Quantity::eye_radiance);
+    QCOMPARE(w.window->colors.values().size(), w.snapshot().radiosity.size());
+    QVERIFY(max_abs(w.window->colors.values()[3] -
+                    0.31830988618379067 * w.snapshot().radiosity[3]) < 1e-12);
+  }
+
+  void a_run_advances_pauses_and_stops() {
+    auto window = make_window(SolveOptions{.directions = 4096, .glossy = true});
+    window->open(small_gallery, {});
+    QVERIFY(
+        wait_for([&] { return window->snapshot() && window->runner.state() == RunState::paused; }));
+    window->runner.advance_one_direction();
+    QVERIFY(wait_for([&] { return window->snapshot()->progress.direction == 1; }));
+    window->runner.set_goal({Goal::Kind::passes, 77});
+    QVERIFY(wait_for([&] {
+      return window->snapshot()->progress.direction == 77 &&
+             window->runner.state() == RunState::paused;
+    }));
+    window->runner.run();
+    QVERIFY(wait_for([&] { return window->snapshot()->progress.direction > 200; }));
+    QElapsedTimer timer;
+    timer.start();
+    window->runner.stop();
+    QVERIFY(wait_for([&] {
+      return window->runner.state() == RunState::paused &&
+             window->snapshot()->progress.direction == 0;
+    }));
+    qInfo("stopped after %lld ms", static_cast<long long>(timer.elapsed()));
+  }
+
+  void settings_say_what_goes_with_lobes() {
+    GlossyWindow w;
+    QVERIFY(w.ready);
+    auto* note = w.part<QLabel>("glossy_note");
+    QVERIFY(note->isHidden());
+    w.part<QSpinBox>("replicas")->setValue(4);
+    QCOMPARE(note->text(), QStringLiteral("not with replicas"));
+    w.part<QSpinBox>("replicas")->setValue(1);
+    w.part<QCheckBox>("glossy")->setChecked(false);
+    QCOMPARE(note->text(), QStringLiteral("the scene has lobes"));
+    RunOptions options{{.directions = 64, .glossy = true}};
+    QVERIFY(run_options_from_json(to_json(options), "x") == options);
+    QVERIFY(solve_command("gallery", options, {}).find("--glossy") != std::string::npos);
+  }
+
+  void lobes_of_the_selected_patch_are_drawn() {
+    GlossyWindow w;
+    QVERIFY(w.ready);
+    auto* lobes = w.window->findChild<LobeView*>();
+    QVERIFY(lobes->message().contains("Click a patch"));
+    const PatchId floor = w.patch_of("floor");
+    w.window->selection.select(floor);
+    QVERIFY(lobes->message().isEmpty());
+    QCOMPARE(lobes->arriving().size(), std::size_t{64});
+    // In the patch's frame, the sum of what arrives is the irradiance.
+    Rgb sum;
+    for (const LobeView::Ray& ray : lobes->arriving()) {
+      QVERIFY(ray.direction.z >= 0);
+      sum += 2 * 3.14159265358979 / 64 * ray.light;
+    }
+    QVERIFY(max_abs(sum - w.snapshot().irradiance[std::size_t(floor)]) < 1e-9);
+    QCOMPARE(lobes->leaving().size(), std::size_t((LobeView::rings + 1) * LobeView::sectors));
+    w.window->selection.select(w.patch_of("white"));
+    QVERIFY(lobes->arriving().empty());
+    const auto& leaving = lobes->leaving();
+    QVERIFY(max_abs(leaving.front().light - leaving.back().light) == 0);
+  }
+
+  void gloss_is_changed_without_a_pass() {
+    GlossyWindow w;
+    QVERIFY(w.ready);
+    w.window->selection.select(w.patch_of("floor"));
+    auto* gloss = w.part<QDoubleSpinBox>("gloss_value");
+    QCOMPARE(gloss->value(), 24.0);
+    const std::int64_t passes = w.snapshot().statistics.passes_made;
+    const std::vector<Rgb> first = w.snapshot().radiosity;
+    gloss->setValue(6);
+    QVERIFY(wait_for([&] {
+      return w.snapshot().materials && w.snapshot().progress.finished && w.window->settled();
+    }));
+    QCOMPARE(w.snapshot().statistics.passes_made, passes);
+    QVERIFY(w.shows_radiance_toward_camera());
+    // The same light as of a run with these materials.
+    auto scene = load_scene(small_gallery);
+    GlossySolver solver(scene, w.snapshot().options);
+    solver.set_materials(w.snapshot().materials->materials, w.snapshot().materials->of_patch);
+    solver.solve();
+    QVERIFY(largest_difference(solver.solution().radiosity, w.snapshot().radiosity) < 1e-3);
+    QVERIFY(largest_difference(first, w.snapshot().radiosity) > 1e-3);
+    // Changes of lobes are saved, and can be undone.
+    const auto changes = w.window->relighting.edits().changes();
+    QCOMPARE(changes.size(), std::size_t{1});
+    nlohmann::json json{{"materials", to_json(changes)}};
+    JsonObject object(json, "x");
+    QVERIFY(material_changes_from_json(object, "materials") == changes);
+    w.window->relighting.edits().undo_stack().undo();
+    QVERIFY(wait_for([&] {
+      return !w.snapshot().materials && w.snapshot().progress.finished && w.window->settled();
+    }));
+    QVERIFY(largest_difference(first, w.snapshot().radiosity) < 1e-3);
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(GlossyTest)
+#include "glossy_test.moc"

@@ -1,0 +1,77 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Solve settings": bases and lobes, and the notes on what these cannot be combined with.
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include "solve/settings_panel.h"
+#include "widgets/engine_text.h"
+
+namespace transillum::viewer {
+
+void SettingsPanel::add_glossy_row(QFormLayout& form) {
+  glossy_ = new QCheckBox(tr("Lobes reflect too"));
+  glossy_->setObjectName("glossy");
+  glossy_->setToolTip(tr(
+      "<span>Off: all surfaces are diffuse, and reflect ρ only. On: the lobes of materials (MTL: "
+      "Ks with Ns or Pr; glTF: metal and roughness) reflect too, most of it about the mirror "
+      "direction. Patches then keep light by direction, and look different from each "
+      "point.</span>"));
+  glossy_note_ = new QLabel;
+  glossy_note_->setObjectName("glossy_note");
+  glossy_note_->setForegroundRole(QPalette::PlaceholderText);
+  glossy_note_->hide();
+  auto* column = new QVBoxLayout;
+  column->setSpacing(2);
+  column->addWidget(glossy_);
+  column->addWidget(glossy_note_);
+  form.addRow(tr("Glossy"), column);
+}
+
+void SettingsPanel::show_basis_state() {
+  const bool linear = basis_->currentIndex() == static_cast<int>(Basis::linear);
+  const QString note = !linear                             ? QString()
+                       : !has_moments(engine_of(*engine_)) ? tr("not with this engine")
+                       : normalize_->currentIndex() == static_cast<int>(Normalization::symmetric)
+                           ? tr("not with Symmetric")
+                       : scheme_->currentIndex() == static_cast<int>(Scheme::semi_iterative)
+                           ? tr("not with Semi-iterative")
+                           : QString();
+  basis_note_->setText(note);
+  basis_note_->setVisible(!note.isEmpty());
+}
+
+QString SettingsPanel::glossy_obstacle() const {
+  return !takes_directions(engine_of(*engine_)) ? tr("not with this engine")
+         : pass_serves_->currentIndex() != 0    ? tr("not with one-way passes")
+         : basis_->currentIndex() != static_cast<int>(Basis::constant)
+             ? tr("not with linear functions")
+         : normalize_->currentIndex() == static_cast<int>(Normalization::symmetric)
+             ? tr("not with Symmetric")
+         : scheme_->currentIndex() != static_cast<int>(Scheme::fixed)
+             ? tr("only with the scheme Fixed")
+         : goal().set()            ? tr("not with an accuracy")
+         : replicas_->value() != 1 ? tr("not with replicas")
+         : refinement().set()      ? tr("not with rounds of refinement")
+                                   : QString();
+}
+
+void SettingsPanel::show_glossy_state() {
+  const QString note = glossy_->isChecked() ? glossy_obstacle()
+                       : has_lobes_         ? tr("the scene has lobes")
+                                            : QString();
+  glossy_note_->setText(
+      glossy_->isChecked() && note.isEmpty() && !has_lobes_ ? tr("no material has a lobe") : note);
+  glossy_note_->setVisible(!glossy_note_->text().isEmpty());
+}
+
+void SettingsPanel::set_scene_has_lobes(bool has_lobes) {
+  has_lobes_ = has_lobes;
+  show_glossy_state();
+}
+
+}  // namespace transillum::viewer
