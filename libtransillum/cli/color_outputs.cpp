@@ -24,16 +24,22 @@ bool is_any_of(const std::vector<std::string>& files, std::initializer_list<cons
 }  // namespace
 
 void add_color_outputs(CLI::App& command, ColorOutputs& colors) {
-  add_parsed_option(
-      command, "--exposure", "X",
-      "colors in .ply, .glb and .gltf files: B times X is the linear color, 1 is white (default: "
-      "98 % of the area that does not emit is below white)",
-      [&colors](const std::string& text) {
-        colors.display.exposure = parse_number("--exposure", text);
-        if (!(*colors.display.exposure > 0)) {
-          throw InputError("--exposure: \"" + text + "\" is not greater than 0");
-        }
-      });
+  add_parsed_option(command, "--exposure", "X",
+                    "colors in .ply, .glb, .gltf and .png files: B times X is the linear color, 1 "
+                    "is white (default: "
+                    "98 % of the area that does not emit is below white)",
+                    [&colors](const std::string& text) {
+                      colors.display.exposure = parse_number("--exposure", text);
+                      if (!(*colors.display.exposure > 0)) {
+                        throw InputError("--exposure: \"" + text + "\" is not greater than 0");
+                      }
+                    });
+  add_parsed_option(command, "--target", "X,Y,Z",
+                    "the point in the middle of a .png picture, in m (default: the center of the "
+                    "scene)",
+                    [&colors](const std::string& text) {
+                      colors.display.target = parse_point("--target", text);
+                    });
   command.add_flag("--light-map", colors.display.light_map,
                    "colors in .glb and .gltf files as a picture with texture coordinates, a square "
                    "of it per patch, instead of a color per corner");
@@ -64,14 +70,19 @@ void set_up_of_display(const CLI::App& command, const Sky& sky, ColorOutputs& co
 
 void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
                          const std::vector<std::string>& out, const SolveOptions& options) {
-  refuse_unless(is_any_of(out, {".ply", ".glb", ".gltf"}), command, "--exposure",
-                "used only with a .ply, .glb or .gltf file");
+  refuse_unless(is_any_of(out, {".ply", ".glb", ".gltf", ".png"}), command, "--exposure",
+                "used only with a .ply, .glb, .gltf or .png file");
+  const bool has_picture = is_any_of(out, {".png"});
+  refuse_unless(has_picture, command, "--target", "used only with a .png file");
+  if (has_picture && command.get_option("--eye")->count() == 0) {
+    throw InputError("a .png picture requires --eye X,Y,Z");
+  }
   refuse_unless(is_any_of(out, {".glb", ".gltf"}), command, "--light-map",
                 "used only with a .glb or .gltf file");
   refuse_unless(!colors.series.empty(), command, "--series-every", "used only with --series");
   const bool sky_has_zenith = options.sky.set() && options.sky.model != SkyModel::uniform;
-  refuse_unless(sky_has_zenith || is_any_of(out, {".glb", ".gltf"}), command, "--up",
-                "used only with --sky and --sky-model cie-overcast, or a .glb or .gltf file");
+  refuse_unless(sky_has_zenith || is_any_of(out, {".glb", ".gltf", ".png"}), command, "--up",
+                "used only with --sky and --sky-model cie-overcast, or a .glb, .gltf or .png file");
   const bool has_factors = command.get_option("--factors")->count() > 0;
   refuse_unless(takes_directions(options.engine) && !options.goal.set() && !has_factors, command,
                 "--series",

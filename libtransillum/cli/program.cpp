@@ -104,12 +104,16 @@ struct Program {
   }
 };
 
-/// Joins `--direction` and `--up` and their values by =, since a value such as -.5,0,1 would be
-/// taken for an option.
+bool takes_vector(const std::string& option) {
+  return option == "--direction" || option == "--up" || option == "--eye" || option == "--target";
+}
+
+/// Joins options of vectors and their values by =, since a value such as -.5,0,1 would be taken for
+/// an option.
 std::vector<std::string> joined_directions(int argc, char** argv) {
   std::vector<std::string> arguments;
   for (int k = 1; k < argc; ++k) {
-    if (!arguments.empty() && (arguments.back() == "--direction" || arguments.back() == "--up")) {
+    if (!arguments.empty() && takes_vector(arguments.back())) {
       arguments.back() += std::string("=") + argv[k];
     } else {
       arguments.emplace_back(argv[k]);

@@ -18,7 +18,11 @@ namespace {
 
 /// Refuses what a solve in which lobes take part does not have.
 void check_glossy(const SolveCall& call) {
-  refuse_unless(call.options.glossy, *call.command, "--eye", "used only with --glossy");
+  const bool picture = std::any_of(call.out.begin(), call.out.end(), [](const std::string& file) {
+    return std::filesystem::path(file).extension() == ".png";
+  });
+  refuse_unless(call.options.glossy || picture, *call.command, "--eye",
+                "used only with --glossy, or a .png file");
   if (call.options.glossy) {
     for (const char* option :
          {"--factors", "--by", "--series", "--checkpoint", "--shard", "--refine-by"}) {
@@ -88,7 +92,8 @@ void add_scheme(CLI::App& command, SolveCall& call) {
       ->excludes(glossy);
   add_parsed_option(
       command, "--eye", "X,Y,Z",
-      "with --glossy: a point in m; .csv, .vtp and .ply files have the radiance toward it",
+      "a point in m: with --glossy, .csv, .vtp and .ply files have the radiance toward it; .png "
+      "files are seen from it",
       [&call](const std::string& text) { call.eye = parse_point("--eye", text); });
   add_parsed_option(command, "--first-shot", "RATIO",
                     choice_help("first-shot", {"none", "auto", "a number"}, "none"),
@@ -145,12 +150,12 @@ void add_goal(CLI::App& command, AccuracyGoal& goal) {
 
 void add_outputs(CLI::App& command, SolveCall& call) {
   command
-      .add_option(
-          "-o,--out", call.out,
-          "result file: .csv, .vtp, .ply, .obj, .glb or .gltf, by its ending, or - for CSV on "
-          "standard output; "
-          "may be given several times "
-          "(default: a summary on standard output)")
+      .add_option("-o,--out", call.out,
+                  "result file: .csv, .vtp, .ply, .obj, .glb, .gltf or, with --eye, .png, by its "
+                  "ending, or - for CSV on "
+                  "standard output; "
+                  "may be given several times "
+                  "(default: a summary on standard output)")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

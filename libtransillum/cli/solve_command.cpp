@@ -197,7 +197,7 @@ int run_solve(const SolveCall& call) {
   solution.statistics.refinement = prepared.rounds;
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
-  solution.eye = lobes ? call.eye : std::nullopt;
+  solution.eye = call.eye;
   if (call.by && options.basis != Basis::constant) {
     print_message("exchanges between groups are not available with --basis linear");
   }

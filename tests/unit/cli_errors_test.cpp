@@ -90,7 +90,7 @@ const InvalidCall invalid_calls[] = {
     {{"solve", "furnace", "--memory", "nan"}, "--memory"},
     {{"solve", "furnace", "--threads", "0"}, "--threads"},
     {{"solve", "furnace", "--threads", "100000"}, "--threads"},
-    {{"solve", "furnace", "--out", "a.txt"}, ".csv, .vtp, .ply, .obj, .glb or .gltf"},
+    {{"solve", "furnace", "--out", "a.txt"}, ".csv, .vtp, .ply, .obj, .glb, .gltf or .png"},
     {{"solve", "furnace", "--out", "/no/such/folder/a.csv"}, "/no/such/folder"},
     {{"solve", "furnace", "--out", "a.csv", "--out", "./a.csv"}, "given twice"},
     {{"solve", "furnace", "--stats", "/no/such/folder/a.json"}, "/no/such/folder"},

@@ -87,6 +87,26 @@ TEST(CliGlossy, FilesHaveTheRadianceTowardAnEye) {
   EXPECT_NEAR(json["energy_balance"], 1, 0.05);
 }
 
+TEST(CliGlossy, DrawsAPictureFromAnEye) {
+  TemporaryFolder folder;
+  const Arguments eye{"--eye", "-0.1,0.3,-0.5", "--target", "0.3,0.2,0.3", "--up", "0,1,0"};
+  for (const Arguments& glossy : {Arguments{"--glossy"}, Arguments{"--diffuse-only"}}) {
+    const ProgramResult result =
+        run_program(shining + glossy + eye + Arguments{"--out", folder / "r.png"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const std::string png = read_file(folder / "r.png");
+    EXPECT_EQ(png.substr(1, 3), "PNG");
+    EXPECT_GT(png.size(), 10'000U);
+  }
+  const ProgramResult without = run_program(shining + Arguments{"--out", folder / "r.png"});
+  EXPECT_EQ(without.status, 2);
+  EXPECT_THAT(without.err, HasSubstr("a .png picture requires --eye X,Y,Z"));
+  const ProgramResult target =
+      run_program(shining + Arguments{"--target", "1,2,3", "--out", folder / "r.ply"});
+  EXPECT_EQ(target.status, 2);
+  EXPECT_THAT(target.err, HasSubstr("--target: used only with a .png file"));
+}
+
 TEST(CliGlossy, SaysWhatItDoesWithLobes) {
   const Arguments loud{"solve", "cornell-box", "-m", "16", "--lobe", "white=0.5,100"};
   EXPECT_THAT(run_program(loud).err, HasSubstr("lobes of materials are left out (--glossy"));

@@ -54,8 +54,10 @@ struct DisplayOptions {
   /// automatic_exposure().
   std::optional<double> exposure = std::nullopt;
   /// .glb, .gltf: the direction, a unit vector, that becomes their up, +y; unset: +y, coordinates
-  /// stay.
+  /// stay. .png: the direction that is up in the picture; unset: +z.
   std::optional<Vec3> up = std::nullopt;
+  /// .png: the point in the middle of the picture, m; unset: the center of the scene's bounds.
+  std::optional<Vec3> target = std::nullopt;
   /// .glb, .gltf: colors as a picture (8 bits, sRGB) with texture coordinates, a square of it per
   /// patch, instead of a color per corner.
   bool light_map = false;
@@ -67,7 +69,7 @@ struct DisplayOptions {
 /// all area, where all emits); 1 without light.
 double automatic_exposure(const Solution& solution);
 
-/// Checks that `path` is writable and ends in .csv, .vtp, .ply, .obj, .glb or .gltf.
+/// Checks that `path` is writable and ends in .csv, .vtp, .ply, .obj, .glb, .gltf or .png.
 /// @throws InputError
 void check_result_path(const std::filesystem::path& path);
 /// Checks that `path` is writable and ends in .json.

@@ -26,6 +26,10 @@ void write_result_glb(std::ostream& out, const Solution& solution, const Display
 void write_result_gltf(std::ostream& out, const Solution& solution, const DisplayOptions& display);
 /// One polygon per patch with its own corners, whose color is the patch's B, linear, unscaled.
 void write_result_obj(std::ostream& out, const Solution& solution);
+/// A picture from solution.eye, 1280 by 960 pixels: radiance toward it, or B where no lobes took
+/// part.
+/// @throws InputError without an eye
+void write_result_png(std::ostream& out, const Solution& solution, const DisplayOptions& display);
 
 /// The exposure of `display`, or the automatic one.
 double exposure_of(const Solution& solution, const DisplayOptions& display);

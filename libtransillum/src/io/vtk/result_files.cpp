@@ -45,8 +45,12 @@ ResultWriter writer_for(const std::filesystem::path& path) {
   if (ending == ".gltf") {
     return write_result_gltf;
   }
+  if (ending == ".png") {
+    return write_result_png;
+  }
   throw InputError(fmt::format(
-      "{}: the name of a result must end in .csv, .vtp, .ply, .obj, .glb or .gltf", path.string()));
+      "{}: the name of a result must end in .csv, .vtp, .ply, .obj, .glb, .gltf or .png",
+      path.string()));
 }
 
 }  // namespace

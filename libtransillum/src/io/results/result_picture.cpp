@@ -1,0 +1,133 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A picture of a result as a point sees it: each pixel has the radiance of the patch that the rays
+// through it meet first, four to a pixel.
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <ostream>
+#include <stdexcept>
+#include <vector>
+
+#include "base/for_each_index.h"
+#include "base/worker_threads.h"
+#include "io/results/result_writers.h"
+#include "io/results/srgb.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+#include "transillum/glossy.h"
+#include "transillum/picking.h"
+
+namespace transillum {
+namespace {
+
+constexpr std::size_t picture_width = 1280, picture_height = 960;
+constexpr double largest_half_angle = 37.5 * std::numbers::pi / 180;
+constexpr int rays_per_side = 2;
+
+/// A camera without lens: the direction of a pixel is forward + x right + y above.
+struct Camera {
+  Vec3 eye, forward, right, above;
+
+  Vec3 toward(double column, double row) const {
+    return forward + (2 * column / picture_width - 1) * right +
+           (1 - 2 * row / picture_height) * above;
+  }
+};
+
+/// Wide enough for the whole scene, up to 75 degrees from top to bottom.
+Camera camera_of(const Scene& scene, const Vec3& eye, const DisplayOptions& display) {
+  const Vec3 target = display.target.value_or(scene.bounds().center());
+  const Vec3 sight = target - eye;
+  if (!(norm(sight) > 0)) {
+    throw InputError(fmt::format("{}: a picture from {} {} {} needs another point to look at",
+                                 scene.name(), eye.x, eye.y, eye.z));
+  }
+  Camera camera{eye, normalized(sight), {}, {}};
+  Vec3 up = display.up.value_or(Vec3{0, 0, 1});
+  if (norm(cross(camera.forward, up)) < 1e-3) {
+    up = std::abs(camera.forward.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+  }
+  camera.right = normalized(cross(camera.forward, up));
+  camera.above = cross(camera.right, camera.forward);
+  constexpr double aspect = static_cast<double>(picture_width) / picture_height;
+  double tangent = 0;
+  for (const Vec3& point : scene.points()) {
+    const Vec3 to_point = point - eye;
+    const double depth = dot(to_point, camera.forward);
+    const double aside = std::max(std::abs(dot(to_point, camera.right)) / aspect,
+                                  std::abs(dot(to_point, camera.above)));
+    tangent = depth > 0 ? std::max(tangent, aside / depth) : std::tan(largest_half_angle);
+  }
+  constexpr double margin = 1.02;
+  tangent = std::clamp(margin * tangent, 1e-6, std::tan(largest_half_angle));
+  camera.right = aspect * tangent * camera.right;
+  camera.above = tangent * camera.above;
+  return camera;
+}
+
+/// pi times the radiance toward the eye: that of a diffuse patch is B.
+std::vector<Rgb> shown_light(const Solution& solution) {
+  if (!solution.glossy) {
+    return solution.radiosity;
+  }
+  std::vector<Rgb> light = solution.glossy->radiance_toward(*solution.eye);
+  for (Rgb& value : light) {
+    value = std::numbers::pi * value;
+  }
+  return light;
+}
+
+}  // namespace
+
+void write_result_png(std::ostream& out, const Solution& solution, const DisplayOptions& display) {
+  const Scene& scene = *solution.scene;
+  if (!solution.eye) {
+    throw InputError(
+        fmt::format("{}: a picture needs the point that it is seen from", scene.name()));
+  }
+  const Camera camera = camera_of(scene, *solution.eye, display);
+  const std::vector<Rgb> light = shown_light(solution);
+  const double exposure = exposure_of(solution, display);
+  const Picker picker(solution.scene);
+  std::vector<unsigned char> pixels(3 * picture_width * picture_height);
+  WorkerThreads workers(thread_count(0));
+  for_each_index(workers, std::size_t{0}, picture_height, [&](std::size_t row) {
+    for (std::size_t column = 0; column < picture_width; ++column) {
+      Rgb sum;
+      for (int k = 0; k < rays_per_side * rays_per_side; ++k) {
+        const auto part = [](int n) { return (n + 0.5) / rays_per_side; };
+        const auto hit = picker.first_lit_hit(
+            camera.eye, camera.toward(static_cast<double>(column) + part(k % rays_per_side),
+                                      static_cast<double>(row) + part(k / rays_per_side)));
+        if (hit) {
+          // Clamped ray by ray, so that the edges of lamps are smooth.
+          const Rgb color = exposure * at(light, hit->patch);
+          sum += Rgb{std::min(color.r, 1.0), std::min(color.g, 1.0), std::min(color.b, 1.0)};
+        }
+      }
+      const Rgb mean = 1.0 / (rays_per_side * rays_per_side) * sum;
+      unsigned char* pixel = pixels.data() + 3 * (row * picture_width + column);
+      pixel[0] = static_cast<unsigned char>(srgb_byte(mean.r));
+      pixel[1] = static_cast<unsigned char>(srgb_byte(mean.g));
+      pixel[2] = static_cast<unsigned char>(srgb_byte(mean.b));
+    }
+  });
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = picture_width;
+  image.height = picture_height;
+  image.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
+    throw std::runtime_error(fmt::format("picture: {}", image.message));
+  }
+  out.write(bytes.data(), static_cast<std::streamsize>(size));
+}
+
+}  // namespace transillum
