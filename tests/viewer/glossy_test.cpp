@@ -147,7 +147,7 @@ class GlossyTest : public QObject {
   }
 
   void a_run_advances_pauses_and_stops() {
-    auto window = make_window(SolveOptions{.directions = 4096, .glossy = true});
+    auto window = make_window(SolveOptions{.directions = 1024, .glossy = true});
     window->open(small_gallery, {});
     QVERIFY(
         wait_for([&] { return window->snapshot() && window->runner.state() == RunState::paused; }));
