@@ -19,9 +19,9 @@
 #include "solved_window.h"
 #include "transillum/glossy.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::glossy_test {
+
+using namespace test;
 
 namespace {
 
@@ -243,5 +243,8 @@ class GlossyTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(GlossyTest)
+const test::Registered registered("glossy", test::run_as_viewer<GlossyTest>);
+
+}  // namespace transillum::viewer::glossy_test
+
 #include "glossy_test.moc"

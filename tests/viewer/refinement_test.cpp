@@ -26,9 +26,9 @@
 #include "window/view_state_applier.h"
 #include "window/window_session.h"
 
-using namespace transillum;
-using namespace transillum::viewer;
-using namespace transillum::viewer::test;
+namespace transillum::viewer::refinement_test {
+
+using namespace test;
 
 namespace {
 
@@ -471,5 +471,8 @@ class RefinementTest : public QObject {
   }
 };
 
-TRANSILLUM_VIEWER_TEST_MAIN(RefinementTest)
+const test::Registered registered("refinement", test::run_as_viewer<RefinementTest>);
+
+}  // namespace transillum::viewer::refinement_test
+
 #include "refinement_test.moc"
