@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "base/text_file.h"
 #include "transillum/at.h"
@@ -47,26 +48,42 @@ std::string one_line(const std::string& text) {
   return line;
 }
 
+/// Newer versions of tinygltf ask for the size before they read.
+template <class Callbacks>
+void leave_sizes_to_reading(Callbacks& callbacks) {
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+      *size = 0;
+      return true;
+    };
+  }
+}
+
 /// The callbacks that tinygltf reads files by. `files` collects their names.
 tinygltf::FsCallbacks file_callbacks(std::vector<std::string>& files) {
-  return {[](const std::string& path, void*) {
-            std::error_code ignored;
-            return std::filesystem::is_regular_file(path, ignored);
-          },
-          [](const std::string& path, void*) { return path; },
-          [](std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
-             void* user) {
-            try {
-              const std::string read = read_binary_file(path, largest_scene_file);
-              bytes->assign(read.begin(), read.end());
-              static_cast<std::vector<std::string>*>(user)->push_back(path);
-              return true;
-            } catch (const InputError& problem) {
-              *error += problem.what();
-              return false;
-            }
-          },
-          nullptr, &files};
+  tinygltf::FsCallbacks callbacks{};
+  callbacks.FileExists = [](const std::string& path, void*) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+  };
+  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string* error,
+                               const std::string& path, void* user) {
+    try {
+      const std::string read = read_binary_file(path, largest_scene_file);
+      bytes->assign(read.begin(), read.end());
+      static_cast<std::vector<std::string>*>(user)->push_back(path);
+      return true;
+    } catch (const InputError& problem) {
+      *error += problem.what();
+      return false;
+    }
+  };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                void*) { return false; };
+  leave_sizes_to_reading(callbacks);
+  callbacks.user_data = &files;
+  return callbacks;
 }
 
 /// Keeps an image's bytes as they are in its file. Those in buffers are found later: the parser
@@ -298,7 +315,8 @@ std::vector<double> GltfFile::numbers(int index, std::size_t components) const {
     const auto count = static_cast<std::size_t>(from.sparse.count);
     const std::size_t index_size = size_of_type(from.sparse.indices.componentType);
     if (!is_whole_type(from.sparse.indices.componentType) || count > from.count ||
-        from.sparse.indices.byteOffset < 0 || from.sparse.values.byteOffset < 0) {
+        std::cmp_less(from.sparse.indices.byteOffset, 0) ||
+        std::cmp_less(from.sparse.values.byteOffset, 0)) {
       fail(fmt::format("accessor {} has invalid sparse values", index));
     }
     const auto where =

@@ -24,6 +24,13 @@
 namespace transillum {
 namespace {
 
+#if XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION < 9
+// The names that Expat 2.9 has for these.
+constexpr auto* XML_GetCurrentLineNumber64 = XML_GetCurrentLineNumber;
+constexpr auto* XML_GetCurrentByteIndex64 = XML_GetCurrentByteIndex;
+constexpr auto* XML_GetCurrentByteCount64 = XML_GetCurrentByteCount;
+#endif
+
 constexpr std::size_t max_arrays = 256, max_string_bytes = 16 << 20;
 /// Upper bound of deflate's compression ratio.
 constexpr std::size_t max_compression = 1032;
@@ -161,7 +168,7 @@ class VtpFile::HeaderParser {
       file_.refuse();
     }
     throw InputError(fmt::format("{}:{}: is not a VTK file of polygons (.vtp), or is damaged",
-                                 file_.name_, XML_GetCurrentLineNumber(parser_.get())));
+                                 file_.name_, XML_GetCurrentLineNumber64(parser_.get())));
   }
   void stop(const std::string& error = {}) {
     if (stopped_) {
@@ -172,10 +179,10 @@ class VtpFile::HeaderParser {
     XML_StopParser(parser_.get(), XML_FALSE);
   }
   std::size_t position() const {
-    return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get()));
+    return static_cast<std::size_t>(XML_GetCurrentByteIndex64(parser_.get()));
   }
   std::size_t tag_end() const {
-    return position() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()));
+    return position() + static_cast<std::size_t>(XML_GetCurrentByteCount64(parser_.get()));
   }
 
   void begin(const std::string& element, const XML_Char** pairs) {
