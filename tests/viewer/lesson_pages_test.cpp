@@ -26,6 +26,8 @@
 #include "transillum/discrepancy.h"
 #include "transillum/engine.h"
 #include "transillum/function_comparison.h"
+#include "transillum/glossy.h"
+#include "transillum/picking.h"
 #include "transillum/radiosity.h"
 #include "transillum/refinement.h"
 #include "transillum/study.h"
@@ -333,6 +335,31 @@ void add_linear_lesson(std::vector<Statement>& all) {
                      .arg(fine.scene->patch_count())});
 }
 
+void add_glossy_lesson(std::vector<Statement>& all) {
+  const Shown shown(11, 4);
+  const Scene& scene = *shown.scene;
+  PatchId shining = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    shining += scene.material(i).lobe.present() ? 1 : 0;
+  }
+  const int directions = shown.page.state.options.solve.directions;
+  const double kept = 2.0 * directions * shining;
+  all.push_back({11, 4,
+                 QString("with *M* = %1, this room keeps %2 of each instead of %3")
+                     .arg(directions)
+                     .arg(english(1000 * std::round(kept / 1000)))
+                     .arg(scene.patch_count())});
+  const double n = scene.material(shown.page.state.selection).lobe.exponent;
+  all.push_back({11, 3, QString("with *n* = %1").arg(n)});
+  all.push_back({11, 3, "until nothing of them is left at *n* = 0"});  // the end of the slider
+  const MaterialChange wide = Shown(11, 3).page.question->reveal->materials.front();
+  all.push_back({11, 3, QString("(*n* = %1)").arg(wide.lobe->exponent)});
+  all.push_back({11, 5, QString("The floor has *n* = %1.").arg(n)});
+  for (const Figure& value : Shown(11, 5).page.question->figure.parts) {
+    all.push_back({11, 5, QString("*M* = %1").arg(value.solve.directions)});
+  }
+}
+
 const std::vector<Statement>& statements() {
   static const std::vector<Statement> all = [] {
     std::vector<Statement> list;
@@ -343,6 +370,7 @@ const std::vector<Statement>& statements() {
     add_flatland_lesson(list);
     add_trust_lesson(list);
     add_linear_lesson(list);
+    add_glossy_lesson(list);
     return list;
   }();
   return all;
@@ -359,7 +387,7 @@ const QRegularExpression& without_numbers() {
       QRegularExpression::escape("16π ρ/(1 − ρ)") + '|' +
       QRegularExpression::escape("(log₂ *M* + 7) / (2*M*)") + '|' +
       QRegularExpression::escape("[0,*u*]×[0,*v*]") + '|' + QRegularExpression::escape("1/√*M*") +
-      "|above 0|(?<=\\n)[0-9]\\. ");
+      '|' + QRegularExpression::escape("*M*/(*n* + 1)") + "|above 0|(?<=\\n)[0-9]\\. ");
   return pattern;
 }
 
@@ -369,6 +397,18 @@ struct ColorWord {
   const char* phrase;
   QColor color;
 };
+
+// What the marked tile of lesson 11 shows to an eye at the page's camera, as a mirror would.
+QColor color_of_mirrored_lamp() {
+  const Shown shown(11, 1);
+  const Patch& tile = shown.scene->patch(shown.page.state.selection);
+  const Vec3 to_eye = normalized(shown.page.state.camera->eye - tile.center);
+  const Vec3 mirrored = 2 * dot(to_eye, tile.normal) * tile.normal - to_eye;
+  const auto hit = Picker(shown.scene).first_lit_hit(tile.center + 1e-6 * tile.normal, mirrored);
+  const Rgb light = hit ? shown.scene->material(hit->patch).exitance : Rgb{};
+  const double largest = std::max(max_abs(light), 1e-9);
+  return QColor::fromRgbF(light.r / largest, light.g / largest, light.b / largest);
+}
 
 const std::vector<ColorWord>& color_words() {
   static const QColor direction =
@@ -395,6 +435,7 @@ const std::vector<ColorWord>& color_words() {
       {5, 3, "The blue lines in the scene", theme::outside},
       {7, 2, "outlined in pink", theme::selection},
       {10, 6, "draws them as black", Qt::black},
+      {11, 1, "mirrors the red lamp", color_of_mirrored_lamp()},
   };
   return all;
 }
@@ -429,7 +470,7 @@ QStringList texts_of_the_viewer() {
     }
     auto found = literal.globalMatch(QString::fromUtf8(file.readAll()));
     while (found.hasNext()) {
-      texts << found.next().captured(1).remove('&');
+      texts << found.next().captured(1).remove('&').remove("<b>").remove("</b>");
     }
   }
   return texts;
@@ -777,6 +818,18 @@ class LessonPagesTest : public QObject {
     const double many =
         compare_functions(reference, solved(0.25, Basis::constant)).l2_without_sources;
     QVERIFY2(few < 0.5 * many, qPrintable(QString("%1, %2").arg(few).arg(many)));
+  }
+
+  void when_surfaces_shine() {
+    const Shown lobes(11, 2), narrow(11, 5);
+    std::map<std::string, bool> shines;
+    for (PatchId i = 0; i < lobes.scene->patch_count(); ++i) {
+      shines[lobes.scene->material(i).name] = lobes.scene->material(i).lobe.present();
+    }
+    QVERIFY(lobes.contains("parts of the ball, and a wall, which has no lobe"));
+    QVERIFY(shines.at("floor") && shines.at("brass") && !shines.at("white"));
+    QVERIFY(narrow.contains("Ten are enough"));
+    QCOMPARE(resolved_exponent(500), 50.0);
   }
 
   void stars_and_the_first_shot() {
