@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -144,7 +146,9 @@ TEST_P(BoundaryCutBackends, PointsOnLines) {
 INSTANTIATE_TEST_SUITE_P(All, BoundaryCutBackends, ::testing::ValuesIn(simd_backends()),
                          [](const auto& test) {
                            std::string name = test.param.name;
-                           std::replace(name.begin(), name.end(), ' ', '_');
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
                            return name;
                          });
 
