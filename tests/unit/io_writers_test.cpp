@@ -388,7 +388,7 @@ TEST(IoWholeFiles, PathsAreCheckedInAdvance) {
   const TemporaryFolder folder;
   EXPECT_NO_THROW(check_result_path(folder / "a.csv"));
   EXPECT_NO_THROW(check_result_path(folder / "A.VTP"));
-  EXPECT_THROW(check_result_path(folder / "a.png"), InputError);
+  EXPECT_THROW(check_result_path(folder / "a.gif"), InputError);
   EXPECT_THROW(check_result_path(folder / "csv"), InputError);
   EXPECT_THROW(check_result_path(folder / "none/a.csv"), InputError);
   std::filesystem::create_directory(folder / "b.csv");

@@ -343,12 +343,12 @@ void add_glossy_lesson(std::vector<Statement>& all) {
     shining += scene.material(i).lobe.present() ? 1 : 0;
   }
   const int directions = shown.page.state.options.solve.directions;
-  const double kept = 2.0 * directions * shining;
+  const double kept = 1.0 * directions * shining;  // a patch faces one of two opposite directions
   all.push_back({11, 4,
                  QString("with *M* = %1, this room keeps %2 of each instead of %3")
                      .arg(directions)
                      .arg(english(1000 * std::round(kept / 1000)))
-                     .arg(scene.patch_count())});
+                     .arg(shining)});
   const double n = scene.material(shown.page.state.selection).lobe.exponent;
   all.push_back({11, 3, QString("with *n* = %1").arg(n)});
   all.push_back({11, 3, "until nothing of them is left at *n* = 0"});  // the end of the slider
