@@ -32,6 +32,7 @@ struct MapCall {
   Engine engine = Engine::local;
   EngineOptions engine_options;
   bool difference = false;
+  std::uint64_t memory = 0;
   MapPictureOptions picture;
   std::vector<std::string> out;
 };
@@ -46,7 +47,8 @@ void check_receiver(const MapCall& call, const Scene& scene) {
 
 VisibilityMap exact_map(const MapCall& call, const Scene& scene, const BspTree& tree,
                         const Cancellation& cancellation) {
-  const RecordedDirection direction = record_local_map(scene, tree, call.direction, cancellation);
+  const RecordedDirection direction =
+      record_local_map(scene, tree, call.direction, cancellation, call.memory);
   const std::int32_t steps = direction.record.step_count();
   if (call.step.value_or(0) > steps) {
     throw InputError(fmt::format("--step: no step {}; the steps of this direction are 0 to {}",
@@ -108,6 +110,8 @@ void check_options(const MapCall& call) {
                 "used only with engine zbuffer, painter or rays");
   refuse_unless(call.engine == Engine::local && call.receiver == no_patch, *call.command, "--step",
                 "used only with engine local, without --receiver");
+  refuse_unless(call.engine == Engine::local || call.difference, *call.command, "--memory",
+                "used only with engine local, or with --difference");
   const bool pictures = std::any_of(call.out.begin(), call.out.end(), is_map_picture);
   refuse_unless(pictures, *call.command, "--size", "used only with .svg and .png files");
 }
@@ -160,6 +164,9 @@ Run add_map_command(CLI::App& program) {
             parse_whole_number("--step", text, 0, std::numeric_limits<std::int32_t>::max()));
       });
   add_pixel_options(command, *call);
+  add_memory_option(command, call->memory,
+                    "what the record of the map's making may take, such as 2G or 800M (default: a "
+                    "quarter of the machine's)");
   add_parsed_option(
       command, "--size", "PIXELS",
       fmt::format("length of the longer side of .svg and .png (default {})", call->picture.size),

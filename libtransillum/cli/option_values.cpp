@@ -273,12 +273,15 @@ void add_engine_details(CLI::App& command, EngineOptions& options) {
       "--random-lines", [&options] { options.gridded = false; }, description_of("random-lines"));
 }
 
+void add_memory_option(CLI::App& command, std::uint64_t& memory, const std::string& help) {
+  add_parsed_option(command, "--memory", "SIZE", help, [&memory](const std::string& text) {
+    // To the library, 0 means the default; here it means that nothing is stored.
+    memory = std::max<std::uint64_t>(1, parse_memory_size("--memory", text));
+  });
+}
+
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) {
-  add_parsed_option(command, "--memory", "SIZE", help_of("memory", "a quarter of the machine's"),
-                    [&memory](const std::string& text) {
-                      // To the library, 0 means the default; here it means that nothing is stored.
-                      memory = std::max<std::uint64_t>(1, parse_memory_size("--memory", text));
-                    });
+  add_memory_option(command, memory, help_of("memory", "a quarter of the machine's"));
   add_threads_option(command, threads);
 }
 

@@ -81,6 +81,8 @@ void add_engine_details(CLI::App& command, EngineOptions& options);
 void add_order_option(CLI::App& command, EngineOptions& options);
 /// --threads
 void add_threads_option(CLI::App& command, int& threads);
+/// --memory
+void add_memory_option(CLI::App& command, std::uint64_t& memory, const std::string& help);
 /// --memory and --threads
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads);
 

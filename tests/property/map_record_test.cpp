@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/map_history.h"
+#include "transillum/solve_errors.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum::map_record_test {
@@ -36,6 +40,42 @@ TEST(MapRecord, GivesTheSameBitsAsTheUnrecordedRun) {
       EXPECT_EQ(plain.exchanges[k].area, recorded.exchanges[k].area);
     }
   }
+}
+
+template <class T>
+std::uint64_t bytes_of(const std::vector<T>& list) {
+  return list.capacity() * sizeof(T);
+}
+
+TEST(MapRecord, TakesNoMoreMemoryThanItMay) {
+  const auto scene = load_scene("rooms");
+  const BspTree tree(*scene);
+  const Vec3 omega = testing::test_directions(9, 4).back();
+  const MapRecord whole = record_local_map(*scene, tree, omega).record;
+  const auto lists = [](const MapRecord& r) {
+    return bytes_of(r.order) + bytes_of(r.step_patch) + bytes_of(r.rows) + bytes_of(r.corners) +
+           bytes_of(r.lines);
+  };
+  const auto record_in = [&](std::uint64_t memory) -> std::optional<MapRecord> {
+    try {
+      return record_local_map(*scene, tree, omega, {}, memory).record;
+    } catch (const MemoryLimitExceeded&) {
+      return {};
+    }
+  };
+  std::uint64_t fails = 1, succeeds = 4 * lists(whole);
+  ASSERT_FALSE(record_in(fails));
+  while (succeeds - fails > 1) {
+    const std::uint64_t middle = (fails + succeeds) / 2;
+    (record_in(middle) ? succeeds : fails) = middle;
+  }
+  const auto record = record_in(succeeds);
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->rows.size(), whole.rows.size());
+  EXPECT_EQ(record->corners.size(), whole.corners.size());
+  EXPECT_LE(lists(*record), succeeds);
+  // Growing by a quarter leaves a quarter unused, and the longest list is there twice meanwhile.
+  EXPECT_LE(succeeds, 2 * lists(whole));
 }
 
 /// Area of V after step k = area before - area of the inside list + area of the step's polygon.

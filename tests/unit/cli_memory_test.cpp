@@ -142,6 +142,43 @@ TEST_F(CliMemory, NightlyMemoryIsHeldToFivePercent) {
   expect_memory_held({"--normalize", "symmetric"});
 }
 
+TEST_F(CliMemory, RecordsOfMapsAreHeldToFivePercent) {
+  const TemporaryFolder folder;
+  const std::string scene = "sphere-flake:levels=2";
+  const auto least_limit = [](const std::vector<std::string>& arguments) {
+    int fails = 60, succeeds = 1000;
+    while (succeeds - fails > 1) {
+      const int middle = (fails + succeeds) / 2;
+      (run(arguments, middle).status == 0 ? succeeds : fails) = middle;
+    }
+    return succeeds;
+  };
+  const auto map = [&](int megabytes) {
+    // No polygon is left to write after no step.
+    return std::vector<std::string>{"map",         scene,
+                                    "--step",      "0",
+                                    "--memory",    std::to_string(megabytes) + "M",
+                                    "--direction", "1,2,3",
+                                    "--out",       folder / "m.json"};
+  };
+  int refused = 1, recorded = 200;
+  const ProgramResult error = run(map(refused), 4000);
+  EXPECT_EQ(error.status, 1);
+  EXPECT_THAT(error.err,
+              HasSubstr("the record of this direction exceeds the memory limit of 1.05 MB "
+                        "after "));
+  EXPECT_THAT(error.err, HasSubstr(" (try a larger --memory)"));
+  EXPECT_THAT(folder.names(), IsEmpty());
+  while (recorded - refused > 1) {
+    const int middle = (refused + recorded) / 2;
+    (run(map(middle), 4000).status == 0 ? recorded : refused) = middle;
+  }
+  ASSERT_GT(recorded, 20);
+  const int base = least_limit(
+      {"transfers", scene, "--engine", "local", "--direction", "1,2,3", "--out", folder / "t.csv"});
+  EXPECT_EQ(run(map(recorded), base + recorded + recorded / 20).status, 0) << base << recorded;
+}
+
 TEST_F(CliMemory, ASceneThatIsTooLargeSaysWhatItNeedsBeforeItBegins) {
   const TemporaryFolder folder;
   const ProgramResult result =

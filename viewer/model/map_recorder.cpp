@@ -37,9 +37,9 @@ void MapRecorder::clear() {
 void MapRecorder::work(const Task& task, const Cancellation& cancellation) {
   const Request& request = task.request;
   auto map = std::make_shared<RecordedMap>();
-  map->history = MapHistory(
-      record_local_map(*request.loaded->scene, *request.loaded->tree, request.omega, cancellation)
-          .record);
+  map->history = MapHistory(record_local_map(*request.loaded->scene, *request.loaded->tree,
+                                             request.omega, cancellation, request.memory)
+                                .record);
   map->loaded = request.loaded;
   map->iteration = request.iteration;
   map->direction = request.direction;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <cstdint>
 #include <memory>
 
 #include "model/recorded_map.h"
@@ -20,9 +21,10 @@ class MapRecorder : public QObject {
   struct Request {
     std::shared_ptr<const LoadedScene> loaded;
     Vec3 omega;
-    int iteration = 0;     ///< from 0
-    int direction = 0;     ///< from 0: number of the pass
-    int passes = 0;        ///< M, of the iteration
+    int iteration = 0;         ///< from 0
+    int direction = 0;         ///< from 0: number of the pass
+    int passes = 0;            ///< M, of the iteration
+    std::uint64_t memory = 0;  ///< SolveOptions::memory
     bool patient = false;  ///< waits for the pause after the last map, to leave time to the solver
   };
 

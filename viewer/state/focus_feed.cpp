@@ -76,7 +76,7 @@ void FocusFeed::record(int iteration, int direction) {
     return;
   }
   recorder_.request({snapshot_->loaded, at(*directions, direction), iteration, direction,
-                     focus_.passes(), focus_.following()});
+                     focus_.passes(), snapshot_->options.memory, focus_.following()});
 }
 
 }  // namespace transillum::viewer

@@ -15,10 +15,10 @@ enum class Remedy {
   directions,                             ///< SolveOptions::directions, larger
   directions_or_row_normalization,        ///< that, or Normalization::rows
   directions_or_symmetric_normalization,  ///< that, or Normalization::symmetric
-  memory,                                 ///< SolveOptions::memory, larger
+  memory,                                 ///< a larger limit, such as SolveOptions::memory
 };
 
-/// A valid solve that fails. `what()` is one sentence for the user, without a hint.
+/// A valid solve, or a valid record of a direction, that fails. `what()` is one sentence for the user, without a hint.
 class SolveError : public std::runtime_error {
  public:
   /// @param what one sentence for the user.
@@ -37,8 +37,8 @@ class NotConvergent : public SolveError {
   using SolveError::SolveError;
 };
 
-/// Form factors that must be kept take more than SolveOptions::memory (or
-/// HemicubeOptions::memory).
+/// Form factors that must be kept, or the record of a direction, take more than the limit that was
+/// given for them (SolveOptions::memory, HemicubeOptions::memory, record_local_map()).
 class MemoryLimitExceeded : public SolveError {
  public:
   /// @param what one sentence for the user.

@@ -99,9 +99,12 @@ struct RecordedDirection {
 /// @param tree BSP tree of `scene`.
 /// @param omega unit.
 /// @param cancellation checked between steps.
-/// @throws Canceled
+/// @param memory limit of what the record takes, bytes, also while its lists grow; some 100 per
+/// polygon that is ever in V; 0: a quarter of the machine's memory.
+/// @throws Canceled, MemoryLimitExceeded
 RecordedDirection record_local_map(const Scene& scene, const BspTree& tree, const Vec3& omega,
-                                   const Cancellation& cancellation = {});
+                                   const Cancellation& cancellation = {},
+                                   std::uint64_t memory = 0);
 
 /// What is visible along one direction omega, upward: convex polygons of the transillumination
 /// plane that do not overlap (paper, section 3). For files and pictures; map_files.h writes it.

@@ -12,9 +12,9 @@
 #include <tuple>
 #include <utility>
 
+#include "base/memory_limit.h"
 #include "base/power_of_two.h"
 #include "radiosity/form_factors/form_factor_rows.h"
-#include "radiosity/memory_limit.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/hemicube_image.h"

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "base/memory_limit.h"
 #include "radiosity/form_factors/form_factor_rows.h"
-#include "radiosity/memory_limit.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pairs/patch_exchange.h"

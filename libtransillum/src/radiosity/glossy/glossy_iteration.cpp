@@ -16,8 +16,8 @@
 #include <utility>
 
 #include "base/free_memory.h"
+#include "base/memory_limit.h"
 #include "base/seconds_since.h"
-#include "radiosity/memory_limit.h"
 #include "radiosity/ratio.h"
 #include "radiosity/solver/pass_plan.h"
 #include "transillum/at.h"

@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-#include "radiosity/memory_limit.h"
+#include "base/memory_limit.h"
 #include "transillum/at.h"
 #include "transillum/solve_errors.h"
 

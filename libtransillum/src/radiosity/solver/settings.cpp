@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "radiosity/memory_limit.h"
+#include "base/memory_limit.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/memory_limit.h"
 #include "visibility/map/map_engines.h"
 
 namespace transillum {
@@ -19,10 +20,11 @@ TransferEngine local_map_engine(std::shared_ptr<const Scene> scene,
 }
 
 RecordedDirection record_local_map(const Scene& scene, const BspTree& tree, const Vec3& omega,
-                                   const Cancellation& cancellation) {
+                                   const Cancellation& cancellation, std::uint64_t memory) {
   RecordedDirection result;
-  result.transfers =
-      LocalMap<Real, Recorder>(scene, tree, omega, cancellation, {result.record}).run();
+  result.transfers = LocalMap<Real, Recorder>(scene, tree, omega, cancellation,
+                                              Recorder(result.record, memory_limit(memory)))
+                         .run();
   return result;
 }
 

@@ -14,12 +14,19 @@
 // V covers the whole scene, which allows the check of closure (ALGORITHM.md, oracle 1).
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "transillum/at.h"
+#include "transillum/solve_errors.h"
 #include "transillum/visibility_map.h"
 #include "visibility/plane/fragment_projector.h"
 #include "visibility/plane/plane_index.h"
@@ -34,9 +41,64 @@ struct NoRecorder {
 };
 
 /// Writes the history of one direction into a MapRecord.
-struct Recorder {
+class Recorder {
+ public:
   static constexpr bool records = true;
-  MapRecord& record;
+
+  /// @param memory limit of the record's lists, bytes
+  Recorder(MapRecord& record, std::uint64_t memory)
+      : record_(record), memory_(std::min(memory, numbered_bytes)) {}
+
+  MapRecord& record() { return record_; }
+  void add_step(FragmentId fragment, PatchId patch) {
+    make_room(record_.order, 1);
+    make_room(record_.step_patch, 1);
+    record_.order.push_back(fragment);
+    record_.step_patch.push_back(patch);
+  }
+  /// @param row its corners are set here
+  /// @returns its number
+  template <class Outline>
+  std::int32_t add_row(MapRecord::Row row, const Outline& outline) {
+    make_room(record_.rows, 1);
+    make_room(record_.corners, outline.size());
+    make_room(record_.lines, outline.size());
+    row.begin = static_cast<std::uint32_t>(record_.corners.size());
+    for (const auto& corner : outline) {
+      record_.corners.push_back(
+          {static_cast<double>(corner.at.x), static_cast<double>(corner.at.y)});
+      record_.lines.push_back(corner.line);
+    }
+    row.end = static_cast<std::uint32_t>(record_.corners.size());
+    record_.rows.push_back(row);
+    return static_cast<std::int32_t>(record_.rows.size()) - 1;
+  }
+
+ private:
+  /// In so many bytes, rows and corners can be numbered by the types of MapRecord.
+  static constexpr std::uint64_t numbered_bytes =
+      sizeof(MapRecord::Row) * std::uint64_t{std::numeric_limits<std::int32_t>::max()};
+
+  /// Lets a list grow by a quarter where it has no room for `count` more. Both lists, the old and
+  /// the new one, count until the old one is gone.
+  template <class T>
+  void make_room(std::vector<T>& list, std::size_t count) {
+    const std::size_t needed = list.size() + count, before = list.capacity();
+    if (needed <= before) {
+      return;
+    }
+    const std::size_t capacity = std::max(needed, before + before / 4);
+    if (bytes_ + capacity * sizeof(T) > memory_) {
+      throw MemoryLimitExceeded(fmt::format(
+          "the record of this direction exceeds the memory limit of {:.3g} MB after {} polygons",
+          1e-6 * static_cast<double>(memory_), record_.rows.size()));
+    }
+    list.reserve(capacity);
+    bytes_ += (list.capacity() - before) * sizeof(T);
+  }
+
+  MapRecord& record_;
+  std::uint64_t memory_, bytes_ = 0;
 };
 
 /// The local visibility map of one direction.
@@ -138,7 +200,7 @@ class LocalMap {
     index_.erase(above_id);
     free_.push_back(above_id);
     if constexpr (RecorderType::records) {
-      at(recorder_.record.rows, row).consumed = step_;
+      at(recorder_.record().rows, row).consumed = step_;
       add_row(clipper_.inside(), patch, front_facing, row, step_);
     }
     for (std::size_t k = 0; k < clipper_.outside_count(); ++k) {
@@ -170,11 +232,9 @@ class LocalMap {
 
   void begin_record(const std::vector<FragmentId>& order) {
     if constexpr (RecorderType::records) {
-      MapRecord& record = recorder_.record;
-      record.frame = projection_.frame;
-      record.order = order;
+      recorder_.record().frame = projection_.frame;
       for (const FragmentId f : order) {
-        record.step_patch.push_back(tree_.fragment(f).patch);
+        recorder_.add_step(f, tree_.fragment(f).patch);
       }
     }
   }
@@ -182,18 +242,7 @@ class LocalMap {
   std::int32_t add_row(const BasicMapPolygon<Number>& outline, PatchId patch, bool front_facing,
                        std::int32_t parent, std::int32_t consumed) {
     if constexpr (RecorderType::records) {
-      MapRecord& record = recorder_.record;
-      MapRecord::Row row{patch,  step_,        consumed,
-                         parent, front_facing, static_cast<std::uint32_t>(record.corners.size()),
-                         0};
-      for (const BasicMapCorner<Number>& corner : outline) {
-        record.corners.push_back(
-            {static_cast<double>(corner.at.x), static_cast<double>(corner.at.y)});
-        record.lines.push_back(corner.line);
-      }
-      row.end = static_cast<std::uint32_t>(record.corners.size());
-      record.rows.push_back(row);
-      return static_cast<std::int32_t>(record.rows.size()) - 1;
+      return recorder_.add_row({patch, step_, consumed, parent, front_facing, 0, 0}, outline);
     } else {
       return MapRecord::no_row;
     }

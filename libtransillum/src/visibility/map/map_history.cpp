@@ -33,9 +33,6 @@ double MapHistory::Step::open_share() const {
 }
 
 MapHistory::MapHistory(MapRecord record) : record_(std::move(record)) {
-  record_.rows.shrink_to_fit();
-  record_.corners.shrink_to_fit();
-  record_.lines.shrink_to_fit();
   find_steps();
   find_patches();
 }

@@ -7,7 +7,7 @@
 
 namespace transillum {
 
-/// Limit of kept form factors, bytes: `requested`, or if that is 0 a quarter of the machine's
+/// Limit of kept form factors, or of a recorded map, bytes: `requested`, or if that is 0 a quarter of the machine's
 /// memory.
 inline std::uint64_t memory_limit(std::uint64_t requested) {
   if (requested > 0) {
