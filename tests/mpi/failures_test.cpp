@@ -135,6 +135,8 @@ TEST(Failures, WaitingProcessesLeaveTheirCores) {
 }
 
 TEST(Failures, InterruptionSavesTheEstimate) {
+  // Seconds from mpirun's SIGTERM to its SIGKILL; one is too few on a busy machine.
+  ASSERT_EQ(::setenv("OMPI_MCA_odls_base_sigkill_timeout", "3", 1), 0);
   for (const int signal : {SIGUSR1, SIGINT, SIGTERM}) {
     const TemporaryFolder folder;
     RunningProgram run(mpi_command(3, long_solve(folder / "b.csv")));
