@@ -38,9 +38,9 @@ class PassMakers {
   bool failed() const;
   /// What it threw; null: nothing
   std::exception_ptr error() const;
-  /// Pauses, at most until a pass is made. While passes are being made, for at least a quarter of the
-  /// time of one, or 5 ms: waking more often costs more than it saves. Requests of other ranks wait
-  /// as long.
+  /// Pauses, at most until a pass is made. While passes are being made, for at least a quarter of
+  /// the time of one, or 5 ms: waking more often costs more than it saves. Requests of other ranks
+  /// wait as long.
   void pause(std::chrono::microseconds time);
 
  private:

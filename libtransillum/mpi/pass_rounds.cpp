@@ -28,12 +28,6 @@ struct MessageHead {
 };
 static_assert(sizeof(MessageHead) == unit_bytes);
 
-std::span<const std::byte> message_to(const GroupMessages& messages, int rank) {
-  const auto r = static_cast<std::size_t>(rank);
-  return std::span(messages.bytes)
-      .subspan(messages.begin[r], messages.begin[r + 1] - messages.begin[r]);
-}
-
 }  // namespace
 
 PassRounds::PassRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit,
@@ -123,7 +117,7 @@ bool PassRounds::deal_in() {
     dealer_.ask_to_stop();
     return true;
   }
-  const bool wanted = makers_.waiting() < static_cast<std::size_t>(passes_.threads);
+  const bool wanted = makers_.waiting() < 2 * static_cast<std::size_t>(passes_.threads);
   if (reason_ == going && wanted && floor_ < std::min(limit(), passes_.last) &&
       std::chrono::steady_clock::now() >= next_ask_) {
     dealer_.ask();
@@ -168,7 +162,7 @@ void PassRounds::begin_counts() {
     own_ = makers_.take_below(end_of_round());
     std::size_t total = 0;
     for (const auto& [k, messages] : own_) {
-      total += messages.bytes.size() - message_to(messages, rank_).size() +
+      total += messages.begin.back() - messages.to(rank_).size() +
                static_cast<std::size_t>(size_ - 1) * unit_bytes;
     }
     send_.reserve(total);
@@ -178,7 +172,7 @@ void PassRounds::begin_counts() {
       }
       const std::size_t begin = send_.size();
       for (const auto& [k, messages] : own_) {
-        const auto message = message_to(messages, r);
+        const auto message = messages.to(r);
         const MessageHead head{k, static_cast<std::int64_t>(message.size())};
         const auto head_bytes = std::as_bytes(std::span(&head, 1));
         send_.insert(send_.end(), head_bytes.begin(), head_bytes.end());
@@ -223,7 +217,7 @@ void PassRounds::begin_messages() {
 void PassRounds::add_round() {
   std::map<int, std::span<const std::byte>> messages;
   for (const auto& [k, of_a_pass] : own_) {
-    messages[k] = message_to(of_a_pass, rank_);
+    messages[k] = of_a_pass.to(rank_);
   }
   for (std::span<const std::byte> rest(receive_); !rest.empty();) {
     MessageHead head;
@@ -235,7 +229,7 @@ void PassRounds::add_round() {
   const int end = end_of_round();
   for (int k = added_; k < end; ++k) {
     passes_.add(k, messages.at(k));
-    dealer_.serve(limit());
+    serve();
   }
   added_ = end;
   own_.clear();
@@ -249,7 +243,7 @@ void PassRounds::add_round() {
 int PassRounds::agreed_reason() {
   const auto wait_for_answer = [this] {
     while (dealer_.asked()) {
-      serve();
+      dealer_.serve(limit());
       if (!dealer_.answer()) {
         makers_.pause(pauses_.next());
       }
@@ -259,7 +253,7 @@ int PassRounds::agreed_reason() {
   int reason = reason_;
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iallreduce(MPI_IN_PLACE, &reason, 1, MPI_INT, MPI_MAX, comm_, &request);
-  wait_for(request, [this] { serve(); });
+  wait_for(request, [this] { dealer_.serve(limit()); });
   return reason;
 }
 

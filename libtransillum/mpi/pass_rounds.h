@@ -28,8 +28,12 @@ class PassRounds {
 
   /// As SolverGroup::run().
   bool run();
-  /// Answers the requests of other ranks; to be called while this one waits for them.
-  void serve() { dealer_.serve(limit()); }
+  /// Answers requests and takes passes, so that all threads have some; to be called while this rank
+  /// adds passes or waits for others.
+  void serve() {
+    dealer_.serve(limit());
+    deal_in();
+  }
   std::uint64_t bytes_sent() const { return bytes_sent_; }
 
  private:

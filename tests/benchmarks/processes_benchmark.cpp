@@ -46,11 +46,8 @@ class LonelyGroup : public SolverGroup {
       GroupMessages messages;
       parts_.make.push_back(
           seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] { messages = passes.make(k); }));
-      const auto r = static_cast<std::size_t>(rank_);
-      const auto own = std::span(messages.bytes)
-                           .subspan(messages.begin[r], messages.begin[r + 1] - messages.begin[r]);
-      parts_.add += seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] { passes.add(k, own); });
-      parts_.bytes += static_cast<double>(messages.bytes.size());
+      parts_.add += seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] { passes.add(k, messages.to(rank_)); });
+      parts_.bytes += static_cast<double>(messages.begin.back());
       going = passes.after_round();
     }
     parts_.add /= passes.last - passes.first;

@@ -81,9 +81,7 @@ class ThreadGroup : public SolverGroup {
       const int last = std::min(passes.last, first + round);
       make_round(passes, first, last);
       for (int k = first; k < last; ++k) {
-        const GroupMessages& all = table_.messages.at(k);
-        const auto r = static_cast<std::size_t>(rank_);
-        passes.add(k, std::span(all.bytes).subspan(all.begin[r], all.begin[r + 1] - all.begin[r]));
+        passes.add(k, table_.messages.at(k).to(rank_));
       }
       going = passes.after_round();
     }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -31,8 +32,14 @@ struct PatchRange {
 
 /// One message for each member of a group, one after the other.
 struct GroupMessages {
-  std::vector<std::byte> bytes;    ///< of all messages; each takes a multiple of 16
-  std::vector<std::size_t> begin;  ///< per member: where its message begins; then bytes.size()
+  std::unique_ptr<std::byte[]> bytes;  ///< of all messages; each takes a multiple of 16
+  std::vector<std::size_t> begin;      ///< per member: where its message begins; then their end
+
+  /// The message for a member.
+  std::span<const std::byte> to(int member) const {
+    const auto r = static_cast<std::size_t>(member);
+    return {bytes.get() + begin[r], begin[r + 1] - begin[r]};
+  }
 };
 
 /// Passes that the members of a group make together, each pass by one of them.

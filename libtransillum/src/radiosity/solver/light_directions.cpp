@@ -20,11 +20,13 @@ LightDirections::LightDirections(const Scene& scene, bool two_way, const DirectL
     : two_way_(two_way),
       weight_(scene.patches().size()),
       exitance_(scene.patches().size()),
+      emits_(scene.patches().size()),
       column_(scene.patches().size()) {
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const Rgb unshot = scene.exitance(i) - at(shot.exitance, i);
     at(weight_, i) = std::pow(max_abs(scene.reflectance(i)) / scene.patch(i).area, 2);
     at(exitance_, i) = unshot.r + unshot.g + unshot.b;
+    at(emits_, i) = at(exitance_, i) > 0 ? 1 : 0;
   }
   const std::vector<LightSource> sources = light_sources(scene);
   columns_ = std::clamp(most_pairs / exitance_.size(), std::size_t{1},
@@ -52,8 +54,10 @@ void LightDirections::receive(PatchId receiver, PatchId source, double area) {
 /// one direction.
 void LightDirections::add(const std::vector<Transfer>& exchanges) {
   for (const Transfer& t : exchanges) {
-    receive(t.receiver, t.source, t.area);
-    if (two_way_) {
+    if (at(emits_, t.source) != 0) {
+      receive(t.receiver, t.source, t.area);
+    }
+    if (two_way_ && at(emits_, t.receiver) != 0) {
       receive(t.source, t.receiver, t.area);
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "radiosity/solver/patch_share.h"
@@ -46,6 +47,7 @@ class LightDirections {
   std::size_t columns_ = 1;
   std::vector<double> weight_;       ///< per patch: (rho / A)²
   std::vector<double> exitance_;     ///< per patch: sum of channels, less that of the shot
+  std::vector<std::uint8_t> emits_;  ///< per patch: whether exitance_ is above 0; in few bytes
   std::vector<std::size_t> column_;  ///< per patch: of its source
   std::vector<Light> lights_;        ///< by patch, then column
   std::vector<std::size_t> lit_;     ///< pairs that the pass being added has met

@@ -45,8 +45,12 @@ class Writer {
   explicit Writer(std::byte* place) : place_(place) {}
   template <class T>
   void put(const T& value) {
-    std::memcpy(place_, &value, sizeof(T));
-    place_ += sizeof(T);
+    put_list(&value, 1);
+  }
+  template <class T>
+  void put_list(const T* first, std::size_t count) {
+    std::memcpy(place_, first, count * sizeof(T));
+    place_ += count * sizeof(T);
   }
 
  private:
@@ -65,12 +69,9 @@ class Reader {
   }
   template <class T>
   std::vector<T> list(std::size_t count) {
-    std::vector<T> values(count);
-    if (count > 0) {
-      std::memcpy(values.data(), bytes_.data(), count * sizeof(T));
-      bytes_ = bytes_.subspan(count * sizeof(T));
-    }
-    return values;
+    const T* first = reinterpret_cast<const T*>(bytes_.data());
+    bytes_ = bytes_.subspan(count * sizeof(T));
+    return {first, first + count};
   }
 
  private:
@@ -90,7 +91,44 @@ std::vector<std::uint32_t> owners_of(const SolverGroup& group, PatchId patches) 
   return owners;
 }
 
-/// What the messages to one member look like.
+/// Where the exchanges whose receivers each member owns begin; then the end of all. Exchanges are
+/// sorted by receiver.
+std::vector<std::size_t> slices_of(const std::vector<Transfer>& exchanges, const SolverGroup& group,
+                                   PatchId patches) {
+  std::vector<std::size_t> slices{0};
+  for (int r = 0; r < group.size(); ++r) {
+    const auto end = std::partition_point(
+        exchanges.begin(), exchanges.end(),
+        [last = group.range_of(r, patches).last](const Transfer& t) { return t.receiver < last; });
+    slices.push_back(static_cast<std::size_t>(end - exchanges.begin()));
+  }
+  return slices;
+}
+
+/// An exchange whose source is owned by another member than its receiver.
+struct Crossing {
+  std::size_t exchange;
+  std::uint32_t owner;  ///< of the source
+};
+
+std::vector<Crossing> crossings_of(const std::vector<Transfer>& exchanges,
+                                   const std::vector<std::size_t>& slices, const SolverGroup& group,
+                                   PatchId patches) {
+  const std::vector<std::uint32_t> owners = owners_of(group, patches);
+  std::vector<Crossing> crossings;
+  crossings.reserve(exchanges.size() / 2);
+  for (std::uint32_t r = 0; r + 1 < slices.size(); ++r) {
+    for (std::size_t k = slices[r]; k < slices[r + 1]; ++k) {
+      const std::uint32_t owner = at(owners, exchanges[k].source);
+      if (owner != r) {
+        crossings.push_back({k, owner});
+      }
+    }
+  }
+  return crossings;
+}
+
+/// What the message to one member looks like, but for its exchanges.
 Header header_for(const Pass& pass, const PatchRange& owned) {
   Header header;
   header.direction = pass.transfers.direction;
@@ -152,6 +190,19 @@ void write_coverages(Writer& writer, const Header& header, const Transfers& tran
   }
 }
 
+/// Exchanges `first` to `last` - 1, each followed by its moments where there are any.
+void write_exchanges(Writer& writer, const Transfers& transfers, std::size_t first,
+                     std::size_t last) {
+  if (transfers.moments.empty()) {
+    writer.put_list(transfers.exchanges.data() + first, last - first);
+    return;
+  }
+  for (std::size_t k = first; k < last; ++k) {
+    writer.put(transfers.exchanges[k]);
+    writer.put(transfers.moments[k]);
+  }
+}
+
 void read_coverages(Reader& reader, const Header& header, std::size_t patches,
                     Transfers& transfers) {
   transfers.forward = reader.list<Coverage>(patches);
@@ -179,15 +230,16 @@ void read_coverages(Reader& reader, const Header& header, std::size_t patches,
 
 GroupMessages split(const Pass& pass, const SolverGroup& group, PatchId patches) {
   const auto members = static_cast<std::size_t>(group.size());
-  const std::vector<std::uint32_t> owners = owners_of(group, patches);
+  const std::vector<Transfer>& exchanges = pass.transfers.exchanges;
+  const std::vector<std::size_t> slices = slices_of(exchanges, group, patches);
+  const std::vector<Crossing> crossings = crossings_of(exchanges, slices, group, patches);
   std::vector<Header> headers;
-  for (int r = 0; r < group.size(); ++r) {
-    headers.push_back(header_for(pass, group.range_of(r, patches)));
+  for (std::size_t r = 0; r < members; ++r) {
+    headers.push_back(header_for(pass, group.range_of(static_cast<int>(r), patches)));
+    headers[r].sent = slices[r + 1] - slices[r];
   }
-  for (const Transfer& t : pass.transfers.exchanges) {
-    const std::uint32_t receiver = at(owners, t.receiver), source = at(owners, t.source);
-    ++headers[receiver].sent;
-    headers[source].sent += source != receiver ? 1 : 0;
+  for (const Crossing& crossing : crossings) {
+    ++headers[crossing.owner].sent;
   }
   GroupMessages messages;
   messages.begin.push_back(0);
@@ -195,27 +247,21 @@ GroupMessages split(const Pass& pass, const SolverGroup& group, PatchId patches)
     const std::size_t owned = group.range_of(static_cast<int>(r), patches).size();
     messages.begin.push_back(messages.begin.back() + size_of(headers[r], owned));
   }
-  messages.bytes.resize(messages.begin.back());
+  messages.bytes = std::make_unique_for_overwrite<std::byte[]>(messages.begin.back());
   std::vector<Writer> writers;
   for (std::size_t r = 0; r < members; ++r) {
-    writers.emplace_back(messages.bytes.data() + messages.begin[r]);
+    writers.emplace_back(messages.bytes.get() + messages.begin[r]);
     writers.back().put(headers[r]);
     write_coverages(writers.back(), headers[r], pass.transfers,
                     group.range_of(static_cast<int>(r), patches));
   }
-  const std::vector<TransferMoments>& moments = pass.transfers.moments;
-  for (std::size_t k = 0; k < pass.transfers.exchanges.size(); ++k) {
-    const Transfer& t = pass.transfers.exchanges[k];
-    const std::uint32_t receiver = at(owners, t.receiver), source = at(owners, t.source);
-    const auto put = [&](Writer& writer) {
-      writer.put(t);
-      if (!moments.empty()) {
-        writer.put(moments[k]);
-      }
-    };
-    put(writers[receiver]);
-    if (source != receiver) {
-      put(writers[source]);
+  // In the order of the pass: from slice to slice, first to its member, then to the others.
+  auto crossing = crossings.begin();
+  for (std::size_t r = 0; r < members; ++r) {
+    write_exchanges(writers[r], pass.transfers, slices[r], slices[r + 1]);
+    for (; crossing != crossings.end() && crossing->exchange < slices[r + 1]; ++crossing) {
+      write_exchanges(writers[crossing->owner], pass.transfers, crossing->exchange,
+                      crossing->exchange + 1);
     }
   }
   return messages;
