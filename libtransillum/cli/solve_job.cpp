@@ -9,6 +9,7 @@
 
 #include "interruption.h"
 #include "messages.h"
+#include "report_text.h"
 #include "transillum/accuracy_plan.h"
 #include "transillum/errors.h"
 #include "transillum/form_factor_files.h"
@@ -30,6 +31,24 @@ void show_progress(ProgressDisplay& display, const RadiositySolver& solver) {
   if (progress.direction > 0) {
     display.show_passes(fmt::format("{}iteration {}, ", stage, progress.iteration + 1), progress);
   } else if (progress.iteration > 0) {
+    display.show(fmt::format("iteration {}", progress.iteration), -1,
+                 fmt::format("change {:.1e}", progress.change));
+  }
+}
+
+/// Of a solve in which lobes take part.
+void show_lobes(ProgressDisplay& display, const SolveProgress& progress) {
+  using Stage = SolveProgress::Stage;
+  const std::string iteration = fmt::format("iteration {}", progress.iteration + 1);
+  if (progress.stage != Stage::passes) {
+    display.show(progress.stage == Stage::scaling_lobes ? "scaling lobes"
+                                                        : iteration + ", reflecting",
+                 progress.stage_share,
+                 fmt::format("{:.3g} lobes/s, {} left", progress.lobes_per_second,
+                             time_text(progress.seconds_left)));
+  } else if (progress.direction > 0) {
+    display.show_passes(iteration + ", ", progress);
+  } else {
     display.show(fmt::format("iteration {}", progress.iteration), -1,
                  fmt::format("change {:.1e}", progress.change));
   }
@@ -290,12 +309,7 @@ Solution solve_with_lobes(const SolveJob& job) {
   job.display.expect_passes("iteration 1, ", solver.progress().passes);
   try {
     solver.solve([&](const SolveProgress& progress) {
-      if (progress.direction > 0) {
-        job.display.show_passes(fmt::format("iteration {}, ", progress.iteration + 1), progress);
-      } else {
-        job.display.show(fmt::format("iteration {}", progress.iteration), -1,
-                         fmt::format("change {:.1e}", progress.change));
-      }
+      show_lobes(job.display, progress);
       return true;
     });
   } catch (const Canceled&) {

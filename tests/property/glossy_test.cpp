@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "support/refusal.h"
@@ -42,7 +44,7 @@ Lobe ggx(double share, double roughness) {
 /// A closed cube around a box. Faces get materials by their number: `of` changes the material of
 /// face f.
 template <class Change>
-std::shared_ptr<const Scene> box_scene(Change of, int wall = 3, int side = 1) {
+SceneDescription box_description(Change of, int wall = 3, int side = 1) {
   SceneDescription d = box_in_cube(wall, side).description();
   for (std::size_t f = 0; f < d.face_count(); ++f) {
     Material material = at(d.materials, d.face_material[f]);
@@ -50,12 +52,17 @@ std::shared_ptr<const Scene> box_scene(Change of, int wall = 3, int side = 1) {
     d.face_material[f] = static_cast<std::int32_t>(d.materials.size());
     d.materials.push_back(material);
   }
-  return std::make_shared<const Scene>(d);
+  return d;
+}
+
+template <class Change>
+std::shared_ptr<const Scene> box_scene(Change of) {
+  return std::make_shared<const Scene>(box_description(of));
 }
 
 /// The same with lobes of three kinds on about half of the faces; rho + k <= 0.8.
-std::shared_ptr<const Scene> glossy_box() {
-  return box_scene([](std::size_t f, Material& material) {
+SceneDescription glossy_box_description() {
+  return box_description([](std::size_t f, Material& material) {
     material.reflectance = {0.3, 0.2, 0.4};
     if (f % 4 == 1) {
       material.lobe = phong(0.4, 8);
@@ -65,6 +72,10 @@ std::shared_ptr<const Scene> glossy_box() {
       material.lobe = phong(0.35, 2.5);
     }
   });
+}
+
+std::shared_ptr<const Scene> glossy_box() {
+  return std::make_shared<const Scene>(glossy_box_description());
 }
 
 SolveOptions glossy_options(int directions) {
@@ -231,6 +242,37 @@ TEST(GlossyBits, DependOnNothingButTheProblem) {
   }
 }
 
+/// Also where passes are computed again in each iteration.
+TEST(GlossyBits, DependOnNoThreadsWithoutKeptTransfers) {
+  SolveOptions options = glossy_options(48);
+  options.memory = 1000;
+  options.threads = 1;
+  const Solution one = solve(glossy_box(), options);
+  EXPECT_FALSE(one.statistics.kept_form_factors);
+  options.threads = 3;
+  const Solution more = solve(glossy_box(), options);
+  EXPECT_EQ(more.radiosity, one.radiosity);
+  for (PatchId i = 0; i < one.scene->patch_count(); ++i) {
+    EXPECT_TRUE(std::ranges::equal(more.glossy->arriving(i), one.glossy->arriving(i)));
+  }
+}
+
+/// Exchanges of glossy patches are added in the same order whether they are kept or not. Only those
+/// between two diffuse patches are kept as sums, whose rounding differs.
+TEST(GlossyMemory, ChangesNoBitWhereAllPatchesAreGlossy) {
+  const auto scene = box_scene([](std::size_t f, Material& material) {
+    material.reflectance = {0.3, 0.2, 0.4};
+    material.lobe = f % 2 == 0 ? phong(0.4, 8) : ggx(0.3, 0.6);
+  });
+  SolveOptions options = glossy_options(32);
+  const Solution kept = solve(scene, options);
+  options.memory = 1000;
+  const Solution again = solve(scene, options);
+  EXPECT_TRUE(kept.statistics.kept_form_factors);
+  EXPECT_FALSE(again.statistics.kept_form_factors);
+  EXPECT_EQ(again.radiosity, kept.radiosity);
+}
+
 TEST(GlossyMemory, ComputesAgainWhatItCannotKeep) {
   SolveOptions options = glossy_options(32);
   const Solution kept = solve(glossy_box(), options);
@@ -282,6 +324,29 @@ TEST(GlossyInvariance, RotationWithTheSetAndScaleChangeNothing) {
     dimmed.push_back(1e-6 * b);
   }
   EXPECT_LE(largest_difference(dimmed, plain.radiosity), 1e-12);
+}
+
+/// The order of the faces in the file, and thereby of the sums.
+TEST(GlossyInvariance, OrderOfFacesChangesNothing) {
+  const SceneDescription description = glossy_box_description();
+  std::vector<std::size_t> order(description.face_count());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::shuffle(order.begin(), order.end(), std::mt19937(5));  // NOLINT: repeatable
+  SceneDescription shuffled;
+  shuffled.name = description.name;
+  shuffled.points = description.points;
+  shuffled.materials = description.materials;
+  for (const std::size_t f : order) {
+    shuffled.add_face(description.outline(f), description.face_material[f]);
+  }
+  const SolveOptions options = glossy_options(40);
+  const Solution plain = solve(std::make_shared<const Scene>(description), options);
+  const Solution other = solve(std::make_shared<const Scene>(shuffled), options);
+  double worst = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    worst = std::max(worst, max_abs(other.radiosity[k] - plain.radiosity[order[k]]));
+  }
+  EXPECT_LE(worst / largest(plain.radiosity), 1e-11);
 }
 
 /// Under a uniform sky a glossy convex body receives the whole sky, and each direction of it.
@@ -413,6 +478,108 @@ TEST(GlossySolver, CanBeCanceledAndPaused) {
   EXPECT_EQ(canceled.progress().iteration, 2);
   EXPECT_FALSE(canceled.solution().complete);
   EXPECT_LE(largest_difference(canceled.solution().radiosity, whole.radiosity), 0.5);
+}
+
+std::vector<Rgb> all_light(const GlossyLight& light) {
+  std::vector<Rgb> all;
+  for (PatchId i = 0; i < light.scene().patch_count(); ++i) {
+    const auto arriving = light.arriving(i);
+    all.insert(all.end(), arriving.begin(), arriving.end());
+    for (int p = 0; p < static_cast<int>(light.directions().size()); ++p) {
+      all.push_back(light.leaving(i, p));
+    }
+  }
+  return all;
+}
+
+/// A solution that was taken within an iteration stays as it was: views read it on other threads
+/// while the solver goes on.
+TEST(GlossySolver, ChangesNoSolutionThatItGave) {
+  const auto scene = glossy_box();
+  SolveOptions options = glossy_options(32);
+  options.threads = 1;
+  GlossySolver solver(scene, options);
+  std::vector<Solution> taken;
+  std::vector<std::vector<Rgb>> light;
+  const auto take = [&] {
+    taken.push_back(solver.solution());
+    light.push_back(all_light(*taken.back().glossy));
+  };
+  solver.solve([&](const SolveProgress& progress) {
+    if (progress.iteration == 2) {
+      take();
+    }
+    return progress.iteration < 4;
+  });
+  take();
+  solver.set_materials(scene->materials());
+  take();
+  solver.solve();
+  EXPECT_GT(taken.size(), 8U);
+  for (std::size_t k = 0; k < taken.size(); ++k) {
+    EXPECT_EQ(all_light(*taken[k].glossy), light[k]) << k;
+  }
+}
+
+TEST(GlossySolver, TellsOfItsStages) {
+  using Stage = SolveProgress::Stage;
+  GlossySolver solver(glossy_box(), glossy_options(64));
+  std::vector<SolveProgress> told;
+  solver.solve([&](const SolveProgress& progress) {
+    told.push_back(progress);
+    return progress.iteration < 2;
+  });
+  const auto of = [&](Stage stage, int iteration) {
+    std::vector<SolveProgress> found;
+    std::copy_if(told.begin(), told.end(), std::back_inserter(found),
+                 [=](const SolveProgress& now) {
+                   return now.stage == stage && now.iteration == iteration;
+                 });
+    return found;
+  };
+  for (const auto& [stage, iteration] :
+       {std::pair{Stage::scaling_lobes, 0}, {Stage::reflecting, 0}, {Stage::reflecting, 1}}) {
+    const std::vector<SolveProgress> found = of(stage, iteration);
+    ASSERT_GE(found.size(), 2U);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_GT(found[k].stage_share, k == 0 ? 0 : found[k - 1].stage_share);
+      EXPECT_GT(found[k].lobes_per_second, 0);
+      EXPECT_GE(found[k].seconds_left, 0);
+    }
+    EXPECT_EQ(found.back().stage_share, 1);
+    EXPECT_EQ(found.back().seconds_left, 0);
+  }
+  EXPECT_EQ(told.front().stage, Stage::scaling_lobes);
+  EXPECT_TRUE(of(Stage::scaling_lobes, 1).empty());
+  EXPECT_EQ(solver.progress().stage, Stage::passes);
+}
+
+/// Canceled while the lobes of other materials are scaled: what there is can be read, and the solve
+/// goes on to the right result.
+TEST(GlossySolver, CanBeCanceledWhileLobesAreScaled) {
+  const auto scene = glossy_box();
+  const SolveOptions options = glossy_options(32);
+  std::vector<Material> other = scene->materials();
+  for (Material& m : other) {
+    m.lobe = phong(0.2, 20);
+  }
+  for (const auto start : {GlossySolver::Start::emission, GlossySolver::Start::current}) {
+    Cancellation cancellation;
+    GlossySolver solver(scene, options, nullptr, cancellation);
+    solver.solve();
+    solver.set_materials(other, {}, start);  // patches get lobes that had none
+    EXPECT_THROW(solver.solve([&](const SolveProgress& progress) {
+      EXPECT_EQ(progress.stage, SolveProgress::Stage::scaling_lobes);
+      cancellation.cancel();
+      return true;
+    }),
+                 Canceled);
+    EXPECT_EQ(solver.progress().stage, SolveProgress::Stage::passes);
+    const Solution left = solver.solution();
+    for (const Rgb& light : left.glossy->radiance_toward({0.3, 0.2, 0.1})) {
+      EXPECT_TRUE(std::isfinite(max_abs(light)));
+    }
+  }
 }
 
 /// From the light that there is, the same limit is reached in fewer iterations; materials can be

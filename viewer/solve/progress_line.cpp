@@ -170,12 +170,30 @@ void ProgressLine::show_solve() {
     phase_->setText(running ? round + at : tr("Paused: %1").arg(round + at));
   }
 
+  if (running && progress.stage != SolveProgress::Stage::passes) {
+    show_stage_of_lobes(progress);
+    return;
+  }
   const bool timed = running && progress.passes_per_second > 0;
   rate_->setText(timed ? tr("%1 passes/s").arg(QString::number(progress.passes_per_second, 'f', 1))
                        : QString());
   time_->setText(timed && within_iteration ? tr("%1 left").arg(duration_text(progress.seconds_left))
                                            : QString());
   time_->setToolTip(tr("Time left in this iteration"));
+}
+
+/// With lobes, passes are the smaller part of an iteration.
+void ProgressLine::show_stage_of_lobes(const SolveProgress& progress) {
+  bar_->setRange(0, 1000);
+  bar_->setValue(static_cast<int>(1000 * progress.stage_share));
+  phase_->setText(progress.stage == SolveProgress::Stage::scaling_lobes
+                      ? tr("Scaling lobes")
+                      : tr("Iteration %1, reflecting").arg(count_text(progress.iteration + 1)));
+  const bool timed = progress.lobes_per_second > 0;
+  rate_->setText(timed ? tr("%1 lobes/s").arg(QString::number(progress.lobes_per_second, 'f', 1))
+                       : QString());
+  time_->setText(timed ? tr("%1 left").arg(duration_text(progress.seconds_left)) : QString());
+  time_->setToolTip(tr("Time left in this step"));
 }
 
 }  // namespace transillum::viewer

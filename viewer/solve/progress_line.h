@@ -25,6 +25,7 @@ class ProgressLine : public QWidget {
 
  private:
   void show_solve();
+  void show_stage_of_lobes(const SolveProgress& progress);
 
   RunState state_ = RunState::empty;
   std::shared_ptr<const SolverSnapshot> snapshot_;

@@ -164,6 +164,12 @@ struct SolveProgress {
   double passes_per_second = 0;  ///< in the current iteration
   double seconds_left = 0;       ///< of the current iteration, estimated
   Vec3 last_direction;           ///< omega of the last finished pass
+  /// What is under way. With lobes (GlossySolver), these are scaled before the first iteration, and
+  /// reflect in each after its passes.
+  enum class Stage { passes, scaling_lobes, reflecting };
+  Stage stage = Stage::passes;
+  double stage_share = 0;  ///< finished share of a stage of lobes, 0 to 1
+  double lobes_per_second = 0;  ///< in a stage of lobes; one is a shape and orientation
 };
 
 /// The error of B due to the finite number of directions, estimated from the spread of

@@ -26,6 +26,10 @@ py::dict to_dict(const SolveProgress& progress) {
   dict["change"] = progress.change;
   dict["passes_per_second"] = progress.passes_per_second;
   dict["seconds_left"] = progress.seconds_left;
+  dict["stage"] = progress.stage == SolveProgress::Stage::passes          ? "passes"
+                  : progress.stage == SolveProgress::Stage::scaling_lobes ? "scaling lobes"
+                                                                          : "reflecting";
+  dict["stage_share"] = progress.stage_share;
   return dict;
 }
 

@@ -84,7 +84,7 @@ def solve(scene: Scene, *, progress: Union[Progress, None] = None, **options: An
     """Solves B_i = E_i + rho_i sum_j F_ij B_j.
 
     progress: called several times a second with a dict: iteration, direction (passes made in it),
-        passes, passes_per_second, seconds_left, change. What it raises ends the solve.
+        passes, passes_per_second, seconds_left, change, stage, stage_share. What it raises ends the solve.
     options: those of options().
     """
     return Solution(_core.solve(scene._core, options, progress), scene)
@@ -133,7 +133,8 @@ class Run:
 
     @property
     def progress(self) -> dict[str, Any]:
-        """iteration, direction, passes, finished, change, passes_per_second, seconds_left."""
+        """iteration, direction, passes, finished, change, passes_per_second, seconds_left; of solves
+        with lobes, stage ("passes", "scaling lobes" or "reflecting") and stage_share, 0 to 1."""
         return self._core.progress
 
     @property

@@ -33,42 +33,44 @@ constexpr double rounding = 1e-12;  ///< of changes, as in a diffuse solve
 }  // namespace
 
 GlossySolver::Impl::Impl(SolverInput solver_input)
-    : input(std::move(solver_input)),
-      materials(input.scene->materials()),
-      light(std::make_shared<GlossyLight::Data>()) {
+    : input(std::move(solver_input)), materials(input.scene->materials()) {
   for (const Patch& patch : input.scene->patches()) {
     of_patch.push_back(patch.material);
   }
-  light->scene = input.scene;
-  light->directions = PassPlan(input.options).directions(0);
-  find_glossy();
+  auto data = std::make_shared<GlossyLight::Data>();
+  data->scene = input.scene;
+  data->directions = PassPlan(input.options).directions(0);
+  find_glossy(*data);
+  light = std::move(data);
   forget_passes();
   start();
 }
 
-void GlossySolver::Impl::find_glossy() {
-  glossy.clear();
-  light->index_of.assign(input.patch_count(), -1);
+void GlossySolver::Impl::find_glossy(GlossyLight::Data& data) {
+  std::vector<PatchId> found;
+  data.index_of.assign(input.patch_count(), -1);
   for (std::size_t i = 0; i < input.patch_count(); ++i) {
     if (used_lobe(material(i)).present()) {
-      light->index_of[i] = static_cast<std::int32_t>(glossy.size());
-      glossy.push_back(static_cast<PatchId>(i));
+      data.index_of[i] = static_cast<std::int32_t>(found.size());
+      found.push_back(static_cast<PatchId>(i));
     }
   }
-  check_radiance_memory();
+  check_radiance_memory(found.size(), data.passes());
+  glossy.swap(found);
 }
 
 /// Refuses what would not fit before it is allocated.
-void GlossySolver::Impl::check_radiance_memory() const {
+void GlossySolver::Impl::check_radiance_memory(std::size_t patches,
+                                                 std::size_t directions) const {
   // Phi, its successor, the lobe's radiance, its successor, and areas seen.
   const std::uint64_t per_slot =
       4 * sizeof(Rgb) + (input.options.sky.set() ? 2 : 1) * sizeof(double);
-  const std::uint64_t needed = glossy.size() * passes() * per_slot;
+  const std::uint64_t needed = patches * directions * per_slot;
   if (const std::uint64_t available = free_memory(); needed > available) {
     throw std::runtime_error(
         fmt::format("{}: the radiance of {} glossy patches along {} directions takes {:.2g} GB of "
                     "memory, but only {:.2g} GB are free",
-                    input.scene->name(), glossy.size(), passes(),
+                    input.scene->name(), patches, directions,
                     1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(available)));
   }
 }
@@ -93,51 +95,77 @@ void GlossySolver::Impl::forget_passes() {
 }
 
 void GlossySolver::Impl::start(Start from) {
-  std::vector<Lobe> lobes;
-  std::vector<Vec3> normals;
-  light->shares.clear();
+  auto data = std::make_shared<GlossyLight::Data>(*light);
+  data->shares.clear();
   for (const PatchId i : glossy) {
-    lobes.push_back(used_lobe(material(static_cast<std::size_t>(i))));
-    normals.push_back(input.scene->patch(i).normal);
-    light->shares.push_back(lobes.back().reflectance);
+    data->shares.push_back(used_lobe(material(static_cast<std::size_t>(i))).reflectance);
   }
-  WorkerThreads workers(input.threads);
-  const auto begin = Clock::now();
-  light->lobes = std::make_shared<const LobeTables>(lobes, normals, light->directions,
-                                                    light->lobes.get(), workers, input.requested);
-  timing.seconds_iterate += seconds_since(begin);
   records.clear();
   last_change = 0;
   finished = converged = false;
   pass = 0;
-  if (from == Start::current && has_light) {
-    start_from_current(workers);
-    return;
-  }
+  stage = SolveProgress::Stage::passes;
+  lobes_pending = true;
   const std::size_t slots = glossy.size() * passes();
-  light->arriving.assign(slots, Rgb{});
-  light->reflected.assign(slots, Rgb{});
-  incoming.assign(slots, Rgb{});
-  light->lambertian.resize(input.patch_count());
-  for (std::size_t i = 0; i < input.patch_count(); ++i) {
-    light->lambertian[i] = 1 / pi * material(i).exitance;
+  if (from != Start::current || !has_light) {
+    has_light = false;
+    data->arriving.assign(slots, Rgb{});
+    data->reflected.assign(slots, Rgb{});
+    irradiance.assign(input.patch_count(), Rgb{});
+    from_sky.clear();
   }
-  irradiance.assign(input.patch_count(), Rgb{});
-  from_sky.clear();
+  incoming.assign(slots, Rgb{});
   gathered.assign(input.patch_count(), Rgb{});
+  data->lambertian.resize(input.patch_count());
+  for (std::size_t i = 0; i < input.patch_count(); ++i) {
+    data->lambertian[i] = lambertian_of(i, irradiance[i]);
+  }
+  light = std::move(data);
 }
 
 Rgb GlossySolver::Impl::lambertian_of(std::size_t i, const Rgb& received) const {
   return 1 / pi * (material(i).exitance + material(i).reflectance * received);
 }
 
-void GlossySolver::Impl::start_from_current(WorkerThreads& workers) {
-  const std::vector<Rgb> none(glossy.size());  // changes are of no interest
-  light->lobes->reflect(light->arriving, light->shares, none, none, light->reflected, workers,
-                        input.requested);
-  for (std::size_t i = 0; i < input.patch_count(); ++i) {
-    light->lambertian[i] = lambertian_of(i, irradiance[i]);
+LobeReport GlossySolver::Impl::report_of(SolveProgress::Stage now, const Observer& observer) {
+  stage = now;
+  stage_share = stage_seconds = 0;
+  const auto begin = Clock::now();
+  return [this, begin, &observer](double share, std::size_t lobes) {
+    stage_share = share;
+    stage_lobes = lobes;
+    stage_seconds = seconds_since(begin);
+    if (observer) {
+      (void)observer(progress());  // a stage cannot be left unfinished
+    }
+  };
+}
+
+void GlossySolver::Impl::make_lobes(WorkerThreads& workers, const Observer& observer) {
+  if (!lobes_pending) {
+    return;
   }
+  const auto begin = Clock::now();
+  std::vector<Lobe> lobes;
+  std::vector<Vec3> normals;
+  for (const PatchId i : glossy) {
+    lobes.push_back(used_lobe(material(static_cast<std::size_t>(i))));
+    normals.push_back(input.scene->patch(i).normal);
+  }
+  auto data = std::make_shared<GlossyLight::Data>(*light);
+  data->lobes = std::make_shared<const LobeTables>(
+      lobes, normals, data->directions, old_lobes.get(), workers, input.requested,
+      report_of(SolveProgress::Stage::scaling_lobes, observer));
+  if (has_light) {
+    const std::vector<Rgb> none(glossy.size());  // changes are of no interest
+    data->lobes->reflect(data->arriving, data->shares, none, none, data->reflected, workers,
+                         input.requested, {});
+  }
+  old_lobes = data->lobes;
+  light = std::move(data);
+  lobes_pending = false;
+  stage = SolveProgress::Stage::passes;
+  timing.seconds_iterate += seconds_since(begin);
 }
 
 double GlossySolver::Impl::scale(std::size_t i) const {
@@ -149,15 +177,18 @@ double GlossySolver::Impl::scale(std::size_t i) const {
 }
 
 bool GlossySolver::Impl::iterate(const Observer& observer, bool one_pass) {
-  if (light.use_count() > 1) {
-    light = std::make_shared<GlossyLight::Data>(*light);
-  }
-  iteration_seconds = pass > 0 ? iteration_seconds : 0.0;
+  struct StageEnd {
+    SolveProgress::Stage& stage;
+    ~StageEnd() { stage = SolveProgress::Stage::passes; }
+  };
+  const StageEnd canceled{stage};
   WorkerThreads workers(input.threads);
+  make_lobes(workers, observer);
+  iteration_seconds = pass > 0 ? iteration_seconds : 0.0;
   if (!gather_passes(workers, observer, one_pass)) {
     return false;
   }
-  finish_iteration(workers);
+  finish_iteration(workers, observer);
   return !observer || observer(progress());
 }
 
@@ -175,7 +206,7 @@ double GlossySolver::Impl::defect_of_energy() const {
   return ratio_or_zero(max_abs(received - sent), max_abs(sent));
 }
 
-void GlossySolver::Impl::finish_iteration(WorkerThreads& workers) {
+void GlossySolver::Impl::finish_iteration(WorkerThreads& workers, const Observer& observer) {
   const auto start = Clock::now();
   if (!kept_finished && kept->available()) {
     kept->finish();
@@ -183,8 +214,15 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers) {
   }
   energy_defect = defect_of_energy();
   // Nothing of the iteration before is changed until this one cannot be canceled any more.
-  std::vector<Rgb> before, after, lambertian = light->lambertian, reflected = light->reflected;
-  std::vector<Rgb> received(input.patch_count());
+  auto next = std::make_shared<GlossyLight::Data>();
+  next->scene = light->scene;
+  next->directions = light->directions;
+  next->index_of = light->index_of;
+  next->shares = light->shares;
+  next->lobes = light->lobes;
+  next->reflected = light->reflected;
+  next->lambertian.resize(input.patch_count());
+  std::vector<Rgb> before, after, received(input.patch_count());
   for (const PatchId i : glossy) {
     before.push_back(at(light->lambertian, i));
   }
@@ -204,21 +242,24 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers) {
     } else {
       after.push_back(radiance);
     }
-    lambertian[i] = radiance;
+    next->lambertian[i] = radiance;
   }
-  const LobeTables::Change of_lobes = light->lobes->reflect(incoming, light->shares, before, after,
-                                                            reflected, workers, input.requested);
+  const LobeTables::Change of_lobes =
+      next->lobes->reflect(incoming, next->shares, before, after, next->reflected, workers,
+                           input.requested, report_of(SolveProgress::Stage::reflecting, observer));
   irradiance.swap(received);
   from_sky.swap(sky_light);
-  light->lambertian.swap(lambertian);
-  light->reflected.swap(reflected);
-  light->arriving.swap(incoming);
+  next->arriving.swap(incoming);
+  light = std::move(next);  // frees that of before, unless a solution shares it
+  incoming.assign(light->arriving.size(), Rgb{});
   has_light = true;
   change.change = std::max(change.change, of_lobes.change);
   change.largest = std::max(change.largest, of_lobes.largest);
   const double seconds = seconds_since(start);
   timing.seconds_iterate += seconds;
   iteration_seconds += seconds;
+  reflection_seconds = seconds;
+  stage = SolveProgress::Stage::passes;
   record(change);
 }
 

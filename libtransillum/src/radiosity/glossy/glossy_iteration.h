@@ -20,12 +20,14 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   SolverInput input;
   std::vector<Material> materials;     ///< of the scene, or those that replaced them
   std::vector<std::int32_t> of_patch;  ///< index into them, by patch
-  std::shared_ptr<GlossyLight::Data> light;
+  std::shared_ptr<const GlossyLight::Data> light;  ///< replaced, never changed: solutions share it
   std::vector<PatchId> glossy;  ///< the glossy patches, by index
   std::unique_ptr<PassStatistics> statistics;
   std::unique_ptr<DirectionalExchanges> kept;
   int known_passes = 0;          ///< that `statistics` has, and `kept` where available
   bool kept_finished = false;    ///< all passes are in `kept`
+  bool lobes_pending = false;    ///< light->lobes are not those of `materials` yet
+  std::shared_ptr<const LobeTables> old_lobes;  ///< of which those that fit are copied
   bool has_light = false;        ///< an iteration was finished: irradiance and Phi are its
   std::vector<Rgb> irradiance;   ///< H of the last finished iteration, W/m²
   std::vector<Rgb> from_sky;     ///< the part of it from the sky; empty without one
@@ -41,24 +43,29 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   double energy_defect = 0;
   SolverTiming timing;
   double iteration_seconds = 0;
+  SolveProgress::Stage stage = SolveProgress::Stage::passes;
+  double stage_share = 0, stage_seconds = 0;
+  std::size_t stage_lobes = 0;
+  double reflection_seconds = 0;  ///< of the last iteration
 
   explicit Impl(SolverInput solver_input);
 
   const Material& material(std::size_t i) const {
     return materials[static_cast<std::size_t>(of_patch[i])];
   }
-  std::size_t passes() const { return light->directions.size(); }
+  std::size_t passes() const { return light->passes(); }
   /// The factor from gathered() to H.
   double scale(std::size_t i) const;
   /// @throws InputError
   void check_count(const std::vector<Material>& given,
                    const std::vector<std::int32_t>& by_patch) const;
-  /// Makes the lobes of `materials`, and sets radiance to that of E or to what they reflect of the
-  /// light that arrived last.
+  /// Sets radiance to that of E, or keeps the light that arrived last. The lobes of `materials` are
+  /// scaled by the next iteration.
   void start(Start from = Start::emission);
+  /// Numbers the glossy patches.
   /// @throws std::runtime_error where what is kept of them by direction does not fit into memory
-  void find_glossy();
-  void check_radiance_memory() const;
+  void find_glossy(GlossyLight::Data& data);
+  void check_radiance_memory(std::size_t patches, std::size_t directions) const;
   /// Forgets all passes.
   void forget_passes();
   /// One iteration, or of its passes only the next; returns false where the observer did, or
@@ -81,8 +88,11 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   void set_of_pass(int k, bool is_new, const PassLight& made);
   void add_new(int k, PassLight& made);
   void add_all(const std::vector<PassLight>& batch, WorkerThreads& workers);
-  void finish_iteration(WorkerThreads& workers);
-  void start_from_current(WorkerThreads& workers);
+  void finish_iteration(WorkerThreads& workers, const Observer& observer);
+  /// Scales lobes that are pending.
+  void make_lobes(WorkerThreads& workers, const Observer& observer);
+  /// Tells `observer` of a stage of lobes.
+  LobeReport report_of(SolveProgress::Stage now, const Observer& observer);
   Rgb lambertian_of(std::size_t i, const Rgb& received) const;
   double defect_of_energy() const;
   double rho_max() const;

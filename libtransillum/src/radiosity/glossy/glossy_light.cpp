@@ -42,7 +42,7 @@ Rgb GlossyLight::radiance(PatchId i, const Vec3& toward) const {
   }
   const std::int32_t g = at(data_->index_of, i);
   const Rgb& lambertian = at(data_->lambertian, i);
-  if (g < 0) {
+  if (g < 0 || data_->lobes == nullptr) {
     return lambertian;
   }
   const auto k = static_cast<std::size_t>(g);

@@ -77,19 +77,30 @@ void GlossySolver::set_materials(const std::vector<Material>& materials,
   for (const Material& material : materials) {
     check_material(material, s.input.scene->name() + ": ");
   }
-  s.materials = materials;
-  for (std::size_t i = 0; i < s.input.patch_count(); ++i) {
-    s.of_patch[i] = of_patch.empty() ? s.input.scene->patches()[i].material : of_patch[i];
+  std::vector<std::int32_t> indices = of_patch;
+  if (indices.empty()) {
+    for (const Patch& patch : s.input.scene->patches()) {
+      indices.push_back(patch.material);
+    }
   }
-  if (s.light.use_count() > 1) {
-    s.light = std::make_shared<GlossyLight::Data>(*s.light);
-  }
+  std::vector<Material> given = materials;
+  s.materials.swap(given);
+  s.of_patch.swap(indices);
   bool all_known = true;
   for (std::size_t i = 0; i < s.input.patch_count(); ++i) {
     all_known = all_known && (s.light->index_of[i] >= 0 || !used_lobe(s.material(i)).present());
   }
   if (!all_known) {
-    s.find_glossy();
+    auto data = std::make_shared<GlossyLight::Data>(*s.light);
+    try {
+      s.find_glossy(*data);
+    } catch (...) {
+      s.materials.swap(given);
+      s.of_patch.swap(indices);
+      throw;
+    }
+    data->lobes = nullptr;  // of other patches
+    s.light = std::move(data);
     s.forget_passes();
   }
   s.start(start);
@@ -107,6 +118,17 @@ SolveProgress GlossySolver::Impl::progress() const {
     now.passes_per_second = pass / iteration_seconds;
     now.seconds_left = (now.passes - pass) / now.passes_per_second;
     now.last_direction = at(light->directions, pass - 1);
+  }
+  if (stage == SolveProgress::Stage::passes) {
+    now.seconds_left += pass > 0 ? reflection_seconds : 0.0;
+    return now;
+  }
+  now.stage = stage;
+  now.stage_share = stage_share;
+  now.passes_per_second = now.seconds_left = 0;
+  if (stage_share > 0 && stage_seconds > 0) {
+    now.lobes_per_second = stage_share * static_cast<double>(stage_lobes) / stage_seconds;
+    now.seconds_left = stage_seconds * (1 - stage_share) / stage_share;
   }
   return now;
 }
@@ -142,7 +164,9 @@ SolveStatistics GlossySolver::Impl::solve_statistics() const {
       contraction_bound(result.rho_max, quadrature_error_bound(result.directions));
   GlossyFigures& figures = result.glossy;
   figures.patches = std::ssize(glossy);
-  light->lobes->write_to(figures);
+  if (light->lobes != nullptr) {
+    light->lobes->write_to(figures);
+  }
   figures.radiance_bytes =
       3 * light->arriving.size() * sizeof(Rgb) + (seen.size() + sky_seen.size()) * sizeof(double);
   figures.transfer_bytes = kept_finished ? kept->bytes() : 0;

@@ -1,13 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Shapes of lobes. Powers with whole exponents are products, row by row, so that the compiler
-// computes several at once.
+// Shapes of lobes.
 #include "radiosity/glossy/lobe_kernel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "radiosity/glossy/lobe_vectors.h"
 #include "transillum/glossy.h"
 
 namespace transillum {
@@ -74,28 +74,6 @@ double LobeKernel::power(double base) const {
   return value;
 }
 
-void LobeKernel::raise(std::vector<double>& values, std::vector<double>& base) const {
-  const std::size_t count = values.size();
-  if (!is_whole_) {
-    for (double& v : values) {
-      v = v > 0 ? std::pow(v, exponent_) : 0.0;
-    }
-    return;
-  }
-  base = values;
-  std::fill(values.begin(), values.end(), 1.0);
-  for (unsigned e = whole_exponent_; e > 0; e >>= 1) {
-    if ((e & 1) != 0) {
-      for (std::size_t q = 0; q < count; ++q) {
-        values[q] *= base[q];
-      }
-    }
-    for (std::size_t q = 0; q < count; ++q) {
-      base[q] *= base[q];
-    }
-  }
-}
-
 double LobeKernel::value(double cosine_a, double cosine_b, double between) const {
   if (shape_ == LobeShape::phong) {
     const double mirror = 2 * (cosine_a * cosine_b) - between;
@@ -105,25 +83,21 @@ double LobeKernel::value(double cosine_a, double cosine_b, double between) const
 }
 
 void LobeKernel::row(const Vec3& a, double cosine, const Hemisphere& directions,
-                     std::vector<double>& values, std::vector<double>& spare) const {
+                     double* values) const {
   const std::size_t count = directions.size();
-  values.resize(count);
   const auto &x = directions.x, &y = directions.y, &z = directions.z, &c = directions.cosine;
-  if (shape_ == LobeShape::phong) {
-    if (exponent_ == 0) {
-      std::fill(values.begin(), values.end(), 1.0);
-      return;
-    }
-    for (std::size_t q = 0; q < count; ++q) {
-      const double mirror = 2 * (cosine * c[q]) - (a.x * x[q] + a.y * y[q] + a.z * z[q]);
-      values[q] = mirror > least_ ? mirror : 0.0;
-    }
-    raise(values, spare);
+  const LobeRow row{x.data(), y.data(), z.data(), c.data(), count, a, cosine, values};
+  std::size_t done = 0;
+  if (shape_ == LobeShape::ggx) {
+    done = ggx_row(row, alpha2_);
+  } else if (exponent_ == 0) {
+    std::fill(values, values + count, 1.0);
     return;
+  } else if (is_whole_) {
+    done = phong_row(row, least_, whole_exponent_);
   }
-  for (std::size_t q = 0; q < count; ++q) {
-    const double between = a.x * x[q] + a.y * y[q] + a.z * z[q];
-    values[q] = ggx(cosine + c[q], between, alpha2_);
+  for (std::size_t q = done; q < count; ++q) {
+    values[q] = value(cosine, c[q], a.x * x[q] + a.y * y[q] + a.z * z[q]);
   }
 }
 

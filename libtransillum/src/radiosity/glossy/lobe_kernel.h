@@ -26,15 +26,13 @@ class LobeKernel {
   /// p of two directions by their cosines with the normal and with each other.
   double value(double cosine_a, double cosine_b, double between) const;
   /// values[q] = p(a, q) for all directions q, the bits of value().
-  /// @param spare memory for powers
-  void row(const Vec3& a, double cosine, const Hemisphere& directions, std::vector<double>& values,
-           std::vector<double>& spare) const;
+  /// @param values of as many as there are directions
+  void row(const Vec3& a, double cosine, const Hemisphere& directions, double* values) const;
   /// equivalent_exponent()
   double exponent() const { return width_; }
 
  private:
   double power(double base) const;
-  void raise(std::vector<double>& values, std::vector<double>& base) const;
 
   LobeShape shape_;
   double exponent_ = 0;

@@ -9,11 +9,14 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include "base/for_each_index.h"
+#include "base/seconds_since.h"
+#include "radiosity/glossy/lobe_vectors.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
 
@@ -21,7 +24,9 @@ namespace transillum {
 namespace {
 
 /// Rows of a table that a task computes.
-constexpr std::size_t rows_per_task = 32;
+constexpr std::size_t rows_per_task = 64;
+/// What the rows of tables may take while these are scaled, all threads together.
+constexpr std::size_t most_kept_bytes = std::size_t{1} << 28;
 
 /// Equal for patches whose normals differ by rounding, mostly.
 std::array<std::int64_t, 4> key_of(std::size_t kernel, const Vec3& normal) {
@@ -30,37 +35,44 @@ std::array<std::int64_t, 4> key_of(std::size_t kernel, const Vec3& normal) {
           rounded(normal.z)};
 }
 
-/// The scalar products of `row` with `planes` vectors that follow each other. Four sums for each:
-/// the compiler computes them at once, and their order is the same everywhere.
-template <std::size_t planes>
-std::array<double, planes> product(const double* row, const double* vectors, std::size_t count) {
-  constexpr std::size_t lanes = 4;
-  double sums[planes][lanes] = {};
-  const std::size_t whole = count - count % lanes;
-  for (std::size_t q = 0; q < whole; q += lanes) {
-    for (std::size_t k = 0; k < planes; ++k) {
-      for (std::size_t l = 0; l < lanes; ++l) {
-        sums[k][l] += row[q + l] * vectors[k * count + q + l];
-      }
-    }
-  }
-  std::array<double, planes> result{};
-  for (std::size_t k = 0; k < planes; ++k) {
-    for (std::size_t q = whole; q < count; ++q) {
-      sums[k][0] += row[q] * vectors[k * count + q];
-    }
-    result[k] = (sums[k][0] + sums[k][1]) + (sums[k][2] + sums[k][3]);
-  }
-  return result;
-}
-
-void set_planes(const Rgb* light, std::size_t count, std::vector<double>& planes) {
+/// Light of a patch as three planes, each value times that of `factor`.
+void set_planes(const Rgb* light, const std::vector<double>& factor, std::vector<double>& planes) {
+  const std::size_t count = factor.size();
   planes.resize(3 * count);
   for (std::size_t q = 0; q < count; ++q) {
-    planes[q] = light[q].r;
-    planes[count + q] = light[q].g;
-    planes[2 * count + q] = light[q].b;
+    planes[q] = factor[q] * light[q].r;
+    planes[count + q] = factor[q] * light[q].g;
+    planes[2 * count + q] = factor[q] * light[q].b;
   }
+}
+
+/// Calls body(i) for each i below `count`, and `report` several times a second between.
+template <class Body>
+void for_each_with_report(WorkerThreads& workers, std::size_t count, const Body& body,
+                          const std::function<void(double)>& report) {
+  constexpr double between_reports = 0.05;  // s
+  const auto threads = static_cast<std::size_t>(workers.arena().max_concurrency());
+  std::size_t batch = report ? threads : count;
+  for (std::size_t first = 0; first < count;) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t end = std::min(first + batch, count);
+    for_each_index(workers, first, end, body);
+    first = end;
+    const double seconds = seconds_since(start);
+    batch = seconds < between_reports       ? 2 * batch
+            : seconds > 4 * between_reports ? std::max(batch / 2, threads)
+                                            : batch;
+    if (report) {
+      report(static_cast<double>(first) / static_cast<double>(count));
+    }
+  }
+}
+
+std::function<void(double)> with_size(const LobeReport& report, std::size_t tables) {
+  if (!report) {
+    return {};
+  }
+  return [&report, tables](double share) { report(share, tables); };
 }
 
 double largest_of(const std::vector<double>& values) {
@@ -77,9 +89,46 @@ double difference_from_one(const std::vector<double>& values) {
 
 }  // namespace
 
+/// Rows of the kernel of a table: computed once, or `rows_per_task` at a time.
+class LobeTables::KernelRows {
+ public:
+  KernelRows(const LobeKernel& kernel, const Hemisphere& above, bool keep)
+      : kernel_(kernel), above_(above) {
+    const std::size_t count = keep ? above.size() : std::min(rows_per_task, above.size());
+    values_ = std::make_unique_for_overwrite<double[]>(count * above.size());
+    if (keep) {
+      compute(0, above.size());
+      kept_ = true;
+    }
+  }
+  const Hemisphere& above() const { return above_; }
+  /// Rows from `first` to before `last`, at most rows_per_task of them.
+  const double* rows(std::size_t first, std::size_t last) {
+    if (kept_) {
+      return values_.get() + first * above_.size();
+    }
+    compute(first, last);
+    return values_.get();
+  }
+
+ private:
+  void compute(std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      kernel_.row(above_.direction(p), above_.cosine[p], above_,
+                  values_.get() + (p - first) * above_.size());
+    }
+  }
+
+  const LobeKernel& kernel_;
+  const Hemisphere& above_;
+  std::unique_ptr<double[]> values_;
+  bool kept_ = false;
+};
+
 LobeTables::LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals,
                        const std::vector<Vec3>& directions, const LobeTables* before,
-                       WorkerThreads& workers, const Cancellation& cancellation)
+                       WorkerThreads& workers, const Cancellation& cancellation,
+                       const LobeReport& report)
     : directions_(directions) {
   add_patches(lobes, normals);
   if (before != nullptr) {
@@ -97,7 +146,10 @@ LobeTables::LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& 
       functions[k] = std::make_unique<LobeFunction>(shapes_[k], cancellation);
     }
   });
-  for_each_index(workers, std::size_t{0}, tables_.size(), [&](std::size_t t) {
+  const std::size_t bytes = directions.size() * directions.size() * sizeof(double);
+  const auto threads = static_cast<std::size_t>(workers.arena().max_concurrency());
+  const bool keep_rows = bytes * threads <= most_kept_bytes;
+  const auto make = [&](std::size_t t) {
     LobeTable& table = tables_[t];
     if (!table.scale.empty()) {
       return;
@@ -106,8 +158,9 @@ LobeTables::LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& 
     for (const double c : above.cosine) {
       table.scale.push_back(functions[table.kernel]->scale(c));
     }
-    scale(table, above.cosine, cancellation);
-  });
+    scale(table, above, keep_rows, cancellation);
+  };
+  for_each_with_report(workers, tables_.size(), make, with_size(report, tables_.size()));
 }
 
 void LobeTables::add_patches(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals) {
@@ -155,49 +208,51 @@ double LobeTables::weight() const {
   return 2 * std::numbers::pi / static_cast<double>(directions_.size());
 }
 
-void LobeTables::sums(const LobeTable& table, const Hemisphere& above, std::vector<double>& result,
+void LobeTables::sums(const LobeTable& table, KernelRows& rows, std::vector<double>& result,
                       const Cancellation& cancellation) const {
-  const LobeKernel& kernel = kernels_[table.kernel];
-  const std::size_t count = above.size();
-  std::vector<double> row, spare, factor(count);
+  const std::size_t count = rows.above().size();
+  std::vector<double> factor(count);
   for (std::size_t q = 0; q < count; ++q) {
-    factor[q] = weight() * table.scale[q] * above.cosine[q];
+    factor[q] = weight() * table.scale[q] * rows.above().cosine[q];
   }
   result.resize(count);
+  for (std::size_t first = 0; first < count; first += rows_per_task) {
+    cancellation.throw_if_canceled();
+    const std::size_t last = std::min(first + rows_per_task, count);
+    multiply_rows(rows.rows(first, last), last - first, factor.data(), 1, count,
+                  result.data() + first);
+  }
   for (std::size_t p = 0; p < count; ++p) {
-    if (p % rows_per_task == 0) {
-      cancellation.throw_if_canceled();
-    }
-    kernel.row(above.direction(p), above.cosine[p], above, row, spare);
-    result[p] = table.scale[p] * product<1>(row.data(), factor.data(), count)[0];
+    result[p] *= table.scale[p];
   }
 }
 
 /// Sinkhorn's iteration from the scales of the continuous lobe: a full step removes what varies
 /// from direction to direction, a damped one what is common to all. What then is left, at most the
 /// largest sum's excess over each, is made up for by a part that is a product of two functions.
-void LobeTables::scale(LobeTable& table, const std::vector<double>& cosine,
+void LobeTables::scale(LobeTable& table, const Hemisphere& above, bool keep_rows,
                        const Cancellation& cancellation) const {
   constexpr int most_sweeps = 8;
   constexpr double enough = 1e-13, largest_step = 16;
-  const Hemisphere above(directions_, table.normal);
+  const std::vector<double>& cosine = above.cosine;
   const std::size_t count = above.size();
+  KernelRows rows(kernels_[table.kernel], above, keep_rows);
   std::vector<double> sum;
-  sums(table, above, sum, cancellation);
+  sums(table, rows, sum, cancellation);
   table.sum_error = difference_from_one(sum);
   for (int sweep = 0; sweep < most_sweeps && difference_from_one(sum) > enough; ++sweep) {
     for (std::size_t p = 0; p < count; ++p) {
       const double step = std::clamp(sum[p], 1 / largest_step, largest_step);
       table.scale[p] /= sweep % 2 == 0 ? step : std::sqrt(step);
     }
-    sums(table, above, sum, cancellation);
+    sums(table, rows, sum, cancellation);
   }
   const double most = largest_of(sum);  // 0 where the mirrors of all directions are too far away
   const double excess = most > 0 ? std::sqrt(most) : 1.0;
   for (double& s : table.scale) {
     s /= excess;
   }
-  sums(table, above, sum, cancellation);
+  sums(table, rows, sum, cancellation);
   table.spread.resize(count);
   double total = 0;
   for (std::size_t p = 0; p < count; ++p) {
@@ -216,59 +271,50 @@ void LobeTables::scale(LobeTable& table, const std::vector<double>& cosine,
   table.sum_defect = difference_from_one(sum);
 }
 
-/// w f(p, q) for p from `first` to before `last` and all q.
-std::vector<double> LobeTables::rows_of(const LobeTable& table, std::size_t first,
-                                        std::size_t last) const {
-  const std::size_t count = directions_.size();
-  const LobeKernel& kernel = kernels_[table.kernel];
-  const Hemisphere above(directions_, table.normal);
-  const double* scale = table.scale.data();
-  const double* spread = table.spread.data();
-  std::vector<double> rows((last - first) * count), row, spare;
-  for (std::size_t p = first; p < last; ++p) {
-    kernel.row(above.direction(p), above.cosine[p], above, row, spare);
-    double* to = rows.data() + (p - first) * count;
-    const double w = weight(), scale_p = scale[p], spread_p = spread[p];
-    for (std::size_t q = 0; q < count; ++q) {
-      to[q] = w * (row[q] * scale_p * scale[q] + spread_p * spread[q]);
-    }
-  }
-  return rows;
-}
-
-/// For a block of directions, first the rows of the table, then patch by patch: its light as three
-/// planes, and the products of the rows with them.
+/// For a block of directions, first the rows of the kernel, then patch by patch: its light times the
+/// scales as three planes, the products of the rows with them, and what the lobe spreads.
 LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
                                        const std::vector<Rgb>& shares,
                                        const std::vector<Rgb>& lambertian_before,
                                        const std::vector<Rgb>& lambertian_after,
                                        std::vector<Rgb>& reflected, WorkerThreads& workers,
-                                       const Cancellation& cancellation) const {
+                                       const Cancellation& cancellation,
+                                       const LobeReport& report) const {
   const std::size_t count = directions_.size();
   const std::size_t blocks = (count + rows_per_task - 1) / rows_per_task;
   std::vector<Change> changes(tables_.size() * blocks);
-  for_each_index(workers, std::size_t{0}, changes.size(), [&](std::size_t task) {
+  const auto reflect_block = [&](std::size_t task) {
     const std::size_t first = rows_per_task * (task % blocks);
     const std::size_t last = std::min(first + rows_per_task, count);
+    const LobeTable& table = tables_[task / blocks];
     cancellation.throw_if_canceled();
-    const std::vector<double> rows = rows_of(tables_[task / blocks], first, last);
-    std::vector<double> planes;
+    const Hemisphere above(directions_, table.normal);
+    KernelRows kernel(kernels_[table.kernel], above, false);
+    const double* rows = kernel.rows(first, last);
+    std::vector<double> planes, sums(3 * (last - first));
     Change& change = changes[task];
     for (const std::size_t g : members_[task / blocks]) {
       cancellation.throw_if_canceled();
-      set_planes(arriving.data() + g * count, count, planes);
+      const Rgb* light = arriving.data() + g * count;
+      Rgb spread;
+      for (std::size_t q = 0; q < count; ++q) {
+        spread += table.spread[q] * light[q];
+      }
+      set_planes(light, table.scale, planes);
+      multiply_rows(rows, last - first, planes.data(), 3, count, sums.data());
       for (std::size_t p = first; p < last; ++p) {
-        const std::array<double, 3> sum =
-            product<3>(rows.data() + (p - first) * count, planes.data(), count);
+        const double* sum = sums.data() + 3 * (p - first);
         Rgb& to = reflected[g * count + p];
         const Rgb before = to + lambertian_before[g];
-        to = shares[g] * Rgb{sum[0], sum[1], sum[2]};
+        to = weight() * (shares[g] * (table.scale[p] * Rgb{sum[0], sum[1], sum[2]} +
+                                      table.spread[p] * spread));
         const Rgb after = to + lambertian_after[g];
         change.change = std::max(change.change, max_abs(after - before));
         change.largest = std::max(change.largest, max_abs(after));
       }
     }
-  });
+  };
+  for_each_with_report(workers, changes.size(), reflect_block, with_size(report, tables_.size()));
   Change result;
   for (const Change& change : changes) {
     result.change = std::max(result.change, change.change);
@@ -280,8 +326,8 @@ LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
 Rgb LobeTables::reflected_toward(const Rgb* arriving, std::size_t g, const Vec3& toward) const {
   const LobeTable& table = tables_[table_of_[g]];
   const Hemisphere above(directions_, table.normal);
-  std::vector<double> row, spare;
-  kernels_[table.kernel].row(toward, dot(toward, table.normal), above, row, spare);
+  std::vector<double> row(above.size());
+  kernels_[table.kernel].row(toward, dot(toward, table.normal), above, row.data());
   Rgb sum;
   double all = 0;
   for (std::size_t q = 0; q < above.size(); ++q) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -24,15 +25,20 @@ struct LobeTable {
   double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< as GlossyFigures
 };
 
+/// What is told of work that takes long: the finished share, 0 to 1, and the number of tables in
+/// all. On the calling thread.
+using LobeReport = std::function<void(double, std::size_t)>;
+
 /// The lobes of all glossy patches on a set of directions: a table for each shape and orientation.
 class LobeTables {
  public:
   /// @param lobes, normals of the glossy patches
   /// @param before tables of the same directions, from which those that fit are copied; may be null
+  /// @param report may be empty
   /// @throws Canceled
   LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals,
              const std::vector<Vec3>& directions, const LobeTables* before, WorkerThreads& workers,
-             const Cancellation& cancellation);
+             const Cancellation& cancellation, const LobeReport& report);
 
   /// reflected = w sum_q f(p, q) arriving_q k for all patches and directions p; both by patch, then
   /// by pass. Returns the largest change of `reflected` plus `lambertian`, the change of the
@@ -45,7 +51,8 @@ class LobeTables {
   Change reflect(const std::vector<Rgb>& arriving, const std::vector<Rgb>& shares,
                  const std::vector<Rgb>& lambertian_before,
                  const std::vector<Rgb>& lambertian_after, std::vector<Rgb>& reflected,
-                 WorkerThreads& workers, const Cancellation& cancellation) const;
+                 WorkerThreads& workers, const Cancellation& cancellation,
+                 const LobeReport& report) const;
   /// The mean of what arrives at patch `g`, weighted by its lobe toward any direction above it.
   Rgb reflected_toward(const Rgb* arriving, std::size_t g, const Vec3& toward) const;
 
@@ -56,12 +63,12 @@ class LobeTables {
   void add_patches(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals);
   /// Copies tables of the same shape and orientation.
   void copy_tables(const LobeTables& before);
-  void scale(LobeTable& table, const std::vector<double>& cosine,
+  class KernelRows;
+  void scale(LobeTable& table, const Hemisphere& above, bool keep_rows,
              const Cancellation& cancellation) const;
   /// w sum_q kernel(p, q) scale_p scale_q cosine_q for each p
-  void sums(const LobeTable& table, const Hemisphere& above, std::vector<double>& result,
+  void sums(const LobeTable& table, KernelRows& rows, std::vector<double>& result,
             const Cancellation& cancellation) const;
-  std::vector<double> rows_of(const LobeTable& table, std::size_t first, std::size_t last) const;
   double weight() const;
 
   std::vector<Vec3> directions_;
