@@ -41,11 +41,11 @@ void show_lobes(ProgressDisplay& display, const SolveProgress& progress) {
   using Stage = SolveProgress::Stage;
   const std::string iteration = fmt::format("iteration {}", progress.iteration + 1);
   if (progress.stage != Stage::passes) {
-    display.show(progress.stage == Stage::scaling_lobes ? "scaling lobes"
-                                                        : iteration + ", reflecting",
-                 progress.stage_share,
-                 fmt::format("{:.3g} lobes/s, {} left", progress.lobes_per_second,
-                             time_text(progress.seconds_left)));
+    display.show(
+        progress.stage == Stage::scaling_lobes ? "scaling lobes" : iteration + ", reflecting",
+        progress.stage_share,
+        fmt::format("{:.3g} lobes/s, {} left", progress.lobes_per_second,
+                    time_text(progress.seconds_left)));
   } else if (progress.direction > 0) {
     display.show_passes(iteration + ", ", progress);
   } else {
@@ -306,7 +306,7 @@ Solution solve_by_passes(const SolveJob& job) {
 Solution solve_with_lobes(const SolveJob& job) {
   const Prepared prepared = prepare(job);
   GlossySolver solver(job.scene, job.options, prepared.tree, job.cancellation);
-  job.display.expect_passes("iteration 1, ", solver.progress().passes);
+  job.display.begin("scaling lobes");
   try {
     solver.solve([&](const SolveProgress& progress) {
       show_lobes(job.display, progress);

@@ -531,10 +531,9 @@ TEST(GlossySolver, TellsOfItsStages) {
   });
   const auto of = [&](Stage stage, int iteration) {
     std::vector<SolveProgress> found;
-    std::copy_if(told.begin(), told.end(), std::back_inserter(found),
-                 [=](const SolveProgress& now) {
-                   return now.stage == stage && now.iteration == iteration;
-                 });
+    std::copy_if(
+        told.begin(), told.end(), std::back_inserter(found),
+        [=](const SolveProgress& now) { return now.stage == stage && now.iteration == iteration; });
     return found;
   };
   for (const auto& [stage, iteration] :

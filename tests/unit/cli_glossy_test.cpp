@@ -121,6 +121,22 @@ TEST(CliGlossy, SaysWhatItDoesWithLobes) {
   EXPECT_EQ(none.out, run_program({"solve", "cornell-box", "-m", "16", "-q", "--out", "-"}).out);
 }
 
+/// Lobes that no set of directions resolves, and that reflect more than a surface can.
+TEST(CliGlossy, SolvesWithAwkwardLobes) {
+  TemporaryFolder folder;
+  for (const char* lobe :
+       {"white=3,1000000", "white=0.5,0", "white=1,96.078431", "white=1e-12,1e9"}) {
+    SCOPED_TRACE(lobe);
+    const ProgramResult result = run_program({"solve", "cornell-box", "-q", "-m", "24", "--lobe",
+                                              lobe, "--glossy", "--stats", folder / "s.json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+    EXPECT_EQ(json["converged"], true);
+    EXPECT_LE(json["glossy"]["sum_defect"], 1e-13);
+    EXPECT_LE(json["energy_defect"], 1e-12);
+  }
+}
+
 /// A lobe that is left out changes no bit.
 TEST(CliGlossy, DiffuseSolvesIgnoreLobes) {
   const Arguments plain{"solve", "cornell-box", "-q", "-m", "24", "--out", "-"};

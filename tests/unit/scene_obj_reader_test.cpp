@@ -65,6 +65,27 @@ TEST(ObjReader, ReadsLobes) {
   EXPECT_EQ(scene.material(1).lobe, d.materials[0].lobe);
 }
 
+/// What files give as Ks and Ns: numbers that are used as they are, and others that are left out.
+TEST(ObjReader, ReadsLobesOfAwkwardFiles) {
+  const auto lobe = [](const std::string& lines) {
+    return read("mtllib s.mtl\n" + square + "usemtl a\nf 1 2 3\n",
+                "newmtl a\nKd .5 .5 .5\n" + lines)
+        .materials[0]
+        .lobe;
+  };
+  EXPECT_EQ(lobe("Ks .2 .2 .2\nNs 0\n").exponent, 0);
+  EXPECT_EQ(lobe("Ks .2 .2 .2\n").exponent, 0);
+  EXPECT_EQ(lobe("Ks .2 .2 .2\nNs 1e6\n").exponent, 1e6);
+  EXPECT_EQ(lobe("Ks .2 .2 .2\nNs 1e12\n").exponent, 0);
+  EXPECT_EQ(lobe("Ks .2 .2 .2\nNs nan\n").exponent, 0);
+  EXPECT_EQ(lobe("Ks 3\nNs 5\n").reflectance, (Rgb{3, 3, 3}));  // lowered by solves
+  for (const char* unusable : {"Ks -.1 .2 .2\n", "Ks nan nan nan\n", "Ks .1 .2\n", "Ks\n",
+                               "Ks xyz .1 .2 .3\n", "Ks 1e300 0 0\n", "Ns 50\n", "Pr .3\n"}) {
+    EXPECT_FALSE(lobe(unusable).present()) << unusable;
+  }
+  EXPECT_EQ(lobe("Ks .2 .2 .2\nPr 7\n").roughness, 1);
+}
+
 TEST(ObjReader, AcceptsTextureNormalAndNegativeIndices) {
   const SceneDescription d = read(square +
                                   "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2//1 3//1\n"

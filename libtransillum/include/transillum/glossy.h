@@ -125,7 +125,8 @@ class GlossySolver {
   /// The moved-from object may only be destroyed or assigned to.
   GlossySolver& operator=(GlossySolver&&) noexcept;
 
-  /// Called after each group of passes and each iteration; returns whether to go on.
+  /// Called after each group of passes and each iteration, and while lobes are scaled or reflect;
+  /// returns whether to go on, which a stage of lobes does in any case.
   using Observer = std::function<bool(const SolveProgress&)>;
   /// Iterates until the radiance settles or the observer returns false; may be called again.
   /// Returns whether it has finished.
@@ -143,11 +144,12 @@ class GlossySolver {
   };
   /// Replaces rho, E and lobes and starts to iterate again, with the transfers that are kept. Where
   /// a patch gets a lobe that had none, the passes are made again.
-  /// Lobes that stay the same are not made again.
+  /// The next iteration scales lobes; those that stay the same are kept.
   /// @param materials as many as the scene has, for the same patches; with `of_patch`, any number.
   /// @param of_patch index into `materials` of each patch; empty: that of the scene.
   /// @param start what the iteration starts with.
-  /// @throws InputError, Canceled
+  /// @throws InputError; std::runtime_error where the radiance by direction does not fit into
+  /// memory. Nothing is changed then.
   void set_materials(const std::vector<Material>& materials,
                      const std::vector<std::int32_t>& of_patch = {}, Start start = Start::emission);
   /// The options it was constructed with.

@@ -168,7 +168,7 @@ struct SolveProgress {
   /// reflect in each after its passes.
   enum class Stage { passes, scaling_lobes, reflecting };
   Stage stage = Stage::passes;
-  double stage_share = 0;  ///< finished share of a stage of lobes, 0 to 1
+  double stage_share = 0;       ///< finished share of a stage of lobes, 0 to 1
   double lobes_per_second = 0;  ///< in a stage of lobes; one is a shape and orientation
 };
 
@@ -458,8 +458,8 @@ struct Solution {
 std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i);
 
 /// Solves in one call, by a GlossySolver where options.glossy is set and materials have lobes; it
-/// then calls no observer and ignores `group`. If `cancellation` is set during the passes, it returns the
-/// best estimate so far, with complete = false.
+/// then calls no observer and ignores `group`. If `cancellation` is set during the passes, it
+/// returns the best estimate so far, with complete = false.
 /// @param scene the scene.
 /// @param options of the solve run.
 /// @param observer as for RadiositySolver::advance().

@@ -60,8 +60,7 @@ void GlossySolver::Impl::find_glossy(GlossyLight::Data& data) {
 }
 
 /// Refuses what would not fit before it is allocated.
-void GlossySolver::Impl::check_radiance_memory(std::size_t patches,
-                                                 std::size_t directions) const {
+void GlossySolver::Impl::check_radiance_memory(std::size_t patches, std::size_t directions) const {
   // Phi, its successor, the lobe's radiance, its successor, and areas seen.
   const std::uint64_t per_slot =
       4 * sizeof(Rgb) + (input.options.sky.set() ? 2 : 1) * sizeof(double);
@@ -70,8 +69,8 @@ void GlossySolver::Impl::check_radiance_memory(std::size_t patches,
     throw std::runtime_error(
         fmt::format("{}: the radiance of {} glossy patches along {} directions takes {:.2g} GB of "
                     "memory, but only {:.2g} GB are free",
-                    input.scene->name(), patches, directions,
-                    1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(available)));
+                    input.scene->name(), patches, directions, 1e-9 * static_cast<double>(needed),
+                    1e-9 * static_cast<double>(available)));
   }
 }
 

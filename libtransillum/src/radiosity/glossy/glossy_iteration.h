@@ -18,15 +18,15 @@ namespace transillum {
 
 struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   SolverInput input;
-  std::vector<Material> materials;     ///< of the scene, or those that replaced them
-  std::vector<std::int32_t> of_patch;  ///< index into them, by patch
+  std::vector<Material> materials;                 ///< of the scene, or those that replaced them
+  std::vector<std::int32_t> of_patch;              ///< index into them, by patch
   std::shared_ptr<const GlossyLight::Data> light;  ///< replaced, never changed: solutions share it
-  std::vector<PatchId> glossy;  ///< the glossy patches, by index
+  std::vector<PatchId> glossy;                     ///< the glossy patches, by index
   std::unique_ptr<PassStatistics> statistics;
   std::unique_ptr<DirectionalExchanges> kept;
-  int known_passes = 0;          ///< that `statistics` has, and `kept` where available
-  bool kept_finished = false;    ///< all passes are in `kept`
-  bool lobes_pending = false;    ///< light->lobes are not those of `materials` yet
+  int known_passes = 0;        ///< that `statistics` has, and `kept` where available
+  bool kept_finished = false;  ///< all passes are in `kept`
+  bool lobes_pending = false;  ///< light->lobes are not those of `materials` yet
   std::shared_ptr<const LobeTables> old_lobes;  ///< of which those that fit are copied
   bool has_light = false;        ///< an iteration was finished: irradiance and Phi are its
   std::vector<Rgb> irradiance;   ///< H of the last finished iteration, W/m²

@@ -271,8 +271,8 @@ void LobeTables::scale(LobeTable& table, const Hemisphere& above, bool keep_rows
   table.sum_defect = difference_from_one(sum);
 }
 
-/// For a block of directions, first the rows of the kernel, then patch by patch: its light times the
-/// scales as three planes, the products of the rows with them, and what the lobe spreads.
+/// For a block of directions, first the rows of the kernel, then patch by patch: its light times
+/// the scales as three planes, the products of the rows with them, and what the lobe spreads.
 LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
                                        const std::vector<Rgb>& shares,
                                        const std::vector<Rgb>& lambertian_before,
@@ -306,8 +306,8 @@ LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
         const double* sum = sums.data() + 3 * (p - first);
         Rgb& to = reflected[g * count + p];
         const Rgb before = to + lambertian_before[g];
-        to = weight() * (shares[g] * (table.scale[p] * Rgb{sum[0], sum[1], sum[2]} +
-                                      table.spread[p] * spread));
+        to = weight() * (shares[g] *
+                         (table.scale[p] * Rgb{sum[0], sum[1], sum[2]} + table.spread[p] * spread));
         const Rgb after = to + lambertian_after[g];
         change.change = std::max(change.change, max_abs(after - before));
         change.largest = std::max(change.largest, max_abs(after));

@@ -139,9 +139,8 @@ TRANSILLUM_AVX2 std::size_t phong_avx2(const LobeRow& row, double least, unsigne
 TRANSILLUM_AVX2 std::size_t ggx_avx2(const LobeRow& row, double alpha2) {
   return ggx_values(row, alpha2);
 }
-TRANSILLUM_AVX2 void multiply_avx2(const double* rows, std::size_t row_count,
-                                   const double* vectors, std::size_t planes, std::size_t count,
-                                   double* result) {
+TRANSILLUM_AVX2 void multiply_avx2(const double* rows, std::size_t row_count, const double* vectors,
+                                   std::size_t planes, std::size_t count, double* result) {
   planes == 1 ? multiply_all<4, 1>(rows, row_count, vectors, count, result)
               : multiply_all<4, 3>(rows, row_count, vectors, count, result);
 }
