@@ -61,10 +61,10 @@ class CommandLineTest : public QObject {
   }
 
   void options_of_scenes() {
-    const Outcome outcome =
-        parse({"room.obj", "--default-reflectance", "0.25", "--max-reflectance", "0.9", "--units",
-               "cm", "--orient", "auto", "--emission", "lamp=10", "--reflectance",
-               "group:box=0.1,0.2,0.3", "--emission", "face:3=1,2,3", "--patches", "500"});
+    const Outcome outcome = parse(
+        {"room.obj", "--default-reflectance", "0.25", "--max-reflectance", "0.9", "--units", "cm",
+         "--orient", "auto", "--emission", "lamp=10", "--reflectance", "group:box=0.1,0.2,0.3",
+         "--emission", "face:3=1,2,3", "--lobe", "floor=0.4,24", "--patches", "500"});
     QVERIFY2(!outcome.parsed.exit_now, outcome.error.c_str());
     const SceneInput& input = outcome.parsed.command_line.input;
     QCOMPARE(input.read.default_reflectance, 0.25);
@@ -73,13 +73,15 @@ class CommandLineTest : public QObject {
     QVERIFY(input.orient);
     QCOMPARE(input.patches, std::int64_t{500});
     const auto change = [&](std::size_t k) { return input.changes.at(k); };
-    QCOMPARE(input.changes.size(), std::size_t{3});
+    QCOMPARE(input.changes.size(), std::size_t{4});
     QVERIFY(std::count(input.changes.begin(), input.changes.end(),
                        MaterialChange{"lamp", {}, Rgb{10, 10, 10}}) == 1);
     QVERIFY(std::count(input.changes.begin(), input.changes.end(),
                        MaterialChange{"group:box", Rgb{0.1, 0.2, 0.3}}) == 1);
     QVERIFY(std::count(input.changes.begin(), input.changes.end(),
                        MaterialChange{"face:3", {}, Rgb{1, 2, 3}}) == 1);
+    QVERIFY(std::count(input.changes.begin(), input.changes.end(), lobe_change("floor=0.4,24")) ==
+            1);
     QVERIFY(change(0).target == "lamp");
     QCOMPARE(parse({"room.obj", "--scale", "0.5"}).parsed.command_line.input.read.scale, 0.5);
   }

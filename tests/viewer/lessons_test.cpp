@@ -414,6 +414,7 @@ class LessonsTest : public QObject {
       taught.window->findChild<ViewStateApplier*>()->show(state);
       QVERIFY2(taught.settles(), qPrintable(QString("page %1").arg(k + 1)));
       QCOMPARE(taught.window->banner_text(), QString());
+      QVERIFY2(taught.panel->isVisible(), qPrintable(QString("page %1 hides its text").arg(k + 1)));
       QCOMPARE(taught.window->selection.patch(), state.selection);
       QCOMPARE(!taught.focus().following(), state.focus.has_value());
       if (state.focus) {

@@ -98,7 +98,7 @@ void LobeView::find_light() {
   const PatchId patch = selection_.patch();
   const GlossyLight& light = *snapshot_->glossy;
   normal_ = light.scene().patch(patch).normal;
-  // The camera is in front: what leaves toward it points to the viewer.
+  // The camera is in front; turned by turn_, what leaves toward it points to the right.
   const Vec3 to_eye = colors_.eye() - light.scene().patch(patch).center;
   const Vec3 level = to_eye - dot(to_eye, normal_) * normal_;
   const Vec3 other = std::abs(normal_.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};

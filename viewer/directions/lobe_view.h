@@ -75,7 +75,7 @@ class LobeView : public QWidget {
   bool known_ = false;  ///< arriving_ and leaving_ are those of the snapshot and the selection
   std::vector<Ray> arriving_, leaving_;
   Vec3 right_{1, 0, 0}, ahead_{0, 1, 0}, normal_{0, 0, 1};  ///< the patch's frame
-  double turn_ = 0, tilt_ = 0.42;                           ///< radians
+  double turn_ = 0.9, tilt_ = 0.42;                         ///< radians
   QPointF last_;
 };
 

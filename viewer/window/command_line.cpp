@@ -169,6 +169,10 @@ void add_scene_options(CLI::App& app, CommandLine& line, Names& names) {
   add_change_option(app, "--reflectance", "NAME=R[,R,R]",
                     "reflectance of a material, a group or face:N; may be given several times",
                     line.input.changes, reflectance_change);
+  add_change_option(app, "--lobe", "NAME=K,N",
+                    "lobe of a material, a group or face:N, for --glossy: the share K of the light "
+                    "that it reflects, or three, and its exponent N; may be given several times",
+                    line.input.changes, lobe_change);
   app.add_flag("--two-sided", line.scene_options.two_sided, description_of("two-sided"));
   auto* area = app.add_option("--max-patch-area", line.scene_options.max_patch_area,
                               description_of("max-patch-area"))
