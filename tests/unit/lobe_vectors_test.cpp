@@ -27,10 +27,12 @@ Hemisphere hemisphere(int directions) {
 TEST(LobeVectors, RowsHaveTheBitsOfSingleValues) {
   std::vector<Lobe> lobes;
   for (const double exponent : {0.0, 1.0, 2.0, 7.0, 24.0, 1000.0, 2.5}) {
-    lobes.push_back({.exponent = exponent});
+    lobes.emplace_back().exponent = exponent;
   }
   for (const double roughness : {0.01, 0.3, 1.0}) {
-    lobes.push_back({.shape = LobeShape::ggx, .roughness = roughness});
+    Lobe& lobe = lobes.emplace_back();
+    lobe.shape = LobeShape::ggx;
+    lobe.roughness = roughness;
   }
   for (const int directions : {1, 3, 4, 37, 128}) {
     const Hemisphere above = hemisphere(directions);
