@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 
 #include "option_values.h"
 #include "output_files.h"
@@ -18,11 +19,17 @@ namespace {
 
 /// Refuses what a solve in which lobes take part does not have.
 void check_glossy(const SolveCall& call) {
-  const bool picture = std::any_of(call.out.begin(), call.out.end(), [](const std::string& file) {
-    return std::filesystem::path(file).extension() == ".png";
-  });
-  refuse_unless(call.options.glossy || picture, *call.command, "--eye",
+  const auto any_file = [&call](std::initializer_list<const char*> endings) {
+    return std::any_of(call.out.begin(), call.out.end(), [&](const std::string& file) {
+      const std::string ending =
+          is_standard_output(file) ? ".csv" : std::filesystem::path(file).extension().string();
+      return std::find(endings.begin(), endings.end(), ending) != endings.end();
+    });
+  };
+  refuse_unless(call.options.glossy || any_file({".png"}), *call.command, "--eye",
                 "used only with --glossy, or a .png file");
+  refuse_unless(any_file({".csv", ".vtp", ".ply", ".png"}), *call.command, "--eye",
+                "used only with a .csv, .vtp, .ply or .png file");
   if (call.options.glossy) {
     for (const char* option :
          {"--factors", "--by", "--series", "--checkpoint", "--shard", "--refine-by"}) {

@@ -36,6 +36,7 @@ TEST(CliGlossy, IsRefusedInOneLineWhereItIsNotAvailable) {
       {{"--checkpoint", "c.tck"}, "--checkpoint: not used with --glossy"},
       {{"--diffuse-only"}, "excludes"},
       {{"--eye", "1,2"}, "three finite numbers X,Y,Z"},
+      {{"--eye", "1,2,3"}, "--eye: used only with a .csv, .vtp, .ply or .png file"},
       {{"--lobe", "white=0.5"}, "is not NAME=SHARE,EXPONENT"},
       {{"--lobe", "white=0.5,-1"}, "the exponent of the lobe (Ns) is -1"},
   };

@@ -7,6 +7,7 @@
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QLabel>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "model/command_text.h"
 #include "model/material_json.h"
 #include "model/snapshot_solution.h"
+#include "solve/progress_line.h"
 #include "solved_window.h"
 #include "transillum/glossy.h"
 
@@ -170,10 +172,41 @@ class GlossyTest : public QObject {
     qInfo("stopped after %lld ms", static_cast<long long>(timer.elapsed()));
   }
 
+  void the_progress_tells_of_stages_of_lobes() {
+    GlossyWindow w;
+    QVERIFY(w.ready);
+    auto now = std::make_shared<SolverSnapshot>(w.snapshot());
+    now->progress.iteration = 2;
+    now->progress.stage = SolveProgress::Stage::reflecting;
+    now->progress.stage_share = 0.25;
+    now->progress.lobes_per_second = 8.5;
+    now->progress.seconds_left = 3;
+    ProgressLine line;
+    line.show_state(RunState::running);
+    line.show_snapshot(now);
+    const auto text = [&](const char* name) { return line.findChild<QLabel*>(name)->text(); };
+    QCOMPARE(text("phase"), QStringLiteral("Iteration 3, reflecting"));
+    QCOMPARE(text("rate"), QStringLiteral("8.5 lobes/s"));
+    QVERIFY(text("time").endsWith("left"));
+    const auto* bar = line.findChild<QProgressBar*>();
+    QCOMPARE(4 * bar->value(), bar->maximum());
+    now = std::make_shared<SolverSnapshot>(*now);
+    now->progress.stage = SolveProgress::Stage::scaling_lobes;
+    line.show_snapshot(now);
+    QCOMPARE(text("phase"), QStringLiteral("Scaling lobes"));
+    // Afterwards, and where it pauses, the line is that of any run.
+    line.show_state(RunState::finished);
+    QVERIFY(text("phase").startsWith("Converged"));
+  }
+
   void settings_say_what_goes_with_lobes() {
     GlossyWindow w;
     QVERIFY(w.ready);
     auto* note = w.part<QLabel>("glossy_note");
+    // n = 24 of the floor takes some 240 directions.
+    QCOMPARE(note->text(), QStringLiteral("n = 24 needs M = 240"));
+    QVERIFY(w.part<QLabel>("summary_lobes")->text().endsWith("n = 24 needs M = 240"));
+    w.part<QSpinBox>("directions")->setValue(240);
     QVERIFY(note->isHidden());
     w.part<QSpinBox>("replicas")->setValue(4);
     QCOMPARE(note->text(), QStringLiteral("not with replicas"));

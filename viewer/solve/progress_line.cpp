@@ -66,7 +66,9 @@ ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
   bar_->setFixedHeight(16);
   bar_->setVisible(false);
   rate_ = new QLabel;
+  rate_->setObjectName("rate");
   time_ = new QLabel;
+  time_->setObjectName("time");
   // Fixed widths, so that labels do not move while numbers change.
   rate_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("8888.8 passes/s  ")));
   time_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("88 min 88 s left  ")));
@@ -138,6 +140,10 @@ void ProgressLine::show_solve() {
   const bool running = state_ == RunState::running;
   const bool within_iteration = progress.direction > 0 && progress.direction < progress.passes;
   bar_->setVisible(!snapshot_->of_file);
+  if (running && progress.stage != SolveProgress::Stage::passes) {
+    show_stage_of_lobes(progress);
+    return;
+  }
   bar_->setRange(0, std::max(progress.passes, 1));
   bar_->setValue(state_ == RunState::finished || (!within_iteration && progress.iteration > 0)
                      ? progress.passes
@@ -170,10 +176,6 @@ void ProgressLine::show_solve() {
     phase_->setText(running ? round + at : tr("Paused: %1").arg(round + at));
   }
 
-  if (running && progress.stage != SolveProgress::Stage::passes) {
-    show_stage_of_lobes(progress);
-    return;
-  }
   const bool timed = running && progress.passes_per_second > 0;
   rate_->setText(timed ? tr("%1 passes/s").arg(QString::number(progress.passes_per_second, 'f', 1))
                        : QString());

@@ -7,8 +7,12 @@
 #include <QLabel>
 #include <QSpinBox>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "solve/settings_panel.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "transillum/glossy.h"
 #include "widgets/engine_text.h"
 
 namespace transillum::viewer {
@@ -20,7 +24,8 @@ void SettingsPanel::add_glossy_row(QFormLayout& form) {
       "<span>Off: all surfaces are diffuse, and reflect ρ only. On: the lobes of materials (MTL: "
       "Ks with Ns or Pr; glTF: metal and roughness) reflect too, most of it about the mirror "
       "direction. Patches then keep light by direction, and look different from each "
-      "point.</span>"));
+      "point. M directions resolve exponents n up to about M/10; sharper lobes are "
+      "coarse.</span>"));
   glossy_note_ = new QLabel;
   glossy_note_->setObjectName("glossy_note");
   glossy_note_->setForegroundRole(QPalette::PlaceholderText);
@@ -61,16 +66,34 @@ QString SettingsPanel::glossy_obstacle() const {
 }
 
 void SettingsPanel::show_glossy_state() {
-  const QString note = glossy_->isChecked() ? glossy_obstacle()
-                       : has_lobes_         ? tr("the scene has lobes")
-                                            : QString();
-  glossy_note_->setText(
-      glossy_->isChecked() && note.isEmpty() && !has_lobes_ ? tr("no material has a lobe") : note);
+  glossy_note_->setText(glossy_->isChecked() ? note_on_lobes()
+                        : largest_exponent_  ? tr("the scene has lobes")
+                                             : QString());
   glossy_note_->setVisible(!glossy_note_->text().isEmpty());
 }
 
-void SettingsPanel::set_scene_has_lobes(bool has_lobes) {
-  has_lobes_ = has_lobes;
+QString SettingsPanel::note_on_lobes() const {
+  const QString obstacle = glossy_obstacle();
+  if (!obstacle.isEmpty()) {
+    return obstacle;
+  }
+  if (!largest_exponent_) {
+    return tr("no material has a lobe");
+  }
+  return *largest_exponent_ > resolved_exponent(directions_->value())
+             ? tr("n = %1 needs M = %2")
+                   .arg(number_text(*largest_exponent_), number_text(10 * *largest_exponent_))
+             : QString();
+}
+
+void SettingsPanel::set_scene_lobes(const Scene& scene) {
+  largest_exponent_.reset();
+  for (const Patch& patch : scene.patches()) {
+    const Lobe lobe = used_lobe(at(scene.materials(), patch.material));
+    if (lobe.present()) {
+      largest_exponent_ = std::max(largest_exponent_.value_or(0), equivalent_exponent(lobe));
+    }
+  }
   show_glossy_state();
 }
 

@@ -48,8 +48,8 @@ class SettingsPanel : public QWidget {
   void show_escape(std::optional<double> share);
   /// The vertical of a new scene: the zenith that is proposed for a sky that needs one.
   void set_scene_up(const Vec3& up);
-  /// Whether materials of the open scene have lobes.
-  void set_scene_has_lobes(bool has_lobes);
+  /// The lobes that materials of the open scene have.
+  void set_scene_lobes(const Scene& scene);
   /// Whether the patches are those of a result file, so that the scene options cannot change.
   void set_scene_fixed(bool fixed);
   /// The rounds of the current solve, below the button.
@@ -76,6 +76,7 @@ class SettingsPanel : public QWidget {
   void show_sky_state();
   void show_basis_state();
   void show_glossy_state();
+  QString note_on_lobes() const;
   /// Why lobes cannot take part with the other settings; empty if they can.
   QString glossy_obstacle() const;
   void add_glossy_row(QFormLayout& form);
@@ -109,7 +110,7 @@ class SettingsPanel : public QWidget {
   QLabel* basis_note_;  ///< what it cannot be combined with, if that is chosen
   QCheckBox* glossy_;
   QLabel* glossy_note_;
-  bool has_lobes_ = false;  ///< of the open scene
+  std::optional<double> largest_exponent_;  ///< of the lobes of the open scene; none: no lobes
   QComboBox* stop_at_;
   QStackedWidget* stop_value_;
   Rgb sky_color_{1, 1, 1};  ///< of the sky; its largest channel is 1

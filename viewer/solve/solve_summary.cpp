@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 
 #include "support/number_text.h"
+#include "transillum/glossy.h"
 #include "widgets/symbol_tip.h"
 #include "widgets/value_grid.h"
 
@@ -38,8 +39,9 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
       tr("Lobes"), {},
       symbol_tip(
           tr("Patches whose lobes reflect, and the memory of their radiance by direction and "
-             "of the transfers kept for it"),
+             "of the transfers kept for it. M directions resolve exponents n up to about M/10"),
           "6.14"));
+  lobes_->setObjectName("summary_lobes");
   energy_ =
       grid->add_row(tr("Energy defect"), {},
                     tr("Difference between power received and power sent, relative to the latter"));
@@ -89,10 +91,14 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
                                                    : count_text(s.negative_corners));
   const GlossyFigures& g = s.glossy;
   const auto bytes = g.radiance_bytes + g.lobe_bytes + g.transfer_bytes;
-  lobes_->setText(g.patches > 0 ? tr("%1 patches, %2 MB")
-                                      .arg(count_text(g.patches),
-                                           number_text(1e-6 * static_cast<double>(bytes)))
-                                : tr("none reflect"));
+  const QString lobes =
+      tr("%1 patches, %2 MB")
+          .arg(count_text(g.patches), number_text(1e-6 * static_cast<double>(bytes)));
+  lobes_->setText(g.patches == 0 ? tr("none reflect")
+                  : g.exponent > resolved_exponent(s.passes)
+                      ? tr("%1; n = %2 needs M = %3")
+                            .arg(lobes, number_text(g.exponent), number_text(10 * g.exponent))
+                      : lobes);
   error_->setText(snapshot.error.replicas > 0
                       ? tr("%1 %, at most %2 %")
                             .arg(number_text(100 * snapshot.error.rms),

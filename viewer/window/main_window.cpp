@@ -345,7 +345,7 @@ void MainWindow::connect_scene() {
     settings_->set_options(settings_->solve_options(), state_.scene.options());
     settings_->set_scene_up(initial_view(*loaded->scene, 1).up);
     settings_->show_escape({});
-    settings_->set_scene_has_lobes(has_lobes(*loaded->scene));
+    settings_->set_scene_lobes(*loaded->scene);
     show_debugging_of_scene();
     page_->show_scene();
     show_patches(loaded);

@@ -105,9 +105,9 @@ void write_result_png(std::ostream& out, const Solution& solution, const Display
             camera.eye, camera.toward(static_cast<double>(column) + part(k % rays_per_side),
                                       static_cast<double>(row) + part(k / rays_per_side)));
         if (hit) {
-          // Clamped ray by ray, so that the edges of lamps are smooth.
+          // Limited ray by ray, so that the edges of lamps are smooth; the hue remains.
           const Rgb color = exposure * at(light, hit->patch);
-          sum += Rgb{std::min(color.r, 1.0), std::min(color.g, 1.0), std::min(color.b, 1.0)};
+          sum += 1 / std::max({color.r, color.g, color.b, 1.0}) * color;
         }
       }
       const Rgb mean = 1.0 / (rays_per_side * rays_per_side) * sum;
