@@ -24,6 +24,7 @@ if ldd "$core" | grep -iE 'vtk|cairo|not found'; then
 fi
 TRANSILLUM_PROGRAM=$program python -m unittest discover -s "$source/tests/python"
 mypy --strict -p transillum
+python -m mypy.stubtest transillum
 for notebook in "$source"/libtransillum/python/notebooks/*.ipynb; do
   jupyter nbconvert --execute --to html --output-dir . "$notebook"
 done
