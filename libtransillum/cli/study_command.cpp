@@ -115,7 +115,7 @@ std::vector<StudySeries> all_series(const StudyCall& call) {
     try {
       StudyOptions alone = call.study;
       alone.series = {series};
-      alone.directions = {call.directions.front()};
+      alone.directions.assign(1, call.directions.front());  // = {…}: GCC 14 warns of its array
       alone.validate();
       all.push_back(series);
     } catch (const InputError& error) {
