@@ -21,7 +21,7 @@ README_PAGES = {"Install": "index", "Five things to try": "index", "The command 
                 "The library": "library", "Documents": "index", "License": "index"}
 
 CARDS = [
-    ("lessons/index", "Lessons", "The method in eleven lessons, with questions and maps to step through"),
+    ("lessons/index", "Lessons", "The method in lessons, with questions and maps to step through"),
     ("viewer/USER_GUIDE", "User guide", "The viewer: solving, inspecting, stepping, comparing"),
     ("command-line", "Command line", "Every command with examples, and its manual page"),
     ("libtransillum/ALGORITHM", "Algorithm", "The equations, what is promised, and how it is tested"),

@@ -66,7 +66,7 @@ def index(pages: list[str], cards: list[str]) -> str:
     entries = "\n".join("/" + page for page in pages)
     return f"""# Lessons
 
-Ten lessons explain the method from the light that one patch receives to the error of a solution. Here they can be read, their questions answered, and their visibility maps
+These lessons explain the method from the light that one patch receives to the error of a solution. Here they can be read, their questions answered, and their visibility maps
 stepped through. In the program, a page also sets up the scene and the solve, and everything can be turned and changed: *Lesson ▸ Lessons*, or `transillum-viewer --lesson 1`.
 
 {raw('<div class="cards">' + "".join(cards) + '</div>')}
