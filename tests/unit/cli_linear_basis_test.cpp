@@ -29,7 +29,6 @@ TEST(CliLinearBasis, IsRefusedInOneLineWhereItIsNotAvailable) {
       {{"--engine", "rays"}, "engine rays does not have"},
       {{"--engine", "corrected"}, "engine corrected does not have"},
       {{"--engine", "hemicube"}, "engine hemicube does not have"},
-      {{"--engine", "pairs"}, "engine pairs does not have"},
       {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
       {{"--scheme", "semi-iterative"}, "not available with the semi-iterative scheme"},
       {{"--first-shot", "auto"}, "not available with a first shot"},
@@ -52,7 +51,8 @@ TEST(CliLinearBasis, WorksWithTheOtherOptions) {
                                {"--scheme", "growing"}, {"--scheme", "conjugate-gradients"},
                                {"--replicas", "4"},     {"--memory", "1M", "--iterations", "3"},
                                {"--sky", "1"},          {"--two-sided"},
-                               {"--engine", "local"},   {"--by", "material"}};
+                               {"--engine", "local"},   {"--by", "material"},
+                               {"--engine", "exact"}};
   for (const Arguments& option : options) {
     SCOPED_TRACE(::testing::PrintToString(option));
     const ProgramResult result = run_program(linear_box + Arguments{"-m", "16"} + option);
@@ -65,6 +65,32 @@ TEST(CliLinearBasis, WorksWithTheOtherOptions) {
   EXPECT_THAT(table.err, HasSubstr("exchanges between groups are not available"));
   const ProgramResult accuracy = run_program(linear_box + Arguments{"--accuracy", "10%"});
   EXPECT_EQ(accuracy.status, 0) << accuracy.err;
+}
+
+TEST(CliLinearBasis, PairsHaveFunctionsToo) {
+  const TemporaryFolder folder;
+  const Arguments pairs = linear_box + Arguments{"--engine", "pairs"};
+  for (const Arguments& option :
+       {Arguments{}, Arguments{"--points", "8"}, Arguments{"--accuracy", "1%"},
+        Arguments{"--iterations", "3"}, Arguments{"--threads", "2"}}) {
+    SCOPED_TRACE(::testing::PrintToString(option));
+    const ProgramResult result = run_program(pairs + option + Arguments{"--out", folder / "r.vtp"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(read_result(folder / "r.vtp").linear_parts.size(), 27U);
+  }
+  for (const Arguments& option : {Arguments{"--normalize", "rows"}, Arguments{"--replicas", "4"},
+                                  Arguments{"--scheme", "growing"}, Arguments{"--sky", "1"}}) {
+    SCOPED_TRACE(::testing::PrintToString(option));
+    const ProgramResult result = run_program(pairs + option);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(line_count(result.err), 1U) << result.err;
+  }
+  // Beside passes, in a study: both are compared with linear passes.
+  const ProgramResult study =
+      run_program({"study", "cornell-box", "-m", "256", "--engines", "fast,pairs", "--basis",
+                   "constant,linear", "--no-cache", "-q", "--out", "-"});
+  ASSERT_EQ(study.status, 0) << study.err;
+  EXPECT_THAT(study.out, HasSubstr("pairs/linear"));
 }
 
 TEST(CliLinearBasis, GivenFormFactorsAreRefused) {

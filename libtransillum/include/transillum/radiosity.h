@@ -67,7 +67,7 @@ const std::string& name_of(Scheme scheme);
 enum class Basis {
   constant,  ///< one value per patch
   linear,    ///< a linear function on each patch (section 3; ALGORITHM.md 6.12), not continuous
-             ///< across edges. Requires an engine that has_moments(); not with
+             ///< across edges. Requires an engine that has_moments(), or pairs; not with
              ///< Normalization::symmetric, Scheme::semi_iterative or a first shot
 };
 /// The names of the bases as in options and files, in the order of the enumeration.

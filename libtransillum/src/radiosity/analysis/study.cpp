@@ -17,6 +17,7 @@
 #include "base/bit_mixing.h"
 #include "base/choice.h"
 #include "base/power_of_two.h"
+#include "radiosity/linear_solution.h"
 #include "radiosity/sum_of_squares.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
@@ -50,20 +51,6 @@ std::vector<Rgb> of_dark_patches(const Scene& scene, std::vector<Rgb> values) {
     }
   }
   return values;
-}
-
-/// B of each patch, with a linear basis followed by its linear part.
-std::vector<Rgb> coefficients_of(const RadiositySolver& solver) {
-  const std::vector<LinearPart> parts = solver.linear_parts();
-  if (parts.empty()) {
-    return solver.radiosity();
-  }
-  std::vector<Rgb> coefficients;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    coefficients.insert(coefficients.end(),
-                        {solver.radiosity()[i], parts[i].first, parts[i].second});
-  }
-  return coefficients;
 }
 
 /// As on the command line: `zbuffer:256`, or `fast`.
@@ -178,7 +165,7 @@ class StudyRun {
           report(series, static_cast<int>(point.passes));
         });
     point.directions = solution.statistics.directions;
-    const std::vector<Rgb> b = compared(solution.radiosity);
+    const std::vector<Rgb> b = compared(coefficients_of(solution.radiosity, solution.linear_parts));
     const RadiosityError error = options_.of_functions() ? function_error(*scene_, b, reference_)
                                                          : radiosity_error(b, reference_);
     point.rms_error = error.rms;
@@ -204,7 +191,7 @@ class StudyRun {
       return true;
     });
     done_passes_ = before + expected;
-    const std::vector<Rgb> b = compared(coefficients_of(solver));
+    const std::vector<Rgb> b = compared(coefficients_of(solver.radiosity(), solver.linear_parts()));
     const RadiosityError error = options_.of_functions() ? function_error(*scene_, b, reference_)
                                                          : radiosity_error(b, reference_);
     const double share = 1.0 / options_.rotations;
@@ -448,7 +435,7 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
     }
     return true;
   });
-  return coefficients_of(solver);
+  return coefficients_of(solver.radiosity(), solver.linear_parts());
 }
 
 Study run_study(const std::shared_ptr<const Scene>& scene,

@@ -36,21 +36,28 @@ Rgb gather(const FormFactors& form_factors, std::size_t row, const std::vector<R
 
 JacobiIteration::JacobiIteration(const Scene& scene, const FormFactors& form_factors,
                                  std::span<const Material> materials, int threads,
-                                 std::span<const std::int32_t> patch_materials)
+                                 std::span<const std::int32_t> patch_materials,
+                                 std::size_t per_patch)
     : scene_(scene),
       form_factors_(form_factors),
       materials_(materials),
       patch_materials_(patch_materials),
+      per_patch_(per_patch),
       threads_(thread_count(threads)) {
-  for (std::size_t i = 0; i < scene.patches().size(); ++i) {
-    b.push_back(material(i).exitance);
+  for (std::size_t u = 0; u < per_patch * scene.patches().size(); ++u) {
+    b.push_back(exitance(u));
   }
   h.resize(b.size());
 }
 
-const Material& JacobiIteration::material(std::size_t patch) const {
+const Material& JacobiIteration::material(std::size_t unknown) const {
+  const std::size_t patch = unknown / per_patch_;
   return at(materials_,
             patch_materials_.empty() ? scene_.patches()[patch].material : patch_materials_[patch]);
+}
+
+Rgb JacobiIteration::exitance(std::size_t unknown) const {
+  return unknown % per_patch_ == 0 ? material(unknown).exitance : Rgb{};
 }
 
 template <class Visit>
@@ -103,7 +110,7 @@ void JacobiIteration::run(int limit, double tolerance, const Cancellation& cance
       if (!correction_.empty()) {
         h[i] += correction_[i];
       }
-      next[i] = material(i).exitance + material(i).reflectance * h[i];
+      next[i] = exitance(i) + material(i).reflectance * h[i];
     });
     double change = 0, largest = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {

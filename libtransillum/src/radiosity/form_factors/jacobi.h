@@ -14,6 +14,9 @@ namespace transillum {
 
 /// Jacobi iteration of B_i = E_i + rho_i H_i, H_i = sum_j F_ij B_j (eq. 11). Rows are computed in
 /// parallel; the result does not depend on the number of threads.
+///
+/// With several unknowns per patch, B and H are coefficients b_ia of functions phi_a, unknown
+/// per_patch i + a, and only phi_0 has E_i.
 struct JacobiIteration {
   /// A solve by tolerance that needs more iterations is considered divergent.
   static constexpr int max_iterations = 10'000;
@@ -22,11 +25,12 @@ struct JacobiIteration {
   /// @param materials E and rho: one per material of the scene, in its order
   /// @param threads 0: all cores
   /// @param patch_materials index into `materials` for each patch; empty: Patch::material
+  /// @param per_patch unknowns of a patch; `form_factors` are those of all unknowns
   JacobiIteration(const Scene& scene, const FormFactors& form_factors,
                   std::span<const Material> materials, int threads,
-                  std::span<const std::int32_t> patch_materials = {});
+                  std::span<const std::int32_t> patch_materials = {}, std::size_t per_patch = 1);
 
-  std::vector<Rgb> b, h;                 ///< W/m², one per patch; `b` may be set to another start
+  std::vector<Rgb> b, h;  ///< W/m², one per unknown; `b` may be set to another start
   std::vector<IterationRecord> records;  ///< one per iteration
   bool converged = false;
 
@@ -50,12 +54,15 @@ struct JacobiIteration {
   template <class Visit>
   void for_each_row(const Cancellation& cancellation, Visit visit) const;
 
-  const Material& material(std::size_t patch) const;
+  /// Of the patch of an unknown.
+  const Material& material(std::size_t unknown) const;
+  Rgb exitance(std::size_t unknown) const;
 
   const Scene& scene_;
   const FormFactors& form_factors_;
   std::span<const Material> materials_;
   std::span<const std::int32_t> patch_materials_;
+  std::size_t per_patch_;
   std::vector<Rgb> correction_;  ///< of sum_j F_ij B_j by first shot and sky; may be empty
   int threads_;
 };

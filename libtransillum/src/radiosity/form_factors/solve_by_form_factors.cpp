@@ -14,6 +14,8 @@
 #include "base/worker_threads.h"
 #include "radiosity/form_factors/form_factor_input.h"
 #include "radiosity/form_factors/jacobi.h"
+#include "radiosity/form_factors/pair_moments.h"
+#include "radiosity/linear_solution.h"
 #include "radiosity/ratio.h"
 #include "radiosity/two_sided.h"
 #include "transillum/errors.h"
@@ -46,7 +48,8 @@ PairOptions pair_options(const SolveOptions& options) {
   return pairs;
 }
 
-/// Computes the form factors and sets the figures that differ between the engines.
+/// Computes the form factors, with a linear basis those of all unknowns, and sets the figures that
+/// differ between the engines.
 FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options,
                                  const Cancellation& cancellation,
                                  const std::function<void(double)>& progress,
@@ -61,14 +64,20 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
   const PairOptions pairs = pair_options(options);
   statistics.pairs = patches * (patches - 1) / 2;
   statistics.directions = pairs.points;
+  if (options.basis == Basis::linear) {
+    return pair_moment_factors(scene, pairs, cancellation, progress);
+  }
   return pair_form_factors(scene, pairs, cancellation, progress);
 }
 
-std::vector<double> row_sums(const FormFactors& form_factors) {
+/// Sums of the rows over the sources' phi_0: for phi_0 the share of what leaves a patch that meets
+/// others, for phi_1 and phi_2 what closure makes 0.
+std::vector<double> row_sums(const FormFactors& form_factors, std::size_t per_patch) {
   std::vector<double> sums;
   for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
     double sum = 0;
-    for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
+    for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1];
+         k += per_patch) {
       sum += form_factors.value[k];
     }
     sums.push_back(sum);
@@ -76,13 +85,27 @@ std::vector<double> row_sums(const FormFactors& form_factors) {
   return sums;
 }
 
+/// Of values of all unknowns those of phi_0.
+template <class Value>
+std::vector<Value> means_of(std::vector<Value> values, std::size_t per_patch) {
+  if (per_patch > 1) {
+    for (std::size_t i = 0; per_patch * i < values.size(); ++i) {
+      values[i] = values[per_patch * i];
+    }
+    values.resize(values.size() / per_patch);
+  }
+  return values;
+}
+
 /// Sets the figures that are sums over rows of F: closure, escaped, energy and rho_max.
+/// @param sums of row_sums()
 void add_power(const Scene& scene, const std::vector<double>& sums,
                const JacobiIteration& iteration, SolveStatistics& statistics) {
+  const std::size_t per_patch = sums.size() / std::max<std::size_t>(1, scene.patches().size());
   double area = 0, visible = 0, outside = 0, previous = 0;
   Rgb received, sent, absorbed, emitted;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const auto row = static_cast<std::size_t>(i);
+    const std::size_t row = per_patch * static_cast<std::size_t>(i);
     const double sum = sums[row];
     const double own = scene.patch(i).area;
     area += own;
@@ -94,6 +117,12 @@ void add_power(const Scene& scene, const std::vector<double>& sums,
     statistics.closure_defect_max = std::max(statistics.closure_defect_max, std::abs(1 - sum));
     received += own * iteration.h[row];
     sent += own * sum * iteration.b[row];
+    // Power that phi_1 and phi_2 send: by reciprocity, as the means receive it.
+    for (std::size_t u = row + 1; u < row + per_patch; ++u) {
+      sent += own * sums[u] * iteration.b[u];
+      statistics.closure_defect_moments =
+          std::max(statistics.closure_defect_moments, std::abs(sums[u]));
+    }
     absorbed += own * ((Rgb{1, 1, 1} - scene.reflectance(i)) * iteration.h[row]);
     emitted += own * scene.exitance(i);
     statistics.rho_max = std::max(statistics.rho_max, max_abs(scene.reflectance(i)));
@@ -104,21 +133,38 @@ void add_power(const Scene& scene, const std::vector<double>& sums,
       ratio_or_zero(absorbed.r + absorbed.g + absorbed.b, emitted.r + emitted.g + emitted.b);
 }
 
-/// The iteration with `form_factors`; sets all but what computing them took.
+std::vector<LinearPart> linear_parts_of(const std::vector<Rgb>& coefficients) {
+  std::vector<LinearPart> parts;
+  for (std::size_t u = 0; u < coefficients.size(); u += linear_unknowns) {
+    parts.push_back({coefficients[u + 1], coefficients[u + 2]});
+  }
+  return parts;
+}
+
+/// The iteration with `form_factors`, with a linear basis those of all unknowns; sets all but what
+/// computing them took.
 Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
                  const SolveOptions& options, const Cancellation& cancellation) {
+  const bool linear = options.basis == Basis::linear;
+  const std::size_t per_patch = linear ? linear_unknowns : 1;
   Solution solution;
   SolveStatistics& statistics = solution.statistics;
   const auto start = Clock::now();
-  JacobiIteration iteration(*scene, form_factors, scene->materials(), options.threads);
+  JacobiIteration iteration(*scene, form_factors, scene->materials(), options.threads, {},
+                            per_patch);
   iteration.run(options.iterations > 0 ? options.iterations : JacobiIteration::max_iterations,
                 options.iterations > 0 ? 0 : options.tolerance, cancellation);
   statistics.seconds_iterate = seconds_since(start);
-  solution.form_factor_sums = row_sums(form_factors);
+  const std::vector<double> sums = row_sums(form_factors, per_patch);
+  solution.form_factor_sums = means_of(sums, per_patch);
   for (const double sum : solution.form_factor_sums) {
     solution.sky_shares.push_back(std::max(0.0, 1 - sum));
   }
-  add_power(*scene, solution.form_factor_sums, iteration, statistics);
+  add_power(*scene, sums, iteration, statistics);
+  if (linear) {
+    solution.linear_parts = linear_parts_of(iteration.b);
+    form_factors = factors_of_means(form_factors);
+  }
   statistics.patches = statistics.fragments = scene->patch_count();
   statistics.iterations = static_cast<int>(iteration.records.size());
   statistics.threads = thread_count(options.threads);
@@ -128,8 +174,9 @@ Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
   statistics.predicted_contraction = statistics.rho_max;
   statistics.iteration_records = std::move(iteration.records);
   solution.scene = std::move(scene);
-  solution.radiosity = std::move(iteration.b);
-  solution.irradiance = std::move(iteration.h);
+  solution.radiosity = means_of(std::move(iteration.b), per_patch);
+  solution.irradiance = means_of(std::move(iteration.h), per_patch);
+  statistics.negative_corners = negative_corners(solution);
   solution.form_factors = std::make_shared<const FormFactors>(std::move(form_factors));
   solution.complete = true;
   return solution;
@@ -143,12 +190,16 @@ void refuse_directions(const SolveOptions& options, const std::string& who) {
                      " no directions, and therefore no schemes, normalizations, replicas or "
                      "first shot");
   }
-  if (options.basis != Basis::constant) {
-    throw InputError(who + " no directions, and therefore no moments for linear functions");
-  }
   if (options.sky.set()) {
     throw InputError(who + " no directions, and cannot tell the sky from the backs of patches");
   }
+}
+
+/// Relative RMS difference of B; with linear functions, of all coefficients.
+double difference(const Solution& a, const Solution& b) {
+  return radiosity_error(coefficients_of(a.radiosity, a.linear_parts),
+                         coefficients_of(b.radiosity, b.linear_parts))
+      .rms;
 }
 
 }  // namespace
@@ -197,6 +248,9 @@ Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors
                                  const SolveOptions& options, const Cancellation& cancellation) {
   options.validate();
   refuse_directions(options, "given form factors have");
+  if (options.basis != Basis::constant) {
+    throw InputError("given form factors have no moments for linear functions");
+  }
   if (options.goal.set()) {
     throw InputError("accuracy: given form factors have none to choose");
   }
@@ -230,7 +284,7 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
     points *= 2;
     result.solution.form_factors.reset();  // the memory limit is that of one matrix
     Solution finer = solved();
-    result.error = radiosity_error(result.solution.radiosity, finer.radiosity).rms;
+    result.error = difference(result.solution, finer);
     result.solution = std::move(finer);
     result.points = points;
     result.reached = result.error <= accuracy;

@@ -70,7 +70,7 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
        name_of(solve.scheme)},
       {"basis", "a name",
        "constant: one value of B per patch; linear: a linear function on each patch, from engines "
-       "fast, local and exact",
+       "fast, local, exact and pairs",
        name_of(solve.basis)},
       {"glossy", "yes or no",
        "lobes of materials (MTL: Ks with Ns or Pr; glTF: metallic and rough) reflect too",

@@ -13,10 +13,10 @@ namespace {
 
 /// @throws InputError for what a linear basis cannot be combined with.
 void check_linear_basis(const SolveOptions& options) {
-  if (!has_moments(options.engine)) {
+  if (!has_moments(options.engine) && options.engine != Engine::pairs) {
     throw InputError(
         fmt::format("basis: linear requires the moments of exchanges, which engine {} does not "
-                    "have; choose fast, local or exact",
+                    "have; choose fast, local, exact or pairs",
                     name_of(options.engine)));
   }
   if (options.normalize == Normalization::symmetric) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "radiosity/linear_solution.h"
 #include "radiosity/ratio.h"
 #include "radiosity/solver/error_estimate.h"
 #include "radiosity/solver/solver_state.h"
@@ -33,17 +34,6 @@ void add_scene_figures(const Scene& scene, const std::vector<Rgb>& h,
   statistics.energy_balance = ratio_or_zero(absorbed, emitted);
   statistics.predicted_contraction =
       contraction_bound(statistics.rho_max, quadrature_error_bound(statistics.directions));
-}
-
-/// SolveStatistics::negative_corners.
-std::int64_t negative_corners(const Solution& solution) {
-  std::int64_t count = 0;
-  for (PatchId i = 0; i < std::ssize(solution.linear_parts); ++i) {
-    for (const Rgb& b : corner_radiosity(solution, i)) {
-      count += b.r < 0 || b.g < 0 || b.b < 0 ? 1 : 0;
-    }
-  }
-  return count;
 }
 
 }  // namespace

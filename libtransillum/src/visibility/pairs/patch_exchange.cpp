@@ -7,6 +7,7 @@
 #include "visibility/pairs/patch_exchange.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/power_of_two.h"
@@ -209,32 +210,61 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
   return true;
 }
 
-/// Adds the exchange of two polygons past blockers, by points of the smaller polygon.
-void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& blockers,
-                                 bool estimate, const std::function<void()>& tick,
-                                 PatchExchange& exchange) const {
-  const Vec3 middle_p = middle_of(facing.p), middle_q = middle_of(facing.q);
-  const double radius_p = radius_about(middle_p, facing.p);
-  const double radius_q = radius_about(middle_q, facing.q);
-  const bool p_is_smaller = radius_p < radius_q;
-  const Outline small = p_is_smaller ? facing.p : facing.q;
-  const Outline large = p_is_smaller ? facing.q : facing.p;
-  const Vec3& normal = (p_is_smaller ? facing.before_p : facing.before_q).normal;
-  const double size =
-      std::min(radius_p, radius_q) / std::max(norm(middle_p - middle_q), tolerance_);
+/// Two polygons of which the smaller one is sampled.
+struct ExchangeFinder::Sampled {
+  bool p_is_smaller;
+  Outline small, large;
+  const Vec3& normal;  ///< of `small`
+  double size;         ///< radius of `small` over the distance
+
+  Sampled(const FacingPolygons& facing, double tolerance)
+      : Sampled(facing, tolerance, middle_of(facing.p), middle_of(facing.q)) {}
+
+ private:
+  Sampled(const FacingPolygons& facing, double tolerance, const Vec3& middle_p,
+          const Vec3& middle_q)
+      : Sampled(facing, radius_about(middle_p, facing.p), radius_about(middle_q, facing.q),
+                std::max(norm(middle_p - middle_q), tolerance)) {}
+  Sampled(const FacingPolygons& facing, double radius_p, double radius_q, double distance)
+      : p_is_smaller(radius_p < radius_q),
+        small(p_is_smaller ? facing.p : facing.q),
+        large(p_is_smaller ? facing.q : facing.p),
+        normal((p_is_smaller ? facing.before_p : facing.before_q).normal),
+        size(std::min(radius_p, radius_q) / distance) {}
+};
+
+/// Calls visit(cell, size) for the parts of the sampled polygon within which what it sees of the
+/// other has no kinks; size as Sampled::size.
+template <class Visit>
+void ExchangeFinder::for_each_cell(const Sampled& sampled, const std::vector<Corners>& blockers,
+                                   Visit visit) const {
+  const double whole = norm(area_vector(sampled.small));
+  for (const Corners& cell : smooth_cells(sampled.small, sampled.large, blockers, tolerance_)) {
+    visit(cell, sampled.size * std::sqrt(norm(area_vector(cell)) / whole));
+  }
+}
+
+std::vector<Corners> ExchangeFinder::polygons_of(const Numbers& blockers) const {
   std::vector<Corners> polygons;
   for (const std::int32_t number : blockers) {
     polygons.push_back(at(blockers_, number));
   }
-  PointView view(large, polygons);
-  const double whole = norm(area_vector(small));
-  for (const Corners& cell : smooth_cells(small, large, polygons, tolerance_)) {
-    const double cell_size = size * std::sqrt(norm(area_vector(cell)) / whole);
+  return polygons;
+}
+
+/// Adds the exchange of two polygons past blockers, by points of the smaller polygon.
+void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& blockers,
+                                 bool estimate, const std::function<void()>& tick,
+                                 PatchExchange& exchange) const {
+  const Sampled sampled(facing, tolerance_);
+  const std::vector<Corners> polygons = polygons_of(blockers);
+  PointView view(sampled.large, polygons);
+  for_each_cell(sampled, polygons, [&](const Corners& cell, double cell_size) {
     const int divisions = divisions_of(cell_size);
     const auto by_points = [&](int number) {
       double sum = 0;
       for_points_of(cell, number, [&](const Vec3& x, double weight) {
-        sum += weight * view.form_factor(x, normal, tick);
+        sum += weight * view.form_factor(x, sampled.normal, tick);
       });
       return sum;
     };
@@ -246,7 +276,37 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
       exchange.error +=
           divisions == 0 ? cell_size * cell_size * area : (area - by_points(divisions / 2)) / 3;
     }
-  }
+  });
+}
+
+/// Adds the moments of two polygons past blockers, by points of the smaller polygon.
+void ExchangeFinder::add_moments(const FacingPolygons& facing, const Numbers& blockers,
+                                 const LinearBasis& of_p, const LinearBasis& of_q,
+                                 const std::function<void()>& tick, TransferMoments& sum) const {
+  const Sampled sampled(facing, tolerance_);
+  const LinearBasis& own = sampled.p_is_smaller ? of_p : of_q;
+  const LinearBasis& other = sampled.p_is_smaller ? of_q : of_p;
+  const std::vector<Corners> polygons = polygons_of(blockers);
+  PointView view(sampled.large, polygons);
+  for_each_cell(sampled, polygons, [&](const Corners& cell, double cell_size) {
+    // The rule of three points is exact for products of two functions; that of one is not. Past
+    // nothing, what the points see has no kinks: half as many in a row are enough.
+    const int divisions = divisions_of(blockers.empty() ? cell_size / 2 : cell_size);
+    for_points_of(cell, std::max(1, divisions), [&](const Vec3& x, double weight) {
+      const PointView::Moments seen = view.moments(x, sampled.normal, tick);
+      const auto own_at = own.at(x / scale_), other_at = other.at(seen.foot / scale_);
+      const std::array<double, 3> a{1, own_at[0], own_at[1]};
+      const Vec3 first = seen.first / scale_;
+      const std::array<double, 3> b{seen.one,
+                                    other_at[0] * seen.one + dot(other.gradient[0], first),
+                                    other_at[1] * seen.one + dot(other.gradient[1], first)};
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t l = 0; l < 3; ++l) {
+          (sampled.p_is_smaller ? sum.of(k, l) : sum.of(l, k)) += weight * a[k] * b[l];
+        }
+      }
+    });
+  });
 }
 
 /// Into how many parts to divide the sides of the triangles of a cell; 0: a point suffices.
@@ -289,10 +349,60 @@ PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j,
   return between(i, j, nullptr, true, tick);
 }
 
+TransferMoments ExchangeFinder::moments_between(PatchId i, PatchId j,
+                                                const std::vector<LinearBasis>& bases,
+                                                const Numbers* among,
+                                                const std::function<void()>& tick) const {
+  TransferMoments sum;
+  Numbers blockers;
+  for (const Part& p : parts_of(i)) {
+    for (const Part& q : parts_of(j)) {
+      const FacingPolygons facing(p.corners, p.front, q.corners, q.front, tolerance_);
+      if (facing.empty()) {
+        continue;
+      }
+      collect_blockers(facing, among, blockers);
+      if (blockers.empty() || !is_any_hiding(facing, blockers)) {
+        add_moments(facing, blockers, at(bases, i), at(bases, j), tick, sum);
+      }
+    }
+  }
+  for (double& value : sum.value) {
+    value /= scale_ * scale_;
+  }
+  return sum;
+}
+
+/// Calls visit(begin, end, among) for ranges of the patches j > i, in order.
+/// @param visit among: all that may block between i and these patches; null where that is not known
+template <class Visit>
+void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
+  PatchId next = i + 1;
+  Numbers blockers;
+  auto face =
+      std::upper_bound(faces_.begin(), faces_.end(), next,
+                       [](PatchId j, const MergedFace& f) { return j <= f.patches.back(); });
+  // A patch in several parts may see a face by each of them.
+  for (; face != faces_.end() && parts_of(i).size() == 1; ++face) {
+    visit(next, face->patches.front(), nullptr);
+    const Part& p = parts_of(i)[0];
+    const FacingPolygons facing(p.corners, p.front, face->outline, lit_half_space(face->outline),
+                                tolerance_);
+    if (!facing.empty()) {
+      collect_blockers(facing, nullptr, blockers);
+      if (!is_any_hiding(facing, blockers)) {
+        visit(std::max(next, face->patches.front()), face->patches.back() + 1, &blockers);
+      }
+    }
+    next = face->patches.back() + 1;
+  }
+  visit(next, scene_.patch_count(), nullptr);
+}
+
 void ExchangeFinder::for_each_after(
     PatchId i, const std::function<void()>& tick,
     const std::function<void(PatchId j, double area)>& visit) const {
-  const auto visit_pairs = [&](PatchId begin, PatchId end, const Numbers* among) {
+  for_each_range_after(i, [&](PatchId begin, PatchId end, const Numbers* among) {
     for (PatchId j = begin; j < end; ++j) {
       if (tick) {
         tick();
@@ -301,27 +411,24 @@ void ExchangeFinder::for_each_after(
         visit(j, area);
       }
     }
-  };
-  PatchId next = i + 1;
-  Numbers blockers;
-  auto face =
-      std::upper_bound(faces_.begin(), faces_.end(), next,
-                       [](PatchId j, const MergedFace& f) { return j <= f.patches.back(); });
-  // A patch in several parts may see a face by each of them.
-  for (; face != faces_.end() && parts_of(i).size() == 1; ++face) {
-    visit_pairs(next, face->patches.front(), nullptr);
-    const Part& p = parts_of(i)[0];
-    const FacingPolygons facing(p.corners, p.front, face->outline, lit_half_space(face->outline),
-                                tolerance_);
-    if (!facing.empty()) {
-      collect_blockers(facing, nullptr, blockers);
-      if (!is_any_hiding(facing, blockers)) {
-        visit_pairs(std::max(next, face->patches.front()), face->patches.back() + 1, &blockers);
+  });
+}
+
+void ExchangeFinder::for_each_moments_after(
+    PatchId i, const std::vector<LinearBasis>& bases, const std::function<void()>& tick,
+    const std::function<void(PatchId j, const TransferMoments&)>& visit) const {
+  for_each_range_after(i, [&](PatchId begin, PatchId end, const Numbers* among) {
+    for (PatchId j = begin; j < end; ++j) {
+      if (tick) {
+        tick();
+      }
+      if (const double area = between(i, j, among, false, tick).area; area > 0) {
+        TransferMoments moments = moments_between(i, j, bases, among, tick);
+        moments.of(0, 0) = area;
+        visit(j, moments);
       }
     }
-    next = face->patches.back() + 1;
-  }
-  visit_pairs(next, scene_.patch_count(), nullptr);
+  });
 }
 
 }  // namespace transillum

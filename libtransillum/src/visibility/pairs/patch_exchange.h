@@ -7,7 +7,9 @@
 
 #include "geometry/box_tree.h"
 #include "geometry/form_factor.h"
+#include "transillum/linear_basis.h"
 #include "transillum/scene.h"
+#include "transillum/transfers.h"
 #include "visibility/pairs/merged_pieces.h"
 
 namespace transillum {
@@ -51,6 +53,13 @@ class ExchangeFinder {
   /// face, and no error is estimated.
   void for_each_after(PatchId i, const std::function<void()>& tick,
                       const std::function<void(PatchId j, double area)>& visit) const;
+  /// The same with moments for a linear basis: visit(j, T^ab(i,j) over all directions), T^00 being
+  /// the area of for_each_after(), to the bit. The others are found by points of the smaller patch,
+  /// also where nothing blocks; of the larger one exactly.
+  /// @param bases of all patches
+  void for_each_moments_after(
+      PatchId i, const std::vector<LinearBasis>& bases, const std::function<void()>& tick,
+      const std::function<void(PatchId j, const TransferMoments&)>& visit) const;
   /// Form factor from an area element at x to the visible part of patch j, exact up to rounding.
   /// Polygons in whose plane x is do not block.
   /// @param x position, m.
@@ -79,6 +88,18 @@ class ExchangeFinder {
                    const std::function<void()>& tick, PatchExchange& exchange) const;
   void collect_blockers(const Vec3& x, Outline polygon, const HalfSpace& front_of,
                         Numbers& blockers) const;
+  TransferMoments moments_between(PatchId i, PatchId j, const std::vector<LinearBasis>& bases,
+                                  const Numbers* among, const std::function<void()>& tick) const;
+  void add_moments(const FacingPolygons& facing, const Numbers& blockers, const LinearBasis& of_p,
+                   const LinearBasis& of_q, const std::function<void()>& tick,
+                   TransferMoments& sum) const;
+  struct Sampled;
+  template <class Visit>
+  void for_each_cell(const Sampled& sampled, const std::vector<Corners>& blockers,
+                     Visit visit) const;
+  std::vector<Corners> polygons_of(const Numbers& blockers) const;
+  template <class Visit>
+  void for_each_range_after(PatchId i, Visit visit) const;
   int divisions_of(double size) const;
   PatchExchange between(PatchId i, PatchId j, const Numbers* among, bool estimate,
                         const std::function<void()>& tick) const;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/point_moments.h"
+
 namespace transillum {
 namespace {
 
@@ -48,9 +50,34 @@ PointView::PointView(Outline polygon, std::span<const Corners> blockers)
 
 double PointView::form_factor(const Vec3& x, const Vec3& normal,
                               const std::function<void()>& tick) {
+  return see(frame_.coordinates(x), tick) ? visible_form_factor(frame_.turned(normal)) : 0;
+}
+
+PointView::Moments PointView::moments(const Vec3& x, const Vec3& normal,
+                                      const std::function<void()>& tick) {
+  Moments moments;
   const Vec3 at = frame_.coordinates(x);
+  if (!see(at, tick)) {
+    return moments;
+  }
+  const Vec3 turned = frame_.turned(normal);
+  moments.one = visible_form_factor(turned);
+  double u = 0, v = 0;
+  region_.for_each([&](std::span<const PlaneRegion::Point> part) {
+    const PointMoments of_part = point_moments(turned, part);
+    u += of_part.u;
+    v += of_part.v;
+  });
+  moments.foot = x - at.z * frame_.depth;
+  moments.first = -at.z * (u * frame_.u + v * frame_.v);
+  return moments;
+}
+
+/// Makes region_ the visible part, at distance 1 from a point. Returns whether there is any.
+/// @param at the point, in coordinates of frame_
+bool PointView::see(const Vec3& at, const std::function<void()>& tick) {
   if (at.z >= 0) {
-    return 0;
+    return false;
   }
   projected_.clear();
   for (const Vec3& corner : polygon_) {
@@ -63,11 +90,14 @@ double PointView::form_factor(const Vec3& x, const Vec3& normal,
     }
     subtract(blocker, at);
     if (region_.empty()) {
-      return 0;
+      return false;
     }
   }
+  return true;
+}
+
+double PointView::visible_form_factor(const Vec3& turned) const {
   double sum = 0;
-  const Vec3 turned = frame_.turned(normal);
   region_.for_each([&](std::span<const PlaneRegion::Point> part) {
     Corners lifted;
     for (const PlaneRegion::Point& p : part) {

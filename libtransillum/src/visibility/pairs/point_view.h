@@ -38,7 +38,17 @@ class PointView {
   /// @param tick if set, called for each blocker; may throw to abandon the query.
   double form_factor(const Vec3& x, const Vec3& normal, const std::function<void()>& tick = {});
 
+  /// The form factor, and the same integral with the place on the polygon as a factor.
+  struct Moments {
+    double one = 0;  ///< form_factor(), the same bits
+    Vec3 foot;       ///< the point of the polygon's plane that is nearest to x
+    Vec3 first;      ///< integral of y - foot, y being the points of the visible part
+  };
+  Moments moments(const Vec3& x, const Vec3& normal, const std::function<void()>& tick = {});
+
  private:
+  bool see(const Vec3& at, const std::function<void()>& tick);
+  double visible_form_factor(const Vec3& turned) const;
   void subtract(const Corners& blocker, const Vec3& x);
 
   ViewFrame frame_;  ///< origin in the polygon's plane, depth against its normal
