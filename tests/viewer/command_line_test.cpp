@@ -60,6 +60,31 @@ class CommandLineTest : public QObject {
     QCOMPARE(directions({"--after", "5"}), SolveOptions{}.directions);
   }
 
+  void a_screenshot_of_a_coarse_scene_is_soft_unless_told() {
+    const auto parsed = [](std::vector<const char*> words) {
+      words.insert(words.begin(), {"--screenshot", "a.png"});
+      return parse(std::move(words)).parsed.command_line;
+    };
+    for (const char* scene : {"cornell-box", "rooms:rooms=2"}) {
+      const CommandLine soft = parsed({scene, "--threads", "1"});
+      QVERIFY(soft.solve_options.basis == Basis::linear);
+      QVERIFY(soft.input.patches >= 1000);
+      QCOMPARE(soft.solve_options.directions, 1024);
+    }
+    const std::vector<std::vector<const char*>> others{{"furnace"},
+                                                       {"room.obj"},
+                                                       {"cornell-box", "-m", "64"},
+                                                       {"cornell-box", "--max-patch-area", "1"},
+                                                       {"cornell-box", "--after", "3"}};
+    for (const auto& words : others) {
+      const CommandLine line = parsed(words);
+      QVERIFY(line.solve_options.basis == Basis::constant);
+      QCOMPARE(line.input.patches, std::int64_t{0});
+    }
+    const ParsedCommandLine window = parse({"cornell-box"}).parsed;
+    QVERIFY(window.command_line.solve_options.basis == Basis::constant);
+  }
+
   void options_of_scenes() {
     const Outcome outcome = parse(
         {"room.obj", "--default-reflectance", "0.25", "--max-reflectance", "0.9", "--units", "cm",

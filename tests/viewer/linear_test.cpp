@@ -148,6 +148,42 @@ class LinearTest : public QObject {
   Q_OBJECT
 
  private slots:
+  // What somebody sees first who has chosen nothing.
+  void cards_of_coarse_scenes_open_soft() {
+    auto window = make_window(64);
+    const auto open_card = [&](const char* name) {
+      window->findChild<QPushButton*>(QStringLiteral("built_in_%1").arg(name))->click();
+      return wait_for([&] {
+        return window->snapshot() && window->parts().scene.spec() == name &&
+               window->snapshot()->progress.finished && window->settled();
+      });
+    };
+    const auto basis = [&] { return window->snapshot()->options.basis; };
+    const auto patches = [&] { return window->snapshot()->loaded->scene->patch_count(); };
+    QVERIFY(open_card("cornell-box"));
+    QVERIFY(basis() == Basis::linear);
+    QVERIFY2(patches() > 700 && patches() < 1300, qPrintable(QString::number(patches())));
+    QVERIFY(!window->parts().settings.differ_from_effect());
+    QVERIFY(!window->findChild<ColorControls*>()->outlines());
+    save_picture(*window, "soft-cornell-box");
+    // Linear functions were chosen for that scene, not by the user.
+    QVERIFY(open_card("furnace"));
+    QVERIFY(basis() == Basis::constant);
+    QCOMPARE(patches(), 12);
+    // Settings that exclude linear functions stay.
+    SolveOptions local = window->parts().settings.solve_options();
+    local.engine = Engine::zbuffer;
+    window->set_options(local, {});
+    QVERIFY(open_card("cornell-box"));
+    QVERIFY(basis() == Basis::constant);
+    QVERIFY(window->snapshot()->options.engine == Engine::zbuffer);
+    // What the user has chosen stays.
+    window->set_options({.directions = 16, .basis = Basis::linear}, {});
+    QVERIFY(open_card("rooms"));
+    QVERIFY(open_card("furnace"));
+    QVERIFY(basis() == Basis::linear);
+  }
+
   void every_pixel_has_the_color_of_its_point_data() {
     QTest::addColumn<int>("mode");
     QTest::addColumn<int>("map");

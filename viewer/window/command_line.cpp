@@ -2,8 +2,10 @@
 #include "window/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/material_changes.h"
+#include "window/first_look.h"
 
 namespace transillum::viewer {
 
@@ -18,6 +21,8 @@ namespace {
 
 /// Directions of a solve for a screenshot: an error of about a percent, within seconds.
 constexpr int screenshot_directions = 128;
+/// With linear functions, which show what single directions miss as wrong slopes.
+constexpr int soft_directions = 1024;
 
 // As the command line keeps them, before names become enumerators.
 struct Names {
@@ -205,6 +210,28 @@ void check_output(const std::string& option, const std::string& file, const std:
   }
 }
 
+/// Whether none but these options is given.
+bool has_only(const CLI::App& app, const std::set<std::string>& names) {
+  const auto options = app.get_options();
+  return std::all_of(options.begin(), options.end(), [&](const CLI::Option* option) {
+    return option->count() == 0 || names.count(option->get_name()) > 0;
+  });
+}
+
+/// What a screenshot shows unless options say otherwise.
+void choose_look(CommandLine& line, const CLI::App& app) {
+  SolveOptions& solve = line.solve_options;
+  if (app.count("--directions") + app.count("--after") == 0) {
+    solve.directions = screenshot_directions;
+  }
+  const std::int64_t patches = soft_patches(line.scene);
+  if (patches > 0 && has_only(app, {"SCENE", "--screenshot", "--threads", "--memory"})) {
+    line.input.patches = patches;
+    solve.basis = Basis::linear;
+    solve.directions = soft_directions;
+  }
+}
+
 void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   SolveOptions& solve = line.solve_options;
   solve.engine = engine_from_name(names.engine);
@@ -229,8 +256,8 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   if (names.burn_in != "auto") {
     solve.burn_in = std::stoi(names.burn_in);
   }
-  if (app.count("--screenshot") > 0 && app.count("--directions") + app.count("--after") == 0) {
-    solve.directions = screenshot_directions;
+  if (app.count("--screenshot") > 0) {
+    choose_look(line, app);
   }
   solve.validate();
   if (line.refine.set()) {

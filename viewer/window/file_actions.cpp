@@ -28,6 +28,7 @@
 #include "widgets/save_dialog.h"
 #include "widgets/theme.h"
 #include "window/dock_layouts.h"
+#include "window/first_look.h"
 #include "window/notifier.h"
 #include "window/reading_dialog.h"
 #include "window/view_state_applier.h"
@@ -208,10 +209,38 @@ void FileActions::open(const QString& path, std::optional<Goal> goal, const Scen
 
 void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& input,
                              bool as_given) {
+  if (parts_.guard.may_lose(&parts_.window, tr("Open"))) {
+    leave_scene(spec);
+    load_scene(spec, goal, input, as_given);
+  }
+}
+
+void FileActions::open_built_in(const QString& name) {
   if (!parts_.guard.may_lose(&parts_.window, tr("Open"))) {
     return;
   }
+  leave_scene(name);
+  SceneInput input;
+  if (name.toStdString() != parts_.scene.spec()) {
+    input.patches = soft_patches(name.toStdString());
+  }
+  if (input.patches > 0 && parts_.settings.solve_options().basis == Basis::constant) {
+    basis_is_of_card_ = choose_basis(Basis::linear);
+  }
+  load_scene(name, {Goal::Kind::finished}, input, false);
+}
+
+/// Takes back what was set for the open scene alone.
+/// @param next what is opened instead
+void FileActions::leave_scene(const QString& next) {
   applier_.leave_lesson();
+  if (next.toStdString() != parts_.scene.spec() && std::exchange(basis_is_of_card_, false)) {
+    choose_basis(Basis::constant);
+  }
+}
+
+void FileActions::load_scene(const QString& spec, Goal goal, const SceneInput& input,
+                             bool as_given) {
   RunOptions options = parts_.settings.options();
   options.input = input;
   const QString path = QFileInfo(spec).absoluteFilePath();
@@ -232,6 +261,19 @@ void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& i
     options.refine = {};
   }
   parts_.scene.open(spec.toStdString(), options, goal);
+}
+
+/// @returns whether the other settings allow it
+bool FileActions::choose_basis(Basis basis) {
+  SolveOptions solve = parts_.settings.solve_options();
+  solve.basis = basis;
+  try {
+    solve.validate();
+  } catch (const InputError&) {
+    return false;
+  }
+  parts_.settings.set_options(solve, parts_.settings.scene_options());
+  return true;
 }
 
 /// Lobes take part in the built-in scene that is about them, where the other settings allow it; in

@@ -50,6 +50,10 @@ class FileActions : public QObject {
   /// of these do.
   void open_scene(const QString& spec, Goal goal = {Goal::Kind::finished},
                   const SceneInput& input = {}, bool as_given = false);
+  /// open_scene() for the card of a built-in scene: if it is not the open one, and its faces are
+  /// large, they are divided and get linear functions (first_look.h), where the other settings
+  /// allow these.
+  void open_built_in(const QString& name);
   /// Shows a page of a lesson.
   /// @param which a file, or the number of a built-in lesson, from 1
   /// @param page from 1
@@ -78,6 +82,9 @@ class FileActions : public QObject {
 
  private:
   void choose_lobes(const QString& spec, SolveOptions& solve);
+  bool choose_basis(Basis basis);
+  void leave_scene(const QString& next);
+  void load_scene(const QString& spec, Goal goal, const SceneInput& input, bool as_given);
   void make_actions();
   void make_reading_bar();
   /// Asks how the open scene's file is read, and reads it so.
@@ -96,7 +103,8 @@ class FileActions : public QObject {
   WindowSession& session_;
   QAction *open_, *save_session_, *reload_, *watch_, *reading_;
   ReadingMemory reading_memory_;
-  QString recalled_;  ///< the file that is opened as it was read before; empty: none
+  bool basis_is_of_card_ = false;  ///< linear functions were set by open_built_in()
+  QString recalled_;               ///< the file that is opened as it was read before; empty: none
   QMenu* recent_menu_;
   QStringList recent_;
   QFileSystemWatcher watcher_;

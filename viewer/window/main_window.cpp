@@ -203,8 +203,7 @@ void MainWindow::make_whole_window_actions() {
   });
   connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
   connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
-  connect(page_, &ScenePage::built_in_clicked, files_,
-          [this](const QString& name) { files_->open_scene(name); });
+  connect(page_, &ScenePage::built_in_clicked, files_, &FileActions::open_built_in);
   QUndoStack& undo_stack = state_.relighting.edits().undo_stack();
   state_.breakpoints.set_undo_stack(&undo_stack);
   state_.watches.set_undo_stack(&undo_stack);

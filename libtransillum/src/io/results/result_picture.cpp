@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // A picture of a result as a point sees it: each pixel has the radiance of the patch that the rays
-// through it meet first, four to a pixel.
+// through it meet first, four to a pixel; with linear functions, at the points that they meet.
 #include <fmt/format.h>
 #include <png.h>
 
@@ -20,6 +20,7 @@
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/glossy.h"
+#include "transillum/linear_basis.h"
 #include "transillum/picking.h"
 
 namespace transillum {
@@ -71,15 +72,40 @@ Camera camera_of(const Scene& scene, const Vec3& eye, const DisplayOptions& disp
 }
 
 /// pi times the radiance toward the eye: that of a diffuse patch is B.
-std::vector<Rgb> shown_light(const Solution& solution) {
-  if (!solution.glossy) {
-    return solution.radiosity;
+class ShownLight {
+ public:
+  explicit ShownLight(const Solution& solution)
+      : means_(solution.radiosity), parts_(solution.linear_parts) {
+    if (solution.glossy) {
+      means_ = solution.glossy->radiance_toward(*solution.eye);
+      for (Rgb& value : means_) {
+        value = std::numbers::pi * value;
+      }
+    } else if (!parts_.empty()) {
+      bases_ = linear_bases(*solution.scene);
+    }
   }
-  std::vector<Rgb> light = solution.glossy->radiance_toward(*solution.eye);
-  for (Rgb& value : light) {
-    value = std::numbers::pi * value;
+
+  /// At a point of a patch; a linear function may be below 0 there.
+  Rgb at_point(PatchId i, const Vec3& point) const {
+    Rgb light = at(means_, i);
+    if (!bases_.empty()) {
+      const auto [first, second] = at(bases_, i).at(point);
+      light += first * at(parts_, i).first + second * at(parts_, i).second;
+    }
+    return light;
   }
-  return light;
+
+ private:
+  std::vector<Rgb> means_;
+  const std::vector<LinearPart>& parts_;
+  std::vector<LinearBasis> bases_;
+};
+
+/// A color that can be shown: not below 0, and of the same hue where it is too bright.
+Rgb limited(const Rgb& color) {
+  const Rgb shown{std::max(color.r, 0.0), std::max(color.g, 0.0), std::max(color.b, 0.0)};
+  return 1 / std::max({shown.r, shown.g, shown.b, 1.0}) * shown;
 }
 
 }  // namespace
@@ -91,7 +117,7 @@ void write_result_png(std::ostream& out, const Solution& solution, const Display
         fmt::format("{}: a picture needs the point that it is seen from", scene.name()));
   }
   const Camera camera = camera_of(scene, *solution.eye, display);
-  const std::vector<Rgb> light = shown_light(solution);
+  const ShownLight light(solution);
   const double exposure = exposure_of(solution, display);
   const Picker picker(solution.scene);
   std::vector<unsigned char> pixels(3 * picture_width * picture_height);
@@ -101,13 +127,11 @@ void write_result_png(std::ostream& out, const Solution& solution, const Display
       Rgb sum;
       for (int k = 0; k < rays_per_side * rays_per_side; ++k) {
         const auto part = [](int n) { return (n + 0.5) / rays_per_side; };
-        const auto hit = picker.first_lit_hit(
-            camera.eye, camera.toward(static_cast<double>(column) + part(k % rays_per_side),
-                                      static_cast<double>(row) + part(k / rays_per_side)));
-        if (hit) {
-          // Limited ray by ray, so that the edges of lamps are smooth; the hue remains.
-          const Rgb color = exposure * at(light, hit->patch);
-          sum += 1 / std::max({color.r, color.g, color.b, 1.0}) * color;
+        const Vec3 ray = camera.toward(static_cast<double>(column) + part(k % rays_per_side),
+                                       static_cast<double>(row) + part(k / rays_per_side));
+        if (const auto hit = picker.first_lit_hit(camera.eye, ray)) {
+          // Ray by ray, so that the edges of lamps are smooth.
+          sum += limited(exposure * light.at_point(hit->patch, hit->point));
         }
       }
       const Rgb mean = 1.0 / (rays_per_side * rays_per_side) * sum;

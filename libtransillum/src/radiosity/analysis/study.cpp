@@ -331,10 +331,14 @@ std::vector<std::string> names_of(std::span<const StudySeries> series) {
                         return ratio ? "first-shot " + name_of_first_shot(ratio)
                                      : std::string("no-shot");
                       });
+  const bool bases_differ = std::any_of(series.begin(), series.end(), [&](const StudySeries& s) {
+    return s.basis != series[0].basis;
+  });
   for (std::size_t k = 0; k < series.size(); ++k) {
     // The other options do not affect engines without directions.
     if (!takes_directions(series[k].engine)) {
       names[k] = engine_text(series[k].engine, series[k].resolution);
+      names[k] += bases_differ ? "/" + name_of(series[k].basis) : "";
     }
   }
   return names;
