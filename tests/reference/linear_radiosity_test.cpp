@@ -196,6 +196,55 @@ TEST(LinearConvergence, IsOfSecondOrderWhereLightIsSmooth) {
   EXPECT_LT(8 * fine, fine_steps);
 }
 
+/// Oracle 5: a patch cut by hand gets the same function. Where it receives only from lamps, the
+/// functions of the parts, projected onto those of the whole, are its function.
+TEST(LinearInvariance, APatchCutByHandHasTheSameFunction) {
+  const auto scene = [](bool cut) {
+    Sketch sketch;
+    const int lamp = sketch.material(0, 1), black = sketch.material(0, 0),
+              gray = sketch.material(0.5, 0);
+    sketch.face({{0.2, 0.2, 1}, {0.2, 0.9, 1}, {1.4, 0.9, 1}, {1.4, 0.2, 1}}, lamp);
+    sketch.face({{1, 0.3, 0.4}, {2, 0.3, 0.6}, {1.5, 1, 0.5}}, black);
+    if (cut) {
+      sketch.face({{0, 0, 0}, {1.3, 0, 0}, {0.7, 1, 0}, {0, 1, 0}}, gray);
+      sketch.face({{1.3, 0, 0}, {2, 0, 0}, {0.7, 1, 0}}, gray);
+      sketch.face({{2, 0, 0}, {2, 1, 0}, {0.7, 1, 0}}, gray);
+    } else {
+      sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, gray);
+    }
+    return sketch.scene();
+  };
+  constexpr PatchId first = 2;
+  const Solution whole = solve(scene(false), linear(500)), parts = solve(scene(true), linear(500));
+  const LinearBasis basis = linear_basis(*whole.scene, first);
+  std::array<double, 3> projected{};
+  for (PatchId k = first; k < parts.scene->patch_count(); ++k) {
+    // ∫ B phi_a over the triangles of a part, by the midpoints of their edges: exact for products
+    // of linear functions.
+    const LinearBasis own = linear_basis(*parts.scene, k);
+    const auto outline = parts.scene->outline(k);
+    for (std::size_t c = 2; c < outline.size(); ++c) {
+      const Vec3 &p = parts.scene->point(outline[0]), &q = parts.scene->point(outline[c - 1]),
+                 &r = parts.scene->point(outline[c]);
+      const double weight = norm(cross(q - p, r - p)) / 2 / 3;
+      for (const Vec3& x : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) {
+        const auto psi = own.at(x), phi = basis.at(x);
+        const double b = at(parts.radiosity, k).r + psi[0] * at(parts.linear_parts, k).first.r +
+                         psi[1] * at(parts.linear_parts, k).second.r;
+        projected[0] += weight * b;
+        projected[1] += weight * b * phi[0];
+        projected[2] += weight * b * phi[1];
+      }
+    }
+  }
+  const double area = whole.scene->patch(first).area;
+  EXPECT_NEAR(projected[0] / area, at(whole.radiosity, first).r, 1e-12);
+  EXPECT_NEAR(projected[1] / area, at(whole.linear_parts, first).first.r, 1e-12);
+  EXPECT_NEAR(projected[2] / area, at(whole.linear_parts, first).second.r, 1e-12);
+  EXPECT_GT(std::abs(at(whole.linear_parts, first).first.r), 0.01);
+  EXPECT_GT(std::abs(at(whole.linear_parts, first).second.r), 0.001);
+}
+
 /// Half of a patch below a screen: the Galerkin projection of a step. B falls below 0 at the dark
 /// end, is kept so, and is counted.
 TEST(LinearCorners, BelowZeroAreKeptAndCounted) {

@@ -162,7 +162,7 @@ class LinearTest : public QObject {
     const auto patches = [&] { return window->snapshot()->loaded->scene->patch_count(); };
     QVERIFY(open_card("cornell-box"));
     QVERIFY(basis() == Basis::linear);
-    QVERIFY2(patches() > 700 && patches() < 1300, qPrintable(QString::number(patches())));
+    QVERIFY2(patches() > 1200 && patches() < 1800, qPrintable(QString::number(patches())));
     QVERIFY(!window->parts().settings.differ_from_effect());
     QVERIFY(!window->findChild<ColorControls*>()->outlines());
     save_picture(*window, "soft-cornell-box");
