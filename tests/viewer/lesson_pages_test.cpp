@@ -802,6 +802,17 @@ class LessonPagesTest : public QObject {
     };
     QVERIFY2(mean_jump(tilted) < 0.7 * mean_jump(flat),
              qPrintable(QString("%1, %2").arg(mean_jump(tilted)).arg(mean_jump(flat))));
+    // "Click the patch": the right one is in sight, and has neighbors in its plane.
+    const Picker picker(steps.scene);
+    const Vec3 eye = steps.page.state.camera->eye;
+    QVERIFY(jumps.page.state.camera->eye == eye);
+    for (const Solution* solution : {&flat, &tilted}) {
+      const std::vector<double> values = radiosity_jumps(*solution);
+      const auto worst =
+          static_cast<PatchId>(std::max_element(values.begin(), values.end()) - values.begin());
+      const auto hit = picker.first_lit_hit(eye, steps.scene->patch(worst).center - eye);
+      QVERIFY2(hit && hit->patch == worst, qPrintable(QString::number(worst)));
+    }
     // "In the dark it goes below zero".
     QVERIFY(shadows.solution().statistics.negative_corners > 0);
     // Page 5: fewer patches with linear functions are better than more constant ones.
