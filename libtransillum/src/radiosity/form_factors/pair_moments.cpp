@@ -3,8 +3,8 @@
 // The matrix of engine pairs for a linear basis. Input: the moments of each pair of patches, once.
 #include "radiosity/form_factors/pair_moments.h"
 
+#include "base/memory_limit.h"
 #include "radiosity/form_factors/form_factor_rows.h"
-#include "radiosity/memory_limit.h"
 #include "transillum/at.h"
 #include "transillum/linear_basis.h"
 #include "visibility/pairs/patch_exchange.h"
