@@ -135,10 +135,10 @@ class WindowTest : public QObject {
     QTest::keyClick(quantity->view(), Qt::Key_Down);
     QTest::keyClick(quantity->view(), Qt::Key_Return);
     QVERIFY(wait_for([&] { return !quantity->view()->isVisible(); }));
-    QVERIFY(solved.window->colors.quantity() == Quantity::exitance);
+    QVERIFY(solved.window->colors.quantity() == Quantity::eye_radiance);
     QVERIFY(wait_for([&] { return solved.scene_view->canvas()->hasFocus(); }, 3000));
     QTest::keyClicks(QApplication::focusWidget(), "see");
-    QVERIFY(solved.window->colors.quantity() == Quantity::exitance);
+    QVERIFY(solved.window->colors.quantity() == Quantity::eye_radiance);
   }
 
   void an_empty_color_bar_takes_no_space() {

@@ -167,7 +167,7 @@ struct SolveProgress {
   /// What is under way. With lobes (GlossySolver), these are scaled before the first iteration, and
   /// reflect in each after its passes.
   enum class Stage { passes, scaling_lobes, reflecting };
-  Stage stage = Stage::passes;
+  Stage stage = Stage::passes;  ///< the present one
   double stage_share = 0;       ///< finished share of a stage of lobes, 0 to 1
   double lobes_per_second = 0;  ///< in a stage of lobes; one is a shape and orientation
 };
