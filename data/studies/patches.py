@@ -44,6 +44,54 @@ Kd 0 0 0
 Ke 1 1 1
 """
 
+# The room of the cornell-box with nothing in it: a box of 0.55 by 0.55 by 0.56 m, whose ceiling
+# surrounds the lamp.
+ROOM = """mtllib empty-box.mtl
+v 0 0 0
+v 0.55 0 0
+v 0 0.55 0
+v 0.55 0.55 0
+v 0 0 0.56
+v 0.55 0 0.56
+v 0 0.55 0.56
+v 0.55 0.55 0.56
+v 0.213 0.55 0
+v 0.343 0.55 0
+v 0.213 0.55 0.56
+v 0.343 0.55 0.56
+v 0.213 0.55 0.227
+v 0.343 0.55 0.227
+v 0.213 0.55 0.332
+v 0.343 0.55 0.332
+usemtl white
+f 1 5 6 2
+f 5 7 8 6
+f 3 9 11 7
+f 10 4 8 12
+f 9 10 14 13
+f 15 16 12 11
+usemtl green
+f 1 3 7 5
+usemtl red
+f 2 6 8 4
+usemtl black
+f 1 2 4 3
+usemtl light
+f 13 14 16 15
+"""
+ROOM_MATERIALS = """newmtl white
+Kd 0.725 0.71 0.68
+newmtl green
+Kd 0.14 0.45 0.091
+newmtl red
+Kd 0.63 0.065 0.05
+newmtl black
+Kd 0 0 0
+newmtl light
+Kd 0 0 0
+Ke 17 12 4
+"""
+
 
 def solved(program, scene, options, out):
     subprocess.run([program, "solve", scene, "--quiet", "--out", out, *map(str, options)], check=True)
@@ -80,6 +128,10 @@ def measure(program):
         areas = [1, 0.25, 0.0625, 0.015625]
         rows += study(program, folder / "square.obj", "square", 32768, ["--max-patch-area", 0.004],
                       [("even", ["--max-patch-area", a]) for a in areas], folder)
+        (folder / "empty-box.obj").write_text(ROOM)
+        (folder / "empty-box.mtl").write_text(ROOM_MATERIALS)
+        rows += study(program, folder / "empty-box.obj", "empty-box", 16384, ["--patches", 1600],
+                      [("even", ["--patches", n]) for n in (25, 50, 100, 200, 400)], folder)
         counts = [50, 100, 200, 400, 800]
         for scene in ("cornell-box", "rooms:rooms=1,n=0"):
             runs = [("even", ["--patches", n]) for n in (*counts, 1600)]
@@ -98,6 +150,7 @@ EXPONENTS = {"constant": 1, "linear": 2}  # of h, where B is smooth
 DASHES = {"even": "", "jump": "7 4", "error": "2 4"}
 TITLES = {
     "square": "A square below a lamp, without shadow edges",
+    "empty-box": "The room of the cornell-box, empty: without shadow edges",
     "cornell-box": "cornell-box",
     "rooms": "An empty room",
 }
