@@ -438,6 +438,22 @@ class LinearTest : public QObject {
     QVERIFY(window->snapshot()->linear_parts[4].first == slope);
   }
 
+  void changed_light_is_constant_on_patches_and_says_so() {
+    const LinearWindow shown;
+    QVERIFY(shown.ready);
+    shown.window->selection.select(4);
+    MaterialEdits& edits = shown.window->relighting.edits();
+    edits.set_exitance("face:4", {1, 1, 1});
+    QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
+    QVERIFY(shown.window->snapshot()->linear_parts.empty() && !shown.window->colors.linear());
+    const auto* note = shown.part<QLabel>("material_account");
+    QVERIFY(!note->isHidden());
+    QVERIFY2(note->text().startsWith("Changed light is constant on each patch"),
+             qPrintable(note->text()));
+    edits.undo_stack().undo();
+    QVERIFY(wait_for([&] { return shown.window->colors.linear(); }));
+  }
+
   void a_kept_constant_run_is_compared_as_a_function() {
     const SolvedWindow shown("cornell-box");
     QVERIFY(shown.ready);
