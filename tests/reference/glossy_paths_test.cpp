@@ -283,7 +283,7 @@ Problem shining_floor() {
   return {std::make_shared<const Scene>(d)};
 }
 
-/// A metal box in a room of which one wall shines.
+/// A metal box in a room with one glossy wall.
 Problem metal_box() {
   Sketch sketch("metal box");
   const int wall = sketch.material(0.5, 0), lamp = sketch.material(0, 3);

@@ -130,7 +130,7 @@ class GlossyTest : public QObject {
     QVERIFY(wait_for([&] { return w.shows_radiance_toward_camera(); }));
     QVERIFY(w.window->colors.values() != before);
     QCOMPARE(w.window->colors.scale().exposure, exposure);
-    // A range is widened while the camera moves, not fitted anew.
+    // A range is widened while the camera moves, not fitted again.
     w.window->colors.set_mode(ColorMode::luminance);
     const double low = w.window->colors.scale().low, high = w.window->colors.scale().high;
     for (int k = 0; k < 5; ++k) {

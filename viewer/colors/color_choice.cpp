@@ -365,7 +365,7 @@ void ColorChoice::fit_range() {
     return;
   }
   const double low = scale_.low, high = scale_.high;
-  // While only the camera moves, the range is not fitted anew, so that colors stay comparable.
+  // While only the camera moves, the range is not fitted again, so that colors stay comparable.
   const auto light = traits.by_eye ? eye_radiance_.radiance() : nullptr;
   const bool same_light = light && light->light == light_of_range_ && range_is_known_;
   light_of_range_ = light ? light->light : nullptr;
