@@ -360,7 +360,7 @@ void expect_agreement(const Problem& problem, int directions, int paths) {
 }
 
 TEST(GlossyPaths, AgreeInARoomWithAShiningFloor) {
-  expect_agreement(shining_floor(), 2048, 50'000);
+  expect_agreement(shining_floor(), 2048, 200'000);
 }
 TEST(GlossyPaths, AgreeWithAMetalBox) { expect_agreement(metal_box(), 2048, 50'000); }
 TEST(GlossyPaths, AgreeUnderASky) { expect_agreement(outside(), 2048, 50'000); }
