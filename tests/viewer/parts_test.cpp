@@ -118,7 +118,7 @@ class PartsTest : public QObject {
              qPrintable(lines[0]));
     for (const QString& line : lines.mid(1, 4)) {
       const QStringList cells = line.split(',');
-      const PartPower& part =
+      const PartPower part =  // no reference: GCC 14 takes it for one to the argument
           part_of(table, cells[0] == "(no group)" ? "" : cells[0].toStdString());
       QCOMPARE(cells[1].toLongLong(), part.patches);
       QCOMPARE(cells[2].toDouble(), part.area);
