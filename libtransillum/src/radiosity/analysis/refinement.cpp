@@ -24,6 +24,9 @@ namespace {
 
 /// Number of patches after a round, over that before it, at most.
 constexpr double growth = 2;
+/// Share of the sum of all squares that is not worth dividing for: where a few patches have all the
+/// rest, the others are left alone, though there would be room.
+constexpr double negligible = 1e-3;
 
 /// Integral of |B|² over patch i.
 double square_integral(const Solution& solution, PatchId i) {
@@ -126,13 +129,16 @@ std::vector<PatchId> worst(const Scene& scene, const std::vector<double>& square
   std::stable_sort(order.begin(), order.end(),
                    [&](PatchId a, PatchId b) { return at(squares, a) > at(squares, b); });
   std::int64_t count = scene.patch_count();
+  const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+  double left = sum;
   std::vector<PatchId> chosen;
   for (const PatchId i : order) {
     const int more = division_count(scene, i) - 1;
-    if (!(at(squares, i) > 0) || count + more > most) {
+    if (!(at(squares, i) > 0) || !(left > negligible * sum) || count + more > most) {
       break;
     }
     count += more;
+    left -= at(squares, i);
     chosen.push_back(i);
   }
   return chosen;
