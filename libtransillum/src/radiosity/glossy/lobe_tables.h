@@ -25,7 +25,7 @@ struct LobeTable {
   double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< as GlossyFigures
 };
 
-/// What is told of work that takes long: the finished share, 0 to 1, and the number of tables in
+/// Reports on long work: the finished share, 0 to 1, and the number of tables in
 /// all. On the calling thread.
 using LobeReport = std::function<void(double, std::size_t)>;
 

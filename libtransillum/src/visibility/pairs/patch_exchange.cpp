@@ -318,27 +318,34 @@ int ExchangeFinder::divisions_of(double size) const {
              : static_cast<int>(std::clamp(std::ceil(ideal), 1.0, 2 * std::max(density_, 1.0)));
 }
 
-PatchExchange ExchangeFinder::between(PatchId i, PatchId j, const Numbers* among, bool estimate,
-                                      const std::function<void()>& tick) const {
-  PatchExchange exchange;
+template <class Visit>
+void ExchangeFinder::for_each_facing(PatchId i, PatchId j, const Numbers* among,
+                                     Visit visit) const {
   Numbers blockers;
   for (const Part& p : parts_of(i)) {
     for (const Part& q : parts_of(j)) {
       const FacingPolygons facing(p.corners, p.front, q.corners, q.front, tolerance_);
-      if (facing.empty()) {
-        continue;
-      }
-      collect_blockers(facing, among, blockers);
-      if (blockers.empty()) {
-        exchange.area += polygon_exchange(facing);
-        continue;
-      }
-      exchange.whole = false;
-      if (!is_any_hiding(facing, blockers)) {
-        add_partial(facing, blockers, estimate, tick, exchange);
+      if (!facing.empty()) {
+        collect_blockers(facing, among, blockers);
+        visit(facing, blockers);
       }
     }
   }
+}
+
+PatchExchange ExchangeFinder::between(PatchId i, PatchId j, const Numbers* among, bool estimate,
+                                      const std::function<void()>& tick) const {
+  PatchExchange exchange;
+  for_each_facing(i, j, among, [&](const FacingPolygons& facing, Numbers& blockers) {
+    if (blockers.empty()) {
+      exchange.area += polygon_exchange(facing);
+      return;
+    }
+    exchange.whole = false;
+    if (!is_any_hiding(facing, blockers)) {
+      add_partial(facing, blockers, estimate, tick, exchange);
+    }
+  });
   exchange.area /= scale_ * scale_;
   exchange.error /= scale_ * scale_;
   return exchange;
@@ -354,19 +361,11 @@ TransferMoments ExchangeFinder::moments_between(PatchId i, PatchId j,
                                                 const Numbers* among,
                                                 const std::function<void()>& tick) const {
   TransferMoments sum;
-  Numbers blockers;
-  for (const Part& p : parts_of(i)) {
-    for (const Part& q : parts_of(j)) {
-      const FacingPolygons facing(p.corners, p.front, q.corners, q.front, tolerance_);
-      if (facing.empty()) {
-        continue;
-      }
-      collect_blockers(facing, among, blockers);
-      if (blockers.empty() || !is_any_hiding(facing, blockers)) {
-        add_moments(facing, blockers, at(bases, i), at(bases, j), tick, sum);
-      }
+  for_each_facing(i, j, among, [&](const FacingPolygons& facing, Numbers& blockers) {
+    if (blockers.empty() || !is_any_hiding(facing, blockers)) {
+      add_moments(facing, blockers, at(bases, i), at(bases, j), tick, sum);
     }
-  }
+  });
   for (double& value : sum.value) {
     value /= scale_ * scale_;
   }

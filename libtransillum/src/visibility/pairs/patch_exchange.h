@@ -101,6 +101,9 @@ class ExchangeFinder {
   template <class Visit>
   void for_each_range_after(PatchId i, Visit visit) const;
   int divisions_of(double size) const;
+  /// Calls visit(facing, blockers) for the parts of i and j that face each other.
+  template <class Visit>
+  void for_each_facing(PatchId i, PatchId j, const Numbers* among, Visit visit) const;
   PatchExchange between(PatchId i, PatchId j, const Numbers* among, bool estimate,
                         const std::function<void()>& tick) const;
   std::span<const Part> parts_of(PatchId i) const {
