@@ -69,6 +69,7 @@ class Reader {
   }
   template <class T>
   std::vector<T> list(std::size_t count) {
+    // Lists begin at multiples of 8 bytes, as their values must.
     const T* first = reinterpret_cast<const T*>(bytes_.data());
     bytes_ = bytes_.subspan(count * sizeof(T));
     return {first, first + count};
