@@ -104,7 +104,8 @@ class ProgramTest : public QObject {
     QFETCH(const int, number);
     Program program({"furnace", "-m", "100000"});
     program.start();
-    QTRY_VERIFY_WITH_TIMEOUT(program.has_signal("SigCgt", number), 30000);
+    // The last that the viewer catches; a library may catch the others earlier.
+    QTRY_VERIFY_WITH_TIMEOUT(program.has_signal("SigCgt", SIGTERM), 30000);
     program.send(number);
     QCOMPARE(program.status(), 128 + number);
     QCOMPARE(program.errors(), QByteArray());

@@ -14,7 +14,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP};
+constexpr std::array ending_signals{SIGHUP, SIGINT, SIGTERM};
 
 // From the handler, which may call few functions, to the event loop.
 std::array<int, 2> ends{-1, -1};
