@@ -113,7 +113,8 @@ TEST(Failures, TheFirstProcessRunsOtherCommands) {
   const auto help = run_mpi(3, {"bounds", "--help"});
   EXPECT_EQ(help.status, 0);
   EXPECT_EQ(help.out, testing::run_alone({"bounds", "--help"}).out);
-  // Into a file: mpirun of Open MPI 5 loses parts of lines of what a process writes.
+  // Into a file: mpirun of Open MPI 5 loses parts of standard output while a process also writes
+  // messages.
   const TemporaryFolder folder;
   const auto pairs_into = [&folder](const std::string& name) {
     return Words{"solve", "cornell-box", "--engine", "pairs", "--out", folder / name};
