@@ -72,7 +72,9 @@ void write_command_line(const fs::path& folder, const std::string& date, const C
       "mpirun -n 4 transillum-mpi solve sphere-flake:levels=3 -m 4096 --out flake.vtp",
       "The command solve shares its passes and form factors between the processes and writes the "
       "same bytes as one process; the first process runs the other commands alone. Each process "
-      "takes the cores that it is bound to, and a part of the machine's memory."};
+      "takes the cores that it is bound to, and a part of the machine's memory.",
+      "Write results to a file: mpirun of Open MPI 5 may lose parts of standard output while "
+      "messages are written, unless with -q."};
   text.see_also = {"transillum", "mpirun"};
   write_pages(folder, {page_of_program(program, text)});
   write_completions(folder, program);
