@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Of all programs, the viewer included: libraries do not decide what a signal does. Some catch
-// signals while they are loaded, also those that the program was started to ignore by nohup or a
-// script's trap "" INT: UCX, which comes with Open MPI 5, catches SIGHUP.
+// Compiled into every program, the viewer included: keeps what a signal does as it was when the
+// program was started. Some libraries catch signals while they are loaded, even those that nohup or
+// a script's trap "" INT has the program ignore: UCX, which comes with Open MPI 5, catches SIGHUP.
 #include <signal.h>
 
 #include <array>
