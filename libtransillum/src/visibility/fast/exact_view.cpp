@@ -32,6 +32,19 @@ auto reach_of(const Polygon& polygon) {
   return reach;
 }
 
+/// Sum of |dx| + |dy| of the edges between some corners.
+template <class Polygon>
+auto perimeter_of(const Polygon& polygon) {
+  const std::size_t last = polygon.count - 1;
+  auto perimeter =
+      std::abs(polygon.x[0] - polygon.x[last]) + std::abs(polygon.y[0] - polygon.y[last]);
+  for (std::size_t k = 0; k < last; ++k) {
+    perimeter +=
+        std::abs(polygon.x[k + 1] - polygon.x[k]) + std::abs(polygon.y[k + 1] - polygon.y[k]);
+  }
+  return perimeter;
+}
+
 }  // namespace
 
 ExactView::Polygon& ExactView::Polygon::operator=(const Polygon& other) {
@@ -326,6 +339,8 @@ double ExactView::subtract(std::int32_t candidate) {
       load_corners(by, candidate_);
       load_edges(by, candidate_);
       candidate_reach_ = reach_of(candidate_);
+      candidate_perimeter_ = perimeter_of(candidate_);
+      candidate_area_ = static_cast<Real>(by.area);
       loaded = true;
     }
     ++counts_.pairs;
@@ -367,27 +382,25 @@ bool ExactView::subtract_from_polygon(std::uint32_t index, Real& area) {
     return false;
   }
   if (cuts == 0) {
-    if (keep_covered_) {
-      covered_parts_.push_back(polygons_[index]);
-    }
-    area += area_of(polygons_[index]);
-    return true;
+    return add_covered(polygons_[index], area);
   }
   if (!find_cuts(candidate_, polygons_[index], long_rounding * candidate_reach_,
                  cuts_of_candidate)) {
     return false;
   }
   const std::size_t parts = new_parts_.size();
+  const auto discard_parts = [&] {
+    free_.insert(free_.end(), new_parts_.begin() + static_cast<std::ptrdiff_t>(parts),
+                 new_parts_.end());
+    new_parts_.resize(parts);
+  };
   std::size_t used = 0;
   const Polygon* rest = &polygons_[index];
   for (; cuts != 0; cuts &= cuts - 1) {
     const EdgeRef ref = at(candidate_.edge, std::countr_zero(cuts));
     const Sides sides = measure_sides(*rest, ref);
     if (sides.left == 0) {
-      // No common area: discard the parts made so far.
-      free_.insert(free_.end(), new_parts_.begin() + static_cast<std::ptrdiff_t>(parts),
-                   new_parts_.end());
-      new_parts_.resize(parts);
+      discard_parts();
       return false;
     }
     if (sides.right == 0) {
@@ -407,11 +420,27 @@ bool ExactView::subtract_from_polygon(std::uint32_t index, Real& area) {
     rest = &inside_[used];
     used = 1 - used;
   }
-  kept_edges_ = edge_count_;
-  if (keep_covered_) {
-    covered_parts_.push_back(*rest);
+  if (!add_covered(*rest, area)) {
+    discard_parts();
+    return false;
   }
-  area += area_of(*rest);
+  kept_edges_ = edge_count_;
+  return true;
+}
+
+/// Adds the area of a part inside candidate_. Returns false if that is more than candidate_ can
+/// cover: where the tree cuts off a needle only a few grid units wide, the rounded points of its
+/// lines may turn these so that they also enclose what lies far beyond its tip. Such a needle
+/// covers nothing: what it hides is below the accuracy, or `cut_needle` would be set.
+bool ExactView::add_covered(const Polygon& part, Real& area) {
+  const Real covered = area_of(part);
+  if (covered > 2 * candidate_area_ + (corner_offset + part.error) * candidate_perimeter_) {
+    return false;
+  }
+  if (keep_covered_) {
+    covered_parts_.push_back(part);
+  }
+  area += covered;
   return true;
 }
 

@@ -159,6 +159,7 @@ class ExactView {
 
   // Subtracting and splitting.
   bool subtract_from_polygon(std::uint32_t index, Real& area);
+  bool add_covered(const Polygon& part, Real& area);
   std::uint32_t new_polygon();
   void split_in_half(std::uint32_t index);
   void split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& inside, Polygon& outside);
@@ -180,7 +181,8 @@ class ExactView {
   std::size_t kept_edges_ = 0;  ///< the first ones, to which polygons of the pool refer
   Real reach_ = 0;              ///< largest |x| + |y| of the querying fragment
   Real candidate_reach_ = 0;    ///< the same of the candidate
-  Real area_ = 0;               ///< of the querying fragment, or of its part in the bin
+  Real candidate_perimeter_ = 0, candidate_area_ = 0;  ///< of the projected outline
+  Real area_ = 0;  ///< of the querying fragment, or of its part in the bin
   Real remaining_area_ = 0;
   Real max_area_ = 0;  ///< bound on the area still to be found: that of a needle, which cuts may
                        ///< exceed; infinite otherwise
