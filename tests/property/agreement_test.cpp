@@ -218,8 +218,8 @@ TEST_P(AgreementRegression, OnDegenerateScenes) {
   expect_agreement_on(static_cast<std::uint64_t>(GetParam()));
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, AgreementRegression,
-                         ::testing::Values(984, 1164, 2314, 5846, 6224, 6369, 8796, 8994, 9809,
-                                           10317));
+                         ::testing::Values(984, 1164, 2314, 4793, 5846, 6224, 6369, 8796, 8994,
+                                           9809, 10317));
 
 class NightlyAgreementRandom : public ::testing::TestWithParam<int> {};
 TEST_P(NightlyAgreementRandom, OnDegenerateScenes) {
@@ -238,6 +238,11 @@ INSTANTIATE_TEST_SUITE_P(Tens, AgreementImperfect, ::testing::Range(0, 20));
 /// A small box whose back a large wall sees by less than rounding of the wall's own area.
 TEST(AgreementImperfectRegression, OnASmallPatchSeenByALargeOne) {
   expect_agreement_on(661, testing::random_imperfect_scene);
+}
+
+/// Bent faces along which a direction runs: their parts project to more than the plane of the face.
+TEST(AgreementImperfectRegression, OnBentFacesSeenEdgeOn) {
+  expect_agreement_on(1129, testing::random_imperfect_scene);
 }
 
 class NightlyAgreementImperfect : public ::testing::TestWithParam<int> {};

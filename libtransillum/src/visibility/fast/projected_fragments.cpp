@@ -346,7 +346,8 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
   if (area < min_width * std::sqrt(size)) {
     return false;
   }
-  const bool needle = area < 0x1p-11 * size;
+  const double largest_needle = 0x1p-11 * size;
+  const bool needle = area < largest_needle;
   Fragment fragment{
       begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch, front, false, -1,
       area};
@@ -361,6 +362,10 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
   fragment.cut_needle = changed || (needle && !outline.plain && is_inaccurate());
   if (fragment.cut_needle) {
     fragment.area = cut_needle_area(outlines, fragment);
+    // Where rounding has turned the remaining edges too, their lines meet far outside the patch.
+    if (fragment.area >= largest_needle) {
+      return false;
+    }
   }
   boxes.push_back(box);
   fragments.push_back(fragment);
