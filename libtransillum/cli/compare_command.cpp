@@ -52,8 +52,8 @@ std::string comparison_text(const Scene& scene, const ResultComparison& comparis
   if (!comparison.sky_difference.empty()) {
     text += report_row("skies differ", comparison.sky_difference);
   }
-  text += report_row("RMS", fmt::format("{:.4g} of the RMS of B", whole.rms));
-  text += report_row("largest", fmt::format("{:.4g} of the largest B", whole.largest));
+  text += report_row("RMS", fmt::format("{:.4g} of the RMS of reflected light", whole.rms));
+  text += report_row("largest", fmt::format("{:.4g} of the largest reflected light", whole.largest));
   if (whole.worst != no_patch) {
     text += report_row("where", place_text(scene, whole));
     text += report_row("B there, W/m2", fmt::format("{} and {}", rgb_text(whole.first, 8),
@@ -78,8 +78,7 @@ std::string comparison_text(const Scene& scene, const ResultComparison& comparis
 }
 
 std::string function_text(const FunctionDifference& difference) {
-  return report_row("L2 of functions", fmt::format("{:.4g} of that of A; {:.4g} without sources",
-                                                   difference.l2, difference.l2_without_sources));
+  return report_row("L2 of functions", fmt::format("{:.4g} of that of A", difference.l2));
 }
 
 int exit_status(double worst, const CompareCall& call) {
@@ -137,10 +136,9 @@ Run add_compare_command(CLI::App& program) {
                    "compare B as functions on the faces, whose patches may differ, as those of "
                    "--max-patch-area: the L2 norm of the difference");
   command.footer(
-      "Differences of B: their RMS over the RMS of A's, and the largest over the largest of A's;\n"
-      "by group relative to the group. With --basis linear, B of a patch is its mean; L2 is that "
-      "of\n"
-      "the functions.\n"
+      "Differences of B, relative to the reflected light of A: B - E of patches that do not emit,\n"
+      "or of all where the others reflect nothing. By group, they are relative to the group's light.\n"
+      "With --basis linear, B of a patch is its mean, and L2 is the norm of the functions.\n"
       "Results of different scenes are refused.\n"
       "Example: transillum compare coarse.vtp fine.vtp --tolerance 0.01");
   return [call] { return run(*call); };

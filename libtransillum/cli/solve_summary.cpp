@@ -48,6 +48,15 @@ double peak_memory_mebibytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+/// Relative to reflected light.
+std::string remainder_text(const IterationRecord& last) {
+  if (!std::isfinite(std::max(last.remainder, last.remainder_dimmest))) {
+    return "not bounded";
+  }
+  return fmt::format("at most {:.2e} of the reflected light, {:.2e} in the dimmest tenth of the area",
+                     last.remainder, last.remainder_dimmest);
+}
+
 std::string convergence_text(const SolveStatistics& statistics) {
   if (statistics.iteration_records.empty()) {
     return "none finished";
@@ -56,10 +65,7 @@ std::string convergence_text(const SolveStatistics& statistics) {
   const std::string result =
       last.error ? fmt::format("{} in the mean, estimated error of the mean {:.2e}",
                                statistics.iterations - statistics.burn_in, *last.error)
-                 : fmt::format("last change {:.2e}, all further ones {}", last.change,
-                               std::isfinite(last.remainder)
-                                   ? fmt::format("at most {:.2e}", last.remainder)
-                                   : "not bounded");
+                 : fmt::format("light not yet propagated {}", remainder_text(last));
   return fmt::format("{}, {}{}", statistics.iterations, result,
                      statistics.converged ? ", converged" : "");
 }
@@ -149,6 +155,10 @@ std::string solve_summary(const Solution& solution) {
     text += glossy_text(s.glossy);
   }
   text += report_row("iterations", convergence_text(s));
+  if (!s.iteration_records.empty() && s.iteration_records.back().unlit_area > 0) {
+    text += report_row("unlit", fmt::format("{} of the area: below 1e-6 of the largest reflected light",
+                                            share_text(s.iteration_records.back().unlit_area)));
+  }
   text += report_row("closure defect", fmt::format("{:.1e}; {} of the projected area sees no patch",
                                                    s.closure_defect_max, share_text(s.escaped)));
   if (!s.iteration_records.empty()) {

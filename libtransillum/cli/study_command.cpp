@@ -419,8 +419,9 @@ void add_series_options(CLI::App& command, StudyCall& call) {
 }
 
 void add_error_options(CLI::App& command, StudyCall& call) {
-  command.add_flag("--without-sources", call.study.without_sources,
-                   "exclude emitting patches from the errors");
+  command.add_flag_function(
+      "--without-sources", [](std::int64_t) {},
+      "no effect: errors are always those of reflected light, without sources");
   add_parsed_option(
       command, "--error", "NAME",
       fmt::format("{}: error in the table and the plots (default rms); the CSV has both",
@@ -485,11 +486,9 @@ Run add_study_command(CLI::App& program) {
                          "save the points so far in this file, so that --resume can go on");
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");
   command.footer(
-      "rms_error: RMS over patches of the error of B, relative to the RMS of B; max_error: "
-      "largest\n"
-      "error, relative to the largest B; bound: eq. 37 with eq. 21; seconds: processor time of "
-      "all\n"
-      "threads. If series differ in more than the sampling, their names are extended, as in\n"
+      "rms_error: RMS over patches of the error of B, relative to the RMS of the reflected light,\n"
+      "B - E; max_error: largest error, relative to the largest reflected light; both without\n"
+      "patches that emit; bound: eq. 37 with eq. 21; seconds: processor time of all threads. If series differ in more than the sampling, their names are extended, as in\n"
       "hammersley/one-way. Ctrl-C saves the points so far and exits with status 130.\n"
       "Example: transillum study cornell-box --directions 16..1024 --sampling random,fibonacci \\\n"
       "  --out study.csv --plot study.svg");

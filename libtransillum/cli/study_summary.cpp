@@ -100,9 +100,8 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
     width = std::max(width, name.size());
   }
 
-  std::string text = fmt::format("{} error of B in %{}, by number of passes\n{:<{}}",
-                                 error == ErrorMeasure::rms ? "RMS" : "Largest",
-                                 options.without_sources ? ", without sources" : "", "", width);
+  std::string text = fmt::format("{} error of B in %, by number of passes\n{:<{}}",
+                                 error == ErrorMeasure::rms ? "RMS" : "Largest", "", width);
   for (const auto& [passes, bound] : bounds) {
     text += fmt::format("{:>{}}", passes, column);
   }

@@ -157,7 +157,7 @@ std::vector<Run> measure(const Method& method, const Case& of, const Radiosity& 
       // CPU time of the whole process is the work of one core, whichever thread does it.
       seconds += seconds_of(CLOCK_PROCESS_CPUTIME_ID,
                             [&] { b = method.radiosity(of.scene, effort, repeat); });
-      const double error = radiosity_error(b, reference).rms;
+      const double error = radiosity_error(*of.scene, b, reference).rms;
       squares += error * error;
     }
     runs.push_back({seconds / method.repeats, std::sqrt(squares / method.repeats)});
@@ -219,7 +219,7 @@ CaseResult measure(const Case& of) {
   if (of.reference_points > 0) {
     other = by_pairs(of.scene, of.reference_points);
     fmt::print("{}: references ({} passes, pairs of {} points) differ by {:.1e}\n", of.name,
-               of.reference_directions, of.reference_points, radiosity_error(other, by_passes).rms);
+               of.reference_directions, of.reference_points, radiosity_error(*of.scene, other, by_passes).rms);
   }
   CaseResult result;
   for (const Method& method : {passes(of.repeats, {}), rays(of.repeats)}) {

@@ -110,6 +110,13 @@ TEST(SameBits, NormalizedRows) {
 
 TEST(SameBits, Accuracy) { expect_same_bytes(with(box, {"--accuracy", "5%"}), {3, 7}); }
 
+/// By default, and to an accuracy: with sources, both would end after one iteration.
+TEST(SameBits, SmallLamp) {
+  const std::string lamp = std::string(TRANSILLUM_DATA_DIR) + "/corpus/small-lamp.obj";
+  expect_same_bytes({lamp, "-m", "32"}, {3});
+  expect_same_bytes({lamp, "--accuracy", "1%"}, {3});
+}
+
 TEST(SameBits, FirstShot) {
   expect_same_bytes(with(box, {"-m", "64", "--first-shot", "auto"}), {3});
 }

@@ -64,7 +64,7 @@ class CoverageCount {
       options.seed = 1000 * static_cast<std::uint64_t>(run + 1);
       const Solution solution =
           goal.set() ? solve_to_accuracy(scene_, options, tree_, shot_) : solved(options);
-      const double error = radiosity_error(solution.radiosity, truth_).rms;
+      const double error = radiosity_error(*scene_, solution.radiosity, truth_).rms;
       coverage.limit += (error <= solution.error.rms_limit) / double(runs);
       coverage.above += (goal.set() && error > goal.accuracy) / double(runs);
       coverage.intervals += share_within(solution) / runs;
@@ -121,7 +121,7 @@ TEST(Accuracy, IsReachedAndReported) {
   EXPECT_EQ(solution.statistics.passes, report.stages.back().directions);
   EXPECT_GE(report.passes_made, report.stages.back().directions);
   const auto reference = solve(scene, reference_options(8192));
-  EXPECT_LE(radiosity_error(solution.radiosity, reference.radiosity).rms, 0.01);
+  EXPECT_LE(radiosity_error(*scene, solution.radiosity, reference.radiosity).rms, 0.01);
 }
 
 /// The last stage is what `directions` and `replicas` give, if no replica was added.
@@ -135,7 +135,7 @@ TEST(Accuracy, ResultIsThatOfTheLastStageAlone) {
   alone.replicas = solution.accuracy->stages.back().replicas;
   alone.tolerance = 1e-10;
   const Solution direct = solve(scene, alone);
-  EXPECT_LT(radiosity_error(solution.radiosity, direct.radiosity).max, 1e-5);
+  EXPECT_LT(radiosity_error(*scene, solution.radiosity, direct.radiosity).max, 1e-5);
 }
 
 TEST(Accuracy, OfThreadsDependsNothing) {
@@ -214,7 +214,7 @@ TEST(Accuracy, AddedReplicaIsAsOneFromTheStart) {
     options.directions = 80;
     options.replicas = 5;
     const Solution whole = solve(scene, options);
-    EXPECT_LT(radiosity_error(solver.radiosity(), whole.radiosity).max, 1e-10);
+    EXPECT_LT(radiosity_error(*scene, solver.radiosity(), whole.radiosity).max, 1e-10);
     EXPECT_NEAR(solver.error_estimate().rms / whole.error.rms, 1, 1e-6);
   }
 }

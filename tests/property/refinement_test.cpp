@@ -107,7 +107,7 @@ const Solution& reference() {
 
 /// Relative L2 error without the lamps.
 double error_of(const std::shared_ptr<const Scene>& scene, Basis basis) {
-  return compare_functions(reference(), solve(scene, options(basis))).l2_without_sources;
+  return compare_functions(reference(), solve(scene, options(basis))).l2;
 }
 
 class RefinementBy : public ::testing::TestWithParam<std::tuple<RefineBy, Basis>> {};

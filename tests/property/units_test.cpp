@@ -130,10 +130,12 @@ TEST(Units, AnyEmissionGivesTheSameResultsUpToRounding) {
 
 TEST(Units, ErrorsOfStudiesAreRelative) {
   const std::vector<Rgb> reference{{1, 2, 3}, {4, 5, 6}}, b{{1, 2, 3.5}, {4, 4, 6}};
-  const RadiosityError expected = radiosity_error(b, reference);
+  testing::Sketch sketch;
+  const auto scene = sketch.triangles(2, 0.1, 1, sketch.material(0.5, 0)).scene();
+  const RadiosityError expected = radiosity_error(*scene, b, reference);
   EXPECT_NEAR(expected.rms, std::sqrt(1.25 / 91), 1e-15);
   for (const double unit : {0x1p-600, 0x1p600}) {
-    const RadiosityError error = radiosity_error(over(1 / unit, b), over(1 / unit, reference));
+    const RadiosityError error = radiosity_error(*scene, over(1 / unit, b), over(1 / unit, reference));
     EXPECT_EQ(error.rms, expected.rms);
     EXPECT_EQ(error.max, expected.max);
   }

@@ -115,6 +115,16 @@ class Solves(unittest.TestCase):
         solution = transillum.solve(room(), accuracy="5%")
         self.assertLessEqual(solution.rms_error, 0.05)
 
+    def test_a_small_lamp_is_no_measure(self):
+        data = os.path.join(os.path.dirname(__file__), "..", "..", "data")
+        scene = transillum.load(os.path.join(data, "corpus", "small-lamp.obj"))
+        truth = transillum.solve(scene, engine="pairs").radiosity[:6]
+        plain = transillum.solve(scene)
+        self.assertTrue(plain.statistics["converged"])
+        self.assertLess(np.abs(plain.radiosity[:6] / truth - 1).max(), 0.01)
+        accurate = transillum.solve(scene, accuracy="1%")
+        self.assertLess(np.abs(accurate.radiosity[:6] / truth - 1).max(), 0.02)
+
     def test_an_accuracy_shoots_small_lamps_first_as_the_program_does(self):
         scene = room()
         for options, shot in (({}, True), ({"first_shot": "none"}, False)):

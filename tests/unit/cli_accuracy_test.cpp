@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program_run.h"
+#include "transillum/files.h"
 
 namespace transillum::testing {
 namespace {
@@ -26,6 +27,27 @@ TEST(CliAccuracy, ChoosesPassesAndReportsWhatItReached) {
   EXPECT_EQ(accuracy.at("error"), json.at("error_estimate").at("rms_limit"));
   EXPECT_EQ(accuracy.at("stages").back().at("directions"), json.at("passes"));
   EXPECT_LE(json.at("error_estimate").at("rms_lowest"), json.at("error_estimate").at("rms"));
+}
+
+/// A lamp of 5 mm has a million times the B of the walls. Both ended after one iteration, with B of
+/// the walls 64 % and 51 % too small.
+TEST(CliAccuracy, IsNotMeasuredByASmallLamp) {
+  const TemporaryFolder folder;
+  const std::string lamp = std::string(TRANSILLUM_DATA_DIR) + "/corpus/small-lamp.obj";
+  const auto walls = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"solve", lamp, "-q", "--out", folder / "b.vtp"};
+    words.insert(words.end(), options.begin(), options.end());
+    EXPECT_EQ(run_program(words).status, 0);
+    std::vector<Rgb> b = read_result(folder / "b.vtp").radiosity;
+    b.resize(6);
+    return b;
+  };
+  const std::vector<Rgb> truth = walls({"--engine", "pairs", "--tolerance", "1e-9"});
+  const std::vector<Rgb> plain = walls({}), accurate = walls({"--accuracy", "0.1%"});
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_NEAR(plain[i].r / truth[i].r, 1, 0.01) << i;
+    EXPECT_NEAR(accurate[i].r / truth[i].r, 1, 0.003) << i;
+  }
 }
 
 /// The first shot is taken by itself, unless it is given.

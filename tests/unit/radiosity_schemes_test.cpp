@@ -104,7 +104,7 @@ TEST(Schemes, ReportWhatFurtherIterationsWouldChange) {
           scene, {.directions = 32, .normalize = Normalization::rows, .tolerance = tolerance});
       EXPECT_TRUE(solution.statistics.converged);
       const double b = solution.radiosity.front().r;
-      const double missing = (1 / (1 - rho) - b) / b;
+      const double missing = (1 / (1 - rho) - b) / (b - 1);
       EXPECT_NEAR(solution.statistics.iteration_records.back().remainder / missing, 1, 1e-3)
           << rho << ' ' << tolerance;
     }

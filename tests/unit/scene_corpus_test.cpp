@@ -47,6 +47,7 @@ const std::vector<Entry>& entries() {
       {"corpus/needles.obj", 9, 9, 0},
       {"corpus/materials.obj", 9, 9, 6.1, 0, 0, 1, 0},
       {"corpus/no-materials.obj", 6, 6, 6},
+      {"corpus/small-lamp.obj", 7, 7, 94.000025},
   };
   return all;
 }

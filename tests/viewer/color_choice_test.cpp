@@ -251,7 +251,7 @@ class ColorChoiceTest : public QObject {
     runs.set_second(1);
     QVERIFY(is_shown(0.25));
     const RunDifference difference =
-        difference_of(colors.run_b()->radiosity, colors.run_a()->radiosity);
+        difference_of(*base->loaded->scene, colors.run_b()->radiosity, colors.run_a()->radiosity);
     QVERIFY(std::abs(difference.rms - 0.25) < 1e-12);
     double largest = 0;
     for (const Rgb& b : base->radiosity) {
@@ -259,7 +259,7 @@ class ColorChoiceTest : public QObject {
     }
     QVERIFY(std::abs(difference.largest - 0.25 * largest) < 1e-12);
     QCOMPARE(max_abs(base->radiosity.at(std::size_t(difference.worst))), largest);
-    QCOMPARE(difference_of(base->radiosity, base->radiosity).worst, no_patch);
+    QCOMPARE(difference_of(*base->loaded->scene, base->radiosity, base->radiosity).worst, no_patch);
 
     runs.remove(1);
     QCOMPARE(runs.second(), -1);

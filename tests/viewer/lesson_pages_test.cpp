@@ -210,7 +210,7 @@ void add_sampling_lesson(std::vector<Statement>& all) {
   const std::vector<Rgb> reference =
       solve_reference(spiral.scene, spiral.tree, reference_options(512));
   const auto error = [&](const Shown& shown) {
-    return percent(radiosity_error(shown.solution().radiosity, reference).rms);
+    return percent(radiosity_error(*spiral.scene, shown.solution().radiosity, reference).rms);
   };
   const QString of_random = error(random);
   all.push_back({6, 1,
@@ -825,9 +825,9 @@ class LessonPagesTest : public QObject {
     };
     QCOMPARE(coarse.page.state.scene, std::string("rooms:n=0,rooms=1"));
     const Solution reference = solved(0.16, Basis::linear);
-    const double few = compare_functions(reference, solved(1, Basis::linear)).l2_without_sources;
+    const double few = compare_functions(reference, solved(1, Basis::linear)).l2;
     const double many =
-        compare_functions(reference, solved(0.25, Basis::constant)).l2_without_sources;
+        compare_functions(reference, solved(0.25, Basis::constant)).l2;
     QVERIFY2(few < 0.5 * many, qPrintable(QString("%1, %2").arg(few).arg(many)));
   }
 

@@ -178,7 +178,8 @@ Figure figure_from_json(const json& value, const std::string& where, const json&
   if (name.keys & has_reference) {
     figure.reference = 8 * page.options.solve.directions;
     object.read("reference", figure.reference, 1, most_reference_passes);
-    object.read("without-sources", figure.no_sources);
+    bool without_sources = true;  // of older lessons: errors are always measured without sources
+    object.read("without-sources", without_sources);
   }
   if (name.keys & has_areas) {
     figure.patch_area = page.options.scene.max_patch_area;

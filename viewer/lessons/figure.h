@@ -59,7 +59,6 @@ struct Figure {
   int iteration = 0;            ///< of the direction, from 0
   int direction = 0;            ///< from 0
   int reference = 0;            ///< passes of the reference of rms_error
-  bool no_sources = false;      ///< rms_error over patches that do not emit
   double patch_area = 0;        ///< of function_error: SceneOptions::max_patch_area, m²
   double reference_area = 0;    ///< of function_error: that of the reference, m²
   Vec3 eye;                     ///< of a radiance, m

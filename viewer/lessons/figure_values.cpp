@@ -181,18 +181,7 @@ double FigureValues::covered(const Figure& figure) {
 
 double FigureValues::error_of(const Figure& figure) {
   const std::vector<Rgb>& reference = reference_of(figure);
-  const std::vector<Rgb>& radiosity = solved(figure.solve).radiosity();
-  if (!figure.no_sources) {
-    return radiosity_error(radiosity, reference).rms;
-  }
-  std::vector<Rgb> b, truth;
-  for (PatchId i = 0; i < loaded_->scene->patch_count(); ++i) {
-    if (luminance(loaded_->scene->exitance(i)) == 0) {
-      b.push_back(at(radiosity, i));
-      truth.push_back(at(reference, i));
-    }
-  }
-  return radiosity_error(b, truth).rms;
+  return radiosity_error(*loaded_->scene, solved(figure.solve).radiosity(), reference).rms;
 }
 
 const Solution& FigureValues::divided(double patch_area, const SolveOptions& options) {
@@ -225,7 +214,7 @@ double FigureValues::function_error(const Figure& figure) {
   SolveOptions options = figure.solve;
   options.basis = Basis::linear;
   const Solution& reference = divided(figure.reference_area, options);
-  return compare_functions(reference, divided(figure.patch_area, figure.solve)).l2_without_sources;
+  return compare_functions(reference, divided(figure.patch_area, figure.solve)).l2;
 }
 
 double FigureValues::of_run(const Figure& figure) {

@@ -159,8 +159,8 @@ QLayout* RunPanel::make_figures() {
   figures_->setWordWrap(true);
   figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   figures_->setToolTip(
-      tr("RMS of the difference of B over RMS of B of A, over patches and colors; and the largest\n"
-         "magnitude of the difference in a color"));
+      tr("RMS of the difference of B over RMS of the reflected light of A, without patches that\n"
+         "emit; and the largest magnitude of the difference in a color"));
   go_ = new QToolButton;
   go_->setText(tr("Go to the patch"));
   go_->setObjectName("go_to_difference");
@@ -233,7 +233,7 @@ void RunPanel::show_difference() {
   if (!a || !b) {
     figures_->clear();
   } else {
-    const RunDifference difference = difference_of(b->radiosity, a->radiosity);
+    const RunDifference difference = difference_of(*a->loaded->scene, b->radiosity, a->radiosity);
     worst_ = difference.worst;
     figures_->setText(worst_ == no_patch ? tr("No difference: both have the same B.")
                                          : tr("RMS %1 %, largest %2 W/m² at patch %3")

@@ -49,11 +49,11 @@ std::vector<PatchId> patches_in_view(const LoadedScene& loaded, const ViewPoint&
   return patches;
 }
 
-// |B - reference| over the RMS of the reference, luminance.
-std::vector<double> errors_of(const std::vector<Rgb>& radiosity,
+// |B - reference| over the RMS of reflected light, luminance.
+std::vector<double> errors_of(const Scene& scene, const std::vector<Rgb>& radiosity,
                               const std::vector<Rgb>& reference) {
   double squares = 0;
-  for (const Rgb& b : reference) {
+  for (const Rgb& b : reflected_light(scene, reference)) {
     squares += luminance(b) * luminance(b);
   }
   const double rms = std::sqrt(squares / static_cast<double>(reference.size()));
@@ -203,8 +203,8 @@ void ErrorView::measure(const Job& job, const Cancellation& cancellation) {
   for (const ErrorRuns::Run& run : job.runs.runs) {
     RadiositySolver solver(loaded.scene, run.solve, loaded.tree, cancellation);
     solver.advance(RadiositySolver::Until::finished);
-    errors.push_back(errors_of(solver.radiosity(), reference));
-    result->rms.push_back(radiosity_error(solver.radiosity(), reference).rms);
+    errors.push_back(errors_of(*loaded.scene, solver.radiosity(), reference));
+    result->rms.push_back(radiosity_error(*loaded.scene, solver.radiosity(), reference).rms);
   }
   result->most = scale_of(errors);
   const std::vector<PatchId> patches = patches_in_view(loaded, job.view, cancellation);
@@ -293,7 +293,7 @@ void ErrorView::paint_run(QPainter& painter, const QRectF& box, std::size_t run)
 
 void ErrorView::paint_scale(QPainter& painter, const QRectF& box) const {
   const QString zero = QStringLiteral("0");
-  const QString most = tr("%1 of the RMS of B").arg(percent_text(result_->most));
+  const QString most = tr("%1 of the RMS of reflected light").arg(percent_text(result_->most));
   const double left = box.left() + painter.fontMetrics().horizontalAdvance(zero) + 8;
   const double right = box.right() - painter.fontMetrics().horizontalAdvance(most) - 8;
   const QRectF bar(left, box.center().y() - 5, std::max(20.0, right - left), 10);

@@ -29,7 +29,7 @@ class ErrorView : public QWidget {
   /// What was measured.
   struct Result {
     std::vector<QImage> pictures;  ///< one per run
-    std::vector<double> rms;       ///< RMS of the error over the RMS of the reference, one per run
+    std::vector<double> rms;       ///< RadiosityError::rms, one per run
     double most = 0;               ///< right end of the color scale, relative to that RMS
   };
 

@@ -63,7 +63,7 @@ std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
   // At most twice the iterations done, so that the chart leaves room for these.
   const auto last = requested > 0 ? static_cast<std::size_t>(requested)
                                   : std::max<std::size_t>(8, 2 * s.iteration_records.size());
-  for (double change = s.iteration_records.front().change; predicted.size() < last;
+  for (double change = s.iteration_records.front().change_of_b; predicted.size() < last;
        change *= rate) {
     predicted.push_back(change);
     if (requested == 0 && change <= snapshot.options.tolerance) {
@@ -86,8 +86,10 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
 
   iteration_chart_->setObjectName("iteration_chart");
   iteration_chart_->setToolTip(symbol_tip(
-      tr("change: largest change of B in an iteration, relative to the largest B\n"
-         "eq. 25: its bound, by the contraction of eq. 22 with eq. 21, from the first change on\n"
+      tr("not propagated: bound of the light that further iterations add, relative to the "
+         "reflected light, of all patches or of the dimmest tenth of their area\n"
+         "eq. 25: the paper's rule, the largest change of B over the largest B, with E\n"
+         "bound of eq. 25: by the contraction of eq. 22 with eq. 21, from the first change on\n"
          "error of B: its estimate from the replicas, between its limits\n"
          "Click to go to an iteration"),
       "6"));
@@ -123,17 +125,20 @@ void ConvergenceView::show_position() {
 void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   // Of the semi-iterative scheme: the change is that of an iteration, the error that of the mean.
   const bool averages = snapshot.options.scheme == Scheme::semi_iterative;
-  std::vector<double> changes, mean_errors;
+  std::vector<double> remainders, changes, mean_errors;
   for (const IterationRecord& iteration : snapshot.statistics.iteration_records) {
-    changes.push_back(iteration.change);
+    changes.push_back(iteration.change_of_b);
+    const double left = std::max(iteration.remainder, iteration.remainder_dimmest);
+    remainders.push_back(std::isfinite(left) ? left : 0);
     if (averages) {
       mean_errors.push_back(iteration.error.value_or(0));
     }
   }
   std::vector<LogChart::Line> lines{
-      {tr("change"), theme::accent, std::move(changes), true},
+      {tr("not propagated"), theme::accent, std::move(remainders), true},
+      {tr("eq. 25"), theme::good, std::move(changes)},
       averages ? LogChart::Line{tr("error of the mean"), theme::good, std::move(mean_errors)}
-               : LogChart::Line{tr("eq. 25"), theme::good, predicted_changes(snapshot), false,
+               : LogChart::Line{tr("bound of eq. 25"), theme::good, predicted_changes(snapshot), false,
                                 ChartDashes::dash_dot}};
   add_error_band(snapshot, lines);
   iteration_chart_->show_lines(std::move(lines), levels_of(snapshot),

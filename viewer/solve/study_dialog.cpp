@@ -119,8 +119,9 @@ QWidget* StudyDialog::make_results() {
   error_->setObjectName("study_error");
   error_->addItems({tr("RMS error"), tr("Largest error")});
   error_->setToolTip(
-      tr("RMS: over all patches, relative to the RMS of B\n"
-         "Largest: over all patches, relative to the largest B"));
+      tr("RMS: relative to the RMS of the reflected light, B - E\n"
+         "Largest: relative to the largest reflected light\n"
+         "Patches that emit do not count."));
   connect(error_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     chart_->set_measure(measure());
     show_table();

@@ -126,9 +126,10 @@ QString why_not_comparable(const Scene& kept, const Scene* open) {
 
 }  // namespace
 
-RunDifference difference_of(const std::vector<Rgb>& b, const std::vector<Rgb>& a) {
+RunDifference difference_of(const Scene& scene, const std::vector<Rgb>& b,
+                            const std::vector<Rgb>& a) {
   RunDifference result;
-  result.rms = radiosity_error(b, a).rms;
+  result.rms = radiosity_error(scene, b, a).rms;
   for (std::size_t i = 0; i < b.size(); ++i) {
     const Rgb d = b[i] - a[i];
     const double magnitude = std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)});

@@ -10,13 +10,13 @@
 
 namespace TRANSILLUM_API transillum {
 
-/// The error that an AccuracyGoal is about. All are limits that are not exceeded in 95 % of all
+/// The error that an AccuracyGoal is about, relative to reflected light (reflected_light()). All are limits that are not exceeded in 95 % of all
 /// runs, by the spread of replicas.
 enum class AccuracyOf {
-  rms,    ///< RMS error of B over RMS of B, over patches and channels
-  max,    ///< largest error over the largest B
-  patch,  ///< error of one patch over its B, as lengths of RGB vectors
-  mean,   ///< error of the area-weighted mean of B over that mean, as lengths of RGB vectors
+  rms,    ///< RMS error of B over RMS of reflected light, over patches and channels
+  max,    ///< largest error over the largest reflected light
+  patch,  ///< error of one patch over its B - E, as lengths of RGB vectors
+  mean,   ///< error of the area-weighted mean of B over that of B - E, as lengths of RGB vectors
 };
 
 /// When a solve is accurate enough.

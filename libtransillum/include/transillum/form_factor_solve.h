@@ -50,7 +50,7 @@ Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors
 struct PairSolution {
   Solution solution;     ///< of the last solve
   int points = 0;        ///< PairOptions::points of the last solve
-  double error = 0;      ///< estimated RMS error of B over RMS of B; 0: nothing is partly hidden
+  double error = 0;      ///< estimated RadiosityError::rms; 0 where nothing is partly hidden
   bool reached = false;  ///< error <= accuracy
 };
 
@@ -61,7 +61,7 @@ struct PairSolution {
 /// @param options as for solve_by_form_factors() with engine pairs; engine_options.points is the
 /// number to start from (0: an eighth of the default). The tolerance is lowered to a tenth of
 /// `accuracy` if it is above that.
-/// @param accuracy RMS error of B over RMS of B, between 0 and 1.
+/// @param accuracy RMS error of B over RMS of reflected light, between 0 and 1.
 /// @param cancellation checked during computation.
 /// @param progress if set, called at intervals with the number of points of the solve under way and
 /// its share done, in [0,1], on this thread.

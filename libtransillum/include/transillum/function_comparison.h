@@ -8,11 +8,10 @@ namespace TRANSILLUM_API transillum {
 
 /// How far the radiosity of one result is from that of another, as functions on the surfaces.
 struct FunctionDifference {
-  /// Root of ∫ |difference|² over all faces and channels, over that of the reference; 0 where
-  /// nothing differs, infinite where only the reference is dark.
+  /// Root of ∫ |difference|² over channels and the faces where reflected light is measured
+  /// (reflected_light()), over the root of ∫ (B - E)² of the reference; 0 where nothing differs,
+  /// infinite where only the reference is dark.
   double l2 = 0;
-  /// The same over the faces that emit nothing: large constant values of lamps do not count.
-  double l2_without_sources = 0;
   double area = 0;  ///< of all patches, m²
 };
 

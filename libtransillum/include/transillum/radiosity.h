@@ -102,8 +102,8 @@ struct SolveOptions {
   int iterations = 0;  ///< number of iterations; 0: by averaged_iterations or tolerance
   /// semi_iterative: number of iterations in the mean, after which it stops; 0: by tolerance
   int averaged_iterations = 0;
-  /// Relative change of B in the maximum norm (eq. 25), which IterationRecord::remainder may exceed
-  /// by 1 / (1 - rho_max); semi_iterative: IterationRecord::error
+  /// Bound of what the iteration leaves out, relative to reflected light: of
+  /// IterationRecord::remainder and remainder_dimmest; semi_iterative: IterationRecord::error
   double tolerance = 1e-6;
   std::uint64_t memory = 0;  ///< limit for kept form factors, bytes; 0: a quarter of the machine's
   int threads = 0;           ///< 0: all cores; the result does not depend on it
@@ -127,20 +127,26 @@ struct SolveOptions {
 
 /// One finished iteration of eq. 11.
 struct IterationRecord {
-  double change = 0;       ///< ||B(n+1) - B(n)|| / ||B(n+1)||, maximum norm; not of the mean
+  /// Largest change of B over the largest reflected light (reflected_light()); not of the mean
+  double change = 0;
   double contraction = 0;  ///< absolute change over that of the iteration before; 0 in the first.
                            ///< semi_iterative: factor per iteration by which the influence of the
                            ///< start decreases
   double seconds = 0;      ///< wall time
   /// semi_iterative, from the eighth iteration in the mean on: largest error of the mean over its
-  /// largest value: 95 % of the spread of iterations, and all that is left of the start. The sets
+  /// largest reflected light: 95 % of the spread of iterations, and all that is left of the start. The sets
   /// of directions must differ: Sampling::hammersley and centered_hammersley have the error of one
   /// set.
   std::optional<double> error = {};
-  /// Bound of what further iterations would change, over the largest B: rho_max change / (1 - c) by
-  /// eq. 23, c being the larger of rho_max and the contraction; infinite where c is not below 1.
-  /// semi_iterative: bound of what is left of the start
+  /// Bound of the power that further iterations would add, over the reflected power, in the channel
+  /// where it is largest. With c the larger of rho_max and the contraction, it is c / (1 - c) times
+  /// the power of the last change; infinite where c is not below 1. semi_iterative: bound of what is
+  /// left of the start
   double remainder = 0;
+  /// The same of the dimmest tenth of the area that is lit: B - E is at least 1e-6 of the largest.
+  double remainder_dimmest = 0;
+  double unlit_area = 0;   ///< share of the area of reflecting patches that is not lit
+  double change_of_b = 0;  ///< eq. 25 of the paper: largest change of B over the largest B, with E
 };
 
 /// A solve of an adaptive refinement (refinement.h), after which patches are divided.
@@ -182,7 +188,8 @@ struct ErrorEstimate {
   int replicas = 0;                 ///< 0: no estimate, all other members are empty
   std::vector<Rgb> standard_error;  ///< of B, W/m², one per patch
   double quantile = 0;  ///< Student's t, two-sided 95 %, replicas - 1 degrees of freedom
-  double rms = 0;       ///< RMS of the errors over RMS of B, over patches and channels
+  /// RMS of the errors over RMS of the reflected light (reflected_light()), over patches and channels
+  double rms = 0;
   /// What the relative RMS error does not exceed in 95 % of all runs. Larger than `rms` by the
   /// uncertainty of an estimate from few replicas: a quantile of the F distribution, less so the
   /// more independent the errors of the patches are.
@@ -192,6 +199,7 @@ struct ErrorEstimate {
   double independent_errors = 1;
   Rgb mean_radiosity;       ///< area-weighted mean of B, W/m²
   Rgb mean_standard_error;  ///< of this mean, W/m²
+  Rgb mean_reflected;       ///< area-weighted mean of B - E, W/m²
 };
 
 /// Figures of a solve in which lobes take part.
@@ -226,7 +234,9 @@ struct SolveStatistics {
   std::int64_t transfers = 0;         ///< exchanges found, over all different directions
   std::int64_t form_factors = 0;      ///< kept entries; 0 where they are recomputed
   bool kept_form_factors = false;     ///< the exchange sums of all passes are in memory
-  bool converged = false;             ///< the tolerance was reached, or changes are rounding
+  /// The tolerance was reached, or changes are rounding; never while the power of the last change
+  /// is more than ten tolerances of the emitted power
+  bool converged = false;
   double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
   double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
   double closure_defect_moments = 0;  ///< largest ClosureDefect::moments; 0: Basis::constant
@@ -413,8 +423,8 @@ class RadiositySolver {
   /// Number of passes of any iteration, including those whose exchanges are kept.
   /// @param iteration from 0.
   int passes_of(int iteration) const;
-  /// Per pass of the current iteration: relative change (maximum norm) of the running estimate by
-  /// that pass. Empty between iterations.
+  /// Per pass of the current iteration: largest change of the running estimate by that pass, over
+  /// its largest reflected light. Empty between iterations.
   const std::vector<double>& estimate_changes() const;
   /// eps after each pass so far: the largest magnitude of eq. 17 over the patches, which eq. 21
   /// bounds. In the semi-iterative scheme of the current set of directions only.
@@ -453,6 +463,11 @@ struct Solution {
   /// A point from which patches are seen, whose radiance toward it result files then have.
   std::optional<Vec3> eye = std::nullopt;
 };
+
+/// The reflected light B - E of each patch, W/m², which relative changes, errors and differences are
+/// relative to. It is 0 for patches that emit, unless all emit or the others reflect nothing.
+/// @param b B, W/m², one value per patch; with a linear basis three, the mean first.
+std::vector<Rgb> reflected_light(const Scene& scene, const std::vector<Rgb>& b);
 
 /// B at the corners of patch i's outline, W/m². Of Basis::linear it may be below 0.
 std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i);

@@ -15,7 +15,7 @@ namespace TRANSILLUM_API transillum {
 
 /// Options of relight().
 struct RelightOptions {
-  double tolerance = 1e-6;  ///< stop when no patch changes by more than this times the largest B
+  double tolerance = 1e-6;  ///< as SolveOptions::tolerance
   /// Initial B, W/m², one per patch; empty: E. The closer to the result, the fewer iterations.
   std::span<const Rgb> start = {};
   /// The first shot of the solve run that the form factors come from

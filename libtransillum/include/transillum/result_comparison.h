@@ -11,12 +11,13 @@
 
 namespace TRANSILLUM_API transillum {
 
-/// The difference of B over some patches.
+/// The difference of B over some patches, without those that emit unless all do.
 struct RadiosityDifference {
-  /// RMS of the differences over the RMS of B of the first result, over patches and channels; 0
-  /// where nothing differs, infinite where only the first is dark.
+  /// RMS of the differences over the RMS of the reflected light of the first result, over channels
+  /// and the patches where that is measured (reflected_light()); 0 where nothing differs, infinite
+  /// where only the first is dark.
   double rms = 0;
-  /// Largest |difference| of a channel over the largest B of the first result, likewise.
+  /// Largest |difference| of a channel over the largest reflected light of the first result.
   double largest = 0;
   PatchId worst = no_patch;  ///< the patch with the largest difference; no_patch: nothing differs
   Rgb first;                 ///< its B in the first result, W/m²
@@ -27,7 +28,7 @@ struct RadiosityDifference {
 struct GroupDifference {
   std::int32_t group = no_group;   ///< index into Scene::groups(), or no_group
   std::int64_t patches = 0;        ///< in the group
-  RadiosityDifference difference;  ///< relative to the B of the group
+  RadiosityDifference difference;  ///< relative to the reflected light of the group
 };
 
 /// How two results of one scene differ.

@@ -23,15 +23,18 @@
 
 namespace TRANSILLUM_API transillum {
 
-/// The error of B against a reference.
+/// The error of B against a reference, relative to the reference's reflected light, on the patches
+/// where that is measured (reflected_light()).
 struct RadiosityError {
-  double rms = 0;  ///< RMS of the difference over RMS of the reference, over patches and channels
-  double max = 0;  ///< largest magnitude of the difference over the largest of the reference
+  double rms = 0;  ///< RMS of the difference over RMS of the light, over patches and channels
+  double max = 0;  ///< largest magnitude of the difference over the largest of the light
 };
-/// Computes the error of `b`. Not finite where the reference is 0.
-/// @param b W/m², one per patch.
-/// @param reference W/m², one per patch.
-RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>& reference);
+/// Computes the error of `b`. Not finite where nothing is reflected.
+/// @param scene the scene, with E.
+/// @param b W/m², one per patch; with a linear basis three, the mean first.
+/// @param reference likewise.
+RadiosityError radiosity_error(const Scene& scene, const std::vector<Rgb>& b,
+                               const std::vector<Rgb>& reference);
 
 /// The same of functions: `rms` is the L2 norm of the difference over that of the reference, `max`
 /// the largest magnitude of a coefficient's difference over the largest of the reference.
@@ -89,8 +92,6 @@ struct StudyOptions {
   /// Number of direction sets that each M is solved with, each with its own rotation and seed; 1:
   /// one set without a rotation.
   int rotations = 1;
-  /// Omit emitting patches from the errors: their known exitance may dominate everything else.
-  bool without_sources = false;
   /// Settings common to all series. In the semi-iterative scheme averaged_iterations = 0 means
   /// default_averaged_iterations.
   SolveOptions solve{.tolerance = 1e-8};

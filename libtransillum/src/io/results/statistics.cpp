@@ -113,6 +113,10 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["error"] =
       list_of(steps, [](const IterationRecord& s) { return s.error ? Json(*s.error) : Json(); });
   json["remainder"] = list_of(steps, [](const IterationRecord& s) { return s.remainder; });
+  json["remainder_dimmest"] =
+      list_of(steps, [](const IterationRecord& s) { return s.remainder_dimmest; });
+  json["unlit_area"] = list_of(steps, [](const IterationRecord& s) { return s.unlit_area; });
+  json["change_of_b"] = list_of(steps, [](const IterationRecord& s) { return s.change_of_b; });
   json["step_seconds"] = list_of(steps, [](const IterationRecord& s) { return s.seconds; });
   json["refinement"] = list_of(statistics.refinement, [](const RefinementRound& round) {
     return Json{{"patches", round.patches}, {"figure", round.figure}, {"seconds", round.seconds}};

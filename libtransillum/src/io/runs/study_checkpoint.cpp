@@ -45,7 +45,7 @@ Json study_identity(const Scene& scene, const StudyOptions& options,
                     const SolveOptions& reference) {
   Json study = {{"directions", options.directions},
                 {"rotations", options.rotations},
-                {"without_sources", options.without_sources}};
+                {"errors_of", "reflected light"}};
   for (std::size_t k = 0; k < options.series.size(); ++k) {
     study[fmt::format("series {}", k + 1)] = run_options(
         options.solve_options(options.series[k], options.directions.front()), scene.options());

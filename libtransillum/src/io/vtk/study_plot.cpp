@@ -159,8 +159,8 @@ LineChart StudyPlot::chart(const std::string& scene, const ChartStyle& style) co
   }
   const bool by_passes = against_ == StudyAxis::passes;
   chart.x.title = by_passes ? "passes M" : "processor time, s";
-  chart.y.title = measure_ == ErrorMeasure::rms ? "RMS error of B over RMS of B"
-                                                : "largest error of B over largest B";
+  chart.y.title = measure_ == ErrorMeasure::rms ? "RMS error over RMS of reflected light"
+                                                : "largest error over largest reflected light";
   if (points_.empty()) {
     return chart;
   }

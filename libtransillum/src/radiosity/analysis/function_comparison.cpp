@@ -107,6 +107,10 @@ double area_of(const Scene& scene) {
 struct Squares {
   double difference = 0, reference = 0;
 
+  void add(double of_difference, double of_reference) {
+    difference += of_difference;
+    reference += of_reference;
+  }
   double relative() const {
     if (difference == 0) {
       return 0;
@@ -128,7 +132,7 @@ FunctionDifference compare_functions(const Solution& reference, const Solution& 
   const Solution& fine = other_is_finer ? other : reference;
   const Solution& coarse = other_is_finer ? reference : other;
   const RadiosityFunction of_fine(fine), of_coarse(coarse);
-  Squares all, without_sources;
+  Squares of_all, of_others;  // others: patches that do not emit
   PatchId near = no_patch;
   for (const Piece& piece : fine.scene->pieces()) {
     const Patch& patch = fine.scene->patch(piece.patch);
@@ -146,17 +150,16 @@ FunctionDifference compare_functions(const Solution& reference, const Solution& 
         }
         const Rgb one = of_fine.at_point(piece.patch, point), two = of_coarse.at_point(near, point);
         const double difference = weight * sum_of_squares(one - two);
-        const double value = weight * sum_of_squares(other_is_finer ? two : one);
-        all.difference += difference;
-        all.reference += value;
-        if (max_abs(fine.scene->exitance(piece.patch)) == 0) {
-          without_sources.difference += difference;
-          without_sources.reference += value;
+        const Rgb& exitance = fine.scene->exitance(piece.patch);
+        const double value = weight * sum_of_squares((other_is_finer ? two : one) - exitance);
+        of_all.add(difference, value);
+        if (max_abs(exitance) == 0) {
+          of_others.add(difference, value);
         }
       }
     }
   }
-  return {all.relative(), without_sources.relative(), area};
+  return {(of_others.reference > 0 ? of_others : of_all).relative(), area};
 }
 
 }  // namespace transillum

@@ -9,7 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
 
+#include "radiosity/reflected_light.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 
@@ -53,12 +57,12 @@ class DifferenceSums {
   /// radiosities are out of range
   explicit DifferenceSums(double unit) : scale_(unit > 0 ? 1 / unit : 1) {}
 
-  void add(PatchId i, const Rgb& first, const Rgb& second) {
+  /// @param reflected light of the first result
+  void add(PatchId i, const Rgb& first, const Rgb& second, const Rgb& reflected) {
     const Rgb difference = second - first;
     squares_ += sum_of_squares(difference);
-    reference_squares_ += sum_of_squares(first);
-    reference_ = std::max(reference_, max_abs(first));
-    ++patches_;
+    reference_squares_ += sum_of_squares(reflected);
+    reference_ = std::max(reference_, max_abs(reflected));
     if (max_abs(difference) > largest_) {
       largest_ = max_abs(difference);
       result_.worst = i;
@@ -66,7 +70,6 @@ class DifferenceSums {
       result_.second = second;
     }
   }
-  std::int64_t patches() const { return patches_; }
   RadiosityDifference result() const {
     RadiosityDifference result = result_;
     result.rms = std::sqrt(relative(squares_, reference_squares_));
@@ -82,7 +85,6 @@ class DifferenceSums {
 
   double scale_;
   double squares_ = 0, reference_squares_ = 0, reference_ = 0, largest_ = 0;
-  std::int64_t patches_ = 0;
   RadiosityDifference result_;
 };
 
@@ -140,29 +142,50 @@ std::string sky_difference(const Solution& one, const Solution& other) {
   return fmt::format("one has {}, and the other has {}", text_of(one.sky), text_of(other.sky));
 }
 
+namespace {
+
+/// Over some patches: those of them that do not emit, or all where those reflect nothing.
+RadiosityDifference difference_of(const std::vector<PatchId>& part, const Solution& first,
+                                  const Solution& second) {
+  std::vector<Rgb> exitance, b;
+  double unit = 0;
+  for (const PatchId i : part) {
+    exitance.push_back(first.scene->exitance(i));
+    b.push_back(at(first.radiosity, i));
+    unit = std::max({unit, max_abs(b.back()), max_abs(at(second.radiosity, i))});
+  }
+  const ReflectedLight light(std::move(exitance), 1);
+  const std::vector<char> measured = light.measured(b);
+  DifferenceSums sums(unit);
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    if (measured[k] != 0) {
+      sums.add(part[k], b[k], at(second.radiosity, part[k]), light.of(k, b[k]));
+    }
+  }
+  return sums.result();
+}
+
+}  // namespace
+
 ResultComparison compare_results(const Solution& first, const Solution& second) {
   const Scene& scene = *first.scene;
   if (const std::string difference = scene_difference(scene, *second.scene); !difference.empty()) {
     throw InputError("the results are of different scenes: " + difference);
   }
-  double unit = 0;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    unit = std::max({unit, max_abs(at(first.radiosity, i)), max_abs(at(second.radiosity, i))});
-  }
-  DifferenceSums whole(unit);
+  std::vector<PatchId> all(scene.patches().size());
+  std::iota(all.begin(), all.end(), 0);
   const std::size_t groups = scene.groups().size();
-  std::vector<DifferenceSums> parts(groups + 1, DifferenceSums(unit));  // the last: no group
+  std::vector<std::vector<PatchId>> parts(groups + 1);  // the last: no group
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const std::int32_t group = scene.patch(i).group;
-    const Rgb &a = at(first.radiosity, i), &b = at(second.radiosity, i);
-    whole.add(i, a, b);
-    parts[group == no_group ? groups : static_cast<std::size_t>(group)].add(i, a, b);
+    parts[group == no_group ? groups : static_cast<std::size_t>(group)].push_back(i);
   }
-  ResultComparison comparison{whole.result(), {}, sky_difference(first, second)};
+  ResultComparison comparison{difference_of(all, first, second), {},
+                              sky_difference(first, second)};
   for (std::size_t g = 0; g < parts.size(); ++g) {
-    if (parts[g].patches() > 0) {
+    if (!parts[g].empty()) {
       comparison.groups.push_back({g == groups ? no_group : static_cast<std::int32_t>(g),
-                                   parts[g].patches(), parts[g].result()});
+                                   std::ssize(parts[g]), difference_of(parts[g], first, second)});
     }
   }
   return comparison;

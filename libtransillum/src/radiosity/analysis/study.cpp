@@ -18,7 +18,8 @@
 #include "base/choice.h"
 #include "base/power_of_two.h"
 #include "radiosity/linear_solution.h"
-#include "radiosity/sum_of_squares.h"
+#include "radiosity/reflected_light.h"
+#include "radiosity/solver/norms.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
@@ -42,15 +43,23 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The values with 0 for patches that emit.
-std::vector<Rgb> of_dark_patches(const Scene& scene, std::vector<Rgb> values) {
-  const std::size_t per_patch = values.size() / scene.patches().size();
-  for (std::size_t u = 0; u < values.size(); ++u) {
-    if (max_abs(scene.exitance(static_cast<PatchId>(u / per_patch))) > 0) {
-      values[u] = {};
-    }
+/// b - reference where the reflected light of `reference` is measured, and 0 elsewhere.
+std::vector<Rgb> measured_difference(const ReflectedLight& light, const std::vector<Rgb>& b,
+                                     const std::vector<Rgb>& reference) {
+  const std::vector<char> measured = light.measured(reference);
+  std::vector<Rgb> off(b.size());
+  for (std::size_t u = 0; u < b.size(); ++u) {
+    off[u] = measured[u] != 0 ? b[u] - reference[u] : Rgb{};
   }
-  return values;
+  return off;
+}
+
+/// @param off error of `reflected`
+RadiosityError relative_error(const std::vector<Rgb>& off, const std::vector<Rgb>& reflected) {
+  const double largest = max_norm(reflected);
+  // The squares of very large or very small radiosities are out of range.
+  const double unit = 1 / scale_to_one(largest);
+  return {root_of_squares(off, unit) / root_of_squares(reflected, unit), max_norm(off) / largest};
 }
 
 /// As on the command line: `zbuffer:256`, or `fast`.
@@ -67,7 +76,7 @@ class StudyRun {
       : scene_(std::move(scene)),
         tree_(std::move(tree)),
         options_(options),
-        reference_(compared(reference)),
+        reference_(reference),
         observer_(observer),
         cancellation_(cancellation),
         rho_max_(measure(*scene_, cancellation).rho_max) {
@@ -80,11 +89,11 @@ class StudyRun {
         all_passes_ += passes_expected(options.solve_options(series, m)) * options.rotations;
       }
     }
-    if (std::all_of(reference_.begin(), reference_.end(),
-                    [](const Rgb& b) { return max_abs(b) == 0; })) {
-      throw InputError(fmt::format("{}: the reference is 0{}, so relative errors are undefined",
-                                   scene_->name(),
-                                   options.without_sources ? " except on sources" : ""));
+    const std::size_t per_patch = reference.size() / scene_->patches().size();
+    if (max_norm(ReflectedLight(*scene_, per_patch).of(reference)) == 0) {
+      throw InputError(
+          fmt::format("{}: no patch reflects light, so relative errors are undefined",
+                      scene_->name()));
     }
   }
 
@@ -114,9 +123,10 @@ class StudyRun {
     done_passes_ += passes;
     skipped_passes_ += passes;
   }
-  /// The part of B that errors are computed of.
-  std::vector<Rgb> compared(const std::vector<Rgb>& b) const {
-    return options_.without_sources ? of_dark_patches(*scene_, b) : b;
+  /// @param b coefficients, as in a reference
+  RadiosityError error_of(const std::vector<Rgb>& b) const {
+    return options_.of_functions() ? function_error(*scene_, b, reference_)
+                                   : radiosity_error(*scene_, b, reference_);
   }
 
   StudyPoint point(std::size_t series, int m) {
@@ -165,9 +175,8 @@ class StudyRun {
           report(series, static_cast<int>(point.passes));
         });
     point.directions = solution.statistics.directions;
-    const std::vector<Rgb> b = compared(coefficients_of(solution.radiosity, solution.linear_parts));
-    const RadiosityError error = options_.of_functions() ? function_error(*scene_, b, reference_)
-                                                         : radiosity_error(b, reference_);
+    const RadiosityError error =
+        error_of(coefficients_of(solution.radiosity, solution.linear_parts));
     point.rms_error = error.rms;
     point.max_error = error.max;
     point.seconds = processor_seconds() - start;
@@ -191,9 +200,8 @@ class StudyRun {
       return true;
     });
     done_passes_ = before + expected;
-    const std::vector<Rgb> b = compared(coefficients_of(solver.radiosity(), solver.linear_parts()));
-    const RadiosityError error = options_.of_functions() ? function_error(*scene_, b, reference_)
-                                                         : radiosity_error(b, reference_);
+    const RadiosityError error =
+        error_of(coefficients_of(solver.radiosity(), solver.linear_parts()));
     const double share = 1.0 / options_.rotations;
     point.rms_error += share * error.rms * error.rms;
     point.max_error = std::max(point.max_error, error.max);
@@ -244,20 +252,10 @@ class StudyRun {
 
 }  // namespace
 
-RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>& reference) {
-  double largest = 0, reference_largest = 0;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    largest = std::max(largest, max_abs(b[i] - reference[i]));
-    reference_largest = std::max(reference_largest, max_abs(reference[i]));
-  }
-  // The squares of very large or very small radiosities are out of range.
-  const double scale = scale_to_one(reference_largest);
-  double squares = 0, reference_squares = 0;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    squares += sum_of_squares(scale * (b[i] - reference[i]));
-    reference_squares += sum_of_squares(scale * reference[i]);
-  }
-  return {std::sqrt(squares / reference_squares), largest / reference_largest};
+RadiosityError radiosity_error(const Scene& scene, const std::vector<Rgb>& b,
+                               const std::vector<Rgb>& reference) {
+  const ReflectedLight light(scene, b.size() / scene.patches().size());
+  return relative_error(measured_difference(light, b, reference), light.of(reference));
 }
 
 RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
@@ -268,20 +266,22 @@ RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
   for (const Patch& patch : scene.patches()) {
     area += patch.area;
   }
-  // By Parseval, ∫ B² = A (b_0² + b_1² + b_2²).
-  std::vector<Rgb> values(reference.size()), weighted(reference.size()),
-      weighted_reference(reference.size());
-  for (std::size_t i = 0; i < patches; ++i) {
-    const double weight = std::sqrt(scene.patches()[i].area / area);
-    for (std::size_t a = 0; a < functions; ++a) {
-      const std::size_t u = functions * i + a;
-      values[u] = a < per_patch ? b[per_patch * i + a] : Rgb{};
-      weighted[u] = weight * values[u];
-      weighted_reference[u] = weight * reference[u];
-    }
+  const ReflectedLight light(scene, functions);
+  std::vector<Rgb> values(reference.size());
+  for (std::size_t u = 0; u < values.size(); ++u) {
+    const std::size_t a = u % functions;
+    values[u] = a < per_patch ? b[per_patch * (u / functions) + a] : Rgb{};
   }
-  return {radiosity_error(weighted, weighted_reference).rms,
-          radiosity_error(values, reference).max};
+  std::vector<Rgb> off = measured_difference(light, values, reference),
+                   reflected = light.of(reference);
+  const double largest = relative_error(off, reflected).max;
+  // By Parseval, ∫ B² = A (b_0² + b_1² + b_2²).
+  for (std::size_t u = 0; u < values.size(); ++u) {
+    const double weight = std::sqrt(scene.patches()[u / functions].area / area);
+    off[u] = weight * off[u];
+    reflected[u] = weight * reflected[u];
+  }
+  return {relative_error(off, reflected).rms, largest};
 }
 
 const std::vector<std::string>& error_measure_names() {

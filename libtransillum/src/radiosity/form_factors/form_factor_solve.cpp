@@ -9,8 +9,8 @@
 
 #include "base/for_each_index.h"
 #include "base/seconds_since.h"
-#include "radiosity/error_bounds.h"
 #include "radiosity/form_factors/jacobi.h"
+#include "radiosity/solver/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/solve_errors.h"
@@ -96,40 +96,54 @@ void JacobiIteration::add_sky(std::span<const Rgb> irradiance) {
   }
 }
 
+RemainderBound JacobiIteration::remainder_bound() const {
+  std::vector<Rgb> exitances, reflectances;
+  std::vector<double> areas;
+  for (std::size_t u = 0; u < b.size(); ++u) {
+    exitances.push_back(exitance(u));
+    reflectances.push_back(material(u).reflectance);
+    areas.push_back(scene_.patches()[u / per_patch_].area);
+  }
+  return {ReflectedLight(std::move(exitances), per_patch_), std::move(areas),
+          std::move(reflectances), per_patch_};
+}
+
 void JacobiIteration::run(int limit, double tolerance, const Cancellation& cancellation) {
   using Clock = std::chrono::steady_clock;
-  std::vector<Rgb> next(b.size());
+  const RemainderBound bound = remainder_bound();
+  std::vector<Rgb> reflected(b.size()), changes(b.size());
   double last_change = 0, rho_max = 0;
   for (std::size_t i = 0; i < b.size(); ++i) {
+    reflected[i] = b[i] - exitance(i);
     rho_max = std::max(rho_max, max_abs(material(i).reflectance));
   }
   while (!converged && std::ssize(records) < limit) {
     const auto start = Clock::now();
+    std::vector<Rgb> next(b.size());
     for_each_row(cancellation, [&](std::size_t i) {
       h[i] = gather(form_factors_, i, b);
       if (!correction_.empty()) {
         h[i] += correction_[i];
       }
-      next[i] = exitance(i) + material(i).reflectance * h[i];
+      // The difference of B would lose the digits of a small change to a large E.
+      const Rgb before = reflected[i];
+      reflected[i] = material(i).reflectance * h[i];
+      changes[i] = reflected[i] - before;
+      next[i] = exitance(i) + reflected[i];
     });
-    double change = 0, largest = 0;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      change = std::max(change, max_abs(next[i] - b[i]));
-      largest = std::max(largest, max_abs(next[i]));
-    }
     b.swap(next);
-    if (!std::isfinite(largest)) {
+    if (!all_finite(b)) {
       throw divergence();
     }
+    const double change = max_norm(changes);
     IterationRecord record;
-    record.change = largest > 0 ? change / largest : 0;
     record.contraction = records.empty() || last_change == 0 ? 0 : change / last_change;
-    const double factor = std::max(rho_max, record.contraction);
-    record.remainder = largest > 0 ? rho_max * distance_to_limit(change, factor) / largest : 0;
+    bound.describe(record, b, changes, std::max(rho_max, record.contraction));
     record.seconds = seconds_since(start);
+    const bool rounded = tolerance > 0 && is_rounding(record);
     records.push_back(record);
     last_change = change;
-    converged = change <= tolerance * largest;
+    converged = rounded || std::max(record.remainder, record.remainder_dimmest) <= tolerance;
   }
 }
 

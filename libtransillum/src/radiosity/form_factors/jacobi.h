@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "radiosity/reflected_light.h"
 #include "transillum/cancellation.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
@@ -41,8 +42,8 @@ struct JacobiIteration {
   /// From now on adds to H what each patch receives from a sky; empty: nothing.
   /// @throws InputError where there is not one value >= 0 per patch
   void add_sky(std::span<const Rgb> irradiance);
-  /// Iterates up to `limit` iterations in total, or until no patch changes by more than
-  /// `tolerance` of the largest B.
+  /// Iterates up to `limit` iterations in total, or until the light not yet propagated is at most
+  /// `tolerance` of the reflected light (IterationRecord::remainder, remainder_dimmest).
   /// @throws Canceled; NotConvergent where B exceeds the range of numbers
   void run(int limit, double tolerance, const Cancellation& cancellation);
   /// Iterates until the tolerance is reached.
@@ -57,6 +58,7 @@ struct JacobiIteration {
   /// Of the patch of an unknown.
   const Material& material(std::size_t unknown) const;
   Rgb exitance(std::size_t unknown) const;
+  RemainderBound remainder_bound() const;
 
   const Scene& scene_;
   const FormFactors& form_factors_;

@@ -197,7 +197,7 @@ void refuse_directions(const SolveOptions& options, const std::string& who) {
 
 /// Relative RMS difference of B; with linear functions, of all coefficients.
 double difference(const Solution& a, const Solution& b) {
-  return radiosity_error(coefficients_of(a.radiosity, a.linear_parts),
+  return radiosity_error(*a.scene, coefficients_of(a.radiosity, a.linear_parts),
                          coefficients_of(b.radiosity, b.linear_parts))
       .rms;
 }

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -19,6 +18,8 @@
 #include "base/memory_limit.h"
 #include "base/seconds_since.h"
 #include "radiosity/ratio.h"
+#include "radiosity/reflected_light.h"
+#include "radiosity/solver/norms.h"
 #include "radiosity/solver/pass_plan.h"
 #include "transillum/at.h"
 #include "transillum/solve_errors.h"
@@ -28,7 +29,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::numbers::pi;
-constexpr double rounding = 1e-12;  ///< of changes, as in a diffuse solve
 
 }  // namespace
 
@@ -222,9 +222,7 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers, const Observer
   next->reflected = light->reflected;
   next->lambertian.resize(input.patch_count());
   std::vector<Rgb> before, after, received(input.patch_count());
-  for (const PatchId i : glossy) {
-    before.push_back(at(light->lambertian, i));
-  }
+  std::vector<Rgb> reflected(input.patch_count()), changes(input.patch_count());
   LobeTables::Change change;
   const bool has_sky = input.options.sky.set();
   std::vector<Rgb> sky_light(has_sky ? input.patch_count() : 0);
@@ -234,14 +232,17 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers, const Observer
       sky_light[i] = scale(i) * sky_area[i] / pi * input.options.sky.exitance;
       received[i] += sky_light[i];
     }
-    const Rgb radiance = lambertian_of(i, received[i]);
+    next->lambertian[i] = lambertian_of(i, received[i]);
+    const Rgb rho = material(i).reflectance, all = rho + used_lobe(material(i)).reflectance;
+    reflected[i] = all * received[i];
+    changes[i] = all * (received[i] - irradiance[i]);
     if (light->index_of[i] < 0) {
-      change.change = std::max(change.change, max_abs(radiance - light->lambertian[i]));
-      change.largest = std::max(change.largest, max_abs(radiance));
+      change.change = std::max(change.change, 1 / pi * max_abs(changes[i]));
+      change.largest = std::max(change.largest, 1 / pi * max_abs(reflected[i]));
     } else {
-      after.push_back(radiance);
+      before.push_back(1 / pi * (rho * irradiance[i]));
+      after.push_back(1 / pi * (rho * received[i]));
     }
-    next->lambertian[i] = radiance;
   }
   const LobeTables::Change of_lobes =
       next->lobes->reflect(incoming, next->shares, before, after, next->reflected, workers,
@@ -259,7 +260,7 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers, const Observer
   iteration_seconds += seconds;
   reflection_seconds = seconds;
   stage = SolveProgress::Stage::passes;
-  record(change);
+  record(change, reflected, changes);
 }
 
 double GlossySolver::Impl::rho_max() const {
@@ -271,17 +272,23 @@ double GlossySolver::Impl::rho_max() const {
   return largest;
 }
 
-void GlossySolver::Impl::record(const LobeTables::Change& change) {
+void GlossySolver::Impl::record(const LobeTables::Change& change, std::vector<Rgb> reflected,
+                                const std::vector<Rgb>& changes) {
+  std::vector<Rgb> exitance, reflectance;
+  std::vector<double> area;
+  for (std::size_t i = 0; i < input.patch_count(); ++i) {
+    exitance.push_back(material(i).exitance);
+    reflectance.push_back(material(i).reflectance + used_lobe(material(i)).reflectance);
+    area.push_back(input.scene->patches()[i].area);
+    reflected[i] += exitance[i];
+  }
   IterationRecord now{
-      .change = ratio_or_zero(change.change, change.largest),
       .contraction = records.empty() ? 0.0 : ratio_or_zero(change.change, last_change),
       .seconds = iteration_seconds};
-  const double rho = rho_max();
-  const double factor = now.change > rounding ? std::max(now.contraction, rho) : rho;
-  now.remainder =
-      factor < 1 ? rho * now.change / (1 - factor) : std::numeric_limits<double>::infinity();
-  const bool is_rounding =
-      !records.empty() && now.change <= rounding && now.change >= records.back().change;
+  const RemainderBound bound(ReflectedLight(std::move(exitance), 1), std::move(area),
+                             std::move(reflectance), 1);
+  bound.describe(now, reflected, changes, std::max(now.contraction, rho_max()), pi * change.change);
+  now.change = ratio_or_zero(change.change, change.largest);
   if (!std::isfinite(change.change) || !std::isfinite(change.largest)) {
     throw NotConvergent(
         fmt::format("the iteration does not converge for M = {}: radiance exceeds the range of "
@@ -292,9 +299,9 @@ void GlossySolver::Impl::record(const LobeTables::Change& change) {
   last_change = change.change;
   records.push_back(now);
   const int asked = input.options.iterations;
-  const bool settled = now.change <= input.options.tolerance || is_rounding;
-  converged = settled;
-  finished = asked > 0 ? std::ssize(records) >= asked : settled;
+  converged = std::max(now.remainder, now.remainder_dimmest) <= input.options.tolerance ||
+              is_rounding(now);
+  finished = asked > 0 ? std::ssize(records) >= asked : converged;
   pass = 0;
 }
 

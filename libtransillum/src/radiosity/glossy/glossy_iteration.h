@@ -96,7 +96,12 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   Rgb lambertian_of(std::size_t i, const Rgb& received) const;
   double defect_of_energy() const;
   double rho_max() const;
-  void record(const LobeTables::Change& change);
+  /// Ends an iteration.
+  /// @param change of radiance
+  /// @param reflected light of each patch, its lobe included, W/m²
+  /// @param changes of `reflected` by the iteration, W/m²
+  void record(const LobeTables::Change& change, std::vector<Rgb> reflected,
+              const std::vector<Rgb>& changes);
 };
 
 }  // namespace transillum

@@ -14,6 +14,7 @@
 
 #include "base/seconds_since.h"
 #include "radiosity/ratio.h"
+#include "radiosity/reflected_light.h"
 #include "radiosity/solver/norms.h"
 #include "radiosity/state_archive.h"
 #include "transillum/at.h"
@@ -46,8 +47,13 @@ constexpr double time_share = 0.85;
 
 double length(const Rgb& v) { return std::hypot(v.r, v.g, v.b); }
 
-double largest_error(const std::vector<Rgb>& b, const ErrorEstimate& error) {
-  return ratio_or_zero(error.quantile * max_norm(error.standard_error), max_norm(b));
+double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorEstimate& error) {
+  const std::vector<char> measured = ReflectedLight(scene).measured(b);
+  double largest = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    largest = measured[i] != 0 ? std::max(largest, max_abs(error.standard_error[i])) : largest;
+  }
+  return ratio_or_zero(error.quantile * largest, max_norm(reflected_light(scene, b)));
 }
 
 /// Times of a whole solve instead of those of its last stage.
@@ -71,13 +77,13 @@ double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector
   }
   switch (goal.of) {
     case AccuracyOf::max:
-      return largest_error(b, error);
+      return largest_error(scene, b, error);
     case AccuracyOf::patch:
       return ratio_or_zero(error.quantile * length(at(error.standard_error, goal.patch)),
-                           length(at(b, goal.patch)));
+                           length(at(b, goal.patch) - scene.exitance(goal.patch)));
     case AccuracyOf::mean:
       return ratio_or_zero(error.quantile * length(error.mean_standard_error),
-                           length(error.mean_radiosity));
+                           length(error.mean_reflected));
     case AccuracyOf::rms:
       break;
   }
@@ -95,13 +101,8 @@ AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene) : st
         stage_.replicas * (short_of_time ? directions_at_least : directions_at_first);
   }
   if (options.goal.accuracy > 0) {
-    double rho_max = 0;
-    for (PatchId i = 0; i < scene.patch_count(); ++i) {
-      rho_max = std::max(rho_max, max_abs(scene.reflectance(i)));
-    }
-    // What further iterations would change is then a fiftieth of the goal.
-    stage_.tolerance =
-        std::min(stage_.tolerance, std::max(0.02 * options.goal.accuracy * (1 - rho_max), 1e-12));
+    // What further iterations would add is then a fiftieth of the goal.
+    stage_.tolerance = std::min(stage_.tolerance, 0.02 * options.goal.accuracy);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/power_of_two.h"
 #include "radiosity/error_bounds.h"
+#include "radiosity/reflected_light.h"
 #include "radiosity/solver/norms.h"
 #include "transillum/at.h"
 
@@ -56,13 +57,14 @@ Rgb mean_over_area(const Scene& scene, const std::vector<Rgb>& b) {
 using Matrix = std::vector<std::vector<double>>;
 
 /// Scalar products of the deviations of replicas from `b`, over patches and channels.
-Matrix scalar_products(const std::vector<Rgb>& b, double scale,
+/// @param measured of ReflectedLight
+Matrix scalar_products(const std::vector<Rgb>& b, const std::vector<char>& measured, double scale,
                        const std::vector<std::vector<Rgb>>& replicas) {
   const std::size_t count = replicas.size();
   Matrix products(count, std::vector<double>(count));
   std::vector<Rgb> off(count);
   for (std::size_t i = 0; i < b.size(); ++i) {
-    for (std::size_t r = 0; r < count; ++r) {
+    for (std::size_t r = 0; measured[i] != 0 && r < count; ++r) {
       off[r] = scale * (replicas[r][i] - b[i]);
       for (std::size_t s = 0; s <= r; ++s) {
         const Rgb product = off[r] * off[s];
@@ -115,7 +117,9 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
   error.quantile = quantile(student, (1 + confidence) / 2);
   error.standard_error.reserve(scene.patches().size());
   const std::size_t per_patch = unknowns_per_patch(scene, b);
-  const double scale = scale_to_one(max_norm(b));
+  const ReflectedLight light(scene, per_patch);
+  const std::vector<char> measured = light.measured(b);
+  const double scale = scale_to_one(max_norm(light.of(b)));
   double errors = 0, values = 0;
   for (std::size_t u = 0; u < b.size(); ++u) {
     const Rgb standard_error =
@@ -123,11 +127,13 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
     if (u % per_patch == 0) {
       error.standard_error.push_back(standard_error);
     }
-    errors += sum_of_squares(scale * standard_error);
-    values += sum_of_squares(scale * b[u]);
+    if (measured[u] != 0) {
+      errors += sum_of_squares(scale * standard_error);
+      values += sum_of_squares(scale * light.of(u, b[u]));
+    }
   }
   error.rms = values > 0 ? std::sqrt(errors / values) : 0.0;
-  error.independent_errors = independent_errors(scalar_products(b, scale, replicas));
+  error.independent_errors = independent_errors(scalar_products(b, measured, scale, replicas));
   // The sum of squared errors over its estimate, both as sums of so many squares.
   const boost::math::fisher_f fisher(error.independent_errors,
                                      (error.replicas - 1) * error.independent_errors);
@@ -138,6 +144,7 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
     means.push_back(mean_over_area(scene, replica));
   }
   error.mean_radiosity = mean_over_area(scene, b);
+  error.mean_reflected = mean_over_area(scene, difference(b, light.exitance()));
   error.mean_standard_error =
       standard_error_of(means.size(), scale, [&](std::size_t r) { return means[r]; });
   return error;
@@ -154,9 +161,15 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rg
   }
   error.mean_standard_error =
       root_of_squares(error.mean_standard_error, mean_over_area(scene, bias));
-  const double unit = max_norm(b);
-  if (unit > 0) {
-    const double relative = root_of_squares(bias, unit) / root_of_squares(b, unit);
+  const ReflectedLight light(scene, per_patch);
+  const std::vector<Rgb> reflected = light.of(b);
+  if (const double unit = max_norm(reflected); unit > 0) {
+    const std::vector<char> measured = light.measured(b);
+    std::vector<Rgb> counted = bias;
+    for (std::size_t u = 0; u < bias.size(); ++u) {
+      counted[u] = measured[u * b.size() / bias.size()] != 0 ? bias[u] : Rgb{};
+    }
+    const double relative = root_of_squares(counted, unit) / root_of_squares(reflected, unit);
     error.rms = std::hypot(error.rms, relative);
     error.rms_limit = std::hypot(error.rms_limit, relative);
     error.rms_lowest = std::hypot(error.rms_lowest, relative);

@@ -85,12 +85,12 @@ bool RadiositySolver::Impl::advance_in_group(int last, const RadiositySolver& se
 bool RadiositySolver::Impl::agree_after_round(bool going) {
   std::vector<double> largest{going ? 0.0 : 1.0, kept.requested() && !kept.available() ? 1.0 : 0.0};
   for (const EstimateChange& change : iteration.changes_of_share) {
-    largest.push_back(change.change);
-    largest.push_back(change.largest);
+    largest.insert(largest.end(), {change.change, change.largest, change.largest_of_all});
   }
   share.group->maxima(largest);
-  for (std::size_t k = 2; k < largest.size(); k += 2) {
-    iteration.changes.push_back(ratio_or_zero(largest[k], largest[k + 1]));
+  for (std::size_t k = 2; k < largest.size(); k += 3) {
+    iteration.changes.push_back(
+        EstimateChange{largest[k], largest[k + 1], largest[k + 2]}.relative());
   }
   iteration.changes_of_share.clear();
   statistics.complete_errors();

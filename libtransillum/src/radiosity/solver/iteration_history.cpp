@@ -15,17 +15,21 @@
 namespace transillum {
 namespace {
 
-/// Share of the largest B at which changes may be rounding.
+/// Share of the largest reflected light at which changes may be rounding.
 constexpr double rounding = 1e-12;
+/// Tolerances of the emitted power beyond which a change of the power refutes convergence.
+constexpr double tolerances_of_power = 10;
 
 }  // namespace
 
 IterationHistory::IterationHistory(const SolverInput& input, const RadiosityIterate& first)
     : unknowns_(*input.unknowns),
       options_(input.options),
+      remainder_(ReflectedLight(unknowns_.exitance, unknowns_.per_patch), unknowns_.area,
+                 unknowns_.reflectance, unknowns_.per_patch),
       b_(first.b()),
       h_(first.h()),
-      mean_(input.options),
+      mean_(input.options, ReflectedLight(unknowns_.exitance, unknowns_.per_patch)),
       start_(input) {
   set_means();
 }
@@ -67,10 +71,11 @@ double IterationHistory::contraction() const {
   return measured ? std::max(last.contraction, start_.rho_max()) : start_.rho_max();
 }
 
-void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord record,
-                              bool complete) {
-  const double change = record.change;
-  record.change = ratio_or_zero(change, max_norm(iterate.b()));
+void IterationHistory::update(const RadiosityIterate& iterate, const std::vector<Rgb>& changes,
+                              double seconds, bool complete) {
+  const double change = max_norm(changes);
+  IterationRecord record{.change = remainder_.relative_change(iterate.b(), changes),
+                         .seconds = seconds};
   // The first change after reopening is that of the directions, not of an iteration.
   record.contraction = size_since_reopening() == 0 ? 0.0 : ratio_or_zero(change, last_change_);
   last_change_ = change;
@@ -93,8 +98,20 @@ void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord r
                     options_.directions),
         Remedy::directions_or_row_normalization);
   }
-  records_.back().remainder = ratio_or_zero(max_norm(left()), max_norm(b_));
+  remainder_.describe(records_.back(), iterate.b(), changes, contraction());
+  if (semi_iterative()) {
+    remainder_.describe(records_.back(), b_, left());
+  }
+  changed_power_ = remainder_.changed_power(changes, sky_irradiance(iterate));
   stop(complete);
+}
+
+std::vector<Rgb> IterationHistory::sky_irradiance(const RadiosityIterate& iterate) const {
+  std::vector<Rgb> received;
+  for (std::size_t u = 0; options_.sky.set() && u < b_.size(); u += unknowns_.per_patch) {
+    received.push_back(iterate.sky_irradiance(u));
+  }
+  return received;
 }
 
 void IterationHistory::reopen(int directions) {
@@ -112,8 +129,8 @@ bool IterationHistory::reached_tolerance() const {
     return false;
   }
   const IterationRecord& last = records_.back();
-  const bool rounded = last.change <= rounding && last.contraction >= 1;
-  return last.change <= options_.tolerance || rounded;
+  const bool propagated = std::max(last.remainder, last.remainder_dimmest) <= options_.tolerance;
+  return (propagated || is_rounding(last)) && changed_power_ <= tolerances_of_power * options_.tolerance;
 }
 
 void IterationHistory::stop(bool complete) {

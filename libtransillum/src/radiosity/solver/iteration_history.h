@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "radiosity/reflected_light.h"
 #include "radiosity/solver/iteration_mean.h"
 #include "radiosity/solver/radiosity_iterate.h"
 #include "radiosity/solver/solver_input.h"
@@ -46,11 +47,13 @@ class IterationHistory {
   /// What is left of the start; it gathers along the same passes.
   StartRemainder& start() { return start_; }
   /// Sets B and H after an iteration that ended with `iterate`, records it and applies the stopping
-  /// rule: of eq. 25, or of the error of the mean.
-  /// @param record `change`, largest of iterate.b(), W/m², and `seconds`
+  /// rule: of the light not yet propagated, or of the error of the mean.
+  /// @param changes of iterate.b(), W/m²
+  /// @param seconds wall time of the iteration
   /// @param complete whether the iteration used all M directions
   /// @throws NotConvergent where changes have grown for several iterations
-  void update(const RadiosityIterate& iterate, IterationRecord record, bool complete);
+  void update(const RadiosityIterate& iterate, const std::vector<Rgb>& changes, double seconds,
+              bool complete);
   /// Continues after the end, because the set of directions has grown: the stopping rule counts
   /// iterations from here.
   void reopen(int directions);
@@ -69,9 +72,10 @@ class IterationHistory {
       self.records_.resize(static_cast<std::size_t>(entries));
     }
     for (auto& record : self.records_) {
-      archive(record.change, record.contraction, record.seconds, record.error, record.remainder);
+      archive(record.change, record.contraction, record.seconds, record.error, record.remainder,
+              record.remainder_dimmest, record.unlit_area, record.change_of_b);
     }
-    archive(self.last_change_, self.left_to_do_, self.reopened_at_, self.finished_, self.converged_,
+    archive(self.last_change_, self.changed_power_, self.left_to_do_, self.reopened_at_, self.finished_, self.converged_,
             self.options_.directions);
     archive.require(self.reopened_at_ >= 0 && self.reopened_at_ <= self.size());
     if constexpr (Archive::reading) {
@@ -86,18 +90,22 @@ class IterationHistory {
   /// Bound on the factor by which an iteration reduces the distance of B to its limit.
   double contraction() const;
   bool reached_tolerance() const;
+  /// One per patch, W/m²; empty without a sky.
+  std::vector<Rgb> sky_irradiance(const RadiosityIterate& iterate) const;
   void stop(bool complete);
   /// rho times the row sums of F is above 1 where there are too few directions.
   void check_contraction() const;
 
   const Unknowns& unknowns_;
   SolveOptions options_;
+  RemainderBound remainder_;
   std::vector<Rgb> b_, h_;
   std::vector<Rgb> mean_b_, mean_h_;  ///< of patches; empty where they are the unknowns
   IterationMean mean_;                ///< semi-iterative scheme
   StartRemainder start_;              ///< semi-iterative scheme
   std::vector<IterationRecord> records_;
   double last_change_ = 0;            ///< absolute, W/m²
+  double changed_power_ = 0;          ///< by the last iteration, over the emitted power
   std::optional<double> left_to_do_;  ///< semi-iterative scheme: compared with the tolerance
   int reopened_at_ = 0;               ///< size() at reopen()
   bool finished_ = false, converged_ = false;

@@ -25,7 +25,7 @@ std::optional<double> IterationMean::error(const StartRemainder& start) const {
   if (count() == 0) {
     return {};
   }
-  const double unit = max_norm(b_.sum) / count();
+  const double unit = max_norm(light_.of(b()));
   if (!(unit > 0)) {
     return 0.0;
   }
@@ -61,7 +61,7 @@ void IterationMean::check_burn_in() {
 bool IterationMean::start_is_forgotten(const RadiosityIterate& iterate,
                                        const std::vector<Rgb>& before,
                                        const StartRemainder& start) const {
-  const double unit = max_norm(iterate.b());
+  const double unit = max_norm(light_.of(iterate.b()));
   if (max_norm(start.left()) <= share_of_tolerance * options_.tolerance * unit) {
     return true;
   }

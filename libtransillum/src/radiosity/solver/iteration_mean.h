@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "radiosity/reflected_light.h"
 #include "radiosity/solver/batch_means.h"
 #include "radiosity/solver/radiosity_iterate.h"
 #include "radiosity/solver/running_mean.h"
@@ -15,7 +17,11 @@ namespace transillum {
 /// The mean over iterations of the semi-iterative scheme (eq. 45), when it begins, and its error.
 class IterationMean {
  public:
-  explicit IterationMean(const SolveOptions& options) : options_(options) { check_burn_in(); }
+  /// @param light of the scene
+  IterationMean(const SolveOptions& options, ReflectedLight light)
+      : options_(options), light_(std::move(light)) {
+    check_burn_in();
+  }
 
   int count() const { return b_.count; }    ///< iterations in the mean
   int burn_in() const { return burn_in_; }  ///< iterations before it, so far
@@ -51,6 +57,7 @@ class IterationMean {
                           const StartRemainder& start) const;
 
   SolveOptions options_;
+  ReflectedLight light_;
   int burn_in_ = 0;
   bool past_ = false;
   RunningMean b_, h_, left_;

@@ -3,14 +3,19 @@
 
 #include <vector>
 
+#include "radiosity/ratio.h"
 #include "transillum/scene.h"
 #include "transillum/vec3.h"
 
 namespace transillum {
 
-/// How much the estimate of B changed, and its largest value, W/m².
+/// How much the estimate of B changed, W/m², and its reflected light.
 struct EstimateChange {
-  double change = 0, largest = 0;
+  double change = 0;
+  double largest = 0;         ///< reflected light of patches that do not emit
+  double largest_of_all = 0;  ///< reflected light of all patches
+
+  double relative() const { return ratio_or_zero(change, largest > 0 ? largest : largest_of_all); }
 };
 
 /// The iteration that passes are being added to.

@@ -36,12 +36,14 @@ RadiosityIterate::RadiosityIterate(const Unknowns& unknowns, const SolveOptions&
 
 void RadiosityIterate::start_from(const Rgb& gathered) {
   for (std::size_t u = 0; u < b_.size(); ++u) {
-    set_radiosity(u, radiosity(u, irradiance(u, gathered)));
+    h_[u] = irradiance(u, gathered);
+    set_radiosity(u, radiosity(u, h_[u]));
   }
 }
 
 void RadiosityIterate::start_from(const RadiosityIterate& other) {
   b_ = other.b_;
+  h_ = other.h_;
   unshot_ = other.unshot_;
 }
 
@@ -307,15 +309,16 @@ Rgb RadiosityIterate::sent(const std::vector<double>& column_areas) const {
   return sent;
 }
 
-double RadiosityIterate::finish() {
-  double change = 0;
+std::vector<Rgb> RadiosityIterate::finish() {
+  std::vector<Rgb> changes(b_.size());
   for (std::size_t u = 0; u < b_.size(); ++u) {
+    const Rgb before = h_[u];
     h_[u] = irradiance(u, gathered_irradiance(u));
-    const Rgb next = radiosity(u, h_[u]);
-    change = std::max(change, max_abs(next - b_[u]));
-    set_radiosity(u, next);
+    // The difference of B would lose the digits of a small change to a large E.
+    changes[u] = unknowns_.reflectance[u] * (h_[u] - before);
+    set_radiosity(u, radiosity(u, h_[u]));
   }
-  return change;
+  return changes;
 }
 
 void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
@@ -361,6 +364,8 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
       const double share = std::sqrt(rho_of(unknowns_.reflectance[row]) / unknowns_.area[row]);
       const Rgb known = radiosity(row, given[row]);
       rho_of(result[row]) = rho_of(known) + share * unknown[row];
+      const double rho = rho_of(unknowns_.reflectance[row]);
+      rho_of(h_[row]) = rho_of(given[row]) + (rho > 0 ? share * unknown[row] / rho : 0.0);
     }
   };
   const auto channels = {&Rgb::r, &Rgb::g, &Rgb::b};

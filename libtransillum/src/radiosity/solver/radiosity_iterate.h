@@ -70,8 +70,8 @@ class RadiosityIterate {
   /// Power sent by the part of B that is gathered, in the unit of gathered().
   /// @param column_areas as in VisibleAreaSums, unscaled
   Rgb sent(const std::vector<double>& column_areas) const;
-  /// Ends the iteration: computes H and B from gathered(). Returns the largest change of B, W/m².
-  double finish();
+  /// Ends the iteration: computes H and B from gathered(). Returns the changes of B, W/m².
+  std::vector<Rgb> finish();
   /// Sets B to the limit of the iteration, by conjugate gradients on the symmetric form.
   /// @param tolerance of the residual, relative
   /// @throws Canceled, NotConvergent

@@ -90,16 +90,18 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
        "choose M and the replicas so that the error of B is at most that, with 95 % confidence",
        "none"},
       {"accuracy-of", "a name",
-       "error that the accuracy is about: rms, the RMS error of B over the RMS of B; max, the "
-       "largest error over the largest B; patch:I, that of patch I; mean, that of the mean B",
+       "error that the accuracy is about, relative to reflected light, B - E, without patches that "
+       "emit: rms, the RMS error over the RMS; max, the largest error over the largest value; "
+       "patch:I, the error of patch I; mean, the error of the mean",
        name_of_accuracy(solve.goal)},
       {"seconds", "a number, 0: none",
        "time limit in s, loading excluded: the most accurate result that it allows", "none"},
       {"iterations", "a number, 0: none", "stop after this many iterations",
        fmt::to_string(solve.iterations)},
       {"tolerance", "a number",
-       "stop when no patch changes by more than this fraction of the largest B; semi-iterative: "
-       "when the estimated error of the mean, 95 % confidence, is at most that",
+       "stop when the light not yet propagated is at most this fraction of the reflected light, of "
+       "all patches and of the dimmest tenth of their area; semi-iterative: when the estimated "
+       "error of the mean, 95 % confidence, is at most that",
        fmt::to_string(solve.tolerance)},
   };
 }

@@ -7,6 +7,7 @@
 
 #include "radiosity/linear_solution.h"
 #include "radiosity/ratio.h"
+#include "radiosity/reflected_light.h"
 #include "radiosity/solver/error_estimate.h"
 #include "radiosity/solver/solver_state.h"
 #include "transillum/at.h"
@@ -175,6 +176,10 @@ std::vector<LinearPart> RadiositySolver::linear_parts() const {
     }
   }
   return parts;
+}
+
+std::vector<Rgb> reflected_light(const Scene& scene, const std::vector<Rgb>& b) {
+  return ReflectedLight(scene, b.size() / std::max<std::size_t>(1, scene.patches().size())).of(b);
 }
 
 std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i) {

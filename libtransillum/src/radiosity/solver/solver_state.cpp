@@ -27,7 +27,8 @@ RadiositySolver::Impl::Impl(SolverInput solver_input)
       statistics(*input.scene, input.options.two_way, *input.shot, input.share(),
                  input.unknowns->per_patch),
       history(input, whole),
-      share(input.share()) {
+      share(input.share()),
+      light(input.unknowns->exitance, input.unknowns->per_patch) {
   iteration.directions = plan.directions(0);
   iteration.estimate = whole.b();
 }
@@ -156,7 +157,7 @@ void RadiositySolver::Impl::add_pass(int k, Pass pass) {
   ++timing.passes_made;
   const EstimateChange change = update_estimate();
   if (share.group == nullptr) {
-    iteration.changes.push_back(ratio_or_zero(change.change, change.largest));
+    iteration.changes.push_back(change.relative());
   } else {
     iteration.changes_of_share.push_back(change);
   }
@@ -169,7 +170,11 @@ EstimateChange RadiositySolver::Impl::update_estimate() {
   for (std::size_t u = per_patch * share.first(); u < per_patch * share.last(); ++u) {
     const Rgb value = history.with(u, whole.estimate(u));
     result.change = std::max(result.change, max_abs(value - iteration.estimate[u]));
-    result.largest = std::max(result.largest, max_abs(value));
+    const double reflected = max_abs(light.of(u, value));
+    result.largest_of_all = std::max(result.largest_of_all, reflected);
+    if (!light.emits(u)) {
+      result.largest = std::max(result.largest, reflected);
+    }
     iteration.estimate[u] = value;
   }
   return result;
@@ -186,15 +191,14 @@ void RadiositySolver::Impl::finish_iteration() {
   kept.check_available();
   iteration.energy_defect = energy_defect();
   const bool complete = whole.passes() == input.options.directions;
-  const double change = whole.finish();
+  const std::vector<Rgb> changes = whole.finish();
   replicas.finish();
   if (history.past_burn_in()) {
     replicas.add_to_means();
   }
   const double seconds = seconds_since(start);
   timing.seconds_iterate += seconds;
-  const IterationRecord record{.change = change, .seconds = iteration.seconds + seconds};
-  history.update(whole, record, complete);
+  history.update(whole, changes, iteration.seconds + seconds, complete);
   iteration.end(history.b());
   check_agreement();
 }

@@ -34,6 +34,7 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
   IterationHistory history;     ///< finished iterations, and the answer so far
   SolverTiming timing;
   PatchShare share;
+  ReflectedLight light;  ///< of the scene
 
   explicit Impl(SolverInput solver_input);
 

@@ -10,7 +10,7 @@
 namespace transillum {
 namespace {
 
-/// PatchShare of the largest B below which the difference of two iterates is rounding.
+/// Share of the largest reflected light below which the difference of two iterates is rounding.
 constexpr double negligible = 1e-13;
 
 Rgb max_of(const Rgb& a, const Rgb& b) {
@@ -20,7 +20,9 @@ Rgb max_of(const Rgb& a, const Rgb& b) {
 }  // namespace
 
 StartRemainder::StartRemainder(const SolverInput& input)
-    : input_(input), follows_(input.options.scheme == Scheme::semi_iterative) {
+    : input_(input),
+      light_(input.unknowns->exitance, input.unknowns->per_patch),
+      follows_(input.options.scheme == Scheme::semi_iterative) {
   for (PatchId i = 0; i < input.scene->patch_count(); ++i) {
     rho_max_ = max_of(rho_max_, input.scene->reflectance(i));
   }
@@ -55,7 +57,7 @@ void StartRemainder::finish(const RadiosityIterate& whole) {
   }
   left_ = difference(upper_->b(), whole.b());
   largest_.push_back(max_norm(left_));
-  if (largest_.back() <= negligible * max_norm(whole.b())) {
+  if (largest_.back() <= negligible * max_norm(light_.of(whole.b()))) {
     std::fill(left_.begin(), left_.end(), Rgb{});
     upper_.reset();
     follows_ = false;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "radiosity/reflected_light.h"
 #include "radiosity/solver/radiosity_iterate.h"
 #include "radiosity/solver/solver_input.h"
 
@@ -60,6 +61,7 @@ class StartRemainder {
   std::size_t patch_count() const { return input_.patch_count(); }
 
   const SolverInput& input_;
+  ReflectedLight light_;
   bool follows_;
   Rgb rho_max_;
   std::optional<RadiosityIterate> upper_;
