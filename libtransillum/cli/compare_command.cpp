@@ -53,7 +53,8 @@ std::string comparison_text(const Scene& scene, const ResultComparison& comparis
     text += report_row("skies differ", comparison.sky_difference);
   }
   text += report_row("RMS", fmt::format("{:.4g} of the RMS of reflected light", whole.rms));
-  text += report_row("largest", fmt::format("{:.4g} of the largest reflected light", whole.largest));
+  text +=
+      report_row("largest", fmt::format("{:.4g} of the largest reflected light", whole.largest));
   if (whole.worst != no_patch) {
     text += report_row("where", place_text(scene, whole));
     text += report_row("B there, W/m2", fmt::format("{} and {}", rgb_text(whole.first, 8),
@@ -137,7 +138,8 @@ Run add_compare_command(CLI::App& program) {
                    "--max-patch-area: the L2 norm of the difference");
   command.footer(
       "Differences of B, relative to the reflected light of A: B - E of patches that do not emit,\n"
-      "or of all where the others reflect nothing. By group, they are relative to the group's light.\n"
+      "or of all where the others reflect nothing. By group, they are relative to the group's "
+      "light.\n"
       "With --basis linear, B of a patch is its mean, and L2 is the norm of the functions.\n"
       "Results of different scenes are refused.\n"
       "Example: transillum compare coarse.vtp fine.vtp --tolerance 0.01");

@@ -53,8 +53,9 @@ std::string remainder_text(const IterationRecord& last) {
   if (!std::isfinite(std::max(last.remainder, last.remainder_dimmest))) {
     return "not bounded";
   }
-  return fmt::format("at most {:.2e} of the reflected light, {:.2e} in the dimmest tenth of the area",
-                     last.remainder, last.remainder_dimmest);
+  return fmt::format(
+      "at most {:.2e} of the reflected light, {:.2e} in the dimmest tenth of the area",
+      last.remainder, last.remainder_dimmest);
 }
 
 std::string convergence_text(const SolveStatistics& statistics) {
@@ -156,8 +157,9 @@ std::string solve_summary(const Solution& solution) {
   }
   text += report_row("iterations", convergence_text(s));
   if (!s.iteration_records.empty() && s.iteration_records.back().unlit_area > 0) {
-    text += report_row("unlit", fmt::format("{} of the area: below 1e-6 of the largest reflected light",
-                                            share_text(s.iteration_records.back().unlit_area)));
+    text +=
+        report_row("unlit", fmt::format("{} of the area: below 1e-6 of the largest reflected light",
+                                        share_text(s.iteration_records.back().unlit_area)));
   }
   text += report_row("closure defect", fmt::format("{:.1e}; {} of the projected area sees no patch",
                                                    s.closure_defect_max, share_text(s.escaped)));

@@ -219,7 +219,8 @@ CaseResult measure(const Case& of) {
   if (of.reference_points > 0) {
     other = by_pairs(of.scene, of.reference_points);
     fmt::print("{}: references ({} passes, pairs of {} points) differ by {:.1e}\n", of.name,
-               of.reference_directions, of.reference_points, radiosity_error(*of.scene, other, by_passes).rms);
+               of.reference_directions, of.reference_points,
+               radiosity_error(*of.scene, other, by_passes).rms);
   }
   CaseResult result;
   for (const Method& method : {passes(of.repeats, {}), rays(of.repeats)}) {

@@ -189,7 +189,8 @@ TEST(PairSolve, ReachesAnAccuracy) {
     const PairSolution result = solve_by_pairs(scene, {}, accuracy);
     EXPECT_TRUE(result.reached);
     EXPECT_LE(result.error, accuracy);
-    EXPECT_LE(radiosity_error(*scene, result.solution.radiosity, reference.radiosity).rms, result.error);
+    EXPECT_LE(radiosity_error(*scene, result.solution.radiosity, reference.radiosity).rms,
+              result.error);
   }
   EXPECT_THROW(solve_by_pairs(scene, {}, 0), InputError);
 }

@@ -84,7 +84,8 @@ TestScene under_a_sky() {
   return result;
 }
 
-/// A room with a lamp whose blue light is a thousandth of the red, and that only blue walls reflect.
+/// A room with a lamp whose blue light is a thousandth of the red, and that only blue walls
+/// reflect.
 ScenePtr dark_channel() {
   SceneDescription description;
   {
@@ -133,7 +134,8 @@ Rgb mean(const Scene& scene, const std::vector<Rgb>& values) {
 double mean_error(const Scene& scene, const std::vector<Rgb>& b, const std::vector<Rgb>& truth) {
   const Rgb off = mean(scene, b) - mean(scene, truth);
   const Rgb light = mean(scene, reflected_light(scene, truth));
-  return std::max({std::abs(off.r) / light.r, std::abs(off.g) / light.g, std::abs(off.b) / light.b});
+  return std::max(
+      {std::abs(off.r) / light.r, std::abs(off.g) / light.g, std::abs(off.b) / light.b});
 }
 
 /// The area-weighted sum of |b - truth| over that of the truth, over the tenth of the lit area that
@@ -178,8 +180,8 @@ std::vector<Rgb> limit_of(const TestScene& test, SolveOptions options) {
   return solver.radiosity();
 }
 
-/// By how much the bound grows where row sums of F exceed 1, which directions can make them do: c is
-/// then as much larger than rho_max.
+/// By how much the bound grows where row sums of F exceed 1, which directions can make them do: c
+/// is then as much larger than rho_max.
 double allowance(const Solution& solution) {
   const double rho = solution.statistics.rho_max;
   double largest = 1;
@@ -255,8 +257,8 @@ TEST(ReflectedLight, ALampOf5MillimetersIsSolvedByDefault) {
   EXPECT_NEAR(mean(*scene, solution.radiosity).r, 0.532, 0.002);
 }
 
-/// Each run has rotations of its own, so that they are independent. Of 95 % limits, more than 4 of 22
-/// are exceeded in 0.5 % of such tests.
+/// Each run has rotations of its own, so that they are independent. Of 95 % limits, more than 4 of
+/// 22 are exceeded in 0.5 % of such tests.
 TEST(ReflectedLight, AccuracyIsThatOfReflectedLight) {
   int runs = 0, limits_exceeded = 0, means_missed = 0;
   for (const TestScene& test : scenes_with_light()) {

@@ -135,7 +135,8 @@ TEST(Units, ErrorsOfStudiesAreRelative) {
   const RadiosityError expected = radiosity_error(*scene, b, reference);
   EXPECT_NEAR(expected.rms, std::sqrt(1.25 / 91), 1e-15);
   for (const double unit : {0x1p-600, 0x1p600}) {
-    const RadiosityError error = radiosity_error(*scene, over(1 / unit, b), over(1 / unit, reference));
+    const RadiosityError error =
+        radiosity_error(*scene, over(1 / unit, b), over(1 / unit, reference));
     EXPECT_EQ(error.rms, expected.rms);
     EXPECT_EQ(error.max, expected.max);
   }

@@ -9,6 +9,7 @@
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
 #include "transillum/solve_errors.h"
+#include "transillum/study.h"
 
 namespace transillum::radiosity_schemes_test {
 namespace {
@@ -321,7 +322,7 @@ Coverage coverage_of(int runs, int directions_a_replica, double tolerance = 1e-6
     coverage.means += std::abs(error.mean_radiosity.r - true_mean.r) <=
                       error.quantile * error.mean_standard_error.r;
     estimated += error.rms * error.rms;
-    actual += std::pow(distance(solver.radiosity(), truth), 2);
+    actual += std::pow(radiosity_error(*scene, solver.radiosity(), truth).rms, 2);
   }
   coverage.patches = static_cast<double>(held) / asked;
   coverage.rms = std::sqrt(estimated / actual);
@@ -372,13 +373,13 @@ TEST(Replicas, IncludeWhatALooseToleranceLeaves) {
                                             .normalize = Normalization::rows,
                                             .scheme = scheme,
                                             .replicas = 8,
-                                            .tolerance = 5e-3});
+                                            .tolerance = 0.4});
     EXPECT_TRUE(solution.statistics.converged);
     const double off = 100 - solution.radiosity.front().r;
     EXPECT_GT(off, 20);
     EXPECT_LE(off, solution.error.quantile * solution.error.standard_error.front().r);
     EXPECT_LE(off, solution.error.quantile * solution.error.mean_standard_error.r);
-    EXPECT_GE(solution.error.rms, 0.4);
+    EXPECT_GE(solution.error.rms, 0.9 * 0.4);
   }
 }
 

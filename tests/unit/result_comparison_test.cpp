@@ -32,11 +32,16 @@ SceneDescription squares() {
   return description;
 }
 
-Solution result(const std::vector<Rgb>& b, const SceneDescription& description = squares()) {
+/// @param reflected B - E
+Solution result(const std::vector<Rgb>& reflected,
+                const SceneDescription& description = squares()) {
   Solution solution;
   solution.scene = std::make_shared<const Scene>(description);
-  solution.radiosity = b;
-  solution.irradiance.resize(b.size());
+  for (const Rgb& light : reflected) {
+    const auto i = static_cast<PatchId>(solution.radiosity.size());
+    solution.radiosity.push_back(light + solution.scene->exitance(i));
+  }
+  solution.irradiance.resize(reflected.size());
   return solution;
 }
 
@@ -47,7 +52,7 @@ TEST(ResultComparison, FindsTheKnownDifferences) {
   EXPECT_DOUBLE_EQ(comparison.whole.rms, std::sqrt((0.25 + 1) / (3 + 12 + 48)));
   EXPECT_DOUBLE_EQ(comparison.whole.largest, 1.0 / 4);
   EXPECT_EQ(comparison.whole.worst, 1);
-  EXPECT_EQ(comparison.whole.second, (Rgb{2, 3, 2}));
+  EXPECT_EQ(comparison.whole.second, (Rgb{3, 4, 3}));
   ASSERT_EQ(comparison.groups.size(), 3U);
   EXPECT_EQ(comparison.groups[0].group, 0);
   EXPECT_DOUBLE_EQ(comparison.groups[0].difference.largest, 0.5);
@@ -55,6 +60,24 @@ TEST(ResultComparison, FindsTheKnownDifferences) {
   EXPECT_DOUBLE_EQ(comparison.groups[1].difference.rms, std::sqrt(1.0 / 12));
   EXPECT_EQ(comparison.groups[2].group, no_group);
   EXPECT_EQ(comparison.groups[2].difference.worst, no_patch);
+}
+
+/// Sources do not count, however bright, unless a group has nothing else.
+TEST(ResultComparison, LeavesSourcesOut) {
+  SceneDescription description = squares();
+  description.materials.push_back(description.materials[0]);
+  description.materials[0].exitance = {};
+  description.materials[1].exitance = {1e6, 1e6, 1e6};
+  description.face_material = {0, 0, 1};
+  description.face_group = {0, 0, 2};
+  const Solution a = result({{1, 1, 1}, {1, 1, 1}, {4, 4, 4}}, description);
+  const Solution b = result({{1, 1, 1}, {1.5, 1.5, 1.5}, {5, 5, 5}}, description);
+  const ResultComparison comparison = compare_results(a, b);
+  EXPECT_DOUBLE_EQ(comparison.whole.rms, std::sqrt(0.125));
+  EXPECT_DOUBLE_EQ(comparison.whole.largest, 0.5);
+  EXPECT_EQ(comparison.whole.worst, 1);
+  ASSERT_EQ(comparison.groups.size(), 2U);
+  EXPECT_NEAR(comparison.groups[1].difference.rms, 0.25, 1e-9);
 }
 
 TEST(ResultComparison, NamesDifferentSkies) {
@@ -87,7 +110,9 @@ TEST(ResultComparison, EqualResultsDoNotDiffer) {
 TEST(ResultComparison, IsRelativeForLightOfAnyStrength) {
   for (const double strength : {1e-170, 1.0, 1e170}) {
     const Rgb one = strength * Rgb{1, 1, 1};
-    const Solution a = result({one, one, one}), b = result({one, one, 1.5 * one});
+    SceneDescription dark = squares();
+    dark.materials[0].exitance = {};
+    const Solution a = result({one, one, one}, dark), b = result({one, one, 1.5 * one}, dark);
     EXPECT_NEAR(compare_results(a, b).whole.rms, std::sqrt(0.25 / 3), 1e-15);
   }
 }
@@ -130,7 +155,7 @@ TEST_F(CliCompare, PrintsByGroupAndWhere) {
   const ProgramResult compared = run({"a.vtp", "b.vtp"});
   EXPECT_EQ(compared.status, 0) << compared.err;
   EXPECT_EQ(compared.err, "");
-  EXPECT_THAT(compared.out, HasSubstr("0.25 of the largest B"));
+  EXPECT_THAT(compared.out, HasSubstr("0.25 of the largest reflected light"));
   EXPECT_THAT(compared.out, HasSubstr("patch 1 (face 1"));
   EXPECT_THAT(compared.out, HasSubstr("group middle)"));
   EXPECT_THAT(compared.out, ::testing::ContainsRegex("low +1 +0 +0"));

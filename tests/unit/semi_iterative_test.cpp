@@ -174,7 +174,8 @@ TEST(SemiIterative, HasConvergedWhereItSaysSo) {
       EXPECT_TRUE(solution.statistics.converged);
       const double error = *solution.statistics.iteration_records.back().error;
       EXPECT_LE(error, tolerance);
-      EXPECT_LE(radiosity_error(*known.scene, solution.radiosity, known.b).max, tolerance) << known.name;
+      EXPECT_LE(radiosity_error(*known.scene, solution.radiosity, known.b).max, tolerance)
+          << known.name;
     }
   }
 }
@@ -195,7 +196,9 @@ TEST(SemiIterative, HasConvergedWhereItSaysSoWithFewDirections) {
         options.tolerance = 0.02;
         const Solution solution = solve(known.scene, options);
         EXPECT_TRUE(solution.statistics.converged);
-        held += radiosity_error(*known.scene, solution.radiosity, known.b).max <= options.tolerance ? 1 : 0;
+        held += radiosity_error(*known.scene, solution.radiosity, known.b).max <= options.tolerance
+                    ? 1
+                    : 0;
       }
       EXPECT_GE(held, runs - 1) << known.name << ' ' << name_of(sampling);
     }

@@ -826,8 +826,7 @@ class LessonPagesTest : public QObject {
     QCOMPARE(coarse.page.state.scene, std::string("rooms:n=0,rooms=1"));
     const Solution reference = solved(0.16, Basis::linear);
     const double few = compare_functions(reference, solved(1, Basis::linear)).l2;
-    const double many =
-        compare_functions(reference, solved(0.25, Basis::constant)).l2;
+    const double many = compare_functions(reference, solved(0.25, Basis::constant)).l2;
     QVERIFY2(few < 0.5 * many, qPrintable(QString("%1, %2").arg(few).arg(many)));
   }
 

@@ -138,8 +138,8 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
       {tr("not propagated"), theme::accent, std::move(remainders), true},
       {tr("eq. 25"), theme::good, std::move(changes)},
       averages ? LogChart::Line{tr("error of the mean"), theme::good, std::move(mean_errors)}
-               : LogChart::Line{tr("bound of eq. 25"), theme::good, predicted_changes(snapshot), false,
-                                ChartDashes::dash_dot}};
+               : LogChart::Line{tr("bound of eq. 25"), theme::good, predicted_changes(snapshot),
+                                false, ChartDashes::dash_dot}};
   add_error_band(snapshot, lines);
   iteration_chart_->show_lines(std::move(lines), levels_of(snapshot),
                                std::max(snapshot.options.iterations, 8));

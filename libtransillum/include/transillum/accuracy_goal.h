@@ -10,8 +10,8 @@
 
 namespace TRANSILLUM_API transillum {
 
-/// The error that an AccuracyGoal is about, relative to reflected light (reflected_light()). All are limits that are not exceeded in 95 % of all
-/// runs, by the spread of replicas.
+/// The error that an AccuracyGoal is about, relative to reflected light (reflected_light()). All
+/// are limits that are not exceeded in 95 % of all runs, by the spread of replicas.
 enum class AccuracyOf {
   rms,    ///< RMS error of B over RMS of reflected light, over patches and channels
   max,    ///< largest error over the largest reflected light

@@ -48,8 +48,8 @@ FormFactors gather_form_factors(const Scene& scene, const GatherOptions& options
                                 const Cancellation& cancellation = {},
                                 const std::function<void(double)>& progress = {});
 
-/// Solves B_i = E_i + rho_i sum_j F_ij B_j by Jacobi iteration until the light not yet propagated is
-/// at most `tolerance` of the reflected light (SolveOptions::tolerance).
+/// Solves B_i = E_i + rho_i sum_j F_ij B_j by Jacobi iteration until the light not yet propagated
+/// is at most `tolerance` of the reflected light (SolveOptions::tolerance).
 /// @returns B, W/m², one per patch.
 /// @throws std::runtime_error after 10,000 iterations.
 std::vector<Rgb> solve_radiosity(const Scene& scene, const FormFactors& form_factors,

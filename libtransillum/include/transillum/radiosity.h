@@ -134,14 +134,14 @@ struct IterationRecord {
                            ///< start decreases
   double seconds = 0;      ///< wall time
   /// semi_iterative, from the eighth iteration in the mean on: largest error of the mean over its
-  /// largest reflected light: 95 % of the spread of iterations, and all that is left of the start. The sets
-  /// of directions must differ: Sampling::hammersley and centered_hammersley have the error of one
-  /// set.
+  /// largest reflected light: 95 % of the spread of iterations, and all that is left of the start.
+  /// The sets of directions must differ: Sampling::hammersley and centered_hammersley have the
+  /// error of one set.
   std::optional<double> error = {};
   /// Bound of the power that further iterations would add, over the reflected power, in the channel
   /// where it is largest. With c the larger of rho_max and the contraction, it is c / (1 - c) times
-  /// the power of the last change; infinite where c is not below 1. semi_iterative: bound of what is
-  /// left of the start
+  /// the power of the last change; infinite where c is not below 1. semi_iterative: bound of what
+  /// is left of the start
   double remainder = 0;
   /// The same of the dimmest tenth of the area that is lit: B - E is at least 1e-6 of the largest.
   double remainder_dimmest = 0;
@@ -188,7 +188,8 @@ struct ErrorEstimate {
   int replicas = 0;                 ///< 0: no estimate, all other members are empty
   std::vector<Rgb> standard_error;  ///< of B, W/m², one per patch
   double quantile = 0;  ///< Student's t, two-sided 95 %, replicas - 1 degrees of freedom
-  /// RMS of the errors over RMS of the reflected light (reflected_light()), over patches and channels
+  /// RMS of the errors over RMS of the reflected light (reflected_light()), over patches and
+  /// channels
   double rms = 0;
   /// What the relative RMS error does not exceed in 95 % of all runs. Larger than `rms` by the
   /// uncertainty of an estimate from few replicas: a quantile of the F distribution, less so the
@@ -221,19 +222,19 @@ struct GlossyFigures {
 
 /// Figures of a solve run. Times are wall times.
 struct SolveStatistics {
-  std::int64_t patches = 0;           ///< of the scene
-  std::int64_t fragments = 0;         ///< of the BSP tree
-  int directions = 0;                 ///< used: M or 2M
-  int passes = 0;                     ///< M
-  std::int64_t passes_made = 0;       ///< by the engine, in all iterations
-  std::int64_t hemicubes = 0;         ///< drawn instead of passes; a direction is then one pixel
-  std::int64_t pairs = 0;             ///< of patches, computed instead of passes
-  int iterations = 0;                 ///< finished
-  int burn_in = 0;                    ///< semi_iterative: iterations omitted from the mean
-  int threads = 0;                    ///< used
-  std::int64_t transfers = 0;         ///< exchanges found, over all different directions
-  std::int64_t form_factors = 0;      ///< kept entries; 0 where they are recomputed
-  bool kept_form_factors = false;     ///< the exchange sums of all passes are in memory
+  std::int64_t patches = 0;        ///< of the scene
+  std::int64_t fragments = 0;      ///< of the BSP tree
+  int directions = 0;              ///< used: M or 2M
+  int passes = 0;                  ///< M
+  std::int64_t passes_made = 0;    ///< by the engine, in all iterations
+  std::int64_t hemicubes = 0;      ///< drawn instead of passes; a direction is then one pixel
+  std::int64_t pairs = 0;          ///< of patches, computed instead of passes
+  int iterations = 0;              ///< finished
+  int burn_in = 0;                 ///< semi_iterative: iterations omitted from the mean
+  int threads = 0;                 ///< used
+  std::int64_t transfers = 0;      ///< exchanges found, over all different directions
+  std::int64_t form_factors = 0;   ///< kept entries; 0 where they are recomputed
+  bool kept_form_factors = false;  ///< the exchange sums of all passes are in memory
   /// The tolerance was reached, or changes are rounding; never while the power of the last change
   /// is more than ten tolerances of the emitted power
   bool converged = false;
@@ -464,8 +465,8 @@ struct Solution {
   std::optional<Vec3> eye = std::nullopt;
 };
 
-/// The reflected light B - E of each patch, W/m², which relative changes, errors and differences are
-/// relative to. It is 0 for patches that emit, unless all emit or the others reflect nothing.
+/// The reflected light B - E of each patch, W/m², which relative changes, errors and differences
+/// are relative to. It is 0 for patches that emit, unless all emit or the others reflect nothing.
 /// @param b B, W/m², one value per patch; with a linear basis three, the mean first.
 std::vector<Rgb> reflected_light(const Scene& scene, const std::vector<Rgb>& b);
 

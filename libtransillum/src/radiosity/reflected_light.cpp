@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "radiosity/error_bounds.h"
+#include "radiosity/norms.h"
 #include "radiosity/ratio.h"
-#include "radiosity/solver/norms.h"
 
 namespace transillum {
 namespace {
@@ -119,6 +119,17 @@ void RemainderBound::describe_parts(IterationRecord& record, const std::vector<R
   }
   record.unlit_area = ratio_or_zero(unlit, area);
   record.remainder = record.remainder_dimmest = 0;
+  const auto power_of = [&](const Part& part, double Rgb::*channel) {
+    double power = 0;
+    for (const std::size_t u : part) {
+      power += area_[u] * std::abs(reflected[u].*channel);
+    }
+    return power;
+  };
+  double most = 0;
+  for (const auto channel : channels) {
+    most = std::max(most, power_of(all, channel));
+  }
   for (const auto channel : channels) {
     Part lit;
     for (const std::size_t u : all) {
@@ -126,18 +137,12 @@ void RemainderBound::describe_parts(IterationRecord& record, const std::vector<R
         lit.push_back(u);
       }
     }
-    const auto remainder = [&](const Part& part) {
-      double power = 0;
-      for (const std::size_t u : part) {
-        power += area_[u] * std::abs(reflected[u].*channel);
-      }
-      return relative(bound_of(part, channel), power);
-    };
-    if (!lit.empty()) {
-      record.remainder = std::max(record.remainder, remainder(all));
-      record.remainder_dimmest =
-          std::max(record.remainder_dimmest, remainder(dimmest(std::move(lit), reflected, channel)));
-    }
+    // A channel that is unlit everywhere is compared with the brightest one.
+    const double power = lit.empty() ? most : power_of(all, channel);
+    record.remainder = std::max(record.remainder, relative(bound_of(all, channel), power));
+    const Part dim = dimmest(std::move(lit), reflected, channel);
+    record.remainder_dimmest = std::max(record.remainder_dimmest,
+                                        relative(bound_of(dim, channel), power_of(dim, channel)));
   }
 }
 

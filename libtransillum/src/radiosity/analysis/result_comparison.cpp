@@ -180,8 +180,7 @@ ResultComparison compare_results(const Solution& first, const Solution& second) 
     const std::int32_t group = scene.patch(i).group;
     parts[group == no_group ? groups : static_cast<std::size_t>(group)].push_back(i);
   }
-  ResultComparison comparison{difference_of(all, first, second), {},
-                              sky_difference(first, second)};
+  ResultComparison comparison{difference_of(all, first, second), {}, sky_difference(first, second)};
   for (std::size_t g = 0; g < parts.size(); ++g) {
     if (!parts[g].empty()) {
       comparison.groups.push_back({g == groups ? no_group : static_cast<std::int32_t>(g),

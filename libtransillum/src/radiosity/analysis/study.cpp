@@ -18,8 +18,8 @@
 #include "base/choice.h"
 #include "base/power_of_two.h"
 #include "radiosity/linear_solution.h"
+#include "radiosity/norms.h"
 #include "radiosity/reflected_light.h"
-#include "radiosity/solver/norms.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
@@ -90,10 +90,10 @@ class StudyRun {
       }
     }
     const std::size_t per_patch = reference.size() / scene_->patches().size();
-    if (max_norm(ReflectedLight(*scene_, per_patch).of(reference)) == 0) {
-      throw InputError(
-          fmt::format("{}: no patch reflects light, so relative errors are undefined",
-                      scene_->name()));
+    if (max_norm(reference) == 0 ||
+        max_norm(ReflectedLight(*scene_, per_patch).of(reference)) == 0) {
+      throw InputError(fmt::format("{}: no patch reflects light, so relative errors are undefined",
+                                   scene_->name()));
     }
   }
 

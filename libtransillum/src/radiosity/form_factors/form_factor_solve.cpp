@@ -10,7 +10,7 @@
 #include "base/for_each_index.h"
 #include "base/seconds_since.h"
 #include "radiosity/form_factors/jacobi.h"
-#include "radiosity/solver/norms.h"
+#include "radiosity/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/solve_errors.h"

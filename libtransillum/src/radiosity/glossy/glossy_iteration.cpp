@@ -17,9 +17,9 @@
 #include "base/free_memory.h"
 #include "base/memory_limit.h"
 #include "base/seconds_since.h"
+#include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
-#include "radiosity/solver/norms.h"
 #include "radiosity/solver/pass_plan.h"
 #include "transillum/at.h"
 #include "transillum/solve_errors.h"
@@ -299,8 +299,8 @@ void GlossySolver::Impl::record(const LobeTables::Change& change, std::vector<Rg
   last_change = change.change;
   records.push_back(now);
   const int asked = input.options.iterations;
-  converged = std::max(now.remainder, now.remainder_dimmest) <= input.options.tolerance ||
-              is_rounding(now);
+  converged =
+      std::max(now.remainder, now.remainder_dimmest) <= input.options.tolerance || is_rounding(now);
   finished = asked > 0 ? std::ssize(records) >= asked : converged;
   pass = 0;
 }

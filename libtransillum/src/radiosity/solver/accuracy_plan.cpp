@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "base/seconds_since.h"
+#include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
-#include "radiosity/solver/norms.h"
 #include "radiosity/state_archive.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -119,7 +119,8 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   report_.trusted = light_directions_ >= least_light_directions || light_directions_ == 0;
   report_.reached = report_.trusted && report_.error <= goal.accuracy;
   const auto made = static_cast<double>(statistics.passes_made - passes_before_);
-  const double per_pass = (seconds - seconds_) / std::max(1.0, made);
+  // A caller that resumes may not know how long the solve took before.
+  const double per_pass = std::max(0.0, seconds - seconds_) / std::max(1.0, made);
   report_.passes_made += statistics.passes_made - passes_before_;
   passes_before_ = statistics.passes_made;
   seconds_ = seconds;

@@ -8,8 +8,8 @@
 
 #include "base/power_of_two.h"
 #include "radiosity/error_bounds.h"
+#include "radiosity/norms.h"
 #include "radiosity/reflected_light.h"
-#include "radiosity/solver/norms.h"
 #include "transillum/at.h"
 
 namespace transillum {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "radiosity/error_bounds.h"
+#include "radiosity/norms.h"
 #include "radiosity/ratio.h"
-#include "radiosity/solver/norms.h"
 #include "transillum/solve_errors.h"
 
 namespace transillum {
@@ -130,7 +130,8 @@ bool IterationHistory::reached_tolerance() const {
   }
   const IterationRecord& last = records_.back();
   const bool propagated = std::max(last.remainder, last.remainder_dimmest) <= options_.tolerance;
-  return (propagated || is_rounding(last)) && changed_power_ <= tolerances_of_power * options_.tolerance;
+  return (propagated || is_rounding(last)) &&
+         changed_power_ <= tolerances_of_power * options_.tolerance;
 }
 
 void IterationHistory::stop(bool complete) {

@@ -75,8 +75,8 @@ class IterationHistory {
       archive(record.change, record.contraction, record.seconds, record.error, record.remainder,
               record.remainder_dimmest, record.unlit_area, record.change_of_b);
     }
-    archive(self.last_change_, self.changed_power_, self.left_to_do_, self.reopened_at_, self.finished_, self.converged_,
-            self.options_.directions);
+    archive(self.last_change_, self.changed_power_, self.left_to_do_, self.reopened_at_,
+            self.finished_, self.converged_, self.options_.directions);
     archive.require(self.reopened_at_ >= 0 && self.reopened_at_ <= self.size());
     if constexpr (Archive::reading) {
       self.set_means();

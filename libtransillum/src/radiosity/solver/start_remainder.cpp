@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radiosity/solver/norms.h"
+#include "radiosity/norms.h"
 #include "transillum/at.h"
 
 namespace transillum {
