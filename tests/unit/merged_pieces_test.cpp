@@ -10,10 +10,10 @@ namespace {
 
 using testing::Sketch;
 
-double area(const std::vector<Corners>& polygons) {
+double area(const std::vector<MergedPiece>& polygons) {
   double sum = 0;
-  for (const Corners& polygon : polygons) {
-    sum += norm(area_vector(polygon));
+  for (const MergedPiece& polygon : polygons) {
+    sum += norm(area_vector(polygon.outline));
   }
   return sum;
 }
@@ -26,8 +26,8 @@ TEST(MergedPieces, OfARefinedBoxAreItsSides) {
         merged_pieces(*sketch.scene({.two_sided = two_sided, .max_patch_area = 0.01}));
     ASSERT_EQ(sides.size(), 6U);
     EXPECT_NEAR(area(sides), 22, 1e-12);
-    for (const Corners& side : sides) {
-      EXPECT_EQ(side.size(), 4U);
+    for (const MergedPiece& side : sides) {
+      EXPECT_EQ(side.outline.size(), 4U);
     }
   }
 }

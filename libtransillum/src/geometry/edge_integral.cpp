@@ -86,22 +86,39 @@ double along_meeting(const Crossing& c) {
 /// For skew lines: Gauss' rule for the outer integral. The inner integral has singularities in the
 /// complex s plane, where r is 0 at an end of b and at s = ± i h / sine. Half the length of an
 /// interval is at most `reach` times the distance to the nearest of them.
-double along_skew(const Edge& a, const Edge& b, const Crossing& c, double from, double to) {
-  constexpr double reach = 0.6, least = 1e-13;
-  using Rule = boost::math::quadrature::gauss<double, 16>;
-  const double half = (to - from) / 2, middle = from + half;
-  const Vec3 center = a.at(middle - c.s0);
-  const double nearest =
-      std::min({norm(b.begin - center), norm(b.end - center), std::hypot(middle, c.h / c.sine)});
-  if (half > reach * nearest && half > least * a.length) {
-    return along_skew(a, b, c, from, middle) + along_skew(a, b, c, middle, to);
+struct SkewIntegral {
+  const Edge& a;
+  const Edge& b;
+  const Crossing& c;
+  double begin;   ///< coordinate of a.begin
+  double offset;  ///< to be added to a coordinate for s
+
+  double operator()(double from, double to) const {
+    constexpr double reach = 0.6, least = 1e-13;
+    using Rule = boost::math::quadrature::gauss<double, 16>;
+    const double half = (to - from) / 2, middle = from + half;
+    const Vec3 center = a.at(middle - begin);
+    const double nearest = std::min({norm(b.begin - center), norm(b.end - center),
+                                     std::hypot(offset + middle, c.h / c.sine)});
+    if (half > reach * nearest && half > least * a.length) {
+      return (*this)(from, middle) + (*this)(middle, to);
+    }
+    double sum = 0;
+    for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
+      const Vec3 off = half * Rule::abscissa()[k] * a.direction;
+      sum += Rule::weights()[k] * (log_integral(center + off, b) + log_integral(center - off, b));
+    }
+    return half * sum;
   }
-  double sum = 0;
-  for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
-    const Vec3 off = half * Rule::abscissa()[k] * a.direction;
-    sum += Rule::weights()[k] * (log_integral(center + off, b) + log_integral(center - off, b));
+};
+
+double along_skew(const Edge& a, const Edge& b, const Crossing& c) {
+  // So far from the intersection, s has too few digits for places on the edge.
+  constexpr double far = 1e3;
+  if (std::abs(c.s0) > far * a.length) {
+    return SkewIntegral{a, b, c, 0, c.s0}(0, a.length);
   }
-  return half * sum;
+  return SkewIntegral{a, b, c, c.s0, 0}(c.s0, c.s1);
 }
 
 }  // namespace
@@ -126,7 +143,7 @@ double edge_pair_integral(const Edge& a, const Edge& b) {
   const double s = std::max(std::abs(c.s0), std::abs(c.s1));
   const double t = std::max(std::abs(c.t0), std::abs(c.t1));
   const bool meet = c.h * c.h <= negligible * sine * area && std::max(s * s, t * t) <= loss * area;
-  return cosine * (meet ? along_meeting(c) : along_skew(a, b, c, c.s0, c.s1));
+  return cosine * (meet ? along_meeting(c) : along_skew(a, b, c));
 }
 
 }  // namespace transillum

@@ -177,11 +177,11 @@ std::vector<MergedFace> merged_faces(const Scene& scene) {
   return merged;
 }
 
-std::vector<Corners> merged_pieces(const Scene& scene) {
+std::vector<MergedPiece> merged_pieces(const Scene& scene) {
   std::vector<bool> kept = on_first_side(scene);
-  std::vector<Corners> merged;
+  std::vector<MergedPiece> merged;
   for (const MergedFace& face : merged_faces(scene)) {
-    merged.push_back(face.outline);
+    merged.push_back({face.outline});
     for (const PatchId i : face.patches) {
       at(kept, i) = false;
     }
@@ -190,12 +190,23 @@ std::vector<Corners> merged_pieces(const Scene& scene) {
     if (!at(kept, piece.patch)) {
       continue;
     }
-    Corners& corners = merged.emplace_back();
+    MergedPiece& kept_piece = merged.emplace_back();
+    kept_piece.patch = piece.patch;
     for (const PointId p : scene.corners(piece)) {
-      corners.push_back(scene.point(p));
+      kept_piece.outline.push_back(scene.point(p));
     }
   }
   return merged;
+}
+
+std::vector<PatchId> first_sides(const Scene& scene) {
+  const std::vector<bool> first = on_first_side(scene);
+  std::vector<PatchId> sides;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    // The sides of a patch follow each other.
+    sides.push_back(at(first, i) ? i : i - 1);
+  }
+  return sides;
 }
 
 }  // namespace transillum

@@ -17,8 +17,15 @@ struct MergedFace {
 /// the order of their first patches. None has a patch in common with another.
 std::vector<MergedFace> merged_faces(const Scene& scene);
 
+/// A convex polygon of one or several patches.
+struct MergedPiece {
+  Corners outline;
+  PatchId patch = -1;  ///< that it is a piece of, the first side if two-sided; -1: a MergedFace
+};
 /// Convex polygons whose union is that of the scene's patches; they may overlap: those of
 /// merged_faces(), and the pieces of the other patches.
-std::vector<Corners> merged_pieces(const Scene& scene);
+std::vector<MergedPiece> merged_pieces(const Scene& scene);
+/// Of each patch: itself, or of the second side of a two-sided one the first.
+std::vector<PatchId> first_sides(const Scene& scene);
 
 }  // namespace transillum

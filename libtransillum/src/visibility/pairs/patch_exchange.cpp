@@ -61,21 +61,11 @@ Bounds bounds_of(Outline polygon) {
   return box;
 }
 
-std::vector<Corners> scaled(std::vector<Corners> polygons, double scale) {
-  for (Corners& polygon : polygons) {
-    for (Vec3& corner : polygon) {
-      corner = scale * corner;
-    }
+Corners scaled(Corners polygon, double scale) {
+  for (Vec3& corner : polygon) {
+    corner = scale * corner;
   }
-  return polygons;
-}
-
-std::vector<Bounds> bounds_of(const std::vector<Corners>& polygons) {
-  std::vector<Bounds> boxes;
-  for (const Corners& polygon : polygons) {
-    boxes.push_back(bounds_of(polygon));
-  }
-  return boxes;
+  return polygon;
 }
 
 }  // namespace
@@ -86,34 +76,34 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
       scale_(scale_to_one(scene.bounds().diagonal())),
       tolerance_(scale_ *
                  std::max(1e-12 * scene.bounds().diagonal(), 2 * BspTree::thickness(scene))),
-      blockers_(scaled(merged_pieces(scene), scale_)),
-      tree_(bounds_of(blockers_)),
+      first_sides_(first_sides(scene)),
+      blockers_(blockers_of(scene)),
+      tree_(boxes_of(blockers_)),
       part_begin_(static_cast<std::size_t>(scene.patch_count()) + 1) {
   std::vector<Bounds> boxes;
   for (const Piece& piece : scene.pieces()) {
     boxes.push_back(bounds_of(corners_of(piece)));
   }
   const BoxTree pieces(boxes);
-  std::vector<std::vector<Corners>> parts(static_cast<std::size_t>(scene.patch_count()));
+  std::vector<std::vector<Part>> parts(static_cast<std::size_t>(scene.patch_count()));
   for (std::size_t k = 0; k < scene.pieces().size(); ++k) {
     cancellation.throw_if_canceled();
     auto& of_patch = at(parts, scene.pieces()[k].patch);
+    const double bend = bend_of(corners_of(scene.pieces()[k]));
     for (Corners& part : open_parts(k, pieces)) {
-      of_patch.push_back(std::move(part));
+      const HalfSpace front = lit_half_space(part);
+      of_patch.push_back({std::move(part), front, bend});
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (Corners& part : parts[i]) {
-      const HalfSpace front = lit_half_space(part);
-      parts_.push_back({std::move(part), front});
-    }
+    std::move(parts[i].begin(), parts[i].end(), std::back_inserter(parts_));
     part_begin_[i + 1] = parts_.size();
   }
   for (MergedFace& face : merged_faces(scene)) {
     // Of two-sided faces, the patches of both sides alternate.
     if (static_cast<std::size_t>(face.patches.back() - face.patches.front()) + 1 ==
         face.patches.size()) {
-      face.outline = scaled({face.outline}, scale_).front();
+      face.outline = scaled(face.outline, scale_);
       faces_.push_back(std::move(face));
     }
   }
@@ -127,6 +117,34 @@ Corners ExchangeFinder::corners_of(const Piece& piece) const {
   return corners;
 }
 
+/// Largest distance of the corners from their plane; 0 if that is rounding of planar ones.
+double ExchangeFinder::bend_of(Outline corners) const {
+  const HalfSpace front = lit_half_space(corners);
+  double bend = 0;
+  for (const Vec3& x : corners) {
+    bend = std::max(bend, std::abs(front.distance(x)));
+  }
+  return bend > tolerance_ ? bend : 0;
+}
+
+std::vector<ExchangeFinder::Blocker> ExchangeFinder::blockers_of(const Scene& scene) const {
+  std::vector<Blocker> blockers;
+  for (const MergedPiece& piece : merged_pieces(scene)) {
+    Corners outline = scaled(piece.outline, scale_);
+    const double bend = bend_of(outline);
+    blockers.push_back({std::move(outline), bend, piece.patch});
+  }
+  return blockers;
+}
+
+std::vector<Bounds> ExchangeFinder::boxes_of(const std::vector<Blocker>& blockers) {
+  std::vector<Bounds> boxes;
+  for (const Blocker& blocker : blockers) {
+    boxes.push_back(bounds_of(blocker.outline));
+  }
+  return boxes;
+}
+
 /// Whether `upper` covers `lower` where they overlap, for coplanar patches with the same normal.
 bool ExchangeFinder::covers(PatchId upper, PatchId lower) const {
   return cover_rank(scene_, upper) < cover_rank(scene_, lower);
@@ -136,6 +154,7 @@ std::vector<Corners> ExchangeFinder::open_parts(std::size_t piece, const BoxTree
   const Corners corners = corners_of(scene_.pieces()[piece]);
   const PatchId patch = scene_.pieces()[piece].patch;
   const HalfSpace front = lit_half_space(corners);
+  const double bend = bend_of(corners);
   const Bounds box = bounds_of(corners);
   const auto overlaps = [&](const CenteredBox& other) {
     const Vec3 apart = other.center - box.center(), sum = other.half + 0.5 * (box.high - box.low);
@@ -150,8 +169,9 @@ std::vector<Corners> ExchangeFinder::open_parts(std::size_t piece, const BoxTree
       return;
     }
     const Corners others = corners_of(other);
+    const double thickness = tolerance_ + std::max(bend, bend_of(others));
     if (std::all_of(others.begin(), others.end(),
-                    [&](const Vec3& x) { return std::abs(front.distance(x)) <= tolerance_; })) {
+                    [&](const Vec3& x) { return std::abs(front.distance(x)) <= thickness; })) {
       covering.push_back(others);
     }
   });
@@ -159,15 +179,18 @@ std::vector<Corners> ExchangeFinder::open_parts(std::size_t piece, const BoxTree
 }
 
 /// Finds the blockers between two polygons, of those in `among`, or of all if that is null.
-void ExchangeFinder::collect_blockers(const FacingPolygons& facing, const Numbers* among,
-                                      Numbers& blockers) const {
+void ExchangeFinder::collect_blockers(const FacingPolygons& facing, const Sides& sides,
+                                      const Numbers* among, Numbers& blockers) const {
   blockers.clear();
   if (among != nullptr && among->empty()) {
     return;
   }
-  const Shaft shaft(facing, tolerance_);
+  const Shaft shaft(facing, tolerance_, sides.bends);
   const auto add = [&](std::int32_t number) {
-    if (shaft.meets(at(blockers_, number))) {
+    const Blocker& blocker = at(blockers_, number);
+    const bool is_own =
+        blocker.patch >= 0 && (blocker.patch == sides.of_p || blocker.patch == sides.of_q);
+    if (!is_own && shaft.meets(blocker.outline, blocker.bend)) {
       blockers.push_back(number);
     }
   };
@@ -179,8 +202,9 @@ void ExchangeFinder::collect_blockers(const FacingPolygons& facing, const Number
 }
 
 bool ExchangeFinder::is_any_hiding(const FacingPolygons& facing, const Numbers& blockers) const {
-  return std::any_of(blockers.begin(), blockers.end(),
-                     [&](std::int32_t number) { return is_hidden(facing, at(blockers_, number)); });
+  return std::any_of(blockers.begin(), blockers.end(), [&](std::int32_t number) {
+    return is_hidden(facing, at(blockers_, number).outline);
+  });
 }
 
 /// Whether one blocker alone hides the two polygons from each other: if it meets every line between
@@ -247,7 +271,7 @@ void ExchangeFinder::for_each_cell(const Sampled& sampled, const std::vector<Cor
 std::vector<Corners> ExchangeFinder::polygons_of(const Numbers& blockers) const {
   std::vector<Corners> polygons;
   for (const std::int32_t number : blockers) {
-    polygons.push_back(at(blockers_, number));
+    polygons.push_back(at(blockers_, number).outline);
   }
   return polygons;
 }
@@ -326,7 +350,8 @@ void ExchangeFinder::for_each_facing(PatchId i, PatchId j, const Numbers* among,
     for (const Part& q : parts_of(j)) {
       const FacingPolygons facing(p.corners, p.front, q.corners, q.front, tolerance_);
       if (!facing.empty()) {
-        collect_blockers(facing, among, blockers);
+        const Sides sides{at(first_sides_, i), at(first_sides_, j), {p.bend, q.bend}};
+        collect_blockers(facing, sides, among, blockers);
         visit(facing, blockers);
       }
     }
@@ -388,7 +413,7 @@ void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
     const FacingPolygons facing(p.corners, p.front, face->outline, lit_half_space(face->outline),
                                 tolerance_);
     if (!facing.empty()) {
-      collect_blockers(facing, nullptr, blockers);
+      collect_blockers(facing, {at(first_sides_, i), -1, {p.bend, 0}}, nullptr, blockers);
       if (!is_any_hiding(facing, blockers)) {
         visit(std::max(next, face->patches.front()), face->patches.back() + 1, &blockers);
       }

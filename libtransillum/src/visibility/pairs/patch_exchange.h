@@ -11,6 +11,7 @@
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
 #include "visibility/pairs/merged_pieces.h"
+#include "visibility/pairs/shaft.h"
 
 namespace transillum {
 
@@ -32,7 +33,8 @@ struct PatchExchange {
 ///
 /// Among coplanar patches with the same normal, those cover others that do so in BspTree::order().
 /// Surfaces closer to each other than 1e-12 of the scene's size are treated as touching, and then
-/// as back to back or side by side.
+/// as back to back or side by side. Patches are planar: a patch that is bent by rounding, and what
+/// is no farther from its plane than its own corners, never blocks it.
 ///
 /// The time grows with the number of blockers in the shaft and the logarithm of the number of
 /// patches.
@@ -73,20 +75,34 @@ class ExchangeFinder {
   struct Part {
     Corners corners;
     HalfSpace front;
+    double bend;  ///< of the piece
+  };
+  struct Blocker {
+    Corners outline;
+    double bend;
+    PatchId patch;  ///< MergedPiece::patch
+  };
+  /// What two polygons belong to.
+  struct Sides {
+    PatchId of_p, of_q;  ///< first sides
+    Bends bends;
   };
   /// Blockers, by number.
   using Numbers = std::vector<std::int32_t>;
 
+  double bend_of(Outline corners) const;
+  std::vector<Blocker> blockers_of(const Scene& scene) const;
+  static std::vector<Bounds> boxes_of(const std::vector<Blocker>& blockers);
   std::vector<Corners> open_parts(std::size_t piece, const BoxTree& pieces) const;
   bool covers(PatchId upper, PatchId lower) const;
   Corners corners_of(const Piece& piece) const;
-  void collect_blockers(const FacingPolygons& facing, const Numbers* among,
+  void collect_blockers(const FacingPolygons& facing, const Sides& sides, const Numbers* among,
                         Numbers& blockers) const;
   bool is_any_hiding(const FacingPolygons& facing, const Numbers& blockers) const;
   bool is_hidden(const FacingPolygons& facing, const Corners& blocker) const;
   void add_partial(const FacingPolygons& facing, const Numbers& blockers, bool estimate,
                    const std::function<void()>& tick, PatchExchange& exchange) const;
-  void collect_blockers(const Vec3& x, Outline polygon, const HalfSpace& front_of,
+  void collect_blockers(const Vec3& x, Outline polygon, const Part& part, PatchId patch,
                         Numbers& blockers) const;
   TransferMoments moments_between(PatchId i, PatchId j, const std::vector<LinearBasis>& bases,
                                   const Numbers* among, const std::function<void()>& tick) const;
@@ -115,7 +131,8 @@ class ExchangeFinder {
   double density_;
   double scale_;      ///< from meters to the finder's unit of length, a power of two
   double tolerance_;  ///< in that unit
-  std::vector<Corners> blockers_;
+  std::vector<PatchId> first_sides_;
+  std::vector<Blocker> blockers_;
   BoxTree tree_;  ///< of blockers_
   std::vector<Part> parts_;
   std::vector<std::size_t> part_begin_;

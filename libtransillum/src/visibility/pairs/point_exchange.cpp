@@ -45,17 +45,20 @@ class Pyramid {
 
 /// Finds the blockers in the pyramid from x to a polygon, without those in whose plane x is, and
 /// those that do not reach in front of the polygon's plane, such as itself.
-void ExchangeFinder::collect_blockers(const Vec3& x, Outline polygon, const HalfSpace& front_of,
-                                      Numbers& blockers) const {
+/// @param polygon of `part`, which is of `patch`
+void ExchangeFinder::collect_blockers(const Vec3& x, Outline polygon, const Part& part,
+                                      PatchId patch, Numbers& blockers) const {
   blockers.clear();
   const Pyramid pyramid(x, polygon);
   tree_.for_each([&](const CenteredBox& box) { return pyramid.reaches(box); },
                  [&](std::int32_t number) {
-                   const Corners& blocker = at(blockers_, number);
-                   const bool reaches_in = std::any_of(
-                       blocker.begin(), blocker.end(),
-                       [&](const Vec3& c) { return front_of.distance(c) > tolerance_; });
-                   if (reaches_in && std::abs(lit_half_space(blocker).distance(x)) > tolerance_) {
+                   const auto& [outline, bend, of_patch] = at(blockers_, number);
+                   const bool reaches_in =
+                       std::any_of(outline.begin(), outline.end(), [&](const Vec3& c) {
+                         return part.front.distance(c) > tolerance_ + part.bend;
+                       });
+                   if (of_patch != at(first_sides_, patch) && reaches_in &&
+                       std::abs(lit_half_space(outline).distance(x)) > tolerance_ + bend) {
                      blockers.push_back(number);
                    }
                  });
@@ -75,10 +78,10 @@ double ExchangeFinder::from_point(const Vec3& x, const Vec3& normal, PatchId j,
     if (above.size() < 3) {
       continue;
     }
-    collect_blockers(apex, above, part.front, numbers);
+    collect_blockers(apex, above, part, j, numbers);
     blockers.clear();
     for (const std::int32_t number : numbers) {
-      blockers.push_back(at(blockers_, number));
+      blockers.push_back(at(blockers_, number).outline);
     }
     sum += PointView(above, blockers).form_factor(apex, normal, tick);
   }

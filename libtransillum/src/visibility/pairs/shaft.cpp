@@ -5,7 +5,8 @@
 
 namespace transillum {
 
-Shaft::Shaft(const FacingPolygons& facing, double tolerance) : tolerance_(tolerance) {
+Shaft::Shaft(const FacingPolygons& facing, double tolerance, const Bends& bends)
+    : tolerance_(tolerance), bends_(bends), of_p_(facing.p.size()) {
   const Outline p = facing.p, q = facing.q;
   Bounds bounds;
   for (const Outline polygon : {p, q}) {
@@ -15,8 +16,8 @@ Shaft::Shaft(const FacingPolygons& facing, double tolerance) : tolerance_(tolera
     }
   }
   box_ = {bounds.center(), 0.5 * (bounds.high - bounds.low)};
-  sides_.push_back(facing.before_p);
-  sides_.push_back(facing.before_q);
+  sides_.push_back({facing.before_p.normal, facing.before_p.offset + bends.p});
+  sides_.push_back({facing.before_q.normal, facing.before_q.offset + bends.q});
   for (const auto& [a, b] : {std::pair{p, q}, std::pair{q, p}}) {
     for (std::size_t k = 0; k < a.size(); ++k) {
       for (const Vec3& apex : b) {
@@ -61,18 +62,26 @@ bool Shaft::reaches(const CenteredBox& box) const {
   });
 }
 
-bool Shaft::meets(Outline polygon) const {
-  const auto is_beside = [&](const HalfSpace& side, Outline corners) {
+/// Whether p and q lie on one side of a polygon's plane, up to how bent all three are.
+bool Shaft::is_in_front_of(const HalfSpace& back, double bend) const {
+  const auto none_reaches = [&](Outline corners, double tolerance) {
     return std::all_of(corners.begin(), corners.end(),
-                       [&](const Vec3& x) { return side.distance(x) <= tolerance_; });
+                       [&](const Vec3& x) { return back.distance(x) <= tolerance; });
   };
+  const Outline all = corners_;
+  return none_reaches(all.first(of_p_), tolerance_ + bend + bends_.p) &&
+         none_reaches(all.subspan(of_p_), tolerance_ + bend + bends_.q);
+}
+
+bool Shaft::meets(Outline polygon, double bend) const {
   for (const HalfSpace& side : sides_) {
-    if (is_beside(side, polygon)) {
+    if (std::all_of(polygon.begin(), polygon.end(),
+                    [&](const Vec3& x) { return side.distance(x) <= tolerance_; })) {
       return false;
     }
   }
   const HalfSpace front = lit_half_space(polygon), back{-front.normal, -front.offset};
-  if (is_beside(front, corners_) || is_beside(back, corners_)) {
+  if (is_in_front_of(front, bend) || is_in_front_of(back, bend)) {
     return false;
   }
   Corners left;
