@@ -209,6 +209,14 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
                     s.iteration_records.back().contraction, s.rho_max) +
         remedy_hint(Remedy::directions_or_row_normalization));
   }
+  if (s.shot_disagreement > 1) {
+    warnings.push_back(fmt::format(
+        "the first shot and the passes disagree about the light of its sources{}, by {:.2g} times "
+        "what their errors explain: one of them is wrong. Compare with --first-shot none",
+        s.shot_disagreement_patch < 0 ? std::string()
+                                      : fmt::format(" on patch {}", s.shot_disagreement_patch),
+        s.shot_disagreement));
+  }
   const int replicas = std::max(solution.error.replicas, 1);
   const double met = s.light_directions / replicas;
   if (solution.error.replicas > 0 && met > 0 && met < least_light_directions) {

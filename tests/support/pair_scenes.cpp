@@ -14,9 +14,9 @@ namespace transillum::testing {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::array kinds{"general",       "near-parallel", "near-perpendicular",
-                           "near-coplanar", "common edge",   "common corner",
-                           "cut by planes", "huge and tiny", "far"};
+constexpr std::array pair_kinds{"general",       "near-parallel", "near-perpendicular",
+                                "near-coplanar", "common edge",   "common corner",
+                                "cut by planes", "huge and tiny", "far"};
 
 /// A place for a face, which is in the plane of x and y and lit from z.
 struct Frame {
@@ -46,7 +46,7 @@ class PairMaker {
 
   PairScene make(std::size_t kind) {
     PairScene scene;
-    scene.kind = kinds[kind];
+    scene.kind = pair_kinds[kind];
     scene.p = face({}, 1);
     double size = 1;
     const Frame frame = frame_of_q(kind, size);
@@ -253,7 +253,7 @@ SceneDescription PairScene::description() const {
 
 PairScene random_pair(std::uint64_t seed) {
   PairMaker maker(seed);
-  const std::size_t kind = seed % kinds.size();
+  const std::size_t kind = seed % pair_kinds.size();
   PairScene scene = maker.make(kind);
   maker.finish(scene, kind < 7);
   return scene;

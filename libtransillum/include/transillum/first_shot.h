@@ -64,6 +64,7 @@ struct DirectLight {
   /// Estimated error of `irradiance`, W/m², one per patch: that of partly hidden pairs, which are
   /// computed by points. Empty: unknown (with_materials()).
   std::vector<Rgb> irradiance_error = {};
+  std::int64_t integrated_pairs = 0;  ///< SolveStatistics::integrated_pairs
 };
 
 /// Distributes the emission of `sources` to all patches by exact form factors: of whole polygons

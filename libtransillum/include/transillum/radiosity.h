@@ -262,6 +262,14 @@ struct SolveStatistics {
   std::vector<RefinementRound> refinement;  ///< rounds that led to the scene; set by the caller
   std::int64_t shot_sources = 0;  ///< patches whose emission was shot before the iteration
   double shot_power_share = 0;    ///< their power over all power emitted
+  /// Largest difference between the first shot and what the passes see of its sources, over what
+  /// the errors of both explain; above 1, one of them is wrong. 0 without a shot, and with engines
+  /// that are not exact.
+  double shot_disagreement = 0;
+  PatchId shot_disagreement_patch = -1;  ///< that receives it; -1: all patches together
+  /// Pairs of patches with nothing between, of engine pairs and of the first shot, of which the
+  /// form factor was integrated numerically because the closed form would lose digits.
+  std::int64_t integrated_pairs = 0;
   GlossyFigures glossy;           ///< of a glossy solve
   double seconds_load = 0;        ///< reading the scene; set by the caller
   double seconds_bsp = 0;         ///< building the BSP tree

@@ -44,6 +44,7 @@ py::dict to_dict(const SolveStatistics& s) {
   dict["converged"] = s.converged;
   dict["threads"] = s.threads;
   dict["transfers"] = s.transfers;
+  dict["integrated_pairs"] = s.integrated_pairs;
   dict["form_factors"] = s.form_factors;
   dict["closure_defect"] = s.closure_defect_max;
   dict["closure_defect_moments"] = s.closure_defect_moments;
@@ -53,6 +54,7 @@ py::dict to_dict(const SolveStatistics& s) {
   dict["energy_balance"] = s.energy_balance;
   dict["rho_max"] = s.rho_max;
   dict["shot_sources"] = s.shot_sources;
+  dict["shot_disagreement"] = s.shot_disagreement;
   dict["light_directions"] = s.light_directions;
   dict["seconds"] = s.seconds_total;
   return dict;

@@ -98,8 +98,8 @@ struct SkewIntegral {
     using Rule = boost::math::quadrature::gauss<double, 16>;
     const double half = (to - from) / 2, middle = from + half;
     const Vec3 center = a.at(middle - begin);
-    const double nearest = std::min({norm(b.begin - center), norm(b.end - center),
-                                     std::hypot(offset + middle, c.h / c.sine)});
+    const double nearest = std::min(
+        {norm(b.begin - center), norm(b.end - center), std::hypot(offset + middle, c.h / c.sine)});
     if (half > reach * nearest && half > least * a.length) {
       return (*this)(from, middle) + (*this)(middle, to);
     }

@@ -4,6 +4,7 @@
 #include "geometry/form_factor.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
@@ -70,16 +71,56 @@ double exchange_of_small(Outline p, const Vec3& normal, Outline q) {
   return sum;
 }
 
-double exchange_by_edges(Outline p, Outline q) {
-  double sum = 0;
+/// What the closed form is made of.
+struct EdgeSum {
+  double area = 0;
+  double terms = 0;  ///< sum of the absolute values
+
+  /// Whether less is left than half of the digits.
+  bool cancels() const {
+    constexpr double left = 1e-8;
+    return area <= left * terms;
+  }
+};
+
+EdgeSum exchange_by_edges(Outline p, Outline q) {
+  EdgeSum sum;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Edge a(p[i], p[(i + 1) % p.size()]);
     for (std::size_t j = 0; j < q.size(); ++j) {
       const Edge b(q[j], q[(j + 1) % q.size()]);
-      sum += edge_pair_integral(a, b);
+      const double term = edge_pair_integral(a, b);
+      sum.area += term;
+      sum.terms += std::abs(term);
     }
   }
-  return sum / (2 * pi);
+  sum.area /= 2 * pi;
+  return sum;
+}
+
+/// As exchange_of_small() for any p, in triangles divided until the integral does not change.
+double exchange_of_divided(Outline p, const Vec3& normal, Outline q, int most_divisions) {
+  constexpr double converged = 1e-10;
+  double sum = 0;
+  for (std::size_t k = 1; k + 1 < p.size(); ++k) {
+    const Vec3 &a = p[0], &b = p[k], &c = p[k + 1];
+    const Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+    const std::array<std::array<Vec3, 3>, 4> parts{
+        {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}};
+    double divided = 0;
+    for (const auto& part : parts) {
+      divided += exchange_of_small(part, normal, q);
+    }
+    const double whole = exchange_of_small(std::array{a, b, c}, normal, q);
+    if (most_divisions > 1 && std::abs(divided - whole) > converged * std::abs(divided)) {
+      divided = 0;
+      for (const auto& part : parts) {
+        divided += exchange_of_divided(part, normal, q, most_divisions - 1);
+      }
+    }
+    sum += divided;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -183,8 +224,14 @@ FacingPolygons::FacingPolygons(Outline whole_p, const HalfSpace& front_p, Outlin
   q = clipped(whole_q, before_p, tolerance);
 }
 
-double polygon_exchange(const FacingPolygons& facing) {
+double polygon_exchange(const FacingPolygons& facing, bool* integrated) {
   constexpr double small = 1.0 / 25;
+  const auto set_integrated = [&](bool value) {
+    if (integrated != nullptr) {
+      *integrated = value;
+    }
+  };
+  set_integrated(false);
   if (facing.empty()) {
     return 0;
   }
@@ -193,13 +240,22 @@ double polygon_exchange(const FacingPolygons& facing) {
     return radius_about(center, a) <= small * distance_bound(center, b, before_b);
   };
   const auto& [before_p, before_q, p, q] = facing;
+  set_integrated(true);
   if (is_small(p, q, before_q)) {
     return exchange_of_small(p, before_p.normal, q);
   }
   if (is_small(q, p, before_p)) {
     return exchange_of_small(q, before_q.normal, p);
   }
-  return std::max(0.0, exchange_by_edges(p, q));
+  const EdgeSum by_edges = exchange_by_edges(p, q);
+  if (by_edges.cancels()) {
+    constexpr int most_divisions = 5;
+    return norm(area_vector(p)) < norm(area_vector(q))
+               ? exchange_of_divided(p, before_p.normal, q, most_divisions)
+               : exchange_of_divided(q, before_q.normal, p, most_divisions);
+  }
+  set_integrated(false);
+  return by_edges.area;
 }
 
 }  // namespace transillum

@@ -77,8 +77,11 @@ struct FacingPolygons {
 /// By Stokes' theorem it is 1 / (2 pi) times the sum, over pairs of edges, of the cosine between
 /// them times the integral of ln r along both. For coplanar edges the integral is elementary; for
 /// skew ones the outer integral uses Gauss' rule on intervals that shrink toward singularities
-/// (decisions/0020-exact-form-factors.md).
-double polygon_exchange(const FacingPolygons& facing);
+/// (decisions/0020-exact-form-factors.md). Where that sum would cancel, the form factor from points
+/// of one of them is integrated numerically: polygons small against their distance, or almost in
+/// one plane.
+/// @param integrated if set, is set to whether it was integrated numerically
+double polygon_exchange(const FacingPolygons& facing, bool* integrated = nullptr);
 inline double polygon_exchange(Outline p, Outline q) { return polygon_exchange({p, q}); }
 
 }  // namespace transillum

@@ -18,6 +18,7 @@ void visit_figures(Result& solution, Visit visit) {
   visit("passes_made", s.passes_made);
   visit("hemicubes", s.hemicubes);
   visit("pairs", s.pairs);
+  visit("integrated_pairs", s.integrated_pairs);
   visit("iterations", s.iterations);
   visit("transfers", s.transfers);
   visit("form_factors", s.form_factors);

@@ -91,11 +91,14 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["burn_in"] = statistics.burn_in;
   json["threads"] = statistics.threads;
   json["transfers"] = statistics.transfers;
+  json["integrated_pairs"] = statistics.integrated_pairs;
   json["form_factors"] = statistics.form_factors;
   json["kept_form_factors"] = statistics.kept_form_factors;
   json["glossy"] = glossy_json(statistics.glossy);
   json["first_shot"] = {{"sources", statistics.shot_sources},
-                        {"power_share", statistics.shot_power_share}};
+                        {"power_share", statistics.shot_power_share},
+                        {"disagreement", statistics.shot_disagreement},
+                        {"disagreement_patch", statistics.shot_disagreement_patch}};
   json["converged"] = statistics.converged;
   json["closure_defect_max"] = statistics.closure_defect_max;
   json["closure_defect_grazing"] = statistics.closure_defect_grazing;

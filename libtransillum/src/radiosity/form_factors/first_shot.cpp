@@ -12,6 +12,7 @@
 
 #include "base/for_each_index.h"
 #include "radiosity/error_bounds.h"
+#include "radiosity/form_factors/counted_pairs.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pairs/patch_exchange.h"
@@ -95,7 +96,7 @@ class ErrorSum {
 
 /// Computes the irradiance of patch i from all sources.
 void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, ShotProgress& progress,
-             DirectLight& light) {
+             IntegratedPairs& integrated, DirectLight& light) {
   const auto row = static_cast<std::size_t>(i);
   const double unit = 1 / scene.patch(i).area;
   Rgb power;
@@ -109,6 +110,7 @@ void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, Shot
     const PatchExchange found = exchange(i, j, [&] { progress.check(); });
     const double area = found.area;
     power += area * scene.exitance(j);
+    integrated += found.integrated ? 1 : 0;
     errors.add(unit * found.error * scene.exitance(j));
     const auto part = part_of(light.parts, scene.patch(j).material);
     if (part != light.parts.end()) {
@@ -167,8 +169,10 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int t
   WorkerThreads workers(thread_count(threads));
   ShotProgress shot(static_cast<double>(patches) * static_cast<double>(sources.size()),
                     cancellation, progress);
+  IntegratedPairs integrated{0};
   for_each_index(workers, PatchId{0}, scene.patch_count(),
-                 [&](PatchId i) { receive(scene, exchange, i, shot, light); });
+                 [&](PatchId i) { receive(scene, exchange, i, shot, integrated, light); });
+  light.integrated_pairs = integrated;
   if (progress) {
     progress(1);
   }

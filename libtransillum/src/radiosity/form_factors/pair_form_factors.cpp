@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/memory_limit.h"
+#include "radiosity/form_factors/counted_pairs.h"
 #include "radiosity/form_factors/form_factor_rows.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -18,20 +19,25 @@ constexpr PatchId pair_batch = 4;
 /// Rows of the upper triangle: the exchanges of patch i and every j > i, m².
 class UpperRows {
  public:
-  UpperRows(const ExchangeFinder& exchange, const Cancellation& cancellation)
-      : exchange_(exchange), cancellation_(cancellation) {}
+  UpperRows(const ExchangeFinder& exchange, const Cancellation& cancellation,
+            IntegratedPairs& integrated)
+      : exchange_(exchange), cancellation_(cancellation), integrated_(integrated) {}
 
   FormFactorRow gather(PatchId i) const {
     FormFactorRow row;
     exchange_.for_each_after(
         i, [this] { cancellation_.throw_if_canceled(); },
-        [&](PatchId j, double area) { row.emplace_back(j, area); });
+        [&](PatchId j, const PatchExchange& found) {
+          row.emplace_back(j, found.area);
+          integrated_ += found.integrated ? 1 : 0;
+        });
     return row;
   }
 
  private:
   const ExchangeFinder& exchange_;
   const Cancellation& cancellation_;
+  IntegratedPairs& integrated_;
 };
 
 /// The form factors of all pairs from the exchanges of those with i < j.
@@ -81,13 +87,21 @@ void PairOptions::validate() const {
 FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
                               const Cancellation& cancellation,
                               const std::function<void(double)>& progress) {
+  IntegratedPairs ignored{0};
+  return counted_pair_form_factors(scene, options, cancellation, progress, ignored);
+}
+
+FormFactors counted_pair_form_factors(const Scene& scene, const PairOptions& options,
+                                      const Cancellation& cancellation,
+                                      const std::function<void(double)>& progress,
+                                      IntegratedPairs& integrated) {
   options.validate();
   const ExchangeFinder exchange(scene, cancellation, options.points);
   const auto show = [&](double rows) { progress(rows * (2 - rows)); };
   // Both triangles take twice the memory, beside the upper one.
   const FormFactors upper = gather_rows(
       scene.patch_count(), options.threads, pair_batch, memory_limit(options.memory) / 3,
-      [&] { return UpperRows(exchange, cancellation); }, cancellation,
+      [&] { return UpperRows(exchange, cancellation, integrated); }, cancellation,
       progress ? std::function<void(double)>(show) : std::function<void(double)>());
   return both_ways(scene, upper);
 }

@@ -20,14 +20,15 @@ constexpr std::size_t moment_count = linear_unknowns * linear_unknowns;
 class UpperMoments {
  public:
   UpperMoments(const ExchangeFinder& exchange, const std::vector<LinearBasis>& bases,
-               const Cancellation& cancellation)
-      : exchange_(exchange), bases_(bases), cancellation_(cancellation) {}
+               const Cancellation& cancellation, IntegratedPairs& integrated)
+      : exchange_(exchange), bases_(bases), cancellation_(cancellation), integrated_(integrated) {}
 
   FormFactorRow gather(PatchId i) const {
     FormFactorRow row;
     exchange_.for_each_moments_after(
         i, bases_, [this] { cancellation_.throw_if_canceled(); },
-        [&](PatchId j, const TransferMoments& moments) {
+        [&](PatchId j, const PatchExchange& found, const TransferMoments& moments) {
+          integrated_ += found.integrated ? 1 : 0;
           const PatchId first = j * static_cast<PatchId>(moment_count);
           for (std::size_t k = 0; k < moment_count; ++k) {
             row.emplace_back(first + static_cast<PatchId>(k), moments.value[k]);
@@ -40,6 +41,7 @@ class UpperMoments {
   const ExchangeFinder& exchange_;
   const std::vector<LinearBasis>& bases_;
   const Cancellation& cancellation_;
+  IntegratedPairs& integrated_;
 };
 
 /// Calls visit(i, j, moments) for each pair of rows of UpperMoments, where moments[3 a + b] is
@@ -93,7 +95,8 @@ FormFactors moments_both_ways(const Scene& scene, const FormFactors& upper) {
 
 FormFactors pair_moment_factors(const Scene& scene, const PairOptions& options,
                                 const Cancellation& cancellation,
-                                const std::function<void(double)>& progress) {
+                                const std::function<void(double)>& progress,
+                                IntegratedPairs& integrated) {
   options.validate();
   const ExchangeFinder exchange(scene, cancellation, options.points);
   const std::vector<LinearBasis> bases = linear_bases(scene);
@@ -101,7 +104,7 @@ FormFactors pair_moment_factors(const Scene& scene, const PairOptions& options,
   // Both triangles take twice the memory, beside the upper one.
   const FormFactors upper = gather_rows(
       scene.patch_count(), options.threads, moment_batch, memory_limit(options.memory) / 3,
-      [&] { return UpperMoments(exchange, bases, cancellation); }, cancellation,
+      [&] { return UpperMoments(exchange, bases, cancellation, integrated); }, cancellation,
       progress ? std::function<void(double)>(show) : std::function<void(double)>());
   return moments_both_ways(scene, upper);
 }

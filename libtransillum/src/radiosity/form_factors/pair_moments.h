@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "radiosity/form_factors/counted_pairs.h"
 #include "transillum/cancellation.h"
 #include "transillum/form_factors.h"
 #include "transillum/pair_form_factors.h"
@@ -19,7 +20,8 @@ constexpr std::size_t linear_unknowns = 3;
 /// @throws InputError, Canceled, MemoryLimitExceeded
 FormFactors pair_moment_factors(const Scene& scene, const PairOptions& options,
                                 const Cancellation& cancellation,
-                                const std::function<void(double)>& progress);
+                                const std::function<void(double)>& progress,
+                                IntegratedPairs& integrated);
 /// The form factors of constant functions, T^00 / A_i.
 FormFactors factors_of_means(const FormFactors& of_unknowns);
 

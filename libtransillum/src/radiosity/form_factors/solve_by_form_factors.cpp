@@ -64,10 +64,13 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
   const PairOptions pairs = pair_options(options);
   statistics.pairs = patches * (patches - 1) / 2;
   statistics.directions = pairs.points;
-  if (options.basis == Basis::linear) {
-    return pair_moment_factors(scene, pairs, cancellation, progress);
-  }
-  return pair_form_factors(scene, pairs, cancellation, progress);
+  IntegratedPairs integrated{0};
+  FormFactors form_factors =
+      options.basis == Basis::linear
+          ? pair_moment_factors(scene, pairs, cancellation, progress, integrated)
+          : counted_pair_form_factors(scene, pairs, cancellation, progress, integrated);
+  statistics.integrated_pairs = integrated;
+  return form_factors;
 }
 
 /// Sums of the rows over the sources' phi_0: for phi_0 the share of what leaves a patch that meets
@@ -236,6 +239,7 @@ Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOp
   SolveStatistics& statistics = solution.statistics;
   statistics.hemicubes = figures.hemicubes;
   statistics.pairs = figures.pairs;
+  statistics.integrated_pairs = figures.integrated_pairs;
   statistics.directions = figures.directions;
   statistics.passes = static_cast<int>(statistics.patches);
   statistics.passes_made = statistics.patches;

@@ -22,7 +22,8 @@ PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLig
       facing_area_(scene.patches().size()),
       back_seen_(scene.patches().size()),
       uncovered_(scene.patches().size()),
-      light_(scene, two_way, shot) {}
+      light_(scene, two_way, shot),
+      shot_(scene, shot, share) {}
 
 void PassStatistics::begin_set() {
   areas_ = VisibleAreaSums(facing_area_.size(), per_patch_);
@@ -52,6 +53,7 @@ void PassStatistics::add(const Pass& pass) {
   closure_grazing_ = std::max(closure_grazing_, pass.closure.grazing);
   closure_moments_ = std::max(closure_moments_, pass.closure.moments);
   light_.add(transfers.exchanges);
+  shot_.add(transfers);
   counts_ += transfers.counts;
   transfer_count_ += pass.exchanges;
 }
@@ -69,6 +71,7 @@ void PassStatistics::complete() {
     share_.complete(*values);
   }
   light_.complete(share_);
+  shot_.complete();
 }
 
 std::vector<double> PassStatistics::back_seen_shares() const {
@@ -83,6 +86,9 @@ void PassStatistics::write_to(SolveStatistics& statistics) const {
   statistics.transfers = transfer_count_;
   statistics.counts = counts_;
   statistics.light_directions = light_.mean();
+  const ShotCheck::Disagreement disagreement = shot_.disagreement();
+  statistics.shot_disagreement = disagreement.ratio;
+  statistics.shot_disagreement_patch = disagreement.patch;
   statistics.closure_defect_max = closure_relative_;
   statistics.closure_defect_grazing = closure_grazing_;
   statistics.closure_defect_moments = closure_moments_;

@@ -6,6 +6,7 @@
 
 #include "radiosity/solver/light_directions.h"
 #include "radiosity/solver/pass_runner.h"
+#include "radiosity/solver/shot_check.h"
 #include "radiosity/solver/visible_area_sums.h"
 #include "transillum/first_shot.h"
 #include "transillum/radiosity.h"
@@ -17,7 +18,7 @@ namespace transillum {
 /// quadrature of the cosine. Later passes along the same direction are not added again.
 class PassStatistics {
  public:
-  /// Keeps a reference to `scene`.
+  /// Keeps references to `scene` and `shot`.
   /// @param shot its sources do not count as direct light
   /// @param share the patches of the coverages of passes
   /// @param per_patch unknowns per patch
@@ -50,8 +51,8 @@ class PassStatistics {
     auto& c = self.counts_;
     archive(self.areas_, self.quadrature_errors_, self.projected_, self.covered_,
             self.closure_relative_, self.closure_grazing_, self.closure_moments_, self.light_,
-            self.transfer_count_, c.pairs, c.cuts, c.decisions, c.exact_decisions, c.exact_queries,
-            c.pixels, c.missed, c.seconds_order, c.seconds_bins, c.seconds_clip);
+            self.shot_, self.transfer_count_, c.pairs, c.cuts, c.decisions, c.exact_decisions,
+            c.exact_queries, c.pixels, c.missed, c.seconds_order, c.seconds_bins, c.seconds_clip);
     archive.fixed(self.facing_area_, self.back_seen_, self.uncovered_);
   }
 
@@ -71,6 +72,7 @@ class PassStatistics {
   /// Largest ClosureDefect so far
   double closure_relative_ = 0, closure_grazing_ = 0, closure_moments_ = 0;
   LightDirections light_;
+  ShotCheck shot_;
   std::int64_t transfer_count_ = 0;
   PassCounts counts_;
 };

@@ -73,6 +73,11 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   result.kept_form_factors = kept.available();
   result.form_factors = static_cast<std::int64_t>(kept.size());
   statistics.write_to(result);
+  // Other engines are wrong by more than the number of directions tells.
+  if (!has_moments(input.options.engine) && input.options.engine != Engine::global) {
+    result.shot_disagreement = 0;
+    result.shot_disagreement_patch = -1;
+  }
   result.iterations = history.size();
   result.burn_in = history.burn_in();
   result.iteration_records = history.records();
@@ -81,6 +86,7 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   add_scene_figures(*input.scene, history.patch_h(), sky_irradiance(), result);
   result.shot_sources = std::ssize(input.shot->sources);
   result.shot_power_share = input.shot->power_share;
+  result.integrated_pairs = input.shot->integrated_pairs;
   result.seconds_bsp = input.seconds_bsp;
   result.seconds_first_shot = input.seconds_first_shot;
   result.seconds_transfers = timing.seconds_transfers;

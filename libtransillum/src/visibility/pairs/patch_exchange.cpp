@@ -348,7 +348,8 @@ void ExchangeFinder::for_each_facing(PatchId i, PatchId j, const Numbers* among,
   Numbers blockers;
   for (const Part& p : parts_of(i)) {
     for (const Part& q : parts_of(j)) {
-      const FacingPolygons facing(p.corners, p.front, q.corners, q.front, tolerance_);
+      const FacingPolygons facing(p.corners, p.front, q.corners, q.front,
+                                  tolerance_ + p.bend + q.bend);
       if (!facing.empty()) {
         const Sides sides{at(first_sides_, i), at(first_sides_, j), {p.bend, q.bend}};
         collect_blockers(facing, sides, among, blockers);
@@ -363,7 +364,9 @@ PatchExchange ExchangeFinder::between(PatchId i, PatchId j, const Numbers* among
   PatchExchange exchange;
   for_each_facing(i, j, among, [&](const FacingPolygons& facing, Numbers& blockers) {
     if (blockers.empty()) {
-      exchange.area += polygon_exchange(facing);
+      bool integrated = false;
+      exchange.area += polygon_exchange(facing, &integrated);
+      exchange.integrated = exchange.integrated || integrated;
       return;
     }
     exchange.whole = false;
@@ -411,7 +414,7 @@ void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
     visit(next, face->patches.front(), nullptr);
     const Part& p = parts_of(i)[0];
     const FacingPolygons facing(p.corners, p.front, face->outline, lit_half_space(face->outline),
-                                tolerance_);
+                                tolerance_ + p.bend);
     if (!facing.empty()) {
       collect_blockers(facing, {at(first_sides_, i), -1, {p.bend, 0}}, nullptr, blockers);
       if (!is_any_hiding(facing, blockers)) {
@@ -425,14 +428,15 @@ void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
 
 void ExchangeFinder::for_each_after(
     PatchId i, const std::function<void()>& tick,
-    const std::function<void(PatchId j, double area)>& visit) const {
+    const std::function<void(PatchId j, const PatchExchange&)>& visit) const {
   for_each_range_after(i, [&](PatchId begin, PatchId end, const Numbers* among) {
     for (PatchId j = begin; j < end; ++j) {
       if (tick) {
         tick();
       }
-      if (const double area = between(i, j, among, false, tick).area; area > 0) {
-        visit(j, area);
+      const PatchExchange exchange = between(i, j, among, false, tick);
+      if (exchange.area > 0) {
+        visit(j, exchange);
       }
     }
   });
@@ -440,16 +444,18 @@ void ExchangeFinder::for_each_after(
 
 void ExchangeFinder::for_each_moments_after(
     PatchId i, const std::vector<LinearBasis>& bases, const std::function<void()>& tick,
-    const std::function<void(PatchId j, const TransferMoments&)>& visit) const {
+    const std::function<void(PatchId j, const PatchExchange&, const TransferMoments&)>& visit)
+    const {
   for_each_range_after(i, [&](PatchId begin, PatchId end, const Numbers* among) {
     for (PatchId j = begin; j < end; ++j) {
       if (tick) {
         tick();
       }
-      if (const double area = between(i, j, among, false, tick).area; area > 0) {
+      const PatchExchange exchange = between(i, j, among, false, tick);
+      if (exchange.area > 0) {
         TransferMoments moments = moments_between(i, j, bases, among, tick);
-        moments.of(0, 0) = area;
-        visit(j, moments);
+        moments.of(0, 0) = exchange.area;
+        visit(j, exchange, moments);
       }
     }
   });

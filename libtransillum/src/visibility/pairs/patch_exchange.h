@@ -17,9 +17,10 @@ namespace transillum {
 
 /// The exchange of two patches.
 struct PatchExchange {
-  double area = 0;    ///< A_i F_ij = A_j F_ji, m²
-  bool whole = true;  ///< nothing blocks any part of it: exact up to rounding
-  double error = 0;   ///< estimate of the exact area less `area`, m²
+  double area = 0;          ///< A_i F_ij = A_j F_ji, m²
+  bool whole = true;        ///< nothing blocks any part of it: exact up to rounding
+  double error = 0;         ///< estimate of the exact area less `area`, m²
+  bool integrated = false;  ///< a whole part was integrated numerically (polygon_exchange())
 };
 
 /// Form factors of single pairs of patches, with blockers between them.
@@ -50,18 +51,19 @@ class ExchangeFinder {
   /// Past thousands of blockers, one pair takes minutes.
   /// @param tick if set, called often, on this thread; may throw to abandon the query.
   PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {}) const;
-  /// Calls visit(j, area) for the patches j > i with which i exchanges light, in order; area as
-  /// PatchExchange::area. Faster than pair by pair: blockers are first found for all patches of a
-  /// face, and no error is estimated.
+  /// Calls visit(j, exchange) for the patches j > i with which i exchanges light, in order. Faster
+  /// than pair by pair: blockers are first found for all patches of a face, and no error is
+  /// estimated.
   void for_each_after(PatchId i, const std::function<void()>& tick,
-                      const std::function<void(PatchId j, double area)>& visit) const;
-  /// The same with moments for a linear basis: visit(j, T^ab(i,j) over all directions), T^00 being
-  /// the area of for_each_after(), to the bit. The others are found by points of the smaller patch,
-  /// also where nothing blocks; of the larger one exactly.
+                      const std::function<void(PatchId j, const PatchExchange&)>& visit) const;
+  /// The same with moments for a linear basis: T^ab(i,j) over all directions, T^00 being the area
+  /// of for_each_after(), to the bit. The others are found by points of the smaller patch, also
+  /// where nothing blocks; of the larger one exactly.
   /// @param bases of all patches
   void for_each_moments_after(
       PatchId i, const std::vector<LinearBasis>& bases, const std::function<void()>& tick,
-      const std::function<void(PatchId j, const TransferMoments&)>& visit) const;
+      const std::function<void(PatchId j, const PatchExchange&, const TransferMoments&)>& visit)
+      const;
   /// Form factor from an area element at x to the visible part of patch j, exact up to rounding.
   /// Polygons in whose plane x is do not block.
   /// @param x position, m.

@@ -71,7 +71,7 @@ double ExchangeFinder::from_point(const Vec3& x, const Vec3& normal, PatchId j,
   Numbers numbers;
   std::vector<Corners> blockers;
   for (const Part& part : parts_of(j)) {
-    if (part.front.distance(apex) <= tolerance_) {
+    if (part.front.distance(apex) <= tolerance_ + part.bend) {
       continue;
     }
     const Corners above = clipped(part.corners, {normal, dot(normal, apex)});

@@ -1,0 +1,243 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Form factors of single pairs of faces in positions in which digits are lost, against adaptive
+// quadrature in extended precision and against directions, which share no code with them. Input:
+// random pairs (support/pair_scenes.h).
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "support/imperfect_scenes.h"
+#include "support/pair_scenes.h"
+#include "support/scenes.h"
+#include "transillum/at.h"
+#include "transillum/bsp_tree.h"
+#include "transillum/directions.h"
+#include "transillum/engine.h"
+#include "transillum/pair_form_factors.h"
+#include "visibility/pairs/patch_exchange.h"
+
+namespace transillum::adverse_pairs_test {
+namespace {
+
+using namespace testing;
+
+/// Of faces 0 and 1 of a scene; a bent face may be several patches.
+struct FaceExchange {
+  double area = 0;     ///< m²
+  double error = 0;    ///< estimate, m²
+  double smaller = 0;  ///< area of the smaller face, m²
+};
+
+FaceExchange exchange_of_faces(const Scene& scene, const ExchangeFinder& exchange) {
+  FaceExchange sum;
+  std::array<double, 2> areas{};
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const int face = scene.patch(i).face;
+    if (face < 2) {
+      areas[static_cast<std::size_t>(face)] += scene.patch(i).area;
+    }
+    for (PatchId j = 0; j < scene.patch_count() && face == 0; ++j) {
+      if (scene.patch(j).face == 1) {
+        const PatchExchange found = exchange(i, j);
+        sum.area += found.area;
+        sum.error += std::abs(found.error);
+      }
+    }
+  }
+  sum.smaller = std::min(areas[0], areas[1]);
+  return sum;
+}
+
+/// What moving corners by as much as the faces are bent, and as the scene's points are welded and
+/// treated as touching, changes at most, m²: ten times that times the size of the smaller face.
+double geometric_error(const PairScene& pair, const Scene& scene, double smaller) {
+  double bend = std::max(1e-12 * scene.bounds().diagonal(), 2 * BspTree::thickness(scene));
+  bend += pair.p.bend + pair.q.bend;
+  for (const PairFace& blocker : pair.blockers) {
+    bend += blocker.bend;
+  }
+  return 10 * bend * std::sqrt(smaller);
+}
+
+void expect_agreement_of_unblocked(std::uint64_t first, std::uint64_t end) {
+  std::map<std::string, int> positive;
+  for (std::uint64_t seed = first; seed < end; ++seed) {
+    const PairScene pair = random_pair(seed);
+    const Scene scene(pair.description());
+    const FaceExchange found = exchange_of_faces(scene, ExchangeFinder(scene));
+    const ReferenceExchange reference = reference_exchange(pair, 1e-8, 1e-12 * found.smaller);
+    const double allowed = 1e-8 * reference.area + 1e-12 * found.smaller + 3 * reference.error +
+                           geometric_error(pair, scene, found.smaller);
+    EXPECT_LE(std::abs(found.area - reference.area), allowed)
+        << pair.kind << ", seed " << seed << ": " << found.area << " is not " << reference.area;
+    positive[pair.kind] += reference.area > 0 ? 1 : 0;
+  }
+  for (const auto& [kind, count] : positive) {
+    EXPECT_GT(count, 0) << kind;
+  }
+}
+
+void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
+  int partial = 0;
+  for (std::uint64_t seed = first; seed < end; ++seed) {
+    const PairScene pair = random_blocked_pair(seed);
+    const Scene scene(pair.description());
+    const FaceExchange found = exchange_of_faces(scene, ExchangeFinder(scene, {}, 32));
+    const ReferenceExchange reference = reference_exchange(pair, 1e-5, 1e-6 * found.smaller, 100);
+    // By points: three of its own estimates, and what is left near blockers that touch the face.
+    const double allowed = 3 * found.error + 1e-3 * reference.area + 2e-4 * found.smaller +
+                           3 * reference.error + geometric_error(pair, scene, found.smaller);
+    EXPECT_LE(std::abs(found.area - reference.area), allowed)
+        << pair.kind << ", seed " << seed << ": " << found.area << " is not " << reference.area;
+    partial += found.error > 0 ? 1 : 0;
+  }
+  EXPECT_GT(partial, static_cast<int>(end - first) / 4);
+}
+
+TEST(AdversePairs, AgreeWithQuadratureInExtendedPrecision) {
+  expect_agreement_of_unblocked(0, 360);
+  // Edges that meet 1e8 of their lengths away: 0.09 % off, 1.6e-5 of the factor and less.
+  for (const std::uint64_t seed : {424, 677, 775, 1351, 1369, 1892}) {
+    expect_agreement_of_unblocked(seed, seed + 1);
+  }
+}
+
+TEST(AdversePairs, PastBlockersAgreeWithQuadratureInExtendedPrecision) {
+  expect_agreement_of_blocked(0, 16);
+}
+
+TEST(NightlyAdversePairs, AgreeWithQuadratureInExtendedPrecision) {
+  expect_agreement_of_unblocked(360, 100'360);
+}
+
+TEST(NightlyAdversePairs, PastBlockersAgreeWithQuadratureInExtendedPrecision) {
+  expect_agreement_of_blocked(16, 1'016);
+}
+
+/// A_i F_ij between faces 0 and 1 by passes along `directions`, m².
+double area_by_passes(const Scene& scene, const TransferEngine& engine,
+                      const std::vector<DirectionSample>& directions) {
+  double sum = 0;
+  for (const DirectionSample& sample : directions) {
+    for (const Transfer& t : engine(sample.direction, {}).exchanges) {
+      const int a = scene.patch(t.receiver).face, b = scene.patch(t.source).face;
+      sum += std::min(a, b) == 0 && std::max(a, b) == 1 ? t.area : 0;
+    }
+  }
+  return 2 * sum / static_cast<double>(directions.size());
+}
+
+/// With eight random rotations of a set of directions. One of a thousand differences of normal
+/// errors exceeds five of these standard errors (t distribution), so a tenth of the factor counts
+/// too: what is lost is most of it.
+void expect_agreement_with_directions(bool blocked, std::uint64_t first, std::uint64_t end) {
+  constexpr int replicas = 8, directions = 512;
+  int compared = 0, beyond_three = 0;
+  for (std::uint64_t seed = first; seed < end; ++seed) {
+    const PairScene pair = blocked ? random_blocked_pair(seed) : random_pair(seed);
+    const auto scene = std::make_shared<const Scene>(pair.description());
+    const FaceExchange found = exchange_of_faces(*scene, ExchangeFinder(*scene));
+    const TransferEngine engine =
+        make_engine(Engine::fast, scene, std::make_shared<const BspTree>(*scene));
+    double sum = 0, squares = 0;
+    for (std::uint64_t r = 0; r < replicas; ++r) {
+      const double area = area_by_passes(
+          *scene, engine, rotated(make_directions(Sampling::antipodal, directions, 1), r + 1));
+      sum += area;
+      squares += area * area;
+    }
+    const double mean = sum / replicas;
+    if (mean < 1e-4 * found.smaller) {
+      continue;
+    }
+    ++compared;
+    const double deviation =
+        std::sqrt(std::max(0.0, squares / replicas - mean * mean) / (replicas - 1)) + 1e-3 * mean +
+        geometric_error(pair, *scene, found.smaller);
+    beyond_three += std::abs(found.area - mean) > 3 * deviation ? 1 : 0;
+    EXPECT_LE(std::abs(found.area - mean), 5 * deviation + 0.1 * mean)
+        << pair.kind << ", seed " << seed << ": " << found.area << " is not " << mean;
+  }
+  EXPECT_GT(compared, static_cast<int>(end - first) / 3);
+  EXPECT_LE(beyond_three, 1 + 0.03 * compared);
+}
+
+TEST(AdversePairs, AgreeWithDirections) {
+  expect_agreement_with_directions(false, 0, 27);
+  expect_agreement_with_directions(true, 0, 12);
+}
+
+TEST(NightlyAdversePairs, AgreeWithDirections) {
+  expect_agreement_with_directions(false, 27, 2'000);
+  expect_agreement_with_directions(true, 12, 500);
+}
+
+/// Every form factor above 1e-4 of a scene, by pairs and by eight rotated sets of directions.
+void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int directions) {
+  constexpr int replicas = 8;
+  std::map<std::pair<PatchId, PatchId>, std::array<double, 2>> sums;
+  const TransferEngine engine =
+      make_engine(Engine::fast, scene, std::make_shared<const BspTree>(*scene));
+  for (std::uint64_t r = 0; r < replicas; ++r) {
+    std::map<std::pair<PatchId, PatchId>, double> areas;
+    for (const DirectionSample& sample :
+         rotated(make_directions(Sampling::antipodal, directions, 1), r + 1)) {
+      for (const Transfer& t : engine(sample.direction, {}).exchanges) {
+        areas[std::minmax(t.receiver, t.source)] += 2 * t.area / directions;
+      }
+    }
+    for (const auto& [pair, area] : areas) {
+      sums[pair][0] += area;
+      sums[pair][1] += area * area;
+    }
+  }
+  const ExchangeFinder exchange(*scene);
+  int compared = 0, beyond_three = 0;
+  for (const auto& [pair, sum] : sums) {
+    const auto& [i, j] = pair;
+    const double smaller = std::min(scene->patch(i).area, scene->patch(j).area);
+    const double mean = sum[0] / replicas;
+    if (mean < 1e-4 * smaller) {
+      continue;
+    }
+    ++compared;
+    const PatchExchange found = exchange(i, j);
+    const double deviation =
+        std::sqrt(std::max(0.0, sum[1] / replicas - mean * mean) / (replicas - 1)) + 1e-9 * mean;
+    const double allowed = 3 * deviation + 2 * std::abs(found.error);
+    beyond_three += std::abs(found.area - mean) > allowed ? 1 : 0;
+    // Five times as much, or a third of the factor: only a wrong factor is so far off.
+    EXPECT_LE(std::abs(found.area - mean), 5 * allowed + mean / 3)
+        << i << ' ' << j << ": " << found.area << " is not " << mean;
+  }
+  EXPECT_LE(beyond_three, 2 + 0.04 * compared) << "of " << compared;
+}
+
+std::shared_ptr<const Scene> imperfect(Imperfect kind, int count, int digits, bool turned,
+                                       bool quads) {
+  return std::make_shared<const Scene>(
+      describe({.kind = kind, .count = count, .digits = digits, .turned = turned, .quads = quads}));
+}
+
+TEST(AdversePairs, OfImperfectScenesAgreeWithDirections) {
+  expect_factors_within_errors(imperfect(Imperfect::terrain, 3, 7, true, true), 256);
+  expect_factors_within_errors(imperfect(Imperfect::rails, 2, 6, true, true), 256);
+}
+
+TEST(NightlyAdversePairs, OfImperfectScenesAgreeWithDirections) {
+  for (const Imperfect kind : {Imperfect::rails, Imperfect::beams, Imperfect::truss,
+                               Imperfect::clutter, Imperfect::ball, Imperfect::terrain}) {
+    for (const int digits : {6, 7, 9, 12}) {
+      SCOPED_TRACE(::testing::Message() << static_cast<int>(kind) << ", " << digits << " digits");
+      expect_factors_within_errors(imperfect(kind, 6, digits, true, digits != 7), 1024);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace transillum::adverse_pairs_test

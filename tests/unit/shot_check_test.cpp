@@ -1,0 +1,139 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The first shot against what passes see of its sources: no false alarm on sound shots, and an
+// alarm where light is missing.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "support/scenes.h"
+#include "transillum/at.h"
+#include "transillum/radiosity.h"
+
+namespace transillum::shot_check_test {
+namespace {
+
+using testing::Sketch;
+
+/// One iteration with `light`, or with the scene's own shot.
+SolveStatistics checked(const std::shared_ptr<const Scene>& scene, SolveOptions options,
+                        std::shared_ptr<const DirectLight> light = nullptr) {
+  options.first_shot = 0;
+  options.iterations = 1;
+  RadiositySolver solver(scene, options, nullptr, {}, std::move(light));
+  solver.advance(RadiositySolver::Until::finished);
+  return solver.statistics();
+}
+
+/// Where all emits in a closed scene, the shot takes minutes.
+constexpr std::size_t most_pairs = 40'000;
+
+void expect_no_alarm(const std::string& name, const std::vector<int>& directions) {
+  const auto scene = load_scene(name);
+  const std::vector<PatchId> sources = find_small_sources(*scene, 0);
+  if (sources.empty() || sources.size() * scene->patches().size() > most_pairs) {
+    return;
+  }
+  const auto light = std::make_shared<const DirectLight>(shoot(*scene, sources));
+  for (const int count : directions) {
+    for (const Sampling sampling :
+         {Sampling::antipodal, Sampling::hammersley, Sampling::sobol, Sampling::random}) {
+      for (const bool two_way : {true, false}) {
+        const SolveStatistics s = checked(
+            scene, {.directions = count, .sampling = sampling, .rotation = 7, .two_way = two_way},
+            light);
+        EXPECT_LT(s.shot_disagreement, 1)
+            << name << ", " << count << " directions, " << name_of(sampling) << ", patch "
+            << s.shot_disagreement_patch;
+        EXPECT_GT(s.shot_disagreement, 0) << name;
+      }
+    }
+  }
+}
+
+TEST(ShotCheck, IsSilentOnSoundShots) {
+  for (const BuiltInScene& scene : built_in_scenes()) {
+    expect_no_alarm(scene.name, {24, 200});
+  }
+  for (const auto& file :
+       std::filesystem::directory_iterator(std::string(TRANSILLUM_DATA_DIR) + "/scenes")) {
+    if (file.path().extension() == ".obj") {
+      expect_no_alarm(file.path().string(), {24, 200});
+    }
+  }
+}
+
+TEST(NightlyShotCheck, IsSilentOnSoundShotsForAnyNumberOfDirections) {
+  for (const BuiltInScene& scene : built_in_scenes()) {
+    expect_no_alarm(scene.name, {1, 2, 6, 12, 48, 96, 512, 2048, 8192});
+  }
+  for (const char* folder : {"/scenes", "/corpus"}) {
+    for (const auto& file :
+         std::filesystem::directory_iterator(std::string(TRANSILLUM_DATA_DIR) + folder)) {
+      if (file.path().extension() == ".obj") {
+        expect_no_alarm(file.path().string(), {6, 96, 1024});
+      }
+    }
+  }
+}
+
+/// A room with a lamp of four corners, one of them `bend` off its plane, and two bent shelves.
+std::shared_ptr<const Scene> room(double bend) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 0), lamp = sketch.material(0.5, 100);
+  sketch.box({0, 0, 0}, {5, 4, 3}, true, gray);
+  sketch.face(
+      {{2.013, 2, 2.531}, {2.021, 2.31, 2.53}, {2.377, 2.31, 2.53}, {2.377, 2, 2.531 + bend}},
+      lamp);
+  sketch.face({{1.5, 1.2, 1}, {3.5, 1.2, 1}, {3.5, 2.9, 1}, {1.5, 2.9, 1 + bend}}, gray);
+  return sketch.scene({.two_sided = true});
+}
+
+/// A tenth of the sources' light, or that of one patch near the lamp.
+TEST(ShotCheck, FindsMissingLight) {
+  const auto scene = room(1e-7);
+  const std::vector<PatchId> sources = find_small_sources(*scene, 0);
+  const DirectLight sound = shoot(*scene, sources);
+  for (const int directions : {48, 512}) {
+    EXPECT_LT(checked(scene, {.directions = directions}, std::make_shared<DirectLight>(sound))
+                  .shot_disagreement,
+              1);
+    auto tenth = std::make_shared<DirectLight>(sound);
+    for (Rgb& irradiance : tenth->irradiance) {
+      irradiance = 0.9 * irradiance;
+    }
+    const SolveStatistics s = checked(scene, {.directions = directions}, tenth);
+    EXPECT_GT(s.shot_disagreement, 1) << directions;
+    EXPECT_EQ(s.shot_disagreement_patch, -1);
+  }
+  auto one = std::make_shared<DirectLight>(sound);
+  PatchId brightest = 0;
+  for (PatchId i = 0; i < scene->patch_count(); ++i) {
+    brightest = sound.irradiance[static_cast<std::size_t>(i)].g > at(sound.irradiance, brightest).g
+                    ? i
+                    : brightest;
+  }
+  at(one->irradiance, brightest) = {};
+  const SolveStatistics s = checked(scene, {.directions = 2048}, one);
+  EXPECT_GT(s.shot_disagreement, 1);
+  EXPECT_EQ(s.shot_disagreement_patch, brightest);
+}
+
+/// The fault that it is there for: it found the bent lamp that hid itself.
+TEST(ShotCheck, FindsThatABentLampHidesItself) {
+  for (const double bend : {1e-6, 1e-7, 1e-8, -1e-7}) {
+    const SolveStatistics s = checked(room(bend), {.directions = 96});
+    EXPECT_LT(s.shot_disagreement, 1) << bend;
+    EXPECT_EQ(s.shot_sources, 2);
+  }
+}
+
+TEST(ShotCheck, LeavesOutInexactEngines) {
+  const SolveStatistics s =
+      checked(load_scene("cornell-box"), {.directions = 24, .engine = Engine::corrected});
+  EXPECT_EQ(s.shot_disagreement, 0);
+  EXPECT_EQ(s.shot_disagreement_patch, -1);
+}
+
+}  // namespace
+}  // namespace transillum::shot_check_test
