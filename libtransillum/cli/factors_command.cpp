@@ -139,10 +139,17 @@ FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactor
     return form_factors;
   }
   DroppedFormFactors rest = drop_small_form_factors(scene, form_factors, call.drop, cancellation);
-  print_message(
-      fmt::format("{} of {} form factors left out, {:.2g} of all light; the others are "
-                  "rebalanced",
-                  rest.dropped, form_factors.size(), rest.share));
+  std::string text =
+      fmt::format("{} of {} form factors left out, {:.2g} of all light; the others are rebalanced",
+                  rest.dropped, form_factors.size(), rest.share);
+  if (rest.kept > 0) {
+    text += fmt::format("; {} below {} are kept, without which their rows cannot be rebalanced",
+                        rest.kept, call.drop);
+  }
+  if (rest.row_error > 1e-10) {
+    text += fmt::format("; row sums are off by up to {:.1e}", rest.row_error);
+  }
+  print_message(text);
   return std::move(rest.form_factors);
 }
 

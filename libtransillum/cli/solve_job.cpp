@@ -326,6 +326,12 @@ Solution solve_with_stored(const std::string& file, const SolveJob& job) {
   job.display.begin("reading form factors");
   StoredFormFactors stored = read_form_factors(file, job.cancellation);
   check_form_factors(*job.scene, stored);
+  if (stored.polygons.empty()) {
+    print_message(fmt::format(
+        "warning: {}: the file does not say of which polygons its form factors are; {} the same, "
+        "but an object that has moved is not noticed",
+        file, stored.areas.empty() ? "the number of patches is" : "the areas are"));
+  }
   job.display.begin("iterating");
   try {
     return solve_with_form_factors(job.scene, std::move(stored.form_factors), job.options,

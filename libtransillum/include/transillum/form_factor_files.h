@@ -19,6 +19,7 @@ struct StoredFormFactors {
   std::string name;           ///< of the file, for error messages
   FormFactors form_factors;   ///< rows sorted by source, values > 0
   std::vector<double> areas;  ///< of the patches, m²; empty: the file does not have them
+  std::string polygons;       ///< hash of the corners of all patches; empty: the file has none
 };
 
 /// Checks that `path` is writable and ends in .csv, .npz, .mtx or .vf, or has no ending, which
@@ -29,7 +30,8 @@ void check_form_factor_path(const std::filesystem::path& path);
 /// compressed sparse row matrix as scipy.sparse.load_npz() reads it), .mtx (Matrix Market), .vf
 /// (the text form of View3D: a dense matrix).
 /// @param path the file.
-/// @param scene whose areas .npz, .mtx and .vf files hold, and whose reflectances .vf files.
+/// @param scene whose areas .npz, .mtx and .vf files hold, whose polygons' hash .npz and .mtx
+/// files, and whose reflectances .vf files.
 /// @param form_factors of `scene`.
 /// @throws InputError for another extension, or where the matrix is too large for the format
 /// @throws std::runtime_error if the file cannot be written.
@@ -44,8 +46,9 @@ bool is_form_factor_file(const std::filesystem::path& path);
 StoredFormFactors read_form_factors(const std::filesystem::path& path,
                                     const Cancellation& cancellation = {});
 /// Checks that form factors are those of a scene: the number of patches; their areas, to 1e-9; in
-/// files without areas, that A_i F_ij and A_j F_ji differ by at most 10 % on average.
+/// files without areas, that A_i F_ij and A_j F_ji differ by at most 10 % on average; the hash of
+/// the polygons, without which an object that has moved is not noticed.
 /// @throws InputError naming the file and the difference.
 void check_form_factors(const Scene& scene, const StoredFormFactors& stored);
 
-}  // namespace TRANSILLUM_API transillum
+}  // namespace transillum

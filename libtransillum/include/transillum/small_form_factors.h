@@ -17,6 +17,10 @@ struct DroppedFormFactors {
   /// Sum over i of A_i times the dropped F_ij, over that of all: the share of light that was moved
   /// to other pairs.
   double share = 0;
+  /// Number of entries below the threshold that are kept, without which their rows cannot be
+  /// balanced.
+  std::size_t kept = 0;
+  double row_error = 0;  ///< largest relative difference of a row's sum from what it was
 };
 
 /// Leaves out tiny form factors and scales the others so that every row sums to what it summed to
@@ -24,8 +28,9 @@ struct DroppedFormFactors {
 ///
 /// If A_i F_ij = A_j F_ji (to 1e-9), rows and columns are scaled alike, F_ij -> d_i d_j F_ij, so
 /// that this still holds; a pair is left out if both of its form factors are below the threshold.
-/// Else each row is scaled by itself. Entries of rows that cannot be balanced, because too few of
-/// them are left, are kept. Row sums hold to 1e-10.
+/// Else each row is scaled by itself. Where a row cannot be balanced, because too few of its
+/// entries are left, all of them are kept, and with them those of the same pairs; other rows lose
+/// theirs.
 /// @param scene the scene.
 /// @param form_factors of `scene`.
 /// @param threshold form factors below it are tiny; 0 < threshold < 1.
@@ -34,4 +39,4 @@ struct DroppedFormFactors {
 DroppedFormFactors drop_small_form_factors(const Scene& scene, const FormFactors& form_factors,
                                            double threshold, const Cancellation& cancellation = {});
 
-}  // namespace TRANSILLUM_API transillum
+}  // namespace transillum

@@ -47,6 +47,16 @@ class ContentHash {
       }
     }
   }
+  /// Adds the corners of every patch. Unlike add_shape(), the result does not depend on the order
+  /// in which points are stored, nor on the sign of 0.
+  void add_polygons(const Scene& scene) {
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      add(scene.outline(i).size());
+      for (const PointId corner : scene.outline(i)) {
+        add(scene.points()[static_cast<std::size_t>(corner)] + Vec3{0, 0, 0});
+      }
+    }
+  }
   /// Adds exitance and reflectance of every patch.
   void add_light(const Scene& scene) {
     for (PatchId i = 0; i < scene.patch_count(); ++i) {

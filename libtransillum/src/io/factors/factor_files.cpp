@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/text_file.h"
+#include "io/content_hash.h"
 #include "io/factors/factor_formats.h"
 #include "io/file_ending.h"
 #include "transillum/at.h"
@@ -82,7 +83,29 @@ void check_reciprocity(const Scene& scene, const StoredFormFactors& stored) {
   }
 }
 
+void check_areas(const Scene& scene, const StoredFormFactors& stored) {
+  if (stored.areas.size() != scene.patches().size()) {
+    throw InputError(fmt::format("{}: {} areas for {} patches", stored.name, stored.areas.size(),
+                                 scene.patch_count()));
+  }
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const double area = scene.patch(i).area, other = at(stored.areas, i);
+    if (!(std::abs(other - area) <= 1e-9 * area)) {
+      throw InputError(fmt::format(
+          "{}: the form factors are of another scene: patch {} has an area of {} m2 there, and of "
+          "{} m2 in {}",
+          stored.name, i, other, area, scene.name()));
+    }
+  }
+}
+
 }  // namespace
+
+std::string hash_of_polygons(const Scene& scene) {
+  ContentHash hash;
+  hash.add_polygons(scene);
+  return hash.digits();
+}
 
 void check_form_factor_path(const std::filesystem::path& path) {
   writer_for(path);
@@ -158,20 +181,14 @@ void check_form_factors(const Scene& scene, const StoredFormFactors& stored) {
   }
   if (stored.areas.empty()) {
     check_reciprocity(scene, stored);
-    return;
+  } else {
+    check_areas(scene, stored);
   }
-  if (stored.areas.size() != patches) {
+  if (!stored.polygons.empty() && stored.polygons != hash_of_polygons(scene)) {
     throw InputError(
-        fmt::format("{}: {} areas for {} patches", stored.name, stored.areas.size(), patches));
-  }
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const double area = scene.patch(i).area, other = at(stored.areas, i);
-    if (!(std::abs(other - area) <= 1e-9 * area)) {
-      throw InputError(fmt::format(
-          "{}: the form factors are of another scene: patch {} has an area of {} m2 there, and of "
-          "{} m2 in {}",
-          stored.name, i, other, area, scene.name()));
-    }
+        fmt::format("{}: the form factors are of other polygons than those of {}: their areas are "
+                    "the same, but corners have moved",
+                    stored.name, scene.name()));
   }
 }
 

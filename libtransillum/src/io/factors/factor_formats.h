@@ -27,6 +27,9 @@ StoredFormFactors read_factors_mtx(const std::string& name, std::string_view tex
 /// @throws InputError where a dense matrix would be too large
 void write_factors_view3d(std::ostream& out, const Scene& scene, const FormFactors& form_factors);
 
+/// The hash by which a file knows the polygons of its scene again.
+std::string hash_of_polygons(const Scene& scene);
+
 /// An entry of a matrix in any order.
 struct FactorEntry {
   PatchId i, j;

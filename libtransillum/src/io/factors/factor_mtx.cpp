@@ -2,7 +2,8 @@
 //
 // Form factors in the coordinate form of Matrix Market: a head line, comments (%), a line with
 // rows, columns and number of entries, then a line per entry; numbers of rows and columns start at
-// 1. Areas of patches are in comments `%area A`, one line per patch, which other programs skip.
+// 1. Comments, which other programs skip, have the areas, `%area A` per patch, and the hash of the
+// polygons, `%polygons HASH`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,6 +79,7 @@ void write_factors_mtx(std::ostream& out, const Scene& scene, const FormFactors&
   text.add(
       "%%MatrixMarket matrix coordinate real general\n% form factors F_ij: share of the light "
       "leaving patch i that arrives at patch j\n");
+  text.add("%polygons {}\n", hash_of_polygons(scene));
   for (const Patch& patch : scene.patches()) {
     text.add("%area {}\n", patch.area);
   }
@@ -93,13 +95,17 @@ StoredFormFactors read_factors_mtx(const std::string& name, std::string_view tex
                                    const Cancellation& cancellation) {
   MtxLines lines(name, text);
   read_head(lines);
-  StoredFormFactors stored{name, {}, {}};
+  StoredFormFactors stored{name, {}, {}, {}};
   std::vector<std::string_view> words;
   std::int64_t patches = 0, expected = 0;
   std::vector<FactorEntry> entries;
   while (const auto line = lines.next()) {
     if (line->starts_with("%area ")) {
       stored.areas.push_back(lines.number(trimmed(line->substr(6))));
+      continue;
+    }
+    if (line->starts_with("%polygons ")) {
+      stored.polygons = trimmed(line->substr(10));
       continue;
     }
     if (line->empty() || line->starts_with("%")) {

@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Form factors as SciPy's compressed sparse rows (scipy.sparse.save_npz): a ZIP archive of the
-// arrays indices, indptr, format, shape and data. `area` is added; SciPy does not mind.
+// arrays indices, indptr, format, shape and data. `area` and `polygons` are added; SciPy does not
+// mind.
 #include <fmt/format.h>
 
 #include <limits>
@@ -73,6 +74,8 @@ void write_factors_npz(std::ostream& out, const Scene& scene, const FormFactors&
   add_array<std::int64_t>(zip, "shape", "<i8", shape);
   add_array<double>(zip, "data", "<f8", form_factors.value);
   add_array<double>(zip, "area", "<f8", areas);
+  const std::string polygons = hash_of_polygons(scene);
+  zip.add("polygons.npy", npy_head(fmt::format("|S{}", polygons.size()), "()"), polygons);
   zip.finish();
 }
 
@@ -106,9 +109,12 @@ StoredFormFactors read_factors_npz(const std::string& name, std::string_view byt
       list.push_back({i, static_cast<PatchId>(source[k]), value[k]});
     }
   }
-  StoredFormFactors stored{name, sorted_factors(name, patches, list, cancellation), {}};
+  StoredFormFactors stored{name, sorted_factors(name, patches, list, cancellation), {}, {}};
   if (file.has("area")) {
     stored.areas = file.array("area").numbers();
+  }
+  if (file.has("polygons")) {
+    stored.polygons = file.array("polygons").text();
   }
   return stored;
 }

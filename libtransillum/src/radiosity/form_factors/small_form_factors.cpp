@@ -21,8 +21,8 @@ namespace {
 
 constexpr double reciprocal = 1e-9;  ///< relative difference of S_ij and S_ji that is rounding
 constexpr double balanced = 1e-11;   ///< relative error of row sums at which sweeps end
-constexpr int most_sweeps = 500;
-constexpr int most_rounds = 8;  ///< of keeping entries of rows that cannot be balanced
+constexpr int most_sweeps = 2000;
+constexpr int stalled_sweeps = 50;  ///< in which errors that decrease are at least halved
 
 /// The matrix under change.
 class Balance {
@@ -41,17 +41,15 @@ class Balance {
     for_each([&](std::size_t i, std::size_t k) { wanted_[i] += area(i) * f_.value[k]; });
     for_each([&](std::size_t, std::size_t k) {
       kept_[k] = std::max(f_.value[k], symmetric_ ? f_.value[partner_[k]] : 0) >= threshold;
+      tiny_ += kept_[k] ? 0 : 1;
     });
   }
 
+  /// Every round but the last keeps at least one entry more, so there are at most as many as rows.
   DroppedFormFactors result() {
-    for (int round = 0;; ++round) {
-      const std::vector<bool> failed = symmetric_ ? balance_symmetric() : balance_rows();
-      if (std::find(failed.begin(), failed.end(), true) == failed.end()) {
-        break;
-      }
-      keep_rows(failed, round == most_rounds);
-    }
+    do {
+      errors_ = symmetric_ ? balance_symmetric() : balance_rows();
+    } while (keep_for_rows_short_of_light());
     return collected();
   }
 
@@ -96,47 +94,67 @@ class Balance {
     return sums;
   }
 
-  /// The symmetric form of Sinkhorn's iteration. Returns the rows that it does not balance.
-  std::vector<bool> balance_symmetric() {
+  /// The symmetric form of Sinkhorn's iteration, until rows are balanced or no longer get closer.
+  /// Returns the relative error of each row, negative where it sums to less than before.
+  std::vector<double> balance_symmetric() {
     scales_.assign(patches_, 1.0);
-    std::vector<bool> failed(patches_);
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    std::vector<double> errors(patches_);
+    double worst_before = HUGE_VAL;
+    for (int sweep = 1; sweep <= most_sweeps; ++sweep) {
       const std::vector<double> sums = image();
       double worst = 0;
       for (std::size_t i = 0; i < patches_; ++i) {
         const double sum = scales_[i] * sums[i];
-        const double error = wanted_[i] > 0 ? std::abs(sum / wanted_[i] - 1) : 0;
-        failed[i] = error > balanced;
-        worst = std::max(worst, error);
+        errors[i] = wanted_[i] > 0 ? sum / wanted_[i] - 1 : 0;
+        worst = std::max(worst, std::abs(errors[i]));
         if (sum > 0) {
           scales_[i] *= std::sqrt(wanted_[i] / sum);
         }
       }
-      if (worst <= balanced) {
+      const bool stalled = sweep % stalled_sweeps == 0 && worst > 0.5 * worst_before;
+      if (worst <= balanced || stalled) {
         break;
       }
+      if (sweep % stalled_sweeps == 0) {
+        worst_before = worst;
+      }
     }
-    return failed;
+    return errors;
   }
 
-  std::vector<bool> balance_rows() {
+  std::vector<double> balance_rows() {
     const std::vector<double> sums = image();
-    std::vector<bool> failed(patches_);
+    std::vector<double> errors(patches_);
     for (std::size_t i = 0; i < patches_; ++i) {
       scales_[i] = sums[i] > 0 ? wanted_[i] / sums[i] : 1;
-      failed[i] = wanted_[i] > 0 && !(sums[i] > 0);
+      errors[i] = wanted_[i] > 0 && !(sums[i] > 0) ? -1 : 0;
     }
-    return failed;
+    return errors;
   }
 
-  /// Keeps all entries of these rows, and of their columns; all of the matrix if `everything`, for
-  /// which all scales are 1.
-  void keep_rows(const std::vector<bool>& rows, bool everything) {
+  /// Keeps all entries of the rows that lack the most, and of their columns. Rows that cannot be
+  /// balanced lack light: those that have too much would not without them. Where all of these are
+  /// whole, convergence is slow, and all rows off balance become whole.
+  /// Returns whether there are such entries.
+  bool keep_for_rows_short_of_light() {
+    const double worst = -*std::min_element(errors_.begin(), errors_.end());
+    const double least = std::max(balanced, 0.5 * worst);
+    return keep_rows([&](std::size_t i) { return errors_[i] < -least; }) ||
+           keep_rows([&](std::size_t i) { return std::abs(errors_[i]) > balanced; });
+  }
+
+  template <class IsChosen>
+  bool keep_rows(IsChosen is_chosen) {
+    bool any = false;
     for_each([&](std::size_t i, std::size_t k) {
-      if (everything || rows[i] || (symmetric_ && at(rows, f_.source[k]))) {
-        kept_[k] = true;
+      if (!kept_[k] && is_chosen(i)) {
+        kept_[k] = any = true;
+        if (symmetric_) {
+          kept_[partner_[k]] = true;
+        }
       }
     });
+    return any;
   }
 
   DroppedFormFactors collected() const {
@@ -158,6 +176,10 @@ class Balance {
       result.form_factors.row_begin.push_back(result.form_factors.size());
     }
     result.share = all > 0 ? moved / all : 0;
+    result.kept = tiny_ - result.dropped;
+    for (const double error : errors_) {
+      result.row_error = std::max(result.row_error, std::abs(error));
+    }
     return result;
   }
 
@@ -168,7 +190,8 @@ class Balance {
   std::vector<std::size_t> partner_;  ///< of entry (i, j): the index of (j, i); if symmetric
   bool symmetric_ = true;
   std::vector<bool> kept_;
-  std::vector<double> wanted_, scales_;
+  std::size_t tiny_ = 0;  ///< number of entries below the threshold
+  std::vector<double> wanted_, scales_, errors_;
 };
 
 }  // namespace
