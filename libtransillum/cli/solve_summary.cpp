@@ -130,6 +130,16 @@ std::string glossy_text(const GlossyFigures& figures) {
                   static_cast<double>(figures.transfer_bytes) / mebibyte));
 }
 
+/// Patches on which the mean of B or H is below 0, as only linear functions can make it.
+std::int64_t patches_below_zero(const Solution& solution) {
+  const auto is_below = [](const Rgb& value) { return std::min({value.r, value.g, value.b}) < 0; };
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < solution.linear_parts.size(); ++i) {
+    count += is_below(solution.radiosity[i]) || is_below(solution.irradiance[i]) ? 1 : 0;
+  }
+  return count;
+}
+
 }  // namespace
 
 std::string solve_summary(const Solution& solution) {
@@ -216,6 +226,13 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
         s.shot_disagreement_patch < 0 ? std::string()
                                       : fmt::format(" on patch {}", s.shot_disagreement_patch),
         s.shot_disagreement));
+  }
+  if (const std::int64_t below = patches_below_zero(solution); below > 0) {
+    warnings.push_back(
+        fmt::format("the mean of B or H is below 0 on {} patches, which receive from parts of "
+                    "others where linear functions fall below 0",
+                    below) +
+        remedy_hint(Remedy::directions));
   }
   const int replicas = std::max(solution.error.replicas, 1);
   const double met = s.light_directions / replicas;

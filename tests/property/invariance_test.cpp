@@ -172,5 +172,28 @@ TEST(Invariance, KeptAndRecomputedFormFactorsAgree) {
   }
 }
 
+/// ALGORITHM.md, section 8: any limit under which form factors are kept gives the same bits, and so
+/// does any under which they are not.
+TEST(Invariance, MemoryChangesNoBitWhileFormFactorsAreKeptOrRecomputedAlike) {
+  const auto scene = load_scene("cornell-box", {.max_patch_area = 0.1});
+  for (const int replicas : {1, 3}) {
+    SolveOptions options{.directions = 48, .replicas = replicas};
+    const Solution kept = solve(scene, options), *before[2] = {nullptr, &kept};
+    Solution recomputed;
+    const std::uint64_t most = 200 * static_cast<std::uint64_t>(kept.statistics.form_factors);
+    for (options.memory = 1; options.memory < most; options.memory += most / 20) {
+      const Solution solution = solve(scene, options);
+      const Solution*& same = before[solution.statistics.kept_form_factors ? 1 : 0];
+      if (same == nullptr) {
+        recomputed = solution;
+        same = &recomputed;
+      }
+      EXPECT_TRUE(solution.radiosity == same->radiosity) << options.memory;
+      EXPECT_TRUE(solution.error.standard_error == same->error.standard_error) << options.memory;
+    }
+    ASSERT_NE(before[0], nullptr);
+  }
+}
+
 }  // namespace
 }  // namespace transillum::invariance_test

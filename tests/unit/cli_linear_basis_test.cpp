@@ -155,6 +155,14 @@ TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
   EXPECT_GE(statistics["negative_corners"], 0);
 }
 
+/// Columns B and H, whose range is >= 0, were below it silently: H down to -0.038.
+TEST(CliLinearBasis, WarnsOfMeansBelowZero) {
+  const auto warning = ::testing::HasSubstr("warning: the mean of B or H is below 0 on 3 patches");
+  EXPECT_THAT(run_program({"solve", "rooms", "-m", "8", "--basis", "linear"}).err, warning);
+  EXPECT_THAT(run_program({"solve", "rooms", "-m", "16", "--basis", "linear"}).err,
+              ::testing::Not(::testing::HasSubstr("below 0")));
+}
+
 TEST(CliLinearBasis, ShardsCheckpointsAndThreadsGiveTheSameBits) {
   const TemporaryFolder folder;
   const Arguments solve = linear_box + Arguments{"-m", "60", "--max-patch-area", "0.3"};

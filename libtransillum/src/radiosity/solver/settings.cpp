@@ -143,7 +143,8 @@ std::vector<Setting> scene_settings(const SceneOptions& scene) {
 std::vector<Setting> machine_settings() {
   return {
       {"memory", "a size such as 2G or 800M",
-       "memory for stored form factors; beyond it they are recomputed in each iteration",
+       "memory for stored form factors; beyond it they are recomputed in each iteration, which "
+       "changes last digits",
        "a quarter of the machine's", false},
       {"threads", "a number", "number of threads; results do not depend on it", "all cores", false},
   };
