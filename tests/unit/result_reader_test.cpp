@@ -114,6 +114,21 @@ class ResultReader : public ::testing::Test {
 
 TEST_F(ResultReader, ReadsBackWhatWasWritten) { expect_same(read_result(path_), solution_); }
 
+// Each side has points of its own, since B differs: the other side was not found by its points.
+TEST_F(ResultReader, ReadsTwoSidedResultsOfLinearFunctions) {
+  SceneDescription box = describe_scene("cornell-box");
+  const auto scene = std::make_shared<const Scene>(box, SceneOptions{.two_sided = true});
+  const Solution linear = solve(scene, {.directions = 16, .basis = Basis::linear});
+  write_result(path_, linear);
+  const Solution again = read_result(path_);
+  expect_same(again, linear);
+  ASSERT_EQ(again.linear_parts.size(), linear.linear_parts.size());
+  for (std::size_t i = 0; i < again.linear_parts.size(); ++i) {
+    EXPECT_EQ(again.linear_parts[i].first, linear.linear_parts[i].first);
+    EXPECT_EQ(again.linear_parts[i].second, linear.linear_parts[i].second);
+  }
+}
+
 TEST_F(ResultReader, ChecksTheNumbersOfFaces) {
   const auto with_faces = [&](std::array<double, 3> faces) {
     change([&](vtkPolyData& mesh) {

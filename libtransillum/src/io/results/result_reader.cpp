@@ -280,8 +280,13 @@ class ResultReader {
         continue;
       }
       ++i;
+      // By their places: with linear functions, each side has points of its own.
+      const auto same_place = [&](PointId p, PointId q) {
+        return at(description.points, p) == at(description.points, q);
+      };
       if (i == file_.polygons() || materials[i] != materials[i - 1] ||
-          !std::equal(outline.rbegin(), outline.rend(), outlines[i].begin(), outlines[i].end())) {
+          !std::equal(outline.rbegin(), outline.rend(), outlines[i].begin(), outlines[i].end(),
+                      same_place)) {
         file_.fail(
             fmt::format("is two-sided, but patch {} is not followed by its other side", i - 1));
       }
