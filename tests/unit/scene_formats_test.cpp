@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
+#include <cmath>
 #include <cstring>
 #include <numbers>
 
@@ -168,6 +171,76 @@ TEST(SceneFormats, PlyRefusesWhatIsBroken) {
   EXPECT_THAT(refusal_of("a.ply", good.substr(0, 100)), HasSubstr("the header has no end"));
 }
 
+/// A triangle with these three numbers of each color as the program writes them.
+std::string ply_of_values(const std::string& names, const std::string& values) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_index\n";
+  for (const char channel : {'0', '1', '2'}) {
+    const char* const letters[] = {"_r", "_g", "_b"};
+    const char* const whole[] = {"red", "green", "blue"};
+    const int c = channel - '0';
+    text += "property double " + (names.empty() ? whole[c] : names + letters[c]) + "\n";
+  }
+  return text + "end_header\n0 0 0 1 0 0 0 1 0 3 0 1 2 " + values + "\n";
+}
+
+// Rounded to 1/1024, 0.9999 became 1, which was lowered to 0.98: B was 50 instead of 10,000.
+TEST(SceneFormats, NumbersGivenAsReflectanceKeepAllTheirDigits) {
+  const auto rho_of = [](const std::string& name, const std::string& text) {
+    return read(name, text).materials[0].reflectance;
+  };
+  const Rgb digits{0.9999, 0.123456789012345, 1e-9};
+  EXPECT_EQ(rho_of("a.ply", ply_of_values("rho", "0.9999 0.123456789012345 1e-9")), digits);
+  EXPECT_EQ(rho_of("a.ply", ply_of_values("", "0.9999 0.123456789012345 1e-9")), digits);
+  EXPECT_EQ(rho_of("a.off",
+                   "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.9999 "
+                   "0.123456789012345 1e-9\n"),
+            digits);
+  // Colors in bytes too: 1 of 255 was 0.
+  EXPECT_NEAR(rho_of("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 1 1 1\n").r,
+              1 / 255.0 / 12.92, 1e-12);
+}
+
+TEST(SceneFormats, NumbersAboveOneAreLoweredWithAWarning) {
+  EXPECT_THAT(read("a.ply", ply_of_values("rho", "1.5 0.5 0.5")).notes,
+              ElementsAre(HasSubstr("a.ply: face 0: reflectance rho 1.5 0.5 0.5 is lowered to "
+                                    "0.98")));
+  EXPECT_THAT(read("a.ply", ply_of_values("", "1.5 0.5 0.5")).notes,
+              ElementsAre(HasSubstr("rho 1.5 0.5 0.5 is lowered to 0.98")));
+  EXPECT_THAT(read("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 254.5 1 1\n").notes,
+              ElementsAre(HasSubstr("a.off:6: reflectance rho 254.5 1 1 is lowered to 0.98")));
+  EXPECT_THAT(read("a.rad",
+                   "void plastic w 0 0 5 1.5 .5 .5 0 0\nw polygon p 0 0 9 0 0 0 1 0 0 0 "
+                   "1 0\n")
+                  .notes,
+              ElementsAre(HasSubstr("a.rad:1: material `w`: reflectance rho 1.5 0.5 0.5 is "
+                                    "lowered to 0.98")));
+  EXPECT_EQ(refusal_of("a.ply", ply_of_values("rho", "-1 0 0")),
+            "a.ply: face 0: rho -1 is not a finite number of at least 0");
+}
+
+const std::string strips_head =
+    "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+    "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n";
+
+TEST(SceneFormats, PlyStripsOfTrianglesAreRead) {
+  const std::string points = "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 5 5 5\n";
+  const SceneDescription d =
+      read("a.ply", strips_head + "end_header\n" + points + "9 0 1 2 3 4 -1 2 3 4\n");
+  ASSERT_EQ(d.face_count(), 4U);
+  const Scene scene(d);
+  for (PatchId i = 0; i < 4; ++i) {
+    EXPECT_DOUBLE_EQ(scene.patch(i).area, 0.5);
+    EXPECT_DOUBLE_EQ(scene.patch(i).normal.z, 1);
+  }
+  EXPECT_THAT(d.outline(1), ElementsAre(2, 1, 3));
+  EXPECT_THAT(refusal_of("a.ply", strips_head + "end_header\n" + points + "3 0 1 -2\n"),
+              HasSubstr("a.ply: tristrips 0: vertex -2 does not exist"));
+  EXPECT_THAT(refusal_of("a.ply", strips_head + "end_header\n" + points + "3 0 1 6\n"),
+              HasSubstr("vertex 6 does not exist; there are 6"));
+}
+
 // STL -----------------------------------------------------------------------------------------
 
 std::string text_stl() {
@@ -213,6 +286,15 @@ TEST(SceneFormats, StlIsReadAsTextAndBinaryAndJoined) {
     EXPECT_EQ(read("cube.stl", text, {.join = false}).face_count(), 12U);
   }
   EXPECT_THAT(read("cube.stl", text_stl()).groups, ElementsAre("cube"));
+}
+
+TEST(SceneFormats, StlInCapitalsIsText) {
+  std::string text = text_stl();
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const SceneDescription d = read("cube.stl", text);
+  expect_cube(d);
+  EXPECT_THAT(d.groups, ElementsAre("CUBE"));
 }
 
 TEST(SceneFormats, StlRefusesWhatIsBroken) {
@@ -300,14 +382,67 @@ TEST(SceneFormats, View3dCutsSubsurfacesOutOfTheirBase) {
   EXPECT_EQ(scene.material(scene.patch_count() - 1).name, "obstruction");
 }
 
+// A room of 4 x 3 x 2 m by planes and shapes in them; the ceiling has a part of its own.
+const std::string view3d_shapes =
+    "T a room\nC encl=1\nF 3a\n! # shape base cmb emit name\n"
+    "S 1 R 0 0 0.9 south ! x y z azimuth tilt width height\n 4 0 0  0 90  4 2\n"
+    "S 2 r 0 0 0.9 east\n 4 3 0  270 90\n 3 2\n"
+    "S 3 R 0 0 0.9 north\n 0 3 0  180 90  4. 2.\n"
+    "S 4 R 0 2 0.9 west\n 0 0 0  90 90  3 2\n"
+    "S 5 Q 0 0 0.8 ceiling\n 4 0 2  0 180\n 0 0  4 0  4 3  0 3\n"
+    "S 6 q 0 0 0.8 floor-1\n 0 0 0  180 0\n 0 0  4 0\n 4 1  0 1\n"
+    "S 7 T 0 6 0.8 floor-2\n 0 0 0  180 0\n 0 1  4 1  4 3\n"
+    "S 8 T 0 6 0.8 floor-3\n 0 0 0  180 0\n 0 1  4 3  0 3\n"
+    "O 9 R\n 1 1 1  0 30  1 1\nEnd of data\n";
+
+TEST(SceneFormats, View3dShapesInPlanesMakeTheSameRoom) {
+  const SceneDescription d = read("room.vs3", view3d_shapes);
+  const Scene scene(d);
+  ASSERT_EQ(scene.patch_count(), 9);
+  double total = 0;
+  Vec3 closure;
+  for (PatchId i = 0; i < 8; ++i) {
+    const Patch& patch = scene.patch(i);
+    EXPECT_GT(dot(patch.normal, Vec3{2, 1.5, 1} - patch.center), 0.9) << i;
+    total += patch.area;
+    closure = closure + patch.area * patch.normal;
+  }
+  EXPECT_NEAR(total, 2 * (12 + 8 + 6), 1e-12);
+  EXPECT_NEAR(norm(closure), 0, 1e-12);
+  // Corners of right angles are exact, so that walls share them.
+  EXPECT_EQ(scene.points().size(), 8U + 2 + 4);
+  EXPECT_EQ(scene.material(8).name, "obstruction");
+  // Tilted by 30 degrees and facing north, the lower edge is on the plane's x axis, westward.
+  EXPECT_NEAR(scene.patch(8).normal.y, 0.5, 1e-12);
+  EXPECT_NEAR(scene.patch(8).normal.z, std::sqrt(3) / 2, 1e-12);
+  EXPECT_NEAR(scene.patch(8).center.x, 0.5, 1e-12);
+  EXPECT_THAT(scene.groups(),
+              ElementsAre("south", "east", "north", "ceiling", "floor-1", "surface 9"));
+}
+
+TEST(SceneFormats, View3dRefusesBrokenShapes) {
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = view3d_shapes;
+    text.replace(text.find(from), from.size(), to);
+    return refusal_of("a.vs3", text);
+  };
+  EXPECT_EQ(with("S 5 Q", "S 5 H"),
+            "a.vs3:14: `H` is no shape; shapes are R (rectangle), Q (quadrilateral) and T "
+            "(triangle)");
+  EXPECT_THAT(with("0 90  4 2", "0 90  4 -2"), HasSubstr("a.vs3:6: the height must be above 0"));
+  EXPECT_THAT(with(" 1 1 1  0 30  1 1\nEnd of data\n", " 1 1"),
+              HasSubstr("a.vs3:28: the file ends within the surface"));
+  EXPECT_THAT(with("0 90  4 2", "0 x  4 2"), HasSubstr("a.vs3:6: the tilt must be a number"));
+}
+
 TEST(SceneFormats, View3dRefusesWhatIsBroken) {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = view3d;
     text.replace(text.find(from), from.size(), to);
     return refusal_of("a.vs3", text);
   };
-  EXPECT_EQ(with("F 3\n", "F 3a\n"),
-            "a.vs3:3: only geometry in three dimensions by vertices (F 3) can be read");
+  EXPECT_EQ(with("F 3\n", "F 2\n"),
+            "a.vs3:3: only geometry in three dimensions (F 3 or F 3a) can be read");
   EXPECT_THAT(with("V 2 4", "V 3 4"), HasSubstr("a.vs3:6: the vertex's number"));
   EXPECT_THAT(with("V 2 4", "V 1 4"), HasSubstr("a.vs3:6: vertices must be numbered in order"));
   EXPECT_THAT(with("S 1 1 2 3 4", "S 1 1 2 13 4"), HasSubstr("a.vs3:18: a vertex of a surface"));
@@ -340,6 +475,25 @@ TEST(SceneFormats, RadiancePolygonsHaveTheDiffusePartOfTheirMaterials) {
   EXPECT_THAT(d.notes, ::testing::Contains(HasSubstr("sphere `ball` is not a polygon; left out")));
 }
 
+TEST(SceneFormats, RadianceWordsInQuotesMayHoldBlanks) {
+  const SceneDescription d =
+      read("a.rad",
+           "void plastic \"my red # paint\" 0 0 5 .8 .4 .2 0 0 # a comment 7\n"
+           "\"my red # paint\" polygon 'the \"long\" wall' 0 0 9 0 0 0 0 1 0 0 0 1\n"
+           "void brightfunc b\n2 \"a b\" c\n0 0\nvoid plastic w#1 0 0 5 1e-1 1e-1 1e-1 0 0\n"
+           "w#1 polygon \"\" 0 0 9 0 0 0 0 1 0 0 0 1\n");
+  ASSERT_EQ(d.face_count(), 2U);
+  const auto material = [&](std::size_t f) {
+    return d.materials[static_cast<std::size_t>(d.face_material[f])];
+  };
+  EXPECT_EQ(material(0).name, "my red # paint");
+  EXPECT_EQ(material(0).reflectance, (Rgb{0.8, 0.4, 0.2}));
+  EXPECT_EQ(material(1).name, "w#1");
+  EXPECT_THAT(d.groups, ElementsAre("the \"long\" wall", ""));
+  EXPECT_EQ(refusal_of("a.rad", "void plastic 'red 0 0\n 5 .8 .4 .2 0 0\n"),
+            "a.rad:1: the quotes of `red 0 0` do not end on their line");
+}
+
 TEST(SceneFormats, RadianceRefusesCommandsAndWhatIsBroken) {
   EXPECT_THAT(refusal_of("a.rad", "void plastic a 0 0 5 1 1 1 0 0\n!xform -t 1 0 0 b.rad\n"),
               HasSubstr("a.rad:2: `!xform -t 1 0 0 b.rad` is a command, which is not run"));
@@ -356,6 +510,14 @@ TEST(SceneFormats, RadianceRefusesCommandsAndWhatIsBroken) {
 }
 
 // All -----------------------------------------------------------------------------------------
+
+TEST(SceneFormats, AByteOrderMarkIsNoPartOfAFile) {
+  const std::string mark = "\xef\xbb\xbf";
+  expect_cube(read("a.ply", mark + ply("ascii")));
+  expect_cube(read("a.ply", mark + ply("binary_big_endian")));
+  expect_cube(read("a.off", mark + off("OFF\n8 6 12\n", "")));
+  expect_cube(read("a.stl", mark + text_stl()));
+}
 
 TEST(SceneFormats, AreFoundByTheEndingInAnyCaseAndListedWhenItIsUnknown) {
   expect_cube(read("CUBE.STL", text_stl()));

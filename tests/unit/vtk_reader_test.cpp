@@ -14,6 +14,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <random>
@@ -316,6 +317,18 @@ TEST_F(VtkReader, LegacyFilesAreRefusedWithAPlace) {
                              "-1 0 0\n"),
               HasSubstr("a.vtk: cell 0: red exitance E (Ke) is -1"));
   EXPECT_THAT(refused(legacy(3, true).substr(0, 150)), HasSubstr("a.vtk: byte "));
+}
+
+// Rounded to 1/1024, dark colors became black.
+TEST_F(VtkReader, ColorsInBytesAreNotRounded) {
+  const SceneDescription d = read("a.vtk",
+                                  "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"
+                                  "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n"
+                                  "CELL_DATA 1\nFIELD f 1\ncolor 3 1 unsigned_char\n1 2 254\n");
+  const Rgb rho = d.materials[0].reflectance;
+  EXPECT_NEAR(rho.r, 1 / 255.0 / 12.92, 1e-12);
+  EXPECT_NEAR(rho.g, 2 / 255.0 / 12.92, 1e-12);
+  EXPECT_NEAR(rho.b, std::pow((254 / 255.0 + 0.055) / 1.055, 2.4), 1e-12);
 }
 
 TEST_F(VtkReader, VtpIsRefusedWithAReason) {

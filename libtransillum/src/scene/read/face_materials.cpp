@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "scene/read/reflectance_limit.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 namespace {
@@ -18,11 +19,31 @@ constexpr double color_parts = 1024;
 FaceMaterials::FaceMaterials(SceneDescription& description, const ReadOptions& options)
     : description_(description), options_(options) {}
 
-std::int32_t FaceMaterials::of_color(const Rgb& reflectance, const Rgb& exitance) {
+std::int32_t FaceMaterials::of_mean_color(const Rgb& reflectance, const Rgb& exitance) {
+  // Below 1, a mean does not become 1, which would be lowered.
   const auto rounded = [](double v) {
-    return std::round(std::clamp(v, 0.0, 1.0) * color_parts) / color_parts;
+    const double nearest = std::round(std::clamp(v, 0.0, 1.0) * color_parts) / color_parts;
+    return nearest < 1 || v >= 1 ? nearest : 1 - 1 / color_parts;
   };
-  Rgb rho{rounded(reflectance.r), rounded(reflectance.g), rounded(reflectance.b)};
+  return of_color({rounded(reflectance.r), rounded(reflectance.g), rounded(reflectance.b)},
+                  exitance);
+}
+
+std::int32_t FaceMaterials::of_numbers(const Rgb& reflectance, const Rgb& exitance,
+                                       const std::string& place, Warnings& notes) {
+  for (const double channel : {reflectance.r, reflectance.g, reflectance.b}) {
+    if (!(channel >= 0) || !std::isfinite(channel)) {
+      throw InputError(
+          fmt::format("{}rho {} is not a finite number of at least 0", place, channel));
+    }
+  }
+  Rgb rho = reflectance;
+  lower_reflectance(rho, options_, place, notes);
+  return of_color(rho, exitance);
+}
+
+std::int32_t FaceMaterials::of_color(const Rgb& reflectance, const Rgb& exitance) {
+  Rgb rho = reflectance;
   lower_reflectance(rho, options_);
   const auto next = static_cast<std::int32_t>(description_.materials.size());
   const auto [entry, is_new] =

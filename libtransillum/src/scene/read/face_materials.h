@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <string>
 
 #include "scene/build/warnings.h"
 #include "transillum/scene.h"
@@ -15,9 +16,16 @@ class FaceMaterials {
  public:
   FaceMaterials(SceneDescription& description, const ReadOptions& options);
 
-  /// The number of the material with this reflectance, 0 to 1, rounded to 1/1024 and lowered as
-  /// `options` say, and this exitance.
+  /// The number of the material with the reflectance of a color in bytes, lowered as the options
+  /// say, and this exitance.
   std::int32_t of_color(const Rgb& reflectance, const Rgb& exitance = {});
+  /// The same of a mean of colors, which is rounded to 1/1024 so that faces share materials.
+  std::int32_t of_mean_color(const Rgb& reflectance, const Rgb& exitance = {});
+  /// The same of numbers, kept to their last digit: those that are lowered are noted.
+  /// @param place of the face, at the beginning of messages
+  /// @throws InputError unless they are finite and at least 0
+  std::int32_t of_numbers(const Rgb& reflectance, const Rgb& exitance, const std::string& place,
+                          Warnings& notes);
   /// The number of the material of faces without a color.
   std::int32_t without_color();
   /// Notes how many faces got the default reflectance.

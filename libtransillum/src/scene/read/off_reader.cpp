@@ -39,9 +39,8 @@ class OffReader {
     if (faces_ == 0) {
       fail("has no faces");
     }
-    Warnings notes;
-    materials_->note(notes, "");
-    description_.notes = notes.sentences();
+    materials_->note(notes_, "");
+    description_.notes = notes_.sentences();
     return std::move(description_);
   }
 
@@ -136,12 +135,13 @@ class OffReader {
       outline_.push_back(index);
     }
     const std::size_t first = corners + 1;
-    const std::int32_t material = words_.size() >= first + 3 ? materials_->of_color(color(first))
-                                                             : materials_->without_color();
+    const std::int32_t material =
+        words_.size() >= first + 3 ? material_at(first) : materials_->without_color();
     description_.add_face(outline_, material, line_);
   }
 
-  Rgb color(std::size_t first) const {
+  /// Of a color, whose first word this is.
+  std::int32_t material_at(std::size_t first) {
     std::array<double, 3> c{};
     bool whole = true;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -152,11 +152,12 @@ class OffReader {
       }
     }
     if (!whole) {
-      return {c[0], c[1], c[2]};
+      return materials_->of_numbers({c[0], c[1], c[2]}, {},
+                                    fmt::format("{}:{}: ", description_.name, line_), notes_);
     }
-    return {linear_of_srgb(static_cast<std::uint8_t>(c[0])),
-            linear_of_srgb(static_cast<std::uint8_t>(c[1])),
-            linear_of_srgb(static_cast<std::uint8_t>(c[2]))};
+    return materials_->of_color({linear_of_srgb(static_cast<std::uint8_t>(c[0])),
+                                 linear_of_srgb(static_cast<std::uint8_t>(c[1])),
+                                 linear_of_srgb(static_cast<std::uint8_t>(c[2]))});
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -167,6 +168,7 @@ class OffReader {
   LineReader lines_;
   SceneDescription description_;
   std::optional<FaceMaterials> materials_;
+  Warnings notes_;
   std::size_t vertices_ = 0, faces_ = 0;
   std::int32_t line_ = 0;
   std::vector<std::string_view> words_;

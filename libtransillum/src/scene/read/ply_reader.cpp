@@ -131,12 +131,14 @@ struct ColorProperties {
     }
   }
   explicit operator bool() const { return at[0] >= 0 && at[1] >= 0 && at[2] >= 0; }
+  /// Whether they are bytes by the transfer function of sRGB.
+  bool in_bytes() const { return is_whole[0] && is_whole[1] && is_whole[2]; }
 
   Rgb color(const std::vector<double>& values) const {
     const auto channel = [&](std::size_t c) {
       const double v = transillum::at(values, at[c]);
       if (!is_whole[c]) {
-        return std::isfinite(v) ? v : 0.0;
+        return v;
       }
       return linear_of_srgb(static_cast<std::uint8_t>(std::clamp(v, 0.0, 255.0)));
     };
@@ -155,12 +157,15 @@ class PlyReader {
   }
 
   SceneDescription read() {
+    skip_byte_order_mark();
     read_header();
     for (const Element& element : elements_) {
       if (element.name == "vertex") {
         read_vertices(element);
       } else if (element.name == "face") {
         read_faces(element);
+      } else if (element.name == "tristrips") {
+        read_strips(element);
       } else {
         for_each_entry(element, [](std::size_t) {});
       }
@@ -175,6 +180,11 @@ class PlyReader {
   enum class Form { ascii, little, big };
 
   // Header ----------------------------------------------------------------------------------
+
+  void skip_byte_order_mark() {
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    position_ = std::string_view(bytes_).starts_with(mark) ? mark.size() : 0;
+  }
 
   std::string_view header_line() {
     ++line_;
@@ -359,42 +369,79 @@ class PlyReader {
     if (*std::min_element(position.begin(), position.end()) < 0) {
       fail("element `vertex` must have properties x, y and z");
     }
-    const ColorProperties color(element, {"red", "green", "blue"}, {"r", "g", "b"});
+    vertex_color_ = ColorProperties(element, {"red", "green", "blue"}, {"r", "g", "b"});
     for_each_entry(element, [&](std::size_t) {
       const Vec3 p{at(values_, position[0]), at(values_, position[1]), at(values_, position[2])};
       if (!is_finite(p) || max_abs(p) > largest_coordinate) {
         fail_entry(fmt::format("not a finite point of at most {}", largest_coordinate));
       }
       description_.points.push_back(p);
-      if (color) {
-        vertex_colors_.push_back(color.color(values_));
+      if (vertex_color_) {
+        vertex_colors_.push_back(vertex_color_.color(values_));
+      }
+    });
+  }
+
+  /// The position of the list of an element's vertices.
+  int corners_of(const Element& element) const {
+    const int corners = element.find({"vertex_indices", "vertex_index"}, true);
+    if (corners < 0 || !is_whole(at(element.properties, corners).type)) {
+      fail(fmt::format("element {} must have a list of whole numbers, vertex_indices",
+                       in_quotes(element.name)));
+    }
+    return corners;
+  }
+
+  PointId point_of(double index) const {
+    if (!(index >= 0 && index <= 2147483646)) {
+      fail_entry(fmt::format("vertex {} does not exist", index));
+    }
+    return static_cast<PointId>(index);
+  }
+
+  /// Strips of triangles, one after the other in each list, with -1 between them. The first of each
+  /// is counter-clockwise, the others alternate.
+  void read_strips(const Element& element) {
+    const int corners = corners_of(element);
+    for_each_entry(element, [&](std::size_t) {
+      const std::vector<double>& list = at(lists_, corners);
+      std::size_t begin = 0;
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        if (list[k] == -1) {
+          begin = k + 1;
+          continue;
+        }
+        const PointId last = point_of(list[k]);
+        if (k < begin + 2) {
+          continue;
+        }
+        const PointId first = point_of(list[k - 2]), second = point_of(list[k - 1]);
+        const bool odd = (k - begin) % 2 == 1;
+        const std::array<PointId, 3> triangle{odd ? second : first, odd ? first : second, last};
+        description_.add_face(triangle, no_color);
       }
     });
   }
 
   void read_faces(const Element& element) {
-    const int corners = element.find({"vertex_indices", "vertex_index"}, true);
-    if (corners < 0 || !is_whole(at(element.properties, corners).type)) {
-      fail("element `face` must have a list of whole numbers, vertex_indices");
-    }
+    const int corners = corners_of(element);
     const ColorProperties color(element, {"red", "green", "blue"}, {"r", "g", "b"});
     const ColorProperties rho(element, {"rho_r", "rho_g", "rho_b"});
     const ColorProperties exitance(element, {"E_r", "E_g", "E_b"});
     for_each_entry(element, [&](std::size_t) {
       outline_.clear();
       for (const double index : at(lists_, corners)) {
-        if (!(index >= 0 && index <= 2147483646)) {
-          fail_entry(fmt::format("vertex {} does not exist", index));
-        }
-        outline_.push_back(static_cast<PointId>(index));
+        outline_.push_back(point_of(index));
       }
       const Rgb light = exitance ? exitance.color(values_) : Rgb{};
       check_exitance(light, place());
       std::int32_t material = 0;
       if (rho) {
-        material = materials_->of_color(rho.color(values_), light);
+        material = materials_->of_numbers(rho.color(values_), light, place(), notes_);
       } else if (color) {
-        material = materials_->of_color(color.color(values_), light);
+        const Rgb shown = color.color(values_);
+        material = color.in_bytes() ? materials_->of_color(shown, light)
+                                    : materials_->of_numbers(shown, light, place(), notes_);
       } else {
         material = no_color;
       }
@@ -419,9 +466,16 @@ class PlyReader {
       if (description_.face_material[f] == no_color) {
         description_.face_material[f] = vertex_colors_.empty() || outline.empty()
                                             ? materials_->without_color()
-                                            : materials_->of_color(mean_color(outline));
+                                            : material_of_vertices(f);
       }
     }
+  }
+
+  std::int32_t material_of_vertices(std::size_t face) {
+    const Rgb mean = mean_color(description_.outline(face));
+    return vertex_color_.in_bytes()
+               ? materials_->of_mean_color(mean)
+               : materials_->of_numbers(mean, {}, face_place(description_, face), notes_);
   }
 
   Rgb mean_color(std::span<const PointId> outline) const {
@@ -452,6 +506,7 @@ class PlyReader {
   SceneDescription description_;
   std::optional<FaceMaterials> materials_;
   Warnings notes_;
+  ColorProperties vertex_color_;
   std::vector<Rgb> vertex_colors_;
   std::vector<std::string_view> words_;
   // The entry that is read.

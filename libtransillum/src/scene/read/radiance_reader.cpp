@@ -1,7 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // A Radiance file is a sequence of words: each primitive has a modifier, a type, a name and three
-// lists of arguments, each after its length: texts, whole numbers (always 0) and numbers.
+// lists of arguments, each after its length: texts, whole numbers (always 0) and numbers. A word
+// that begins with a quote ends with the same quote and may hold blanks; one that begins with #
+// begins a comment, which ends with its line.
 #include "scene/read/radiance_reader.h"
 
 #include <fmt/format.h>
@@ -24,6 +26,7 @@
 namespace transillum {
 namespace {
 
+constexpr std::string_view between_words = " \t\v\f\r\n";
 constexpr std::array<std::string_view, 4> opaque_types{"plastic", "metal", "plastic2", "metal2"};
 constexpr std::array<std::string_view, 4> light_types{"light", "glow", "illum", "spotlight"};
 constexpr std::array<std::string_view, 11> surface_types{
@@ -40,16 +43,18 @@ class RadianceReader {
   RadianceReader(const std::filesystem::path& path, const ReadOptions& options,
                  const Cancellation& cancellation)
       : options_(options),
-        text_(read_text_file(path, largest_scene_file)),
-        lines_(text_, cancellation) {
+        cancellation_(cancellation),
+        text_(read_text_file(path, largest_scene_file)) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    position_ = std::string_view(text_).starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
     description_.name = path.string();
     description_.files = {path.string()};
   }
 
   SceneDescription read() {
-    while (has_word()) {
-      if (word().starts_with('!')) {
-        fail(in_quotes(line_text_) +
+    while (find_word()) {
+      if (text_[position_] == '!') {
+        fail(in_quotes(rest_of_line()) +
              " is a command, which is not run; expand the scene by `xform -e` of Radiance first");
       }
       read_primitive();
@@ -64,27 +69,49 @@ class RadianceReader {
  private:
   // Words -----------------------------------------------------------------------------------
 
-  /// Whether there is a word before the end of the file, which word() then is.
-  bool has_word() {
-    while (next_ >= words_.size()) {
-      const std::optional<TextLine> line = lines_.next();
-      if (!line) {
-        return false;
+  /// Moves to the next word, past blanks and comments; false at the end of the file.
+  bool find_word() {
+    for (; position_ < text_.size(); ++position_) {
+      const char c = text_[position_];
+      if (c == '#') {
+        position_ += rest_of_line().size();
+      } else if (between_words.find(c) == std::string_view::npos) {
+        line_ = 1 + lines_ended_;
+        return true;
       }
-      line_ = line->number;
-      next_ = 0;
-      split_words(line->rest, words_);
-      words_.insert(words_.begin(), line->keyword);
-      line_text_ = fmt::format("{}{}{}", line->keyword, line->rest.empty() ? "" : " ", line->rest);
+      if (position_ < text_.size() && is_end_of_line(position_)) {
+        ++lines_ended_;
+        cancellation_.throw_if_canceled();
+      }
     }
-    return true;
+    return false;
   }
-  std::string_view word() const { return words_[next_]; }
+  /// Lines end with \n, \r\n or \r.
+  bool is_end_of_line(std::size_t p) const {
+    return text_[p] == '\n' ||
+           (text_[p] == '\r' && (p + 1 == text_.size() || text_[p + 1] != '\n'));
+  }
+  std::string_view rest_of_line() const {
+    const std::string_view rest = std::string_view(text_).substr(position_);
+    return rest.substr(0, rest.find_first_of("\r\n"));
+  }
   std::string take() {
-    if (!has_word()) {
+    if (!find_word()) {
       fail("the file ends within a primitive");
     }
-    return std::string(words_[next_++]);
+    const std::string_view line = rest_of_line();
+    const char quote = line.front();
+    if (quote != '"' && quote != '\'') {
+      const std::string_view word = line.substr(0, line.find_first_of(between_words));
+      position_ += word.size();
+      return std::string(word);
+    }
+    const std::size_t end = line.find(quote, 1);
+    if (end == std::string_view::npos) {
+      fail(fmt::format("the quotes of {} do not end on their line", in_quotes(line.substr(1))));
+    }
+    position_ += end + 1;
+    return std::string(line.substr(1, end - 1));
   }
 
   /// The length of a list of arguments.
@@ -164,8 +191,9 @@ class RadianceReader {
   }
 
   std::int32_t add_material(Material material) {
-    lower_reflectance(material.reflectance, options_);
-    check_material(material, fmt::format("{}material {}: ", place(), in_quotes(material.name)));
+    const std::string named = fmt::format("{}material {}: ", place(), in_quotes(material.name));
+    lower_reflectance(material.reflectance, options_, named, notes_);
+    check_material(material, named);
     description_.materials.push_back(std::move(material));
     return static_cast<std::int32_t>(description_.materials.size() - 1);
   }
@@ -218,14 +246,13 @@ class RadianceReader {
   [[noreturn]] void fail(const std::string& what) const { throw InputError(place() + what); }
 
   const ReadOptions& options_;
+  const Cancellation& cancellation_;
   const std::string text_;
-  LineReader lines_;
+  std::size_t position_ = 0;
+  std::int32_t lines_ended_ = 0;  ///< before position_
+  std::int32_t line_ = 1;         ///< of the last word
   SceneDescription description_;
   Warnings notes_;
-  std::vector<std::string_view> words_;  ///< of the line
-  std::size_t next_ = 0;                 ///< of words_
-  std::int32_t line_ = 0;
-  std::string line_text_;
   std::vector<double> numbers_;
   std::map<std::string, std::int32_t> materials_;  ///< by name
   std::map<std::string, std::int32_t> groups_;

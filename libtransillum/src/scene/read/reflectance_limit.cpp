@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "scene/read/reflectance_limit.h"
 
+#include <fmt/format.h>
+
 namespace transillum {
 namespace {
 
@@ -20,6 +22,17 @@ double lower_reflectance(Rgb& reflectance, const ReadOptions& options) {
     }
   }
   return any ? lowered : 0;
+}
+
+void lower_reflectance(Rgb& reflectance, const ReadOptions& options, const std::string& place,
+                       Warnings& notes) {
+  const Rgb given = reflectance;
+  const double lowered = lower_reflectance(reflectance, options);
+  if (lowered > 0) {
+    notes.add("reflectances, lowered",
+              fmt::format("{}reflectance rho {:.6g} {:.6g} {:.6g} is lowered to {}", place, given.r,
+                          given.g, given.b, lowered));
+  }
 }
 
 }  // namespace transillum

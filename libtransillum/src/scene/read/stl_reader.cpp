@@ -36,7 +36,7 @@ class StlReader {
     // The header of a binary file may begin with "solid" too; its size tells.
     if (binary_count() && header_size + triangle_size * *binary_count() == bytes_.size()) {
       read_binary(*binary_count());
-    } else if (trimmed(first_line()).starts_with("solid")) {
+    } else if (first_line().starts_with("solid")) {
       read_text();
     } else if (binary_count()) {
       throw InputError(fmt::format(
@@ -57,9 +57,12 @@ class StlReader {
   }
 
  private:
-  std::string_view first_line() const {
-    const std::string_view all = bytes_;
-    return all.substr(0, std::min<std::size_t>(all.find('\n'), 256));
+  /// The beginning of the first line of text, in small letters.
+  std::string first_line() const {
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    std::string_view all = bytes_;
+    all.remove_prefix(all.starts_with(mark) ? mark.size() : 0);
+    return lower_case(trimmed(all.substr(0, std::min<std::size_t>(all.find('\n'), 256))));
   }
 
   std::optional<std::size_t> binary_count() const {

@@ -3,7 +3,8 @@
 // A line of a View3D file begins with a letter: V defines a vertex, S a surface of three or four of
 // them, O one that only obstructs, N one that only cuts its base. After the geometry, a surface has
 // the number of its base, that of the surface that it is combined with, its emissivity and its
-// name.
+// name. In the format 3a, a surface has a shape instead of vertices, and the next line has the
+// origin of its plane, azimuth and tilt in degrees, and the shape in the plane.
 #include "scene/read/view3d_reader.h"
 
 #include <fmt/format.h>
@@ -11,8 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <new>
+#include <numbers>
 #include <optional>
 
 #include "base/text_file.h"
@@ -74,20 +77,46 @@ bool is_convex(const Polygon& polygon) {
   return true;
 }
 
+/// Cosine and sine of an angle in degrees, exact for right angles.
+std::array<double, 2> direction_of(double degrees) {
+  const double quarters = std::fmod(degrees, 360) / 90;
+  if (quarters == std::floor(quarters)) {
+    constexpr std::array<double, 4> cosines{1, 0, -1, 0};
+    const auto q = static_cast<std::size_t>(quarters + 4) % 4;
+    return {cosines[q], cosines[(q + 3) % 4]};
+  }
+  const double angle = degrees * std::numbers::pi / 180;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// The plane of a surface of the format 3a: its x axis is horizontal, its y axis is upward. The
+/// azimuth is clockwise from north, which is y; the tilt is 0 for a plane that faces upward.
+struct ShapePlane {
+  Vec3 origin, across, up;
+
+  ShapePlane(const Vec3& corner, double azimuth, double tilt) : origin(corner) {
+    const auto [cos_azimuth, sin_azimuth] = direction_of(azimuth);
+    const auto [cos_tilt, sin_tilt] = direction_of(tilt);
+    across = {-cos_azimuth, sin_azimuth, 0};
+    up = {-cos_tilt * sin_azimuth, -cos_tilt * cos_azimuth, sin_tilt};
+  }
+  Vec3 point(double x, double y) const { return origin + x * across + y * up; }
+};
+
 class View3dReader {
  public:
   View3dReader(const std::filesystem::path& path, const ReadOptions& options,
                const Cancellation& cancellation)
       : options_(options),
         cancellation_(cancellation),
-        text_(read_text_file(path, largest_scene_file)) {
+        text_(read_text_file(path, largest_scene_file)),
+        lines_(text_, cancellation) {
     description_.name = path.string();
     description_.files = {path.string()};
   }
 
   SceneDescription read() {
-    LineReader lines(text_, cancellation_);
-    for (std::optional<TextLine> line = lines.next(); line && !ended_; line = lines.next()) {
+    for (auto line = lines_.next(); line && !ended_; line = lines_.next()) {
       line_ = line->number;
       read_line(*line);
     }
@@ -120,10 +149,11 @@ class View3dReader {
       case 'O':
       case 'N':
       case 'M':
-        return read_surface(kind);
+        return has_shapes_ ? read_shape(kind) : read_surface(kind);
       case 'F':
-        if (words_.empty() || words_[0] != "3") {
-          fail("only geometry in three dimensions by vertices (F 3) can be read");
+        has_shapes_ = !words_.empty() && lower_case(words_[0]) == "3a";
+        if (!has_shapes_ && (words_.empty() || words_[0] != "3")) {
+          fail("only geometry in three dimensions (F 3 or F 3a) can be read");
         }
         return;
       case 'E':
@@ -169,19 +199,29 @@ class View3dReader {
       fail(fmt::format("vertices must be numbered in order; the next is {}", points_.size() + 1));
     }
     const Vec3 p{number(1, "x"), number(2, "y"), number(3, "z")};
-    if (!is_finite(p) || max_abs(p) > largest_coordinate) {
-      fail(fmt::format("not a finite point of at most {}", largest_coordinate));
-    }
+    check_point(p);
     points_.push_back(p);
   }
 
-  void read_surface(char kind) {
+  void check_point(const Vec3& p) const {
+    if (!is_finite(p) || max_abs(p) > largest_coordinate) {
+      fail(fmt::format("not a finite point of at most {}", largest_coordinate));
+    }
+  }
+
+  Surface numbered_surface(char kind) const {
     if (index(0, surfaces_.size() + 1, "the surface's number") != surfaces_.size() + 1) {
       fail(fmt::format("surfaces must be numbered in order; the next is {}", surfaces_.size() + 1));
     }
     Surface surface;
     surface.kind = kind;
     surface.line = line_;
+    surface.name = fmt::format("surface {}", surfaces_.size() + 1);
+    return surface;
+  }
+
+  void read_surface(char kind) {
+    Surface surface = numbered_surface(kind);
     for (std::size_t k = 1; k <= 4; ++k) {
       const std::size_t v = index(k, points_.size(), "a vertex of a surface");
       if (v == 0 && k < 4) {
@@ -191,21 +231,83 @@ class View3dReader {
         surface.outline.push_back(points_[v - 1]);
       }
     }
-    if (words_.size() > 5) {
-      surface.base = index(5, surfaces_.size(), "the base");
+    read_uses(surface, 5);
+    surfaces_.push_back(std::move(surface));
+  }
+
+  /// Reads what follows the geometry, from this word on.
+  void read_uses(Surface& surface, std::size_t first) const {
+    if (words_.size() > first) {
+      surface.base = index(first, surfaces_.size(), "the base");
     }
-    if (words_.size() > 6) {
-      surface.combined = index(6, surfaces_.size(), "the surface to combine with");
+    if (words_.size() > first + 1) {
+      surface.combined = index(first + 1, surfaces_.size(), "the surface to combine with");
     }
-    if (words_.size() > 7) {
-      surface.emissivity = number(7, "the emissivity");
+    if (words_.size() > first + 2) {
+      surface.emissivity = number(first + 2, "the emissivity");
       if (!(surface.emissivity >= 0 && surface.emissivity <= 1)) {
         fail("the emissivity must be in the range 0 to 1");
       }
     }
-    surface.name = words_.size() > 8 ? std::string(words_[8])
-                                     : fmt::format("surface {}", surfaces_.size() + 1);
+    if (words_.size() > first + 3) {
+      surface.name = words_[first + 3];
+    }
+  }
+
+  void read_shape(char kind) {
+    Surface surface = numbered_surface(kind);
+    const std::string shape = words_.size() > 1 ? lower_case(words_[1]) : std::string();
+    const std::size_t corners = shape == "t" ? 3 : shape == "r" || shape == "q" ? 4 : 0;
+    if (corners == 0) {
+      fail(
+          fmt::format("{} is no shape; shapes are R (rectangle), Q (quadrilateral) and T "
+                      "(triangle)",
+                      in_quotes(words_.size() > 1 ? words_[1] : std::string_view())));
+    }
+    if (kind != 'O') {
+      read_uses(surface, 2);
+    }
+    const bool is_rectangle = shape == "r";
+    const std::vector<double> v = shape_numbers(is_rectangle ? 7 : 5 + 2 * corners);
+    const ShapePlane plane({v[0], v[1], v[2]}, v[3], v[4]);
+    if (is_rectangle) {
+      for (const std::size_t k : {5, 6}) {
+        if (!(v[k] > 0)) {
+          fail(fmt::format("the {} must be above 0", k == 5 ? "width" : "height"));
+        }
+      }
+      surface.outline = {plane.point(0, v[6]), plane.point(0, 0), plane.point(v[5], 0),
+                         plane.point(v[5], v[6])};
+    } else {
+      for (std::size_t k = 5; k < v.size(); k += 2) {
+        surface.outline.push_back(plane.point(v[k], v[k + 1]));
+      }
+    }
+    for (const Vec3& p : surface.outline) {
+      check_point(p);
+    }
     surfaces_.push_back(std::move(surface));
+  }
+
+  /// The numbers of a shape, which may be on several lines.
+  std::vector<double> shape_numbers(std::size_t count) {
+    constexpr std::array<const char*, 5> names{"x", "y", "z", "the azimuth", "the tilt"};
+    std::vector<double> numbers;
+    while (numbers.size() < count) {
+      const std::optional<TextLine> line = lines_.next();
+      if (!line) {
+        fail("the file ends within the surface");
+      }
+      line_ = line->number;
+      // The first word of such a line is a number too.
+      const std::string text = fmt::format("{} {}", line->keyword, line->rest);
+      split_words(std::string_view(text).substr(0, text.find('!')), words_);
+      for (std::size_t w = 0; w < words_.size() && numbers.size() < count; ++w) {
+        const std::size_t n = numbers.size();
+        numbers.push_back(number(w, n < names.size() ? names[n] : "a coordinate"));
+      }
+    }
+    return numbers;
   }
 
   void add_faces() {
@@ -310,10 +412,11 @@ class View3dReader {
   const ReadOptions& options_;
   const Cancellation& cancellation_;
   const std::string text_;
+  LineReader lines_;
   SceneDescription description_;
   Warnings notes_;
   std::int32_t line_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, has_shapes_ = false;
   std::vector<std::string_view> words_;
   std::vector<Vec3> points_;
   std::vector<Surface> surfaces_;

@@ -174,7 +174,7 @@ class SceneOfPolygons {
       for (const PointId p : outline) {
         sum += shown_color(*point_colors_, static_cast<std::size_t>(p));
       }
-      return materials_->of_color(1 / static_cast<double>(outline.size()) * sum, light);
+      return materials_->of_mean_color(1 / static_cast<double>(outline.size()) * sum, light);
     }
     if (exitance_ != nullptr) {
       const double rho = options_.default_reflectance;
