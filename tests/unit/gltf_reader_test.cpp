@@ -8,11 +8,10 @@
 #include <vtkPNGWriter.h>
 
 #include <array>
-#include <cstring>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "gltf_test_file.h"
 #include "scene_test_support.h"
 #include "transillum/files.h"
 
@@ -20,100 +19,12 @@ namespace transillum::gltf_reader_test {
 namespace {
 
 using nlohmann::json;
+using test::square_in;
+using File = test::GltfText;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
-
-/// A glTF file with one buffer.
-class File {
- public:
-  json root = {{"asset", {{"version", "2.0"}}},
-               {"scene", 0},
-               {"scenes", {{{"nodes", json::array()}}}},
-               {"nodes", json::array()},
-               {"meshes", json::array()},
-               {"accessors", json::array()},
-               {"bufferViews", json::array()},
-               {"materials", json::array()}};
-  std::string bytes;
-
-  /// Returns the number of the view.
-  template <class Number>
-  int view(const std::vector<Number>& numbers, int stride = 0) {
-    bytes.resize((bytes.size() + 7) / 8 * 8);
-    json added = {{"buffer", 0},
-                  {"byteOffset", bytes.size()},
-                  {"byteLength", numbers.size() * sizeof(Number)}};
-    if (stride > 0) {
-      added["byteStride"] = stride;
-    }
-    const std::size_t begin = bytes.size();
-    bytes.resize(begin + numbers.size() * sizeof(Number));
-    std::memcpy(bytes.data() + begin, numbers.data(), numbers.size() * sizeof(Number));
-    root["bufferViews"].push_back(added);
-    return static_cast<int>(root["bufferViews"].size()) - 1;
-  }
-  int accessor(int view, int component, const char* type, std::size_t count) {
-    root["accessors"].push_back(
-        {{"bufferView", view}, {"componentType", component}, {"type", type}, {"count", count}});
-    return static_cast<int>(root["accessors"].size()) - 1;
-  }
-  int points(const std::vector<float>& xyz) {
-    return accessor(view(xyz), 5126, "VEC3", xyz.size() / 3);
-  }
-  int indices(const std::vector<std::uint16_t>& all) {
-    return accessor(view(all), 5123, "SCALAR", all.size());
-  }
-  /// Adds a mesh with one primitive and a root node that has it.
-  json& add(const json& primitive, const json& node = json::object()) {
-    root["meshes"].push_back({{"primitives", {primitive}}});
-    json added = node;
-    added["mesh"] = root["meshes"].size() - 1;
-    root["nodes"].push_back(added);
-    root["scenes"][0]["nodes"].push_back(root["nodes"].size() - 1);
-    return root["nodes"].back();
-  }
-
-  std::string glb() const {
-    json whole = root;
-    whole["buffers"] = {{{"byteLength", bytes.size()}}};
-    std::string text = whole.dump(), data = bytes;
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    data.resize((data.size() + 3) / 4 * 4, '\0');
-    std::string file = "glTF";
-    const auto word = [&](std::size_t w) {
-      for (int k = 0; k < 4; ++k) {
-        file += static_cast<char>(w >> (8 * k));
-      }
-    };
-    word(2);
-    word(12 + 8 + text.size() + 8 + data.size());
-    word(text.size());
-    file += "JSON" + text;
-    word(data.size());
-    file += std::string("BIN\0", 4) + data;
-    return file;
-  }
-  std::string gltf(const std::string& uri) const {
-    json whole = root;
-    whole["buffers"] = {{{"byteLength", bytes.size()}, {"uri", uri}}};
-    return whole.dump(1);
-  }
-};
-
-const std::vector<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-const std::vector<std::uint16_t> two_triangles{0, 1, 2, 0, 2, 3};
-
-/// A square in the plane z = 0 that faces up.
-json square_in(File& file, int material = -1) {
-  json primitive = {{"attributes", {{"POSITION", file.points(square)}}},
-                    {"indices", file.indices(two_triangles)}};
-  if (material >= 0) {
-    primitive["material"] = material;
-  }
-  return primitive;
-}
 
 SceneDescription read(const File& file, const ReadOptions& options = {}) {
   const test::TemporaryFolder folder;
@@ -382,7 +293,8 @@ TEST(Gltf, AveragesATextureOverEachFace) {
   const test::TemporaryFolder empty;
   const SceneDescription missing = describe_scene(empty.write("a.glb", file.glb()));
   EXPECT_NEAR(material_of(missing, 1).reflectance.g, 0.5, 1e-12);
-  EXPECT_THAT(missing.notes, Contains(HasSubstr("image 0 has no data; it is taken as white")));
+  EXPECT_THAT(missing.notes,
+              Contains(HasSubstr("image 0, `half.png`, has no data; it is taken as white")));
 }
 
 TEST(Gltf, ColorsOfVerticesFilterTheBaseColor) {
@@ -399,6 +311,149 @@ TEST(Gltf, ColorsOfVerticesFilterTheBaseColor) {
   EXPECT_EQ(rho.g, 0);
 }
 
+/// A square with a texture over all of it, `image` in its file.
+File textured_square(const json& texture, const json& image, const json& material) {
+  File file;
+  file.root["images"] = {image};
+  file.root["textures"] = {texture};
+  file.root["materials"] = {material};
+  json primitive = square_in(file, 0);
+  primitive["attributes"]["TEXCOORD_0"] =
+      file.accessor(file.view<float>({0, 0, 1, 0, 1, 1, 0, 1}), 5126, "VEC2", 4);
+  file.add(primitive);
+  return file;
+}
+json poster_of(const json& base) {
+  return {
+      {"name", "poster"},
+      {"pbrMetallicRoughness",
+       {{"baseColorFactor", base}, {"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}}}};
+}
+
+// The factor of a texture is 1 on nearly every model; no face has that reflectance.
+TEST(Gltf, WarnsOfLoweredReflectanceOnlyWhereAFaceHasIt) {
+  const test::TemporaryFolder folder;
+  (void)half_image(folder);
+  File file = textured_square({{"source", 0}}, {{"uri", "half.png"}}, poster_of({1, 1, 1, 1}));
+  json unused = poster_of({1, 1, 1, 1});
+  unused["name"] = "unused";
+  file.root["materials"].push_back(unused);
+  const SceneDescription d = describe_scene(folder.write("a.glb", file.glb()));
+  EXPECT_NEAR(material_of(d, 0).reflectance.r, 0.25, 0.006);
+  EXPECT_THAT(d.notes, ::testing::Not(Contains(HasSubstr("is lowered"))));
+}
+
+TEST(Gltf, NamesATextureThatIsMissing) {
+  const SceneDescription d =
+      read(textured_square({{"source", 0}}, {{"uri", "wood.png"}}, poster_of({1, 0.5, 1, 1})));
+  EXPECT_THAT(d.notes,
+              Contains(HasSubstr("image 0, `wood.png`, has no data; it is taken as white")));
+}
+
+// Nothing reads Basis Universal; white would be the brightest of all guesses.
+TEST(Gltf, KtxTexturesGiveTheDefaultReflectance) {
+  const json texture = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+  const json image = {{"uri", "wood.ktx2"}, {"mimeType", "image/ktx2"}};
+  File file = textured_square(texture, image, poster_of({1, 0.5, 1, 1}));
+  file.root["extensionsRequired"] = {"KHR_texture_basisu"};
+  const SceneDescription d = read(file, {.default_reflectance = 0.25});
+  EXPECT_EQ(material_of(d, 0).reflectance, (Rgb{0.25, 0.125, 0.25}));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("texture 0, `wood.ktx2`, is no PNG or JPEG image; "
+                                          "reflectance 0.25 is assumed for it")));
+  // Without the texture of how much is metal, nothing is; without that of what emits, nothing does.
+  json metal = {
+      {"name", "tin"},
+      {"pbrMetallicRoughness",
+       {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"metallicRoughnessTexture", {{"index", 0}}}}},
+      {"emissiveTexture", {{"index", 0}}},
+      {"emissiveFactor", {1, 1, 1}}};
+  const SceneDescription tin = read(textured_square(texture, image, metal));
+  EXPECT_EQ(material_of(tin, 0).reflectance, (Rgb{0.5, 0.5, 0.5}));
+  EXPECT_EQ(material_of(tin, 0).exitance, Rgb());
+  // A fallback is used.
+  json with_fallback = texture;
+  with_fallback["source"] = 0;
+  const test::TemporaryFolder folder;
+  (void)half_image(folder);
+  const SceneDescription half = describe_scene(folder.write(
+      "a.glb",
+      textured_square(with_fallback, {{"uri", "half.png"}}, poster_of({1, 1, 1, 1})).glb()));
+  EXPECT_NEAR(material_of(half, 0).reflectance.r, 0.25, 0.006);
+}
+
+TEST(Gltf, NodesWithoutExtentAreLeftOut) {
+  for (const json& node : {json{{"matrix", json(std::vector<int>(16, 0))}},
+                           json{{"scale", {0, 0, 0}}}, json{{"scale", {1, 0, 0}}}}) {
+    File file;
+    const json primitive = square_in(file);
+    file.add(primitive);
+    file.add(primitive, node);
+    const SceneDescription d = read(file);
+    EXPECT_EQ(d.face_count(), 1U);
+    EXPECT_THAT(d.notes, Contains(HasSubstr("1 nodes whose scale is 0, left out")));
+  }
+}
+
+// Refused as invalid: more than 1,000,000 values.
+TEST(Gltf, HasAnyNumberOfMeshes) {
+  File file;
+  const json primitive = square_in(file);
+  constexpr int meshes = 40'000;
+  for (int k = 0; k < meshes; ++k) {
+    file.root["meshes"].push_back({{"primitives", {primitive}}, {"name", "m"}});
+    file.root["nodes"].push_back(
+        {{"mesh", k},
+         {"translation", {2 * (k % 200), 0, 2 * (k / 200)}},
+         {"name", "n"},
+         {"extras", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20}}});
+    file.root["scenes"][0]["nodes"].push_back(k);
+  }
+  EXPECT_EQ(read(file).face_count(), static_cast<std::size_t>(meshes));
+}
+
+TEST(Gltf, RefusesNumbersOfPlacesThatAreNoWholeNumbers) {
+  File file;
+  file.add(square_in(file));
+  const auto with = [&](const char* list, int index, const char* key, const json& value) {
+    File changed = file;
+    changed.root[list][static_cast<std::size_t>(index)][key] = value;
+    return refusal_of(changed.glb(), "a.glb");
+  };
+  EXPECT_EQ(with("bufferViews", 0, "byteOffset", -4),
+            "a.glb: bufferViews 0: byteOffset -4 is not a whole number of at least 0");
+  EXPECT_EQ(with("bufferViews", 1, "byteStride", -12),
+            "a.glb: bufferViews 1: byteStride -12 is not a whole number of at least 0");
+  EXPECT_EQ(with("accessors", 1, "byteOffset", -2),
+            "a.glb: accessors 1: byteOffset -2 is not a whole number of at least 0");
+  EXPECT_EQ(with("accessors", 0, "byteOffset", 1.5),
+            "a.glb: accessors 0: byteOffset 1.5 is not a whole number of at least 0");
+  EXPECT_EQ(with("accessors", 0, "bufferView", -1),
+            "a.glb: accessors 0: bufferView -1 is not a whole number of at least 0");
+  EXPECT_EQ(with("accessors", 0, "byteOffset", "12"),
+            "a.glb: accessors 0: byteOffset \"12\" is not a whole number of at least 0");
+}
+
+TEST(Gltf, MessagesDoNotRepeatData) {
+  File file;
+  file.add(square_in(file));
+  const std::string data(1000, 'A');
+  for (const std::string type : {"application/octet-stream", "application/x-unknown"}) {
+    const std::string message = refusal_of(file.gltf("data:" + type + ";base64," + data));
+    EXPECT_THAT(message, HasSubstr("a.gltf: is not a valid glTF file: "));
+    EXPECT_THAT(message, HasSubstr("data:" + type + ";base64,…"));
+    EXPECT_EQ(message.find("AAAA"), std::string::npos) << message;
+  }
+}
+
+// What cannot be read is said before buffers are missed that an extension would make.
+TEST(Gltf, ExtensionsAreLookedAtBeforeBuffers) {
+  File file;
+  file.add(square_in(file));
+  file.root["extensionsRequired"] = {"EXT_other_compression", "KHR_materials_unlit"};
+  EXPECT_THAT(refusal_of(file.gltf("gone.bin")),
+              HasSubstr("a.gltf: requires EXT_other_compression, which cannot be read"));
+}
+
 TEST(Gltf, RefusesWhatIsBroken) {
   File file;
   file.add(square_in(file));
@@ -413,8 +468,8 @@ TEST(Gltf, RefusesWhatIsBroken) {
   EXPECT_THAT(refusal_of(file.glb().substr(0, 300), "a.glb"), HasSubstr("a.glb: is cut"));
   EXPECT_THAT(with([](json& r) { r["asset"]["version"] = "1.0"; }),
               HasSubstr("is of version `1.0` of glTF"));
-  EXPECT_THAT(with([](json& r) { r["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }),
-              HasSubstr("requires KHR_draco_mesh_compression, which cannot be read"));
+  EXPECT_THAT(with([](json& r) { r["extensionsRequired"] = {"EXT_other_compression"}; }),
+              HasSubstr("requires EXT_other_compression, which cannot be read"));
   EXPECT_THAT(with([](json& r) { r["accessors"][0]["count"] = 5; }),
               HasSubstr("buffer view 0 has no 60 bytes from byte 0"));
   EXPECT_THAT(with([](json& r) { r["accessors"][0]["count"] = 4'000'000'000U; }),

@@ -46,8 +46,8 @@ class Reader {
 /// Receives the events of the parser and throws an InputError at the first violation.
 class Checker : public nlohmann::json_sax<json> {
  public:
-  Checker(std::string_view text, const std::string& name)
-      : text_(text), name_(name), reached_(text.data()) {}
+  Checker(std::string_view text, const std::string& name, std::uintmax_t most_values)
+      : text_(text), name_(name), most_values_(most_values), reached_(text.data()) {}
 
   void run() {
     json::sax_parse(Reader(text_.data(), reached_), Reader(text_.data() + text_.size(), reached_),
@@ -82,8 +82,8 @@ class Checker : public nlohmann::json_sax<json> {
 
  private:
   bool count_value() {
-    if (++values_ > most_json_values) {
-      fail(fmt::format("more than {} values", most_json_values));
+    if (++values_ > most_values_) {
+      fail(fmt::format("more than {} values", most_values_));
     }
     return true;
   }
@@ -112,8 +112,9 @@ class Checker : public nlohmann::json_sax<json> {
 
   std::string_view text_;
   const std::string& name_;
+  std::uintmax_t most_values_;
   const char* reached_;
-  std::size_t values_ = 0;
+  std::uintmax_t values_ = 0;
   std::vector<std::unordered_set<std::string>> keys_;  ///< of each open level
 };
 
@@ -131,7 +132,8 @@ void check_json(std::string_view text, const std::string& name, std::uintmax_t l
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw InputError(name + ": an empty file");
   }
-  Checker(text, name).run();
+  // A value has at least a byte, so a larger limit of bytes is one of values too.
+  Checker(text, name, limit > largest_json_file ? limit : most_json_values).run();
 }
 
 }  // namespace transillum

@@ -15,6 +15,8 @@
 #include <utility>
 
 #include "base/text_file.h"
+#include "scene/read/gltf_expansion.h"
+#include "scene/read/gltf_outline.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/json_text.h"
@@ -33,10 +35,15 @@ std::uint32_t word_at(std::string_view bytes, std::size_t position) {
   return word;
 }
 
-/// One line of a message of the parser, which may have several.
+/// One line of a message of the parser, which may have several, without data in strings.
 std::string one_line(const std::string& text) {
   std::string line;
-  for (const char c : text.substr(0, 300)) {
+  const std::size_t data = text.find("data:");
+  const std::size_t comma = std::min(text.find(',', std::min(data, text.size())), text.size());
+  const std::size_t end = std::min(text.find_first_of(" \n", comma), text.size());
+  const std::string shown =
+      data < text.size() ? text.substr(0, comma) + ",…" + text.substr(end) : text;
+  for (const char c : shown.substr(0, 300)) {
     const bool blank = static_cast<unsigned char>(c) <= ' ';
     if (!blank || (!line.empty() && line.back() != ' ')) {
       line += blank ? ' ' : c;
@@ -46,6 +53,21 @@ std::string one_line(const std::string& text) {
     line.pop_back();
   }
   return line;
+}
+
+/// A .glb file with another text. The first chunk is the text.
+std::string with_text(std::string_view bytes, std::string text) {
+  const std::size_t rest = glb_header + glb_chunk_header + word_at(bytes, glb_header);
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::string file(bytes.substr(0, glb_header + glb_chunk_header));
+  const auto put = [&](std::size_t position, std::size_t word) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      file[position + k] = static_cast<char>(word >> (8 * k));
+    }
+  };
+  put(8, file.size() + text.size() + bytes.size() - rest);
+  put(glb_header, text.size());
+  return file.append(text).append(bytes.substr(rest));
 }
 
 /// Newer versions of tinygltf ask for the size before they read.
@@ -97,18 +119,12 @@ bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, in
   return true;
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 }  // namespace
 
 GltfFile::GltfFile(const std::filesystem::path& path, const Cancellation& cancellation)
     : name_(path.string()), cancellation_(cancellation), files_{path.string()} {
-  const std::string bytes = read_binary_file(path, largest_scene_file);
-  check_header(bytes);
   try {
-    load(bytes);
+    load(read_binary_file(path, largest_scene_file));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const InputError&) {
@@ -121,27 +137,64 @@ GltfFile::GltfFile(const std::filesystem::path& path, const Cancellation& cancel
 
 void GltfFile::fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
-void GltfFile::check_header(const std::string& bytes) const {
-  const std::string_view all = bytes;
-  if (!all.starts_with(glb_magic)) {
-    check_json(all, name_, largest_scene_file);
-    return;
+std::string_view GltfFile::text_of(std::string_view bytes) const {
+  if (!bytes.starts_with(glb_magic)) {
+    return bytes;
   }
-  if (all.size() < glb_header + glb_chunk_header) {
+  if (bytes.size() < glb_header + glb_chunk_header) {
     fail("is cut: the header of a .glb file has 20 bytes");
   }
-  if (word_at(all, 4) != 2) {
-    fail(fmt::format("is of version {} of glTF; version 2 can be read", word_at(all, 4)));
+  if (word_at(bytes, 4) != 2) {
+    fail(fmt::format("is of version {} of glTF; version 2 can be read", word_at(bytes, 4)));
   }
-  const std::size_t size = word_at(all, glb_header);
-  if (size > all.size() - glb_header - glb_chunk_header || word_at(all, 8) > all.size()) {
-    fail(fmt::format("is cut: its header states {} bytes, it has {}", word_at(all, 8), all.size()));
+  const std::size_t size = word_at(bytes, glb_header);
+  if (size > bytes.size() - glb_header - glb_chunk_header || word_at(bytes, 8) > bytes.size()) {
+    fail(fmt::format("is cut: its header states {} bytes, it has {}", word_at(bytes, 8),
+                     bytes.size()));
   }
-  check_json(all.substr(glb_header + glb_chunk_header, size), name_, largest_scene_file);
+  return bytes.substr(glb_header + glb_chunk_header, size);
 }
 
-void GltfFile::load(const std::string& bytes) {
+void GltfFile::load(std::string bytes) {
+  const std::string_view text = text_of(bytes);
+  check_json(text, name_, largest_scene_file);
   cancellation_.throw_if_canceled();
+  check_extensions(required_extensions(text, name_));
+  if (is_compressed_gltf(text)) {
+    std::string parsable = parsable_gltf(text);
+    bytes =
+        bytes.starts_with(glb_magic) ? with_text(bytes, std::move(parsable)) : std::move(parsable);
+  }
+  cancellation_.throw_if_canceled();
+  parse(bytes);
+  try {
+    quantized_ = expand_gltf(model_, cancellation_);
+  } catch (const InputError& error) {
+    fail(error.what());
+  }
+  cancellation_.throw_if_canceled();
+}
+
+void GltfFile::check_extensions(const std::vector<std::string>& required) const {
+  std::vector<std::string> unknown;
+  for (const std::string& extension : required) {
+    // Those that change where surfaces are, or how they are stored. Materials have a fallback.
+    const bool of_materials = extension.starts_with("KHR_materials_") ||
+                              extension.starts_with("KHR_texture_") ||
+                              extension == "EXT_texture_webp" || extension == "KHR_lights_punctual";
+    const bool of_meshes = extension == "KHR_mesh_quantization" || extension == draco_extension ||
+                           extension == meshopt_extension;
+    if (!of_materials && !of_meshes) {
+      unknown.push_back(extension);
+    }
+  }
+  if (!unknown.empty()) {
+    fail(fmt::format("requires {}, which cannot be read; export it without these extensions",
+                     fmt::join(unknown, ", ")));
+  }
+}
+
+void GltfFile::parse(const std::string& bytes) {
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(keep_image, nullptr);
   parser.SetFsCallbacks(file_callbacks(files_));
@@ -161,21 +214,6 @@ void GltfFile::load(const std::string& bytes) {
     fail(fmt::format("is of version {} of glTF; version 2 can be read",
                      in_quotes(model_.asset.version)));
   }
-  std::vector<std::string> unknown;
-  for (const std::string& extension : model_.extensionsRequired) {
-    // Those that change where surfaces are, or how they are stored. Materials have a fallback.
-    if (!extension.starts_with("KHR_materials_") && !extension.starts_with("KHR_texture_") &&
-        extension != "KHR_mesh_quantization" && extension != "KHR_lights_punctual") {
-      unknown.push_back(extension);
-    }
-  }
-  if (!unknown.empty()) {
-    fail(
-        fmt::format("requires {}, which cannot be read; export it without compression and "
-                    "extensions",
-                    list_of(unknown)));
-  }
-  cancellation_.throw_if_canceled();
 }
 
 const tinygltf::Accessor& GltfFile::accessor(int index) const {
@@ -350,6 +388,9 @@ std::vector<std::uint32_t> GltfFile::indices(int index) const {
 }
 
 double GltfFile::rounding_of(int index, double largest) const {
+  if (const auto found = quantized_.find(index); found != quantized_.end()) {
+    return found->second + 0x1p-24 * largest;
+  }
   const tinygltf::Accessor& of = accessor(index);
   switch (of.componentType) {
     case TINYGLTF_COMPONENT_TYPE_FLOAT:

@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "transillum/cancellation.h"
@@ -42,8 +44,11 @@ class GltfFile {
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
-  void load(const std::string& bytes);
-  void check_header(const std::string& bytes) const;
+  void load(std::string bytes);
+  void parse(const std::string& bytes);
+  /// The text of the file, or of the first chunk of a .glb file.
+  std::string_view text_of(std::string_view bytes) const;
+  void check_extensions(const std::vector<std::string>& required) const;
   const tinygltf::Accessor& accessor(int index) const;
   /// The bytes of a view from `offset`; at least `size`.
   std::span<const unsigned char> bytes_of(int view, std::size_t offset, std::size_t size) const;
@@ -52,6 +57,7 @@ class GltfFile {
   const Cancellation& cancellation_;
   std::vector<std::string> files_;
   tinygltf::Model model_;
+  std::map<int, double> quantized_;  ///< half a unit of an accessor's numbers
 };
 
 }  // namespace transillum

@@ -46,6 +46,16 @@ std::vector<double> numbers_of(const tinygltf::Value& object, const char* key) {
   return numbers;
 }
 
+/// The image of a texture in a format that an extension adds, as KHR_texture_basisu; or -1.
+int image_of(const tinygltf::Texture& texture) {
+  for (const auto& [name, extension] : texture.extensions) {
+    if (extension.IsObject() && extension.Has("source")) {
+      return static_cast<int>(number_of(extension, "source", -1));
+    }
+  }
+  return -1;
+}
+
 TextureWrap wrap_of(int mode) {
   return mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? TextureWrap::clamp
          : mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::mirror
@@ -135,11 +145,13 @@ GltfMaterials::Surface GltfMaterials::surface_of(const tinygltf::Material& mater
       texture_of(material.emissiveTexture.index, material.emissiveTexture.texCoord,
                  material.emissiveTexture.extensions, false);
   use_specular_glossiness(surface, material);
+  assume_unreadable(surface);
 
   double strength = 1;
   if (const auto* e = extension_of(material.extensions, "KHR_materials_emissive_strength")) {
     strength = number_of(*e, "emissiveStrength", 1);
   }
+  strength = surface.dark ? 0 : strength;
   surface.exitance = std::numbers::pi * strength / (options_.photometric ? lumens_per_watt : 1) *
                      color_of(material.emissiveFactor, {});
   const std::string place = place_of(number, surface.name);
@@ -205,10 +217,12 @@ std::optional<GltfMaterials::Texture> GltfMaterials::texture_of(
   texture.set = set;
   texture.linear = linear;
   if (texture.image < 0 || static_cast<std::size_t>(texture.image) >= model.images.size()) {
-    notes_.add("textures without a readable image, ignored",
-               fmt::format("{}: texture {} has no PNG or JPEG image; it is ignored",
-                           file_.files().front(), index));
-    return {};
+    texture.readable = false;
+    notes_.add("textures without a readable image",
+               fmt::format("{}: {} is no PNG or JPEG image; reflectance {} is assumed for it",
+                           file_.files().front(), named("texture", index, image_of(from)),
+                           options_.default_reflectance));
+    return texture;
   }
   if (from.sampler >= 0 && static_cast<std::size_t>(from.sampler) < model.samplers.size()) {
     texture.across = wrap_of(at(model.samplers, from.sampler).wrapS);
@@ -310,12 +324,41 @@ const TexturePixels* GltfMaterials::pixels_of(const Texture& texture) {
           std::make_unique<TexturePixels>(std::span<const unsigned char>(), false, cancellation_);
     }
     if (!problem.empty()) {
-      notes_.add("textures without a readable image, ignored",
-                 fmt::format("{}: image {} {}; it is taken as white", file_.files().front(), image,
-                             problem));
+      notes_.add("images that cannot be read",
+                 fmt::format("{}: {} {}; it is taken as white", file_.files().front(),
+                             named("image", texture.image, texture.image), problem));
     }
   }
   return pixels->problem().empty() ? pixels.get() : nullptr;
+}
+
+/// A base color is the default reflectance then; nothing is metal, and nothing emits.
+void GltfMaterials::assume_unreadable(Surface& surface) const {
+  const auto drop = [](std::optional<Texture>& texture) {
+    const bool unreadable = texture && !texture->readable;
+    if (unreadable) {
+      texture.reset();
+    }
+    return unreadable;
+  };
+  if (drop(surface.base_texture)) {
+    surface.base = options_.default_reflectance * surface.base;
+  }
+  if (drop(surface.metallic_texture)) {
+    surface.metallic = 0;
+  }
+  surface.dark = drop(surface.emissive_texture);
+}
+
+std::string GltfMaterials::named(const char* what, int number, int image) const {
+  const std::vector<tinygltf::Image>& images = file_.model().images;
+  if (image < 0 || static_cast<std::size_t>(image) >= images.size()) {
+    return fmt::format("{} {}", what, number);
+  }
+  const tinygltf::Image& of = at(images, image);
+  const std::string& name = of.uri.empty() ? of.name : of.uri;
+  return name.empty() ? fmt::format("{} {}", what, number)
+                      : fmt::format("{} {}, {},", what, number, in_quotes(name));
 }
 
 std::string GltfMaterials::place_of(std::size_t number, const std::string& name) const {

@@ -61,6 +61,7 @@ class GltfMaterials {
   /// A texture of a material and how its coordinates are used.
   struct Texture {
     int image = -1, set = 0;
+    bool readable = true;
     bool linear = false;
     TextureWrap across = TextureWrap::repeat, down = TextureWrap::repeat;
     std::array<double, 2> offset{0, 0}, scale{1, 1};
@@ -73,7 +74,7 @@ class GltfMaterials {
     Rgb exitance;
     /// What the lobe reflects, where a file has it; else by the base color.
     std::optional<Rgb> specular = std::nullopt;
-    bool double_sided = false;
+    bool double_sided = false, dark = false;
     std::optional<Texture> base_texture, metallic_texture, emissive_texture;
   };
 
@@ -89,6 +90,9 @@ class GltfMaterials {
   /// Null where the image has no pixels.
   const TexturePixels* pixels_of(const Texture& texture);
   std::string place_of(std::size_t number, const std::string& name) const;
+  /// "texture 3" or "image 3", with the name of the image's file where it has one.
+  std::string named(const char* what, int number, int image) const;
+  void assume_unreadable(Surface& surface) const;
 
   const GltfFile& file_;
   const ReadOptions& options_;

@@ -12,10 +12,12 @@
 #include <cmath>
 #include <map>
 #include <new>
+#include <set>
 
 #include "scene/build/description_check.h"
 #include "scene/build/joining.h"
 #include "scene/build/warnings.h"
+#include "scene/read/gltf_expansion.h"
 #include "scene/read/gltf_file.h"
 #include "scene/read/gltf_materials.h"
 #include "scene/read/reflectance_limit.h"
@@ -24,8 +26,6 @@
 namespace transillum {
 namespace {
 
-/// Vertices and triangles of a scene, each: with instances, a small file can have any number.
-constexpr std::size_t most_elements = 20'000'000;
 /// rho, E and lobes of textured faces are rounded to this many parts, so that they share materials.
 constexpr double part_count = 1024;
 /// Their roughness to fewer: each is a lobe of its own.
@@ -41,6 +41,11 @@ struct Placement {
   Placement operator*(const Placement& inner) const {
     return {{direction(inner.axes[0]), direction(inner.axes[1]), direction(inner.axes[2])},
             point(inner.origin)};
+  }
+  /// Whether no triangle has an area.
+  bool flattens() const {
+    return norm(cross(axes[0], axes[1])) == 0 && norm(cross(axes[1], axes[2])) == 0 &&
+           norm(cross(axes[2], axes[0])) == 0;
   }
   bool mirrors() const { return dot(cross(axes[0], axes[1]), axes[2]) < 0; }
   /// The largest sum of magnitudes in a row.
@@ -105,8 +110,9 @@ class GltfReader {
       file_.fail("has no triangles");
     }
     note_what_is_left_out();
-    finish_materials();
+    add_materials();
     SceneDescription finished = options_.join.value_or(true) ? joined() : separate();
+    lower_reflectances(finished);
     finished.files = file_.files();
     finished.coordinate_rounding = rounding_;
     finished.notes = notes_.sentences();
@@ -188,6 +194,10 @@ class GltfReader {
     }
     const tinygltf::Mesh& mesh = at(model().meshes, node.mesh);
     place_ = fmt::format("node {}, mesh {}", visit.node, node.mesh);
+    if (visit.placement.flattens()) {
+      ++left_out_.without_extent;
+      return;
+    }
     const std::string& named = node.name.empty() ? mesh.name : node.name;
     group_name_ = named.empty() ? fmt::format("node {}", visit.node) : named;
     group_ = no_group;
@@ -213,7 +223,7 @@ class GltfReader {
     const std::size_t vertices = add_points(position->second, placement);
     std::vector<std::uint32_t> corners;
     if (primitive.indices >= 0) {
-      file_.count_of(primitive.indices, 3 * (most_elements - description_.face_count()) + 3);
+      file_.count_of(primitive.indices, 3 * (most_gltf_elements - description_.face_count()) + 3);
       corners = file_.indices(primitive.indices);
     } else {
       corners.resize(vertices);
@@ -252,7 +262,8 @@ class GltfReader {
 
   /// Returns how many.
   std::size_t add_points(int accessor, const Placement& placement) {
-    const std::size_t count = file_.count_of(accessor, most_elements - description_.points.size());
+    const std::size_t count =
+        file_.count_of(accessor, most_gltf_elements - description_.points.size());
     const std::vector<double> numbers = file_.numbers(accessor, 3);
     double largest = 0;
     for (std::size_t v = 0; v < count; ++v) {
@@ -327,8 +338,8 @@ class GltfReader {
 
   void add_triangle(const std::array<std::uint32_t, 3>& triangle, bool mirrored,
                     std::int32_t material) {
-    if (description_.face_count() >= most_elements) {
-      file_.fail(fmt::format("has more than {} triangles", most_elements));
+    if (description_.face_count() >= most_gltf_elements) {
+      file_.fail(fmt::format("has more than {} triangles", most_gltf_elements));
     }
     if (group_ == no_group) {
       group_ = static_cast<std::int32_t>(description_.groups.size());
@@ -352,25 +363,34 @@ class GltfReader {
 
   // Materials -------------------------------------------------------------------------------
 
-  void finish_materials() {
+  void add_materials() {
     for (std::int32_t m = 0; m <= materials_.none(); ++m) {
       const SurfaceColors colors = materials_.colors(m);
       description_.materials.push_back(
-          limited({materials_.name(m), colors.reflectance, colors.exitance, colors.ggx()}, true));
+          {materials_.name(m), colors.reflectance, colors.exitance, colors.ggx()});
     }
   }
 
-  Material limited(Material material, bool noted) {
-    const Rgb given = material.reflectance;
-    const double lowered = lower_reflectance(material.reflectance, options_);
-    if (lowered > 0 && noted) {
-      notes_.add(
-          "materials, whose reflectance is lowered",
-          fmt::format("{}: material {}: reflectance rho {:.6g} {:.6g} {:.6g} is lowered to {}",
-                      description_.name, material.name, given.r, given.g, given.b, lowered));
+  /// Lowers reflectances as the options say. Notes those that a face has, once for each name: of a
+  /// textured material, the mean of the face counts.
+  void lower_reflectances(SceneDescription& d) {
+    std::vector<char> is_used(d.materials.size(), 0);
+    for (const std::int32_t m : d.face_material) {
+      at(is_used, m) = 1;
     }
-    check_material(material, fmt::format("{}: material {}: ", description_.name, material.name));
-    return material;
+    std::set<std::string> noted;
+    for (std::size_t m = 0; m < d.materials.size(); ++m) {
+      Material& material = d.materials[m];
+      const Rgb given = material.reflectance;
+      const std::string place = fmt::format("{}: material {}: ", d.name, material.name);
+      const double lowered = lower_reflectance(material.reflectance, options_);
+      if (lowered > 0 && is_used[m] != 0 && noted.insert(material.name).second) {
+        notes_.add("materials, whose reflectance is lowered",
+                   fmt::format("{}reflectance rho {:.6g} {:.6g} {:.6g} is lowered to {}", place,
+                               given.r, given.g, given.b, lowered));
+      }
+      check_material(material, place);
+    }
   }
 
   SceneDescription joined() {
@@ -452,7 +472,7 @@ class GltfReader {
                               used.lobe.b, used.roughness}},
                             next);
     if (is_new) {
-      d.materials.push_back(limited({materials_.name(base), rho, e, used.ggx()}, false));
+      d.materials.push_back({materials_.name(base), rho, e, used.ggx()});
     }
     d.face_material[face] = entry->second;
   }
@@ -475,6 +495,7 @@ class GltfReader {
                                                  options_.default_reflectance));
     note(left_out_.lines, "meshes of points or lines, left out");
     note(left_out_.without_positions, "meshes without positions, left out");
+    note(left_out_.without_extent, "nodes whose scale is 0, left out");
     note(left_out_.skins, "nodes with a skin, taken in their rest pose");
     note(left_out_.morphs, "meshes with morph targets, taken without them");
     note(static_cast<std::int64_t>(model().lights.size()),
@@ -482,7 +503,8 @@ class GltfReader {
   }
 
   struct LeftOut {
-    std::int64_t lines = 0, without_positions = 0, skins = 0, morphs = 0, without_material = 0;
+    std::int64_t lines = 0, without_positions = 0, without_extent = 0, skins = 0, morphs = 0,
+                 without_material = 0;
   };
 
   const ReadOptions& options_;
