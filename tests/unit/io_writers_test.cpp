@@ -24,6 +24,7 @@
 #include <sstream>
 
 #include "program_run.h"
+#include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -393,6 +394,10 @@ TEST(IoWholeFiles, PathsAreCheckedInAdvance) {
   EXPECT_THROW(check_result_path(folder / "none/a.csv"), InputError);
   std::filesystem::create_directory(folder / "b.csv");
   EXPECT_THROW(check_result_path(folder / "b.csv"), InputError);
+  // Was found after the solve, and the status was 1.
+  const std::string long_name = std::string(300, 'a') + ".csv";
+  EXPECT_THAT(test::refusal([&] { check_result_path(folder / long_name); }),
+              HasSubstr("File name too long"));
   if (::geteuid() != 0) {
     std::filesystem::create_directory(folder / "closed");
     ::chmod((folder / "closed").c_str(), 0500);

@@ -217,8 +217,11 @@ std::string obstacle(const Target& target) {
     const int flags = ::fcntl(target.descriptor, F_GETFL);
     return flags < 0 || (flags & O_ACCMODE) == O_RDONLY ? error_text(EBADF) : std::string();
   }
-  std::error_code ignored;
-  const fs::file_status status = fs::status(target.path, ignored);
+  std::error_code error, ignored;
+  const fs::file_status status = fs::status(target.path, error);
+  if (error == std::errc::filename_too_long) {
+    return error_text(error.value());
+  }
   if (fs::is_directory(status)) {
     return "it is a folder";
   }
