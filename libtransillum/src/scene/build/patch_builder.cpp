@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "base/invariant.h"
@@ -319,6 +320,7 @@ void PatchBuilder::throw_crossing(std::size_t face) const {
 
 void PatchBuilder::count_coincident() {
   const auto pairs = coincident_faces(description_, welded_);
+  check_copies(pairs);
   report.coincident_faces = static_cast<std::int64_t>(pairs.size());
   report.covered_faces = covered_faces(pairs, patches, description_.materials);
   for (const auto& [later, earlier] : pairs) {
@@ -330,6 +332,21 @@ void PatchBuilder::count_coincident() {
     warnings_.add("faces that get no light",
                   fmt::format("{}covered by a face on the same points: it gets no light (B = E)",
                               face_place(description_, static_cast<std::size_t>(face))));
+  }
+}
+
+/// Each ray that meets one of the copies tests them all.
+void PatchBuilder::check_copies(
+    const std::vector<std::pair<std::size_t, std::size_t>>& pairs) const {
+  constexpr std::int64_t most_copies = 1000;
+  std::map<std::size_t, std::int64_t> copies;
+  for (const auto& [later, earlier] : pairs) {
+    if (++copies[earlier] > most_copies) {
+      throw InputError(
+          fmt::format("{}more than {} faces have the same points as face {}; delete "
+                      "the copies",
+                      face_place(description_, later), most_copies, earlier));
+    }
   }
 }
 

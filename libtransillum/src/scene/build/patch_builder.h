@@ -76,6 +76,7 @@ class PatchBuilder {
 
   void note_moves(double rounding);
   void count_coincident();
+  void check_copies(const std::vector<std::pair<std::size_t, std::size_t>>& pairs) const;
   void count_unused();
 
   const SceneDescription& description_;
