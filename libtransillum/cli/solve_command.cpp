@@ -128,6 +128,16 @@ Preparation prepare_call(const SolveCall& call, const Cancellation& cancellation
   return prepared;
 }
 
+/// The name of a material that reflects by its lobe only, as a metal does; empty if none does.
+std::string metal_of(const Scene& scene) {
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (max_abs(scene.reflectance(i)) == 0 && scene.material(i).lobe.present()) {
+      return scene.material(i).name;
+    }
+  }
+  return {};
+}
+
 /// Whether lobes take part; says what about them a user may not expect.
 bool uses_lobes(const SolveCall& call, const SolveOptions& options, const Scene& scene) {
   const bool present = has_lobes(scene);
@@ -138,7 +148,12 @@ bool uses_lobes(const SolveCall& call, const SolveOptions& options, const Scene&
       print_message("warning: " + warning);
     }
   } else if (present && !call.diffuse_only && !call.quiet) {
-    print_message("lobes of materials are left out (--glossy: they reflect too)");
+    const std::string metal = metal_of(scene);
+    print_message(
+        "lobes of materials are left out (--glossy: they reflect too" +
+        (metal.empty()
+             ? ")"
+             : fmt::format("; {0} reflects nothing else: try --reflectance '{0}=0.5')", metal)));
   }
   return options.glossy && present;
 }

@@ -112,6 +112,9 @@ TEST(CliGlossy, SaysWhatItDoesWithLobes) {
   const Arguments loud{"solve", "cornell-box", "-m", "16", "--lobe", "white=0.5,100"};
   EXPECT_THAT(run_program(loud).err, HasSubstr("lobes of materials are left out (--glossy"));
   EXPECT_THAT(run_program(loud + Arguments{"--diffuse-only"}).err, Not(HasSubstr("lobes")));
+  // A metal, as materials of glTF are by default, is black.
+  EXPECT_THAT(run_program(loud + Arguments{"--reflectance", "white=0"}).err,
+              HasSubstr("white reflects nothing else: try --reflectance 'white=0.5'"));
   const ProgramResult glossy = run_program(loud + Arguments{"--glossy"});
   EXPECT_THAT(glossy.err, HasSubstr("too narrow for 16 passes"));
   EXPECT_THAT(glossy.err, HasSubstr("more than a surface can"));
