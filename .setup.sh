@@ -19,6 +19,51 @@ run_logged() {
   fi
 }
 
+# Refuses what the viewer would refuse after the build: names of no file or built-in scene. A test
+# compares the lists with the program's.
+check_scene() {
+  local built_in='sphere-flake cornell-box furnace boards rooms stars gallery flatland'
+  local endings='obj gltf glb ply stl off rad vs3 vtp vtk'
+  local name=${1%%:*} ending=${1##*.}
+  case " $built_in " in
+    *" $name "*) return ;;
+  esac
+  [ -f "$1" ] || stop "$1: no such file or built-in scene (built-in: $built_in)"
+  case " $endings " in
+    *" ${ending,,} "*) ;;
+    *) stop "$1: not a scene file (endings: $endings)" ;;
+  esac
+}
+
+# Refuses what ctest has no option for; it ignores such words. An option's value is no option.
+check_ctest_options() {
+  local line name takes_value='' word value_of=''
+  local -A known=()
+  # Lines such as "  -j <jobs>, --parallel <jobs> = Run …" and "  -V,--verbose = Enable …".
+  while IFS= read -r line; do
+    line=${line%% = *}
+    takes_value=''
+    case $line in *'<'* | *' ['*) takes_value=yes ;; esac
+    for name in $(grep -oE '(^|[ ,])--?[A-Za-z][A-Za-z-]*' <<<"$line" | tr -d ' ,'); do
+      known[$name]=$takes_value
+    done
+  done < <(ctest --help | grep -E '^  -')
+  for word; do
+    if [ -n "$value_of" ]; then
+      value_of=''
+      continue
+    fi
+    case $word in
+      -j[0-9]*) continue ;;
+      -*) name=${word%%=*} ;;
+      *) stop "\"$word\" is no option of ctest (see ctest --help)" ;;
+    esac
+    [ -n "${known[$name]+set}" ] || stop "$word: ctest has no such option (see ctest --help)"
+    [ "$name" != "$word" ] || [ -z "${known[$name]}" ] || value_of=$word
+  done
+  [ -z "$value_of" ] || stop "$value_of: the value is missing (see ctest --help)"
+}
+
 missing_packages() {
   local package
   grep -v '^ *\(#\|$\)' "$root/.packages" | while read -r package; do

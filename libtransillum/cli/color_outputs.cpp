@@ -87,8 +87,18 @@ void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
   refuse_unless(takes_directions(options.engine) && !options.goal.set() && !has_factors, command,
                 "--series",
                 "not used with engine hemicube or pairs, an accuracy, a time limit or --factors");
+}
+
+void check_series(const ColorOutputs& colors, const std::vector<std::string>& files) {
   if (!colors.series.empty()) {
-    ResultSeries{colors.series};
+    ResultSeries(colors.series).check_apart_from(files);
+  }
+}
+
+void check_pictures(const ColorOutputs& colors, const std::vector<std::string>& out,
+                    const Scene& scene, const std::optional<Vec3>& eye) {
+  if (is_any_of(out, {".png"}) && eye) {
+    check_picture(scene, *eye, colors.display);
   }
 }
 

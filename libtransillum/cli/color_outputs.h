@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,12 @@ void set_up_of_display(const CLI::App& command, const Sky& sky, ColorOutputs& co
 /// @throws InputError
 void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
                          const std::vector<std::string>& out, const SolveOptions& options);
+/// Refuses a series that would write one of these files.
+/// @throws InputError
+void check_series(const ColorOutputs& colors, const std::vector<std::string>& files);
+/// Refuses pictures from the point in their middle.
+/// @throws InputError
+void check_pictures(const ColorOutputs& colors, const std::vector<std::string>& out,
+                    const Scene& scene, const std::optional<Vec3>& eye);
 
 }  // namespace transillum::cli

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "transillum/errors.h"
+#include "transillum/unit_vector.h"
 
 namespace transillum::cli {
 namespace {
@@ -112,16 +113,10 @@ Vec3 parse_point(const std::string& option, const std::string& text) {
 Vec3 parse_direction(const std::string& option, const std::string& text) {
   const auto wrong = [&] { refuse(option, text, "three finite numbers X,Y,Z, not all 0"); };
   const Vec3 direction = parse_three(text, wrong);
-  const double largest = max_abs(direction);
-  if (largest == 0) {
+  if (max_abs(direction) == 0) {
     wrong();
   }
-  // Scaled first, since squares of huge numbers overflow and those of tiny ones underflow; by a
-  // power of two, so a unit vector is not changed.
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return normalized(Vec3{std::ldexp(direction.x, -exponent), std::ldexp(direction.y, -exponent),
-                         std::ldexp(direction.z, -exponent)});
+  return unit_vector(direction);
 }
 
 Rgb parse_exitance(const std::string& option, const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <exception>
 
+#include "standard_output.h"
 #include "transillum/files.h"
 
 namespace transillum::cli {
@@ -22,19 +23,29 @@ void check_output_files(const std::vector<std::string>& files) {
   check_distinct(files, {});
 }
 
+namespace {
+
+void keep_first(std::exception_ptr& kept) {
+  if (!kept) {
+    kept = std::current_exception();
+  }
+}
+
+}  // namespace
+
 void write_all(const std::vector<std::function<void()>>& writers) {
-  std::exception_ptr first_failure;
+  std::exception_ptr first_failure, closed_pipe;
   for (const auto& write : writers) {
     try {
       write();
+    } catch (const StandardOutputError& error) {
+      keep_first(error.no_reader() ? closed_pipe : first_failure);
     } catch (const std::exception&) {
-      if (!first_failure) {
-        first_failure = std::current_exception();
-      }
+      keep_first(first_failure);
     }
   }
-  if (first_failure) {
-    std::rethrow_exception(first_failure);
+  if (first_failure || closed_pipe) {
+    std::rethrow_exception(first_failure ? first_failure : closed_pipe);
   }
 }
 

@@ -18,7 +18,7 @@ std::vector<std::string> given_files(std::vector<std::string> files);
 void check_output_files(const std::vector<std::string>& files);
 
 /// Runs all of these, even if some fail, then rethrows the first error: results that took long are
-/// not lost because one of several files cannot be written.
+/// not lost because one of several files cannot be written. A pipe without a reader comes last.
 void write_all(const std::vector<std::function<void()>>& writers);
 
 }  // namespace transillum::cli

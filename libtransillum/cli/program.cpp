@@ -253,9 +253,10 @@ int run_program(int argc, char** argv, void (*report)(std::string_view) noexcept
   } catch (const MemberFailed&) {
     return failed_elsewhere;
   } catch (const StandardOutputError& error) {
-    if (!error.no_reader()) {
-      report(error.what());
+    if (error.no_reader()) {
+      return success;  // as `head` has what it asked for
     }
+    report(error.what());
     return failure;
   } catch (const InputError& error) {
     report(error.what());

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "messages.h"
 #include "option_values.h"
 #include "progress_display.h"
@@ -83,7 +85,16 @@ bool is_quiet(const CLI::App& command) {
   return quiet != nullptr && quiet->count() > 0;
 }
 
-/// Turns parts of the scene and prints what was done.
+/// The group or material that most of the backs are of, for a message.
+std::string most_backs(const BackShare& backs) {
+  const bool by_group = !backs.groups.empty();
+  const std::vector<BackCount>& counts = by_group ? backs.groups : backs.materials;
+  return counts.empty() ? std::string()
+                        : fmt::format(" ({} of {} \"{}\")", share_text(counts.front().of_all),
+                                      by_group ? "group" : "material", counts.front().name);
+}
+
+/// Turns parts of the scene and prints what was done, and what is still seen from behind.
 void orient_input(const SceneInput& input, SceneDescription& description,
                   const Cancellation& cancellation) {
   ProgressDisplay display(is_quiet(*input.command));
@@ -97,6 +108,29 @@ void orient_input(const SceneInput& input, SceneDescription& description,
       print_message("orientation: " + sentence);
     }
   }
+  if (input.options.two_sided) {
+    return;
+  }
+  const BackShare backs =
+      back_share(Scene(description, {}, cancellation), threads_of(*input.command), cancellation);
+  if (backs.share > BackShare::worth_a_warning) {
+    print_message(
+        fmt::format("warning: {} of what light meets are backs of faces, which absorb it, also "
+                    "after turning faces{} (try --two-sided)",
+                    share_text(backs.share), most_backs(backs)));
+  }
+}
+
+/// One line that says that a sky lights nothing where all lit sides are shut in; else empty.
+std::string sky_advice(const SceneInput& input, const Scene& scene, const BackShare& backs) {
+  // A room of two-sided faces is closed, but the sky lights it outside.
+  if (backs.open > 0 || has_two_sided_faces(scene)) {
+    return {};
+  }
+  return fmt::format(
+      "the sky lights no face: no ray from a lit side leaves the scene, and backs of faces absorb "
+      "its light (try --two-sided{})",
+      input.orient ? ", or --orient keep" : " or --orient auto");
 }
 
 /// The options of the scene with the limit of patch areas that --patches asks for. Prints what the
@@ -251,6 +285,13 @@ std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                        cancellation);
 }
 
+bool has_two_sided_faces(const Scene& scene) {
+  const auto& patches = scene.patches();
+  return std::adjacent_find(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
+           return a.face == b.face && a.center == b.center;
+         }) != patches.end();
+}
+
 std::string orientation_advice(const SceneInput& input, const BackShare& backs) {
   if (backs.share <= BackShare::worth_a_warning || input.orient) {
     return {};
@@ -275,9 +316,11 @@ std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
         "an exitance in W/m2, such as --emission '{}=10'",
         scene->name(), suggested_light(description)));
   }
-  if (light == Light::required && !input.orient) {
+  if (light == Light::sky || (light == Light::required && !input.orient)) {
     const BackShare backs = back_share(*scene, threads_of(*input.command), cancellation);
-    if (const std::string advice = orientation_advice(input, backs); !advice.empty()) {
+    const std::string advice = light == Light::required ? orientation_advice(input, backs)
+                                                        : sky_advice(input, *scene, backs);
+    if (!advice.empty()) {
       print_message("warning: " + advice);
     }
   }

@@ -42,8 +42,8 @@ void add_patch_options(CLI::App& command, SceneInput& input);
 /// All of these options.
 void add_scene_options(CLI::App& command, SceneInput& input);
 
-/// Whether a command can do something with a scene in which nothing emits.
-enum class Light { optional, required };
+/// Which light a command needs: none, that of faces, or that of a sky.
+enum class Light { optional, required, sky };
 
 /// The scene's faces, read and changed as the options say.
 /// @throws InputError, Canceled
@@ -55,6 +55,9 @@ SceneDescription describe_input(const SceneInput& input, const Cancellation& can
 std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                               const SceneDescription& description,
                                               const Cancellation& cancellation);
+
+/// Whether any face has a patch on each side.
+bool has_two_sided_faces(const Scene& scene);
 
 /// One line that names --orient auto where more than a tenth of what is seen is a back; else empty.
 std::string orientation_advice(const SceneInput& input, const BackShare& backs);

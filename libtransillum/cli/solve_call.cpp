@@ -291,6 +291,9 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
   if (!call.factors.empty()) {
     check_distinct(files, {call.factors});
   }
+  check_series(call.colors, files);
+  check_series(call.colors, call.shards);
+  check_series(call.colors, given_files({call.factors}));
   return files;
 }
 

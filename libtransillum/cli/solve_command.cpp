@@ -111,7 +111,9 @@ Preparation prepare_call(const SolveCall& call, const Cancellation& cancellation
   }
   prepared.options = solve_options(call);
   prepared.scene = load_input_scene(call.scene, outputs, cancellation,
-                                    prepared.options.sky.set() ? Light::optional : Light::required);
+                                    prepared.options.sky.set() ? Light::sky : Light::required);
+  check_series(call.colors, prepared.scene->files());
+  check_pictures(call.colors, call.out, *prepared.scene, call.eye);
   if (call.refine_by) {
     Refinement refined = refine_in_rounds(call, prepared.scene, prepared.options, cancellation);
     prepared.scene = std::move(refined.scene);
@@ -244,7 +246,7 @@ int run_shard(const SolveCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.quiet);
   const auto scene = load_input_scene(call.scene, outputs, cancellation,
-                                      options.sky.set() ? Light::optional : Light::required);
+                                      options.sky.set() ? Light::sky : Light::required);
   const auto start = WallClock::now();
   const int passes = (options.directions - call.share->number) / call.share->of + 1;
   int done = 0;

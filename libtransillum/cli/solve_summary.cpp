@@ -10,6 +10,7 @@
 
 #include "messages.h"
 #include "report_text.h"
+#include "scene_options.h"
 #include "transillum/at.h"
 
 namespace transillum::cli {
@@ -140,6 +141,21 @@ std::int64_t patches_below_zero(const Solution& solution) {
   return count;
 }
 
+/// Where a scene is open, the largest defect is that of the patch that is most open, and says
+/// nothing about errors.
+std::string closure_text(const Scene& scene, const SolveStatistics& s) {
+  // Form factors without directions have errors, which row sums show too.
+  const double rounding = s.pairs > 0 || s.hemicubes > 0 ? 1e-3 : 1e-9;
+  const std::string open = share_text(s.escaped) + " of the projected area sees no patch";
+  if (s.escaped > rounding) {
+    return report_row("open", open + ": light escapes there");
+  }
+  if (has_two_sided_faces(scene)) {
+    return report_row("closed", open + ", outer sides of two-sided faces left out");
+  }
+  return report_row("closure defect", fmt::format("{:.1e}; {}", s.closure_defect_max, open));
+}
+
 }  // namespace
 
 std::string solve_summary(const Solution& solution) {
@@ -171,8 +187,7 @@ std::string solve_summary(const Solution& solution) {
         report_row("unlit", fmt::format("{} of the area: below 1e-6 of the largest reflected light",
                                         share_text(s.iteration_records.back().unlit_area)));
   }
-  text += report_row("closure defect", fmt::format("{:.1e}; {} of the projected area sees no patch",
-                                                   s.closure_defect_max, share_text(s.escaped)));
+  text += closure_text(*solution.scene, s);
   if (!s.iteration_records.empty()) {
     text += report_row("energy defect", fmt::format("{:.1e}", s.energy_defect));
   }

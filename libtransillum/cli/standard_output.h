@@ -13,7 +13,7 @@ class StandardOutputError : public std::runtime_error {
  public:
   /// @param error_number errno of the failed write; 0: not known
   explicit StandardOutputError(int error_number);
-  /// Whether what reads a pipe, such as `head`, has closed it: that needs no message.
+  /// Whether what reads a pipe, such as `head`, has closed it: that is no failure.
   bool no_reader() const noexcept { return no_reader_; }
 
  private:

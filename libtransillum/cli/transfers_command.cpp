@@ -26,6 +26,7 @@ struct TransfersCall {
   Vec3 direction;
   Engine engine = Engine::fast;
   EngineOptions engine_options;
+  int threads = 0;
   std::string out;
 };
 
@@ -40,7 +41,7 @@ int run(const TransfersCall& call) {
   check_output_files(outputs);
   const auto scene = load_input_scene(call.scene, outputs, cancellation);
   ProgressDisplay progress;
-  const auto tree = build_tree(*scene, cancellation, progress);
+  const auto tree = build_tree(*scene, cancellation, progress, call.threads);
   const TransferEngine engine = make_engine(call.engine, scene, tree, call.engine_options);
   const Transfers transfers = engine(call.direction, cancellation);
   progress.clear();
@@ -63,6 +64,7 @@ Run add_transfers_command(CLI::App& program) {
   add_direction_option(command, call->direction);
   add_engine_options(command, call->engine, call->engine_options);
   add_scene_options(command, call->scene);
+  add_threads_option(command, call->threads);
   command
       .add_option("-o,--out", call->out,
                   "CSV: receiver,source,area in m2 (default: standard output); source -1: no "

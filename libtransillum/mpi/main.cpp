@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "leak_check.h"
 #include "messages.h"
 #include "mpi_group.h"
 #include "mpi_waiting.h"
@@ -119,12 +120,16 @@ int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 8 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
   int provided = MPI_THREAD_SINGLE;
-  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  {
+    const transillum::mpi::AllocationsOfMpi ignored;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  }
   if (provided < MPI_THREAD_FUNNELED) {
     transillum::cli::print_message("this MPI does not allow threads (MPI_THREAD_FUNNELED)");
     MPI_Abort(MPI_COMM_WORLD, transillum::cli::failure);
   }
   const int status = transillum::mpi::run(argc, argv);
+  transillum::mpi::check_leaks();
   MPI_Finalize();
   return status;
 }

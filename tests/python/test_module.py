@@ -217,6 +217,19 @@ class Visibility(unittest.TestCase):
         cosine = np.maximum(scene.normal @ omega, 0)
         np.testing.assert_allclose(projected, scene.area * cosine, atol=1e-12)
 
+    def test_the_length_of_a_direction_does_not_count(self):
+        scene = room()
+        direction = np.array((0.3, -0.5, 0.8))
+        expected = transillum.transfers(scene, direction)
+        self.assertGreater(len(expected.area), 10)
+        # Powers of two change no digit; squares of their numbers overflow and underflow.
+        for scale in (2.0**600, 2.0**-600, 2.0**1000, 2.0**-1000):
+            found = transillum.transfers(scene, scale * direction)
+            self.assertEqual(found.direction, expected.direction)
+            np.testing.assert_array_equal(found.area, expected.area)
+        tiny = transillum.transfers(scene, (1e-160, 2e-160, 3e-160))
+        np.testing.assert_allclose(np.array(tiny.direction), np.array((1, 2, 3)) / 14**0.5)
+
     def test_a_map_adds_up(self):
         scene = room()
         omega = np.array((0.2, 0.1, 1))
@@ -247,8 +260,35 @@ class Errors(unittest.TestCase):
             "resolution is used only": lambda: transillum.solve(scene, resolution=5),
             "no such file": lambda: transillum.load("nothing.obj"),
             'did you mean "cornell-box"': lambda: transillum.load("cornel-box"),
-            "not 0": lambda: transillum.transfers(scene, (0, 0, 0)),
+            "not all 0": lambda: transillum.transfers(scene, (0, 0, 0)),
+            "three finite numbers": lambda: transillum.transfers(scene, (0, np.nan, 1)),
             "three numbers": lambda: transillum.transfers(scene, (0, 1)),
+            "direction: expected three": lambda: transillum.transfers(scene, [[0], [0], [1]]),
+            "up: expected three": lambda: transillum.solve(
+                scene, sky=1, sky_model="cie-overcast", up=[[0, 0, 1]]
+            ),
+            "directions: expected a number, not True": lambda: transillum.solve(
+                scene, directions=True
+            ),
+            "tolerance: expected": lambda: transillum.solve(scene, tolerance=np.True_),
+            "sky: expected one number or three, W/m², not True": lambda: transillum.solve(
+                scene, sky=True
+            ),
+            "two_way: expected": lambda: transillum.solve(scene, two_way=1),
+            "face 1 is [0, 1.5, 2], not integers": lambda: transillum.Scene(
+                CORNERS, [[0, 1, 2], [0, 1.5, 2]]
+            ),
+            "face 0 is [0, True, 2]": lambda: transillum.Scene(CORNERS, [[0, True, 2]]),
+            "face 0 is '012'": lambda: transillum.Scene(CORNERS, ["012"]),
+            "exitance: expected": lambda: transillum.Scene(
+                CORNERS, CUBE, exitance=[[1], [2], [3]]
+            ),
+            "the size of the picture is 0 pixels": lambda: transillum.visibility_map(
+                scene, (0, 0, 1)
+            ).svg(0),
+            "the size of the picture is -5 pixels, but must be from 200": lambda: (
+                transillum.visibility_map(scene, (0, 0, 1)).svg(-5)
+            ),
             "no patch 9999": lambda: transillum.visibility_map(scene, (0, 0, 1), 9999),
             "out of range": lambda: transillum.Scene(CORNERS[:1], [[0, 1, 2]]),
             "(n, 3)": lambda: transillum.Scene([[0, 0]], []),

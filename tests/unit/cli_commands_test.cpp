@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -367,6 +368,14 @@ TEST(CliMap, ReportsWhyAMapIsEmpty) {
   EXPECT_THAT(folder.names(), ElementsAre("m.svg"));
 }
 
+TEST(CliTransfers, TakesANumberOfThreads) {
+  const Arguments call{"transfers", "cornell-box", "--direction", "1,2,3"};
+  const ProgramResult one = run_program(call + Arguments{"--threads", "1"});
+  EXPECT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(one.out, run_program(call).out);
+  EXPECT_THAT(run_program(call + Arguments{"--threads", "0"}).err, HasSubstr("--threads"));
+}
+
 TEST(CliTransfers, RaysEstimateTheSameAreas) {
   const auto total = [](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"transfers", "cornell-box", "--direction", "1,2,3"};
@@ -647,7 +656,11 @@ TEST(CliInfo, ReportsASealedRoomWithTwoSidedFacesAsClosed) {
   EXPECT_THAT(run_program({"info", "cornell-box:open=1", "--two-sided"}).out,
               ::testing::ContainsRegex("closed +no, [0-9]+ % of the rays"));
   EXPECT_THAT(run_program({"solve", "cornell-box", "--two-sided", "-m", "8"}).out,
-              HasSubstr("; 0 % of the projected area sees no patch"));
+              HasSubstr("0 % of the projected area sees no patch, outer sides of two-sided faces"));
+  EXPECT_THAT(run_program({"solve", "cornell-box:open=1", "-m", "8"}).out,
+              ::testing::AllOf(::testing::Not(HasSubstr("closure defect")),
+                               ::testing::ContainsRegex(
+                                   "open +[0-9.]+ % of the projected area sees no patch: light")));
 }
 
 /// The six faces of a cube with a lamp as its ceiling; the text of those to turn is reversed.
@@ -681,7 +694,7 @@ TEST(CliOrient, SolvesTurnedRoomsLikeTheOriginal) {
   const ProgramResult original = solve_room({}, "keep");
   EXPECT_EQ(original.status, 0) << original.err;
   EXPECT_THAT(original.err, ::testing::Not(HasSubstr("--orient")));
-  EXPECT_THAT(solve_room({}, "auto").err, HasSubstr("no face needs to be turned"));
+  EXPECT_THAT(solve_room({}, "auto").err, HasSubstr("no face is turned"));
   for (const std::vector<int>& turned :
        {std::vector<int>{0, 1, 2, 3, 4, 5}, std::vector<int>{2}, std::vector<int>{5}}) {
     const ProgramResult kept = solve_room(turned, "keep");
@@ -697,6 +710,77 @@ TEST(CliOrient, SolvesTurnedRoomsLikeTheOriginal) {
   const ProgramResult wrong = solve_room({}, "inward");
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("\"inward\" is neither keep nor auto"));
+}
+
+/// Points of a box, and its six faces, counter-clockwise seen from outside.
+std::string box_obj(double low, double high, int first_vertex) {
+  std::ostringstream text;
+  for (int k = 0; k < 8; ++k) {
+    text << "v " << (k % 2 == 0 ? low : high) << ' ' << (k / 2 % 2 == 0 ? low : high) << ' '
+         << (k / 4 == 0 ? low : high) << '\n';
+  }
+  for (const auto& face :
+       {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
+        std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
+    text << 'f';
+    for (const int k : face) {
+      text << ' ' << first_vertex + k;
+    }
+    text << '\n';
+  }
+  return text.str();
+}
+
+/// A hollow model is taken for a room and turned inward; the sky then meets its backs only.
+TEST(CliOrient, SaysWhereASkyLightsNoFace) {
+  const TemporaryFolder folder;
+  write_text(folder / "shells.obj", box_obj(-1, 1, 1) + box_obj(-.5, .5, 9));
+  const auto solve = [&](const Arguments& more) {
+    return run_program(
+        Arguments{"solve", folder / "shells.obj", "-m", "32", "--sky", "1", "--out", "-"} + more);
+  };
+  EXPECT_THAT(solve({}).err, ::testing::Not(HasSubstr("the sky lights no face")));
+  const ProgramResult turned = solve({"--orient", "auto"});
+  EXPECT_EQ(turned.status, 0);
+  EXPECT_THAT(turned.out, HasSubstr("0,0,4,0,0,0,0.5,0.5,0.5,0,0,0,")) << "B is 0";
+  EXPECT_THAT(turned.err, HasSubstr("warning: the sky lights no face"));
+  EXPECT_THAT(turned.err, HasSubstr("(try --two-sided, or --orient keep)"));
+  const ProgramResult two_sided = solve({"--orient", "auto", "--two-sided"});
+  EXPECT_THAT(two_sided.err, ::testing::Not(HasSubstr("the sky lights no face")));
+}
+
+/// A rolled sheet: most of what one turn sees is the back of the next, whichever side is lit.
+TEST(CliOrient, SaysWhatIsStillSeenFromBehind) {
+  const TemporaryFolder folder;
+  std::ostringstream text;
+  text << "mtllib m.mtl\nusemtl sheet\n";
+  constexpr int strips = 24;
+  for (int k = 0; k <= strips; ++k) {
+    const double angle = k * 0.7853981633974483, r = 1 + 0.1 * k;
+    for (const int z : {0, 20}) {
+      text << "v " << r * std::cos(angle) << ' ' << r * std::sin(angle) << ' ' << z << '\n';
+    }
+  }
+  for (int k = 0; k < strips; ++k) {
+    text << (k == 8   ? "usemtl lamp\n"
+             : k == 9 ? "usemtl sheet\n"
+                      : "")
+         << "f " << 2 * k + 1 << ' ' << 2 * k + 3 << ' ' << 2 * k + 4 << ' ' << 2 * k + 2 << '\n';
+  }
+  write_text(folder / "m.mtl", "newmtl sheet\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n");
+  write_text(folder / "roll.obj", text.str());
+  const auto solve = [&](const Arguments& more) {
+    return run_program(Arguments{"solve", folder / "roll.obj", "-m", "16", "--orient", "auto"} +
+                       more);
+  };
+  const ProgramResult rolled = solve({});
+  EXPECT_EQ(rolled.status, 0) << rolled.err;
+  EXPECT_THAT(rolled.err, HasSubstr("orientation: no face is turned"));
+  EXPECT_THAT(rolled.err,
+              ::testing::ContainsRegex("warning: [0-9.]+ % of what light meets are backs of faces, "
+                                       "which absorb it, also after turning faces \\([0-9.]+ % of "
+                                       "material \"sheet\"\\) \\(try --two-sided\\)"));
+  EXPECT_THAT(solve({"--two-sided"}).err, ::testing::Not(HasSubstr("backs of faces")));
 }
 
 /// `scene` writes both sides of a face that becomes two-sided.

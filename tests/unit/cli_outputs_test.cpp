@@ -177,6 +177,31 @@ TEST_F(CliOutputs, AFileBeyondTheSizeLimitIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(folder_.names(), names_);
 }
 
+/// A series has files besides the one that is named.
+TEST_F(CliOutputs, FilesOfASeriesAreNotWrittenTwice) {
+  const Arguments solve{"solve", "a.obj", "-m", "8", "--series", "r.pvd"};
+  expect_refused(solve + Arguments{"--out", "r-0002.vtp"},
+                 "r-0002.vtp: the series r.pvd writes this file too");
+  expect_refused(solve + Arguments{"--out", "./r-12345.vtp"}, "./r-12345.vtp: the series r.pvd");
+  expect_refused(solve + Arguments{"--checkpoint", "r-0001.vtp"}, "r-0001.vtp: the series");
+  ASSERT_EQ(run({"solve", "a.obj", "-m", "8", "--out", "r-0003.vtp"}).status, 0);
+  names_ = folder_.names();
+  EXPECT_THAT(run({"solve", "r-0003.vtp", "-m", "8", "--series", "r.pvd"}).err,
+              HasSubstr("r-0003.vtp: the series r.pvd"));
+  EXPECT_EQ(folder_.names(), names_);
+  for (const std::string name : {"r-002.vtp", "r-00x2.vtp", "q-0002.vtp", "r.vtp"}) {
+    EXPECT_EQ(run(solve + Arguments{"--out", name}).status, 0) << name;
+  }
+}
+
+/// It was found after the solve, when other files had been written.
+TEST_F(CliOutputs, APictureFromThePointInItsMiddleIsRefusedBeforeTheSolve) {
+  const Arguments solve{"solve", "a.obj", "-m", "8", "--out", "b.csv", "--out", "b.png"};
+  expect_refused(solve + Arguments{"--eye", "0.2,0.3,0.4", "--target", "0.2,0.3,0.4"},
+                 "a.obj: the eye of the picture, 0.2 0.3 0.4, is the point in its middle");
+  expect_refused(solve + Arguments{"--eye", "0,0,0"}, ", the center of the scene");
+}
+
 TEST(CliOutputOrder, AFileMayBeNamedBeforeTheScene) {
   const TemporaryFolder folder;
   EXPECT_EQ(

@@ -78,8 +78,23 @@ TEST(CliStreams, APipeWithoutAReaderEndsThemSilently) {
   for (const auto& arguments : printing) {
     SCOPED_TRACE(::testing::PrintToString(arguments));
     const ProgramResult result = run_program(arguments, pipe_without_reader);
-    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.status, 0);
     EXPECT_EQ(result.err, "");
+  }
+}
+
+/// Another failure is told, whether it comes before the closed pipe or after it.
+TEST(CliStreams, APipeWithoutAReaderHidesNoOtherFailure) {
+  const TemporaryFolder folder;
+  const std::string full = folder / "full.csv";
+  std::filesystem::create_symlink("/dev/full", full);
+  for (const bool before : {false, true}) {
+    const Arguments out =
+        before ? Arguments{"--out", full, "--out", "-"} : Arguments{"--out", "-", "--out", full};
+    const ProgramResult result =
+        run_program(Arguments{"solve", "furnace", "-m", "8", "-q"} + out, pipe_without_reader);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("full.csv: cannot be written"));
   }
 }
 

@@ -165,6 +165,13 @@ class ProgramTest : public QObject {
     QTest::newRow("direction") << QByteArray(R"("scene": "furnace", "options": {"directions": 16},
                                                 "solve": 3, "focus": {"direction": 17})")
                                << QByteArray("focus: there is no direction 17");
+    for (const QByteArray key : {"select", "hidden"}) {
+      const QByteArray value = key == "hidden" ? "[3, 99]" : "99";
+      QTest::newRow(key.constData())
+          << QByteArray(R"("scene": "furnace", "options": {"directions": 16}, ")" + key +
+                        "\": " + value)
+          << QByteArray(key + ": there is no patch 99; the scene has 0 to 11");
+    }
     QTest::newRow("no scene") << QByteArray() << QByteArray("scene: is missing");
   }
   void a_session_that_cannot_be_shown_ends_a_screenshot() {
@@ -179,6 +186,20 @@ class ProgramTest : public QObject {
     const QByteArray errors = program.errors();
     QCOMPARE(errors.count('\n'), 1);
     QVERIFY2(errors.contains(expected), errors.constData());
+    QVERIFY(!QFile::exists(picture));
+  }
+
+  void a_lesson_that_selects_no_patch_of_its_scene_ends_a_screenshot() {
+    const QTemporaryDir folder;
+    const QString lesson = folder.filePath("l.json"), picture = folder.filePath("a.png");
+    write(lesson, R"({"title": "T", "pages": [{"text": "x", "show": {
+                      "scene": "furnace", "options": {"directions": 16}, "select": 99}}]})");
+    Program program({"--lesson", lesson, "--screenshot", picture});
+    program.start();
+    QCOMPARE(program.status(), 2);
+    const QByteArray errors = program.errors();
+    QVERIFY2(errors.contains("select: there is no patch 99; the scene has 0 to 11"),
+             errors.constData());
     QVERIFY(!QFile::exists(picture));
   }
 

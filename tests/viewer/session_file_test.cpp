@@ -295,6 +295,9 @@ class SessionFileTest : public QObject {
         << QByteArray(R"("scene": "furnace", "options": {"directions": 16}, "solve": 20,
                          "focus": {"iteration": 2, "direction": 17})")
         << "focus: there is no direction 17; the run has 1 to 16";
+    QTest::newRow("selected patch")
+        << QByteArray(R"("scene": "furnace", "options": {"directions": 16}, "select": 12)")
+        << "select: there is no patch 12; the scene has 0 to 11";
     QTest::newRow("no scene") << QByteArray(R"("focus": {"iteration": 3})")
                               << "scene: is missing, and no scene is open";
   }

@@ -27,24 +27,20 @@ std::string name_of_target(const std::string& target) {
   return target.substr(target.find(':') + 1);
 }
 
-/// The materials and groups of the scene's faces, without points. Faces without patches have the
-/// first material.
+/// The materials and groups of the scene's faces that have patches, without points.
 SceneDescription faces_of(const Scene& scene) {
   SceneDescription faces;
   faces.name = scene.name();
   faces.materials = scene.materials();
   faces.groups = scene.groups();
-  std::int32_t last = -1;
+  faces.joined_to = scene.report().joined_to;
   for (const Patch& patch : scene.patches()) {
-    last = std::max(last, patch.face);
-  }
-  const auto count = static_cast<std::size_t>(last + 1);
-  faces.face_begin.resize(count);
-  faces.face_material.resize(count);
-  faces.face_group.resize(count, no_group);
-  for (const Patch& patch : scene.patches()) {
-    at(faces.face_material, patch.face) = patch.material;
-    at(faces.face_group, patch.face) = patch.group;
+    if (faces.face_number.empty() || faces.face_number.back() != patch.face) {
+      faces.face_number.push_back(patch.face);
+      faces.face_begin.push_back(0);
+      faces.face_material.push_back(patch.material);
+      faces.face_group.push_back(patch.group);
+    }
   }
   return faces;
 }
@@ -265,8 +261,10 @@ void MaterialEdits::apply() {
   materials->materials = std::move(changed_faces.materials);
   materials->of_patch.reserve(scene_->patches().size());
   any_ = has_light_ = false;
+  std::size_t face = 0;
   for (const Patch& patch : scene_->patches()) {
-    const std::int32_t number = at(changed_faces.face_material, patch.face);
+    face += patch.face > faces_.face_number[face] ? 1U : 0U;
+    const std::int32_t number = at(changed_faces.face_material, face);
     materials->of_patch.push_back(number);
     const Material& material = at(materials->materials, number);
     any_ = any_ || !same(material, at(faces_.materials, patch.material));

@@ -10,8 +10,9 @@
 #include <vtkProperty.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <set>
+
 #include "colors/neutral_light.h"
-#include "transillum/at.h"
 #include "transillum/orientation.h"
 #include "transillum/scene.h"
 #include "widgets/theme.h"
@@ -43,10 +44,18 @@ void TurnPreview::show(const Scene& scene, const OrientationPlan& plan) {
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkUnsignedCharArray> colors;
   colors->SetNumberOfComponents(3);
+  std::set<std::int32_t> turned_faces, two_sided_faces;
+  for (std::size_t f = 0; f < plan.numbers.size(); ++f) {
+    if (plan.turned[f]) {
+      turned_faces.insert(plan.numbers[f]);
+    } else if (plan.two_sided[f]) {
+      two_sided_faces.insert(plan.numbers[f]);
+    }
+  }
   for (const Piece& piece : scene.pieces()) {
     const Patch& patch = scene.patch(piece.patch);
-    const bool turned = at(plan.turned, patch.face);
-    if (!turned && !at(plan.two_sided, patch.face)) {
+    const bool turned = turned_faces.count(patch.face) > 0;
+    if (!turned && two_sided_faces.count(patch.face) == 0) {
       continue;
     }
     const auto corners = scene.corners(piece);

@@ -82,8 +82,10 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   form_factors_->setText(!any_iteration        ? none
                          : s.kept_form_factors ? tr("%1 kept").arg(count_text(s.form_factors))
                                                : tr("recomputed"));
-  closure_->setText(any_pass ? number_text(s.closure_defect_max) : none);
   constexpr double rounding = 1e-9;
+  closure_->setText(!any_pass              ? none
+                    : s.escaped < rounding ? number_text(s.closure_defect_max)
+                                           : tr("open scene"));
   escaped_->setText(!any_pass              ? none
                     : s.escaped < rounding ? tr("0: closed scene")
                                            : tr("%1 %").arg(number_text(100 * s.escaped)));
@@ -126,8 +128,8 @@ void SolveSummary::show_directions_needed(const SolverSnapshot& snapshot) {
   const bool known = replicas && s.iterations > 0 && snapshot.error.rms > 0 &&
                      snapshot.options.scheme != Scheme::semi_iterative;
   estimate_->setText(known      ? tr("M ≈ %1").arg(number_text(estimated_passes_by_replicas(
-                                 snapshot.options.used_sampling(), snapshot.options.directions,
-                                 snapshot.error.replicas, snapshot.error.rms, accuracy)))
+                                      snapshot.options.used_sampling(), snapshot.options.directions,
+                                      snapshot.error.replicas, snapshot.error.rms, accuracy)))
                      : replicas ? QStringLiteral("–")
                                 : tr("no replicas"));
 }

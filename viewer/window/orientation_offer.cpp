@@ -95,7 +95,9 @@ void OrientationOffer::offer() {
   const QString percent = QString::number(std::lround(100 * loaded->back_share));
   if (parts_.scene.input().orient) {
     show(State::nothing_to_turn,
-         tr("%1 % of what is seen is the back of a face, also after turning faces.").arg(percent));
+         tr("%1 % of what is seen is the back of a face, also after turning faces. "
+            "Two-sided faces, in the settings, light and receive on both sides.")
+             .arg(percent));
     return;
   }
   show(State::offered,
@@ -113,7 +115,9 @@ void OrientationOffer::preview(const PlanRequest& request, const OrientationPlan
     return;  // canceled, or another scene has been opened since
   }
   if (!plan.changes()) {
-    show(State::nothing_to_turn, tr("No turn of faces would show fewer backs."),
+    show(State::nothing_to_turn,
+         tr("No faces to turn were found. Two-sided faces, in the settings, light and receive on "
+            "both sides."),
          sentences_of(plan.report));
     return;
   }

@@ -320,10 +320,10 @@ void ViewStateApplier::apply_selection() {
   const PatchId patches = parts_.scene.snapshot()->loaded->scene->patch_count();
   const auto check = [&](const QString& key, PatchId largest) {
     if (largest >= patches) {
-      parts_.notifier.show_failure(tr("%1: there is no patch %2; the scene has 0 to %3")
-                                       .arg(key)
-                                       .arg(largest)
-                                       .arg(patches - 1));
+      fail(tr("%1: there is no patch %2; the scene has 0 to %3")
+               .arg(key)
+               .arg(largest)
+               .arg(patches - 1));
     }
   };
   const auto last_of = [](const std::vector<PatchRange>& ranges) {

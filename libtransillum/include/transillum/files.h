@@ -72,6 +72,10 @@ double automatic_exposure(const Solution& solution);
 /// Checks that `path` is writable and ends in .csv, .vtp, .ply, .obj, .glb, .gltf or .png.
 /// @throws InputError
 void check_result_path(const std::filesystem::path& path);
+/// Checks that a .png picture of a scene has a direction: that `eye` is not the point in its
+/// middle.
+/// @throws InputError
+void check_picture(const Scene& scene, const Vec3& eye, const DisplayOptions& display);
 /// Checks that `path` is writable and ends in .json.
 /// @throws InputError
 void check_statistics_path(const std::filesystem::path& path);
@@ -90,6 +94,9 @@ class ResultSeries {
   /// @param path ending in .pvd.
   /// @throws InputError for another ending, or where it cannot be written.
   explicit ResultSeries(std::filesystem::path path);
+  /// Checks that none of these files, inputs and other outputs, is one that the series writes.
+  /// @throws InputError naming it.
+  void check_apart_from(const std::vector<std::string>& files) const;
   /// Writes the next result, STEM-0001.vtp and so on, and the .pvd file with all of them.
   /// @param solution the result.
   /// @param time its place in the series, such as the number of the iteration.

@@ -28,6 +28,9 @@ struct MapPictureOptions {
   /// sRGB of each patch's front side; empty: by its exitance or reflectance.
   std::vector<std::array<std::uint8_t, 3>> patch_colors{};
   std::vector<MapLabel> labels{};  ///< drawn over the map
+
+  /// @throws InputError naming the size and its range.
+  void validate() const;
 };
 
 /// Why the map is empty, as a phrase for the user; empty if it is not.
@@ -56,12 +59,13 @@ bool is_map_picture(const std::filesystem::path& path);
 /// @param scene the scene of `map`.
 /// @param map any.
 /// @param options of pictures.
-/// @throws InputError as check_map_path, or where `path` is a file of the scene; std::runtime_error
-/// if the file cannot be written.
+/// @throws InputError as check_map_path, for a size out of range, or where `path` is a file of the
+/// scene; std::runtime_error if the file cannot be written.
 void write_map(const std::filesystem::path& path, const Scene& scene, const VisibilityMap& map,
                const MapPictureOptions& options = {});
 
 /// Writes the map as the figure that write_map() writes to a file ending in .svg.
+/// @throws InputError for a size out of range.
 void write_map_svg(std::ostream& out, const Scene& scene, const VisibilityMap& map,
                    const MapPictureOptions& options = {});
 

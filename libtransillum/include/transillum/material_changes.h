@@ -18,8 +18,9 @@ namespace TRANSILLUM_API transillum {
 /// New values for the material of some faces.
 struct MaterialChange {
   /// Which faces: the name of a material, the name of a group of faces, or `face:N`, the face with
-  /// the 0-based number N. A name that is both means the material; `material:NAME` and `group:NAME`
-  /// say which. Names are found without regard to case where none is spelled exactly so.
+  /// the number N in results (SceneDescription::number_of()). A name that is both means the
+  /// material; `material:NAME` and `group:NAME` say which. Names are found without regard to case
+  /// where none is spelled exactly so.
   std::string target;
   std::optional<Rgb> reflectance = std::nullopt;  ///< rho, 0 <= rho < 1 per channel; unset: kept
   std::optional<Rgb> exitance = std::nullopt;     ///< E, W/m², >= 0; unset: kept
@@ -52,12 +53,13 @@ MaterialChange lobe_change(const std::string& text);
 ///
 /// Time: linear in the faces, for each change of a group or a material.
 /// @throws InputError naming the target and, if a name of the scene is similar, that name; the
-/// value and the valid range. Then nothing is changed.
+/// value and the valid range; for a face that was joined to another, that one. Then nothing is
+/// changed.
 void change_materials(SceneDescription& description, std::span<const MaterialChange> changes);
 
 /// A target for a change that gives the scene its first light, for messages: a material in use or
 /// a group whose name suggests a lamp ("light", "Lampe", "bulb" …), else the material in use with
-/// the fewest faces; `face:0` where no material in use has a name that fits on a line.
+/// the fewest faces; the first face where no material in use has a name that fits on a line.
 std::string suggested_light(const SceneDescription& description);
 
 }  // namespace TRANSILLUM_API transillum

@@ -41,9 +41,10 @@ struct OrientationReport {
 
 /// Which faces to turn and to make two-sided.
 struct OrientationPlan {
-  std::vector<bool> turned;     ///< by face: its outline is to be reversed
-  std::vector<bool> two_sided;  ///< by face: it is to light and receive on both sides
-  OrientationReport report;     ///< the same in counts
+  std::vector<bool> turned;           ///< by face: its outline is to be reversed
+  std::vector<bool> two_sided;        ///< by face: it is to light and receive on both sides
+  std::vector<std::int32_t> numbers;  ///< by face: SceneDescription::number_of()
+  OrientationReport report;           ///< the same in counts
 
   /// Whether it changes any face.
   bool changes() const { return report.faces_turned > 0 || report.faces_two_sided > 0; }

@@ -75,6 +75,10 @@ struct SceneDescription {
                                              ///< no face has a group
   std::vector<std::uint8_t> face_two_sided;  ///< 1: face f gives two opposite patches, front first;
                                              ///< 0: one; empty: all give one
+  /// By face number of the file, where faces were joined: the number of the face that it is now a
+  /// part of, its own if it was not joined to one before it, -1 if the file has no such face.
+  /// Empty: no face was joined.
+  std::vector<std::int32_t> joined_to;
   /// Half a unit of the last digit of coordinates, m; 0: found from the digits of `points`. A Scene
   /// moves its points by up to 8 of it, so that faces are planar and touch as before rounding.
   double coordinate_rounding = 0;
@@ -88,6 +92,10 @@ struct SceneDescription {
     const std::size_t begin = face_begin[face];
     const std::size_t end = face + 1 < face_begin.size() ? face_begin[face + 1] : corners.size();
     return {corners.data() + begin, end - begin};
+  }
+  /// The number by which face f is known outside the description: Patch::face of its patches.
+  std::int32_t number_of(std::size_t f) const {
+    return f < face_number.size() ? at(face_number, f) : static_cast<std::int32_t>(f);
   }
   /// Index in `groups` of face number `face`, or no_group.
   std::int32_t group_of(std::size_t face) const {
@@ -190,6 +198,7 @@ struct SceneReport {
   /// reaches them, so H = 0 and B = E. Of those that face the same way, the brightest is not
   /// covered, then the smallest, then the last.
   std::vector<std::int32_t> covered_faces;
+  std::vector<std::int32_t> joined_to;  ///< SceneDescription::joined_to
 };
 
 /// A scene of patches: checked once, then never changed.

@@ -21,6 +21,7 @@ namespace transillum {}
 #include "transillum/errors.h"
 #include "transillum/export.h"
 #include "transillum/solve_errors.h"
+#include "transillum/unit_vector.h"
 #include "transillum/vec3.h"
 
 // Scenes: from a file, a generator or arrays to patches.

@@ -38,15 +38,25 @@ py::array_t<double> to_table(const std::vector<T>& values) {
 inline py::tuple to_tuple(const Vec3& v) { return py::make_tuple(v.x, v.y, v.z); }
 inline py::tuple to_tuple(const Rgb& c) { return py::make_tuple(c.r, c.g, c.b); }
 
-/// A direction or point as three numbers.
+/// A direction or point as three numbers, in one row.
 /// @throws InputError
 inline Vec3 to_vec3(const py::handle& value, const std::string& name) {
   const auto array = Array<double>::ensure(value);
-  if (!array || array.size() != 3) {
+  if (!array || array.ndim() != 1 || array.size() != 3) {
     PyErr_Clear();
     throw InputError(name + ": expected three numbers");
   }
   return {array.data()[0], array.data()[1], array.data()[2]};
+}
+
+/// The unit vector along three numbers.
+/// @throws InputError
+inline Vec3 to_direction(const py::handle& value, const std::string& name) {
+  const Vec3 direction = to_vec3(value, name);
+  if (!is_finite(direction) || max_abs(direction) == 0) {
+    throw InputError(name + ": expected three finite numbers, not all 0");
+  }
+  return unit_vector(direction);
 }
 
 }  // namespace transillum::python

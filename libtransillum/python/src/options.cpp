@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "arrays.h"
 #include "transillum/did_you_mean.h"
@@ -18,8 +19,17 @@ namespace {
 
 using Setter = std::function<void(SolveOptions&, const py::handle&)>;
 
+bool is_bool(const py::handle& value) {
+  const std::string type = Py_TYPE(value.ptr())->tp_name;
+  return PyBool_Check(value.ptr()) || type == "numpy.bool_" || type == "numpy.bool";
+}
+
+/// A number, or True or False: Python would take each for the other.
 template <class T>
 T number(const py::handle& value) {
+  if (is_bool(value) != std::is_same_v<T, bool>) {
+    throw py::cast_error();
+  }
   return py::cast<T>(value);
 }
 std::string text(const py::handle& value) { return py::cast<std::string>(value); }
@@ -28,6 +38,9 @@ bool is_text(const py::handle& value, const char* expected) {
 }
 
 Rgb color(const py::handle& value, const std::string& name) {
+  if (is_bool(value)) {
+    throw py::cast_error();
+  }
   if (PyFloat_Check(value.ptr()) || PyLong_Check(value.ptr())) {
     const auto gray = number<double>(value);
     return {gray, gray, gray};
@@ -86,7 +99,7 @@ const std::map<std::string, Setter>& setters() {
       {"tolerance", [](Options& o, Value v) { o.tolerance = number<double>(v); }},
       {"sky", [](Options& o, Value v) { o.sky.exitance = color(v, "sky"); }},
       {"sky-model", [](Options& o, Value v) { o.sky.model = sky_model_from_name(text(v)); }},
-      {"up", [](Options& o, Value v) { o.sky.up = normalized(to_vec3(v, "up")); }},
+      {"up", [](Options& o, Value v) { o.sky.up = to_direction(v, "up"); }},
       {"memory", [](Options& o, Value v) { o.memory = number<std::uint64_t>(v); }},
       {"threads", [](Options& o, Value v) { o.threads = number<int>(v); }},
   };

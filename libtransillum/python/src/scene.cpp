@@ -57,14 +57,15 @@ std::vector<Rgb> colors(const Array<double>& values, std::size_t count, const st
   std::vector<Rgb> rows(count);
   const auto size = static_cast<std::size_t>(values.size());
   const double* data = values.data();
-  if (size == 1 || size == 3) {
+  const bool is_table = values.ndim() == 2 && values.shape(1) == 3 && size == 3 * count;
+  if (values.ndim() <= 1 && (size == 1 || size == 3)) {
     const Rgb all = size == 1 ? Rgb{data[0], data[0], data[0]} : Rgb{data[0], data[1], data[2]};
     std::fill(rows.begin(), rows.end(), all);
   } else if (values.ndim() == 1 && size == count) {
     for (std::size_t i = 0; i < count; ++i) {
       rows[i] = {data[i], data[i], data[i]};
     }
-  } else if (values.ndim() == 2 && values.shape(1) == 3 && size == 3 * count) {
+  } else if (is_table) {
     for (std::size_t i = 0; i < count; ++i) {
       rows[i] = {data[3 * i], data[3 * i + 1], data[3 * i + 2]};
     }

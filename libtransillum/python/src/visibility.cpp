@@ -15,20 +15,11 @@ namespace {
 
 using ScenePtr = std::shared_ptr<Scene>;
 
-Vec3 unit(const py::handle& direction) {
-  const Vec3 v = to_vec3(direction, "direction");
-  const double length = norm(v);
-  if (!(length > 0) || !is_finite(v)) {
-    throw InputError("direction: expected a vector that is not 0");
-  }
-  return (1 / length) * v;
-}
-
 py::dict transfers(const ScenePtr& scene, const py::handle& direction, const py::dict& keywords) {
   refuse_others(keywords, {"engine", "resolution", "lines", "order", "random_lines", "seed"},
                 "transfers()");
   const SolveOptions options = options_from(keywords);
-  const Vec3 omega = unit(direction);
+  const Vec3 omega = to_direction(direction, "direction");
   const Cancellation cancellation;
   const Transfers found = run_interruptibly(
       [&] {
@@ -90,7 +81,7 @@ std::string svg(const Map& map, int size) {
 
 Map visibility_map(const ScenePtr& scene, const py::handle& direction,
                    std::optional<PatchId> patch) {
-  const Vec3 omega = unit(direction);
+  const Vec3 omega = to_direction(direction, "direction");
   if (patch && (*patch < 0 || *patch >= scene->patch_count())) {
     throw InputError("patch: there is no patch " + std::to_string(*patch) + "; the scene has " +
                      std::to_string(scene->patch_count()));

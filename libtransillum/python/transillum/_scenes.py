@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import operator
 import warnings
 from typing import Sequence, Union
 
@@ -51,7 +52,7 @@ class Scene:
         """
         self._core = _core.build(
             np.asarray(points, dtype=np.float64),
-            [[int(corner) for corner in face] for face in faces],
+            _indices(faces),
             np.asarray(reflectance, dtype=np.float64),
             np.asarray(exitance, dtype=np.float64),
             two_sided,
@@ -164,6 +165,21 @@ def load(
 def built_in_scenes() -> dict[str, str]:
     """Names of the built-in scenes, each with what it is."""
     return {name: summary for name, summary, _ in _core.built_in_scenes()}
+
+
+def _indices(faces: Sequence[Sequence[int]]) -> list[list[int]]:
+    """As int; other numbers would be rounded down."""
+    lists: list[list[int]] = []
+    for face in faces:
+        try:
+            if any(isinstance(corner, (bool, np.bool_)) for corner in face):
+                raise TypeError
+            lists.append([operator.index(corner) for corner in face])
+        except TypeError:
+            raise _core.InputError(
+                f"faces: face {len(lists)} is {face!r}, not integers, indices into points"
+            ) from None
+    return lists
 
 
 def _warn(core: _core.Scene) -> None:

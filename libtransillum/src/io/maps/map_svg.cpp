@@ -11,6 +11,7 @@
 #include "io/maps/map_labels.h"
 #include "io/maps/map_writers.h"
 #include "io/text_buffer.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 namespace {
@@ -343,8 +344,16 @@ class SvgFigure {
 
 }  // namespace
 
+void MapPictureOptions::validate() const {
+  if (size < smallest_size || size > largest_size) {
+    throw InputError(fmt::format("the size of the picture is {} pixels, but must be from {} to {}",
+                                 size, smallest_size, largest_size));
+  }
+}
+
 void write_map_svg(std::ostream& out, const Scene& scene, const VisibilityMap& map,
                    const MapPictureOptions& options) {
+  options.validate();
   SvgFigure(out, scene, map, options).write();
 }
 

@@ -40,15 +40,14 @@ struct Camera {
   }
 };
 
+Vec3 target_of(const Scene& scene, const DisplayOptions& display) {
+  return display.target.value_or(scene.bounds().center());
+}
+
 /// Wide enough for the whole scene, up to 75 degrees from top to bottom.
 Camera camera_of(const Scene& scene, const Vec3& eye, const DisplayOptions& display) {
-  const Vec3 target = display.target.value_or(scene.bounds().center());
-  const Vec3 sight = target - eye;
-  if (!(norm(sight) > 0)) {
-    throw InputError(fmt::format("{}: a picture from {} {} {} needs another point to look at",
-                                 scene.name(), eye.x, eye.y, eye.z));
-  }
-  Camera camera{eye, normalized(sight), {}, {}};
+  check_picture(scene, eye, display);
+  Camera camera{eye, normalized(target_of(scene, display) - eye), {}, {}};
   Vec3 up = display.up.value_or(Vec3{0, 0, 1});
   if (norm(cross(camera.forward, up)) < 1e-3) {
     up = std::abs(camera.forward.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
@@ -109,6 +108,15 @@ Rgb limited(const Rgb& color) {
 }
 
 }  // namespace
+
+void check_picture(const Scene& scene, const Vec3& eye, const DisplayOptions& display) {
+  const Vec3 target = target_of(scene, display);
+  if (!(norm(target - eye) > 0)) {
+    throw InputError(fmt::format(
+        "{}: the eye of the picture, {} {} {}, is the point in its middle{}; choose another",
+        scene.name(), eye.x, eye.y, eye.z, display.target ? "" : ", the center of the scene"));
+  }
+}
 
 void write_result_png(std::ostream& out, const Solution& solution, const DisplayOptions& display) {
   const Scene& scene = *solution.scene;

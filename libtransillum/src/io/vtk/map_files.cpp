@@ -49,6 +49,7 @@ bool is_map_picture(const std::filesystem::path& path) {
 
 void write_map(const std::filesystem::path& path, const Scene& scene, const VisibilityMap& map,
                const MapPictureOptions& options) {
+  options.validate();
   const MapWriter write = writer_for(path, options);
   check_distinct({path.string()}, scene.files());
   write_file_whole(path, [&](std::ostream& out) { write(out, scene, map); });

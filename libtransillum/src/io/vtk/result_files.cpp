@@ -83,6 +83,28 @@ ResultSeries::ResultSeries(std::filesystem::path path) : path_(std::move(path)) 
   check_writable(path_);
 }
 
+void ResultSeries::check_apart_from(const std::vector<std::string>& files) const {
+  const std::string beginning = path_.stem().string() + '-', ending = ".vtp";
+  for (const std::string& file : files) {
+    std::error_code ignored;
+    const std::string name = std::filesystem::weakly_canonical(file, ignored).filename().string();
+    if (name.size() < beginning.size() + ending.size() || !name.starts_with(beginning) ||
+        !name.ends_with(ending)) {
+      continue;
+    }
+    const std::string number =
+        name.substr(beginning.size(), name.size() - beginning.size() - ending.size());
+    if (number.size() < 4 || number.find_first_not_of("0123456789") != std::string::npos) {
+      continue;
+    }
+    try {
+      check_distinct({file, (path_.parent_path() / name).string()}, {});
+    } catch (const InputError&) {
+      throw InputError(fmt::format("{}: the series {} writes this file too", file, path_.string()));
+    }
+  }
+}
+
 void ResultSeries::add(const Solution& solution, double time) {
   const auto name = [&](std::size_t number) {
     return fmt::format("{}-{:04}.vtp", path_.stem().string(), number);

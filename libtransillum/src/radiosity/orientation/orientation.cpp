@@ -14,6 +14,7 @@
 #include "radiosity/orientation/part_exposure.h"
 #include "scene/build/warnings.h"
 #include "transillum/at.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 namespace {
@@ -79,19 +80,25 @@ Verdict verdict_on(const SurfacePart& part, const PartExposure& exposure, bool a
                : larger(exposed(front), exposed(back), alike, Verdict::two_sided);
 }
 
-/// The description with one patch for each face, and faces numbered by their order.
-SceneDescription one_sided(const SceneDescription& description) {
+/// The scene with one patch for each face, and faces numbered by their order.
+Scene one_sided(const SceneDescription& description, const Cancellation& cancellation) {
   SceneDescription copy = description;
   copy.face_two_sided.clear();
   copy.face_number.clear();
-  return copy;
+  copy.joined_to.clear();
+  try {
+    return {copy, {}, cancellation};
+  } catch (const InputError&) {
+    const Scene same_error_with_numbers(description, {}, cancellation);
+    throw;
+  }
 }
 
 class Planner {
  public:
   Planner(const SceneDescription& description, const Cancellation& cancellation)
       : description_(description),
-        scene_(one_sided(description), {}, cancellation),
+        scene_(one_sided(description, cancellation)),
         parts_(find_parts(scene_, cancellation)) {}
 
   OrientationPlan plan(int threads, const Cancellation& cancellation,
@@ -162,6 +169,9 @@ class Planner {
   void set_faces() {
     plan_.turned.assign(description_.face_count(), false);
     plan_.two_sided.assign(description_.face_count(), false);
+    for (std::size_t f = 0; f < description_.face_count(); ++f) {
+      plan_.numbers.push_back(description_.number_of(f));
+    }
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
       const PatchId first = at(parts_.first, i);
       const std::int32_t part = at(parts_.part, first);
@@ -243,7 +253,7 @@ class Planner {
       return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
     if (!plan_.changes()) {
-      report.sentences.emplace_back("no face needs to be turned");
+      report.sentences.emplace_back("no face is turned");
       return;
     }
     report.sentences.push_back(

@@ -108,11 +108,11 @@ void check_used_materials(const SceneDescription& description) {
 }  // namespace
 
 std::string face_place(const SceneDescription& description, std::size_t face) {
-  const std::int32_t line = description.face_line[face];
+  const std::int32_t line = description.face_line[face], number = description.number_of(face);
   if (line > 0) {
-    return fmt::format("{}:{}: face {}: ", description.name, line, face);
+    return fmt::format("{}:{}: face {}: ", description.name, line, number);
   }
-  return fmt::format("{}: face {}: ", description.name, face);
+  return fmt::format("{}: face {}: ", description.name, number);
 }
 
 void check_reflectance(const Rgb& reflectance, const std::string& place) {

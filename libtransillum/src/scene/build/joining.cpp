@@ -507,7 +507,23 @@ class Joiner {
         d.face_two_sided.back() = original_.face_two_sided[f];
       }
     }
+    set_numbers(joined);
     return joined;
+  }
+  /// SceneDescription::joined_to; of a face in several regions, its own number is preferred.
+  void set_numbers(JoinedFaces& joined) const {
+    SceneDescription& d = joined.description;
+    if (d.face_count() == original_.face_count()) {
+      return;
+    }
+    const auto last = static_cast<std::size_t>(original_.number_of(original_.face_count() - 1));
+    d.joined_to.assign(last + 1, no_face);
+    for (std::size_t f = 0; f < original_.face_count(); ++f) {
+      const std::int32_t before = original_.number_of(f),
+                         now = d.number_of(static_cast<std::size_t>(at(joined.face_of, f)));
+      std::int32_t& to = at(d.joined_to, before);
+      to = to == no_face || now == before ? now : to;
+    }
   }
 
   const SceneDescription& original_;

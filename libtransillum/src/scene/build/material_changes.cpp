@@ -27,8 +27,8 @@ constexpr std::size_t longest_suggestion = 60;
 /// What a change applies to.
 struct Target {
   enum class Kind { material, group, face } kind = Kind::face;
-  std::vector<bool> members;  ///< by material or group: whether it is meant
-  std::size_t face = 0;
+  std::vector<bool> members;                 ///< by material or group: whether it is meant
+  std::size_t face_begin = 0, face_end = 0;  ///< the faces of one number
 };
 
 /// Finds what targets mean in a description.
@@ -124,19 +124,39 @@ class TargetFinder {
     return kind == "face" ? std::optional(find_face(rest)) : std::nullopt;
   }
   Target find_face(const std::string& digits) const {
-    std::size_t face = 0;
+    std::int32_t number = -1;
     const char* const last = digits.data() + digits.size();
-    const auto [end, error] = std::from_chars(digits.data(), last, face);
-    if (error == std::errc::invalid_argument || end != last) {
+    const auto [end, error] = std::from_chars(digits.data(), last, number);
+    const std::int32_t largest = std::max(description_.number_of(description_.face_count() - 1),
+                                          static_cast<std::int32_t>(joined_to().size()) - 1);
+    if (error == std::errc::invalid_argument || end != last || digits.front() == '-') {
       throw InputError(fmt::format("{}: face {} is not a number; faces are numbered 0 to {}",
-                                   description_.name, in_quotes(digits),
-                                   description_.face_count() - 1));
+                                   description_.name, in_quotes(digits), largest));
     }
-    if (error != std::errc() || face >= description_.face_count()) {
-      throw InputError(fmt::format("{}: there is no face {}; faces are numbered 0 to {}",
-                                   description_.name, digits, description_.face_count() - 1));
+    const std::size_t first = first_face(number);
+    if (error == std::errc() && first < first_face(std::int64_t{number} + 1)) {
+      return Target{Target::Kind::face, {}, first, first_face(std::int64_t{number} + 1)};
     }
-    return Target{Target::Kind::face, {}, face};
+    if (error == std::errc() && static_cast<std::size_t>(number) < joined_to().size() &&
+        at(joined_to(), number) >= 0) {
+      const std::int32_t now = at(joined_to(), number);
+      throw InputError(fmt::format(
+          "{}: face {} was joined to face {}, as faces of one plane, material and group are; "
+          "change face {}, or read the faces as they are in the file",
+          description_.name, number, now, now));
+    }
+    throw InputError(fmt::format("{}: there is no face {}; faces are numbered 0 to {}",
+                                 description_.name, digits, largest));
+  }
+  const std::vector<std::int32_t>& joined_to() const { return description_.joined_to; }
+  /// The first face with this number or a larger one.
+  std::size_t first_face(std::int64_t number) const {
+    const std::vector<std::int32_t>& numbers = description_.face_number;
+    return numbers.empty()
+               ? static_cast<std::size_t>(std::clamp<std::int64_t>(
+                     number, 0, static_cast<std::int64_t>(description_.face_count())))
+               : static_cast<std::size_t>(std::lower_bound(numbers.begin(), numbers.end(), number) -
+                                          numbers.begin());
   }
   /// The end of the message about an unknown name: a similar one, or the first few there are.
   std::string known_names(const std::string& name) const {
@@ -182,7 +202,9 @@ class MaterialEditor {
     }
     std::map<std::int32_t, std::vector<std::size_t>> selected;  // by material
     if (target.kind == Target::Kind::face) {
-      selected[description_.face_material[target.face]] = {target.face};
+      for (std::size_t f = target.face_begin; f < target.face_end; ++f) {
+        selected[description_.face_material[f]].push_back(f);
+      }
     } else {
       for (std::size_t f = 0; f < description_.face_count(); ++f) {
         const std::int32_t member =
@@ -372,7 +394,7 @@ std::string suggested_light(const SceneDescription& description) {
       return name;
     }
   }
-  return best ? *best : "face:0";
+  return best ? *best : fmt::format("face:{}", description.number_of(0));
 }
 
 }  // namespace transillum

@@ -103,6 +103,7 @@ void PatchBuilder::build() {
   }
   count_coincident();
   count_unused();
+  report.joined_to = description_.joined_to;
   const std::vector<std::string> sentences = warnings_.sentences();
   report.warnings.insert(report.warnings.end(), sentences.begin(), sentences.end());
 }
@@ -324,14 +325,16 @@ void PatchBuilder::count_coincident() {
   report.coincident_faces = static_cast<std::int64_t>(pairs.size());
   report.covered_faces = covered_faces(pairs, patches, description_.materials);
   for (const auto& [later, earlier] : pairs) {
-    warnings_.add(
-        "faces with the same points as an earlier one",
-        fmt::format("{}same points as face {}", face_place(description_, later), earlier));
+    warnings_.add("faces with the same points as an earlier one",
+                  fmt::format("{}same points as face {}", face_place(description_, later),
+                              description_.number_of(earlier)));
   }
-  for (const std::int32_t face : report.covered_faces) {
+  for (std::int32_t& face : report.covered_faces) {
+    const auto f = static_cast<std::size_t>(face);
     warnings_.add("faces that get no light",
                   fmt::format("{}covered by a face on the same points: it gets no light (B = E)",
-                              face_place(description_, static_cast<std::size_t>(face))));
+                              face_place(description_, f)));
+    face = description_.number_of(f);
   }
 }
 
