@@ -11,6 +11,7 @@
 #include <QThread>
 
 #include "registered.h"
+#include "transillum/at.h"
 
 namespace transillum::viewer::solve_runner_test {
 
@@ -61,6 +62,23 @@ class SolveRunnerTest : public QObject {
   Q_OBJECT
 
  private slots:
+  // With its lamp of 5 mm as the measure, the run ended after one iteration, 64 % too dark.
+  void a_small_lamp_is_no_measure() {
+    Watched watched;
+    watched.open(TRANSILLUM_SOURCE "/data/corpus/small-lamp.obj", 256);
+    watched.runner.run();
+    QVERIFY(watched.advances([](const SolveProgress& p) { return p.finished; }));
+    QVERIFY(watched.snapshot->statistics.converged);
+    double power = 0, area = 0;
+    const Scene& scene = *watched.loaded->scene;
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      power += scene.patch(i).area * at(watched.snapshot->radiosity, i).r;
+      area += scene.patch(i).area;
+    }
+    // 10 W / 94 m², and four times as much that walls of reflectance 0.8 reflect.
+    QVERIFY(std::abs(power / area / (5 * 10.0 / 94) - 1) < 0.01);
+  }
+
   // A killed program leaves its checkpoint. The next one goes on where that was saved.
   void goes_on_with_the_checkpoint_of_another_program() {
     const QTemporaryDir folder;
