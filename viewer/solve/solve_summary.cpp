@@ -128,8 +128,8 @@ void SolveSummary::show_directions_needed(const SolverSnapshot& snapshot) {
   const bool known = replicas && s.iterations > 0 && snapshot.error.rms > 0 &&
                      snapshot.options.scheme != Scheme::semi_iterative;
   estimate_->setText(known      ? tr("M ≈ %1").arg(number_text(estimated_passes_by_replicas(
-                                      snapshot.options.used_sampling(), snapshot.options.directions,
-                                      snapshot.error.replicas, snapshot.error.rms, accuracy)))
+                                 snapshot.options.used_sampling(), snapshot.options.directions,
+                                 snapshot.error.replicas, snapshot.error.rms, accuracy)))
                      : replicas ? QStringLiteral("–")
                                 : tr("no replicas"));
 }

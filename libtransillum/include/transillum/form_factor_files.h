@@ -51,4 +51,4 @@ StoredFormFactors read_form_factors(const std::filesystem::path& path,
 /// @throws InputError naming the file and the difference.
 void check_form_factors(const Scene& scene, const StoredFormFactors& stored);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -34,4 +34,4 @@ std::string read_json_file(const std::filesystem::path& path);
 void check_json(std::string_view text, const std::string& name,
                 std::uintmax_t limit = largest_json_file);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

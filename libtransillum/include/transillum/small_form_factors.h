@@ -39,4 +39,4 @@ struct DroppedFormFactors {
 DroppedFormFactors drop_small_form_factors(const Scene& scene, const FormFactors& form_factors,
                                            double threshold, const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum
