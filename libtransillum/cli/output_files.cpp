@@ -38,10 +38,8 @@ void write_all(const std::vector<std::function<void()>>& writers) {
   for (const auto& write : writers) {
     try {
       write();
-    } catch (const StandardOutputError& error) {
-      keep_first(error.no_reader() ? closed_pipe : first_failure);
-    } catch (const std::exception&) {
-      keep_first(first_failure);
+    } catch (const std::exception& error) {
+      keep_first(is_closed_pipe(error) ? closed_pipe : first_failure);
     }
   }
   if (first_failure || closed_pipe) {

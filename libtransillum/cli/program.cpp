@@ -252,12 +252,6 @@ int run_program(int argc, char** argv, void (*report)(std::string_view) noexcept
     return status;
   } catch (const MemberFailed&) {
     return failed_elsewhere;
-  } catch (const StandardOutputError& error) {
-    if (error.no_reader()) {
-      return success;  // as `head` has what it asked for
-    }
-    report(error.what());
-    return failure;
   } catch (const InputError& error) {
     report(error.what());
     return wrong_call;
@@ -271,6 +265,9 @@ int run_program(int argc, char** argv, void (*report)(std::string_view) noexcept
     report("not enough memory");  // no string is made here, which could fail again
     return failure;
   } catch (const std::exception& error) {
+    if (is_closed_pipe(error)) {
+      return success;  // as `head` has what it asked for
+    }
     report(error_text(error));
     return failure;
   }

@@ -16,6 +16,14 @@ StandardOutputError::StandardOutputError(int error_number)
           (error_number ? ": " + std::generic_category().message(error_number) : std::string())),
       no_reader_(error_number == EPIPE) {}
 
+bool is_closed_pipe(const std::exception& error) {
+  if (const auto* output = dynamic_cast<const StandardOutputError*>(&error)) {
+    return output->no_reader();
+  }
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return system != nullptr && system->code() == std::errc::broken_pipe;
+}
+
 void print_results(const std::function<void(std::ostream&)>& write) {
   if (!is_first_process()) {
     return;

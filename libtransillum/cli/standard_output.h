@@ -20,6 +20,9 @@ class StandardOutputError : public std::runtime_error {
   bool no_reader_;
 };
 
+/// Whether an output was a pipe, named as a file or not, that nothing reads any more.
+bool is_closed_pipe(const std::exception& error);
+
 /// Writes results to standard output, of several processes in the first only. All results that no
 /// file gets go through these functions.
 /// @throws StandardOutputError

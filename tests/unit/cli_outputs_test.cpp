@@ -199,7 +199,7 @@ TEST_F(CliOutputs, APictureFromThePointInItsMiddleIsRefusedBeforeTheSolve) {
   const Arguments solve{"solve", "a.obj", "-m", "8", "--out", "b.csv", "--out", "b.png"};
   expect_refused(solve + Arguments{"--eye", "0.2,0.3,0.4", "--target", "0.2,0.3,0.4"},
                  "a.obj: the eye of the picture, 0.2 0.3 0.4, is the point in its middle");
-  expect_refused(solve + Arguments{"--eye", "0,0,0"}, ", the center of the scene");
+  expect_refused(solve + Arguments{"--eye", "1,1,1"}, ", the center of the scene");
 }
 
 TEST(CliOutputOrder, AFileMayBeNamedBeforeTheScene) {

@@ -81,6 +81,10 @@ TEST(CliStreams, APipeWithoutAReaderEndsThemSilently) {
     EXPECT_EQ(result.status, 0);
     EXPECT_EQ(result.err, "");
   }
+  const Arguments named{"directions", "-m", "10000", "--out", "/dev/stdout"};
+  const ProgramResult result = run_program(named, pipe_without_reader);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "");
 }
 
 /// Another failure is told, whether it comes before the closed pipe or after it.

@@ -34,9 +34,13 @@ std::string reason_text(const fs::path& path, const std::string& reason) {
   return fmt::format("{}: cannot be written: {}", path.string(), reason);
 }
 
+/// The number is kept in the exception, for callers whose output is a pipe.
 [[noreturn]] void fail(const fs::path& path, int error_number) {
-  throw std::runtime_error(
-      reason_text(path, error_number ? error_text(error_number) : "input/output error"));
+  if (error_number == 0) {
+    throw std::runtime_error(reason_text(path, "input/output error"));
+  }
+  throw std::system_error(error_number, std::generic_category(),
+                          path.string() + ": cannot be written");
 }
 
 fs::path folder_of(const fs::path& path) {
