@@ -162,6 +162,7 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
     Lesson::Page& page = lesson.pages.emplace_back();
     page_object.read("title", page.title);
     page.text = text_from(page_object.find("text"), page_object);
+    check_markdown(page.text, page_object, "text");
     if (const json* show = page_object.find("show")) {
       if (!show->is_object()) {
         page_object.fail_at("show", "must be an object { … }");

@@ -140,6 +140,14 @@ void read_answer(Question& question, const Place& place) {
 
 }  // namespace
 
+void check_markdown(const std::string& text, const JsonObject& object, const char* key) {
+  constexpr std::size_t longest = std::size_t{64} << 10;
+  if (text.size() > longest) {
+    object.fail_at(key, "must have at most " + std::to_string(longest) + " bytes; it has " +
+                            std::to_string(text.size()));
+  }
+}
+
 Question question_from_json(const json& value, const std::string& where, const json& page_state,
                             const ViewState& page, const std::string& folder) {
   Question question;
@@ -152,6 +160,7 @@ Question question_from_json(const json& value, const std::string& where, const j
   if (question.ask.empty()) {
     object.fail_at("ask", "is missing");
   }
+  check_markdown(question.ask, object, "ask");
   if (question.kind == Question::Kind::choice) {
     read_choices(question, place);
   }
@@ -166,6 +175,7 @@ Question question_from_json(const json& value, const std::string& where, const j
   object.read("unit", question.unit);
   question.percent = question.unit == "%";
   object.read("then", question.then);
+  check_markdown(question.then, object, "then");
   if (const json* show = object.find("show")) {
     if (!show->is_object() || show->contains("scene")) {
       object.fail_at("show", "must be an object { … } without \"scene\"");

@@ -13,6 +13,7 @@
 namespace transillum::viewer {
 
 class FigureValues;
+class JsonObject;
 
 /// A question on a page of a lesson. What is right is computed from figures of the page's scene and
 /// run, never stated by the file.
@@ -48,6 +49,11 @@ struct Question {
   std::string then;                 ///< Markdown, shown after Reveal; may be empty
   std::optional<ViewState> reveal;  ///< what Reveal shows; none: the page stays as it is
 };
+
+/// Refuses texts of more than 64 KiB: Qt takes 40 s for 1.6 MB of Markdown.
+/// @param key of `object` that the text is at
+/// @throws InputError
+void check_markdown(const std::string& text, const JsonObject& object, const char* key);
 
 /// An answer by a user; what does not belong to the question's kind is ignored.
 struct GivenAnswer {
