@@ -137,6 +137,9 @@ class LessonFormatTest : public QObject {
     row("no text", lesson("{}"), "bad.json, page 1, text: is missing");
     row("text a number", lesson(R"({"text": 3})"), "bad.json, page 1, text: ");
     row("line a number", lesson(R"({"text": ["a", 3]})"), "bad.json, page 1, text: ");
+    // Qt took 40 s to lay it out.
+    row("long text", lesson("{\"text\": \"" + repeated("a *b* ", 300'000) + "\"}"),
+        "page 1, text: must have at most 65536 bytes; it has 1800000");
     row("show a list", lesson(R"({"text": "", "show": []})"), "bad.json, page 1, show: ");
     row("second page", lesson(page("") + "," + page(R"("selct": 3)")),
         "page 2: unknown key \"selct\"");
