@@ -20,6 +20,9 @@ namespace {
 constexpr double min_width = 2;
 constexpr int max_offset = 16;  ///< of a corner beyond the line of another corner's edge
 
+/// Of the squared diagonal of an outline: what has less area is a needle.
+constexpr double needle_share = 0x1p-11;
+
 /// Whether two lines through a rounded corner may meet far away from it.
 bool are_nearly_parallel(const GridLine& p, const GridLine& q) {
   const auto px = static_cast<long double>(p.b.x - p.a.x);
@@ -90,6 +93,23 @@ FragmentBox box_of(const GridPoint* outline, std::size_t count) {
     box.ends[d] = rounded_down(ends[d]);
   }
   return box;
+}
+
+/// Of the bounds along x and y.
+double squared_diagonal_of(const FragmentBox& box) {
+  const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
+  const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
+  return width * width + height * height;
+}
+
+double squared_diagonal_of(const GridPoint* outline, std::size_t count) {
+  const auto [left, right] = std::minmax_element(
+      outline, outline + count, [](const GridPoint& p, const GridPoint& q) { return p.x < q.x; });
+  const auto [low, high] = std::minmax_element(
+      outline, outline + count, [](const GridPoint& p, const GridPoint& q) { return p.y < q.y; });
+  const auto width = static_cast<double>(right->x - left->x);
+  const auto height = static_cast<double>(high->y - low->y);
+  return width * width + height * height;
 }
 
 bool is_convex_in_space(const Scene& scene, const std::vector<BspTree::Corner>& polygon) {
@@ -339,14 +359,17 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
   }
   const FragmentBox box = box_of(first, count);
   const double area = 0.5 * std::abs(twice_area);
-  const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
-  const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
-  const double size = width * width + height * height;
+  // Of a small fragment far from the grid's center, the box is mostly rounding.
+  double size = squared_diagonal_of(box);
+  if (area < needle_share * size) {
+    size = squared_diagonal_of(first, count);
+  }
+  const double largest_needle = needle_share * size;
+  const double thinnest = min_width * std::sqrt(size);
   // Outlines thinner than the grid units that corners are rounded to are treated as seen edge-on.
-  if (area < min_width * std::sqrt(size)) {
+  if (area < thinnest) {
     return false;
   }
-  const double largest_needle = 0x1p-11 * size;
   const bool needle = area < largest_needle;
   Fragment fragment{
       begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch, front, false, -1,
@@ -362,8 +385,7 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
   fragment.cut_needle = changed || (needle && !outline.plain && is_inaccurate());
   if (fragment.cut_needle) {
     fragment.area = cut_needle_area(outlines, fragment);
-    // Where rounding has turned the remaining edges too, their lines meet far outside the patch.
-    if (fragment.area >= largest_needle) {
+    if (fragment.area < thinnest) {
       return false;
     }
   }
@@ -378,8 +400,8 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
 bool ProjectedFragments::remove_turned_edges(const FragmentOutlines& outlines, Fragment& fragment) {
   for (std::uint32_t k = 0;
        k < fragment.end - fragment.begin && fragment.end - fragment.begin > 3;) {
-    if (is_turned(fragment, k)) {
-      remove_edge(outlines, fragment, k);
+    if (const Turned turned = is_turned(fragment, k); turned != Turned::no) {
+      remove_edge(outlines, fragment, k, turned == Turned::keep_end);
       k = 0;
     } else {
       ++k;
@@ -388,23 +410,36 @@ bool ProjectedFragments::remove_turned_edges(const FragmentOutlines& outlines, F
   return fragment.changed >= 0;
 }
 
-bool ProjectedFragments::is_turned(const Fragment& fragment, std::uint32_t k) const {
+/// Rounding moves a corner by up to max_offset units beyond the line of an edge, times the ratio of
+/// its distance to the edge's length; what is farther beyond is a bend of the patch. If the corner
+/// after the edge is beyond it, the edge's start lies on the line of the edge after, but for
+/// rounding; if the corner before it is, its end lies on the line of the edge before.
+ProjectedFragments::Turned ProjectedFragments::is_turned(const Fragment& fragment,
+                                                         std::uint32_t k) const {
   const std::uint32_t count = fragment.end - fragment.begin;
   const auto corner = [&](std::uint32_t j) -> const GridPoint& {
     return corners[fragment.begin + (k + j) % count];
   };
   const GridPoint &before = corner(count - 1), &from = corner(0), &to = corner(1),
                   &after = corner(2);
-  const auto length = static_cast<WideInteger>(std::abs(to.x - from.x)) + std::abs(to.y - from.y);
-  const WideInteger least = -max_offset * length;
-  return length <= max_offset || exact_turn(from, to, after) < least ||
-         exact_turn(from, to, before) < least;
+  const auto distance = [&](const GridPoint& other) {
+    return static_cast<WideInteger>(std::abs(other.x - from.x)) + std::abs(other.y - from.y);
+  };
+  const WideInteger length = distance(to);
+  const auto is_beyond = [&](const GridPoint& other) {
+    const WideInteger beyond = -exact_turn(from, to, other);
+    return beyond > max_offset * length && beyond <= max_offset * distance(other);
+  };
+  if (length <= max_offset || is_beyond(after)) {
+    return Turned::keep_start;
+  }
+  return is_beyond(before) ? Turned::keep_end : Turned::no;
 }
 
-/// Removes edge k and the corner at its end; the corner at its start becomes the meeting of the
-/// edges before and after.
+/// Removes edge k and one of its corners; the other becomes the meeting of the edges before and
+/// after.
 void ProjectedFragments::remove_edge(const FragmentOutlines& outlines, Fragment& fragment,
-                                     std::uint32_t k) {
+                                     std::uint32_t k, bool keep_end) {
   const std::uint32_t count = fragment.end - fragment.begin;
   if (fragment.changed < 0) {
     const auto first = static_cast<std::int32_t>(changed_corners_.size());
@@ -418,6 +453,10 @@ void ProjectedFragments::remove_edge(const FragmentOutlines& outlines, Fragment&
   own[k].line = own[next].line;
   own[k].forward = own[next].forward;
   own[k].exact = false;
+  if (keep_end) {
+    own[k].point = own[next].point;
+    corners[fragment.begin + k] = corners[fragment.begin + next];
+  }
   changed_corners_.erase(own + next);
   corners.erase(corners.begin() + fragment.begin + next);
   --fragment.end;

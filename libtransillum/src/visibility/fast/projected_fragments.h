@@ -190,8 +190,11 @@ struct ProjectedFragments {
   double cut_needle_area(const FragmentOutlines& outlines, const Fragment& fragment) const;
   bool add(const FragmentOutlines& outlines, std::uint32_t outline);
   bool remove_turned_edges(const FragmentOutlines& outlines, Fragment& fragment);
-  bool is_turned(const Fragment& fragment, std::uint32_t k) const;
-  void remove_edge(const FragmentOutlines& outlines, Fragment& fragment, std::uint32_t k);
+  /// Whether rounding has turned an edge, and then which of its corners remains without it.
+  enum class Turned { no, keep_start, keep_end };
+  Turned is_turned(const Fragment& fragment, std::uint32_t k) const;
+  void remove_edge(const FragmentOutlines& outlines, Fragment& fragment, std::uint32_t k,
+                   bool keep_end);
   void add_or_drop(const FragmentOutlines& outlines, std::uint32_t outline);
   std::size_t add_joined(const FragmentOutlines& outlines, const std::vector<FragmentId>& order,
                          std::size_t index);
