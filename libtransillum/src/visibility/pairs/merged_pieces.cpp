@@ -84,6 +84,25 @@ bool is_flat(Outline polygon) {
   });
 }
 
+double bend_of(Outline corners, const HalfSpace& front) {
+  double bend = 0;
+  for (const Vec3& x : corners) {
+    bend = std::max(bend, std::abs(front.distance(x)));
+  }
+  return bend;
+}
+
+/// The same of the corners of patches.
+double bend_of(const Scene& scene, const std::vector<PatchId>& patches, const HalfSpace& front) {
+  double bend = 0;
+  for (const PatchId i : patches) {
+    for (const PointId p : scene.outline(i)) {
+      bend = std::max(bend, std::abs(front.distance(scene.point(p))));
+    }
+  }
+  return bend;
+}
+
 /// Whether a patch is on the same side of its face as the first patch of that.
 std::vector<bool> on_first_side(const Scene& scene) {
   std::vector<bool> first_side;
@@ -154,7 +173,13 @@ std::vector<MergedFace> merged_faces(const Scene& scene) {
     if (outline.empty() || !is_flat(outline)) {
       return false;
     }
-    by_first.insert({patches.front(), {patches, outline}});
+    // Normals that differ by rounding may add up.
+    constexpr double largest_bend = 1e-6;
+    const double bend = bend_of(scene, patches, lit_half_space(outline));
+    if (bend > largest_bend * radius_about(outline[0], outline)) {
+      return false;
+    }
+    by_first.insert({patches.front(), {patches, outline, bend}});
     return true;
   };
   for (const auto& [root, patches] : coplanar_sets(scene, on_first_side(scene))) {
@@ -181,7 +206,7 @@ std::vector<MergedPiece> merged_pieces(const Scene& scene) {
   std::vector<bool> kept = on_first_side(scene);
   std::vector<MergedPiece> merged;
   for (const MergedFace& face : merged_faces(scene)) {
-    merged.push_back({face.outline});
+    merged.push_back({face.outline, face.bend, face.patches});
     for (const PatchId i : face.patches) {
       at(kept, i) = false;
     }
@@ -191,10 +216,11 @@ std::vector<MergedPiece> merged_pieces(const Scene& scene) {
       continue;
     }
     MergedPiece& kept_piece = merged.emplace_back();
-    kept_piece.patch = piece.patch;
+    kept_piece.patches = {piece.patch};
     for (const PointId p : scene.corners(piece)) {
       kept_piece.outline.push_back(scene.point(p));
     }
+    kept_piece.bend = bend_of(kept_piece.outline, lit_half_space(kept_piece.outline));
   }
   return merged;
 }

@@ -12,6 +12,7 @@ namespace transillum {
 struct MergedFace {
   std::vector<PatchId> patches;  ///< at least 2, ascending; if two-sided, those of one side
   Corners outline;
+  double bend = 0;  ///< largest distance of the patches' corners from the outline's plane, m
 };
 /// All convex polygons of coplanar patches that share edges, or else of the patches of one face; in
 /// the order of their first patches. None has a patch in common with another.
@@ -20,7 +21,8 @@ std::vector<MergedFace> merged_faces(const Scene& scene);
 /// A convex polygon of one or several patches.
 struct MergedPiece {
   Corners outline;
-  PatchId patch = -1;  ///< that it is a piece of, the first side if two-sided; -1: a MergedFace
+  double bend = 0;               ///< of the MergedFace, or of the piece itself, m
+  std::vector<PatchId> patches;  ///< that it is a piece of; if two-sided, those of the first side
 };
 /// Convex polygons whose union is that of the scene's patches; they may overlap: those of
 /// merged_faces(), and the pieces of the other patches.

@@ -16,6 +16,7 @@
 #include "transillum/bsp_tree.h"
 #include "visibility/pairs/merged_pieces.h"
 #include "visibility/pairs/point_view.h"
+#include "visibility/pairs/refined_cells.h"
 #include "visibility/pairs/shaft.h"
 #include "visibility/pairs/smooth_cells.h"
 
@@ -124,15 +125,14 @@ double ExchangeFinder::bend_of(Outline corners) const {
   for (const Vec3& x : corners) {
     bend = std::max(bend, std::abs(front.distance(x)));
   }
-  return bend > tolerance_ ? bend : 0;
+  return bend_beyond_rounding(bend);
 }
 
 std::vector<ExchangeFinder::Blocker> ExchangeFinder::blockers_of(const Scene& scene) const {
   std::vector<Blocker> blockers;
   for (const MergedPiece& piece : merged_pieces(scene)) {
-    Corners outline = scaled(piece.outline, scale_);
-    const double bend = bend_of(outline);
-    blockers.push_back({std::move(outline), bend, piece.patch});
+    blockers.push_back(
+        {scaled(piece.outline, scale_), bend_beyond_rounding(scale_ * piece.bend), piece.patches});
   }
   return blockers;
 }
@@ -188,9 +188,8 @@ void ExchangeFinder::collect_blockers(const FacingPolygons& facing, const Sides&
   const Shaft shaft(facing, tolerance_, sides.bends);
   const auto add = [&](std::int32_t number) {
     const Blocker& blocker = at(blockers_, number);
-    const bool is_own =
-        blocker.patch >= 0 && (blocker.patch == sides.of_p || blocker.patch == sides.of_q);
-    if (!is_own && shaft.meets(blocker.outline, blocker.bend)) {
+    if (!blocker.is_of(sides.of_p) && !blocker.is_of(sides.of_q) &&
+        shaft.meets(blocker.outline, blocker.bend)) {
       blockers.push_back(number);
     }
   };
@@ -282,23 +281,31 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
                                  PatchExchange& exchange) const {
   const Sampled sampled(facing, tolerance_);
   const std::vector<Corners> polygons = polygons_of(blockers);
-  PointView view(sampled.large, polygons);
+  PointView view(sampled.large, polygons), free_view(sampled.large, {});
+  const auto by_points = [&](Outline cell, int divisions) {
+    PointSums sums;
+    for_points_of(cell, divisions, [&](const Vec3& x, double weight) {
+      sums.seen += weight * view.form_factor(x, sampled.normal, tick);
+      sums.free += weight * free_view.form_factor(x, sampled.normal);
+    });
+    return sums;
+  };
+  RefinedCells refined(facing, sampled.p_is_smaller, by_points);
   for_each_cell(sampled, polygons, [&](const Corners& cell, double cell_size) {
     const int divisions = divisions_of(cell_size);
-    const auto by_points = [&](int number) {
-      double sum = 0;
-      for_points_of(cell, number, [&](const Vec3& x, double weight) {
-        sum += weight * view.form_factor(x, sampled.normal, tick);
-      });
-      return sum;
-    };
-    const double area = by_points(divisions);
-    exchange.area += area;
+    const PointSums sums = by_points(cell, divisions);
+    if (refined.misses(cell, sums.free)) {
+      const RefinedCells::Exchange found = refined(cell);
+      exchange.area += found.area;
+      exchange.error += found.error;
+      return;
+    }
+    exchange.area += sums.seen;
     if (estimate) {
       // Half the distance between points leaves a quarter of the error, and takes three quarters
       // away.
-      exchange.error +=
-          divisions == 0 ? cell_size * cell_size * area : (area - by_points(divisions / 2)) / 3;
+      exchange.error += divisions == 0 ? cell_size * cell_size * sums.seen
+                                       : (sums.seen - by_points(cell, divisions / 2).seen) / 3;
     }
   });
 }
@@ -416,7 +423,8 @@ void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
     const FacingPolygons facing(p.corners, p.front, face->outline, lit_half_space(face->outline),
                                 tolerance_ + p.bend);
     if (!facing.empty()) {
-      collect_blockers(facing, {at(first_sides_, i), -1, {p.bend, 0}}, nullptr, blockers);
+      collect_blockers(facing, {at(first_sides_, i), face->patches.front(), {p.bend, 0}}, nullptr,
+                       blockers);
       if (!is_any_hiding(facing, blockers)) {
         visit(std::max(next, face->patches.front()), face->patches.back() + 1, &blockers);
       }

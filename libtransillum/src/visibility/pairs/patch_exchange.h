@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
@@ -82,7 +83,9 @@ class ExchangeFinder {
   struct Blocker {
     Corners outline;
     double bend;
-    PatchId patch;  ///< MergedPiece::patch
+    std::vector<PatchId> patches;  ///< as MergedPiece::patches
+
+    bool is_of(PatchId i) const { return std::binary_search(patches.begin(), patches.end(), i); }
   };
   /// What two polygons belong to.
   struct Sides {
@@ -92,6 +95,7 @@ class ExchangeFinder {
   /// Blockers, by number.
   using Numbers = std::vector<std::int32_t>;
 
+  double bend_beyond_rounding(double bend) const { return bend > tolerance_ ? bend : 0; }
   double bend_of(Outline corners) const;
   std::vector<Blocker> blockers_of(const Scene& scene) const;
   static std::vector<Bounds> boxes_of(const std::vector<Blocker>& blockers);

@@ -52,13 +52,14 @@ void ExchangeFinder::collect_blockers(const Vec3& x, Outline polygon, const Part
   const Pyramid pyramid(x, polygon);
   tree_.for_each([&](const CenteredBox& box) { return pyramid.reaches(box); },
                  [&](std::int32_t number) {
-                   const auto& [outline, bend, of_patch] = at(blockers_, number);
+                   const Blocker& blocker = at(blockers_, number);
+                   const Corners& outline = blocker.outline;
                    const bool reaches_in =
                        std::any_of(outline.begin(), outline.end(), [&](const Vec3& c) {
                          return part.front.distance(c) > tolerance_ + part.bend;
                        });
-                   if (of_patch != at(first_sides_, patch) && reaches_in &&
-                       std::abs(lit_half_space(outline).distance(x)) > tolerance_ + bend) {
+                   if (!blocker.is_of(at(first_sides_, patch)) && reaches_in &&
+                       std::abs(lit_half_space(outline).distance(x)) > tolerance_ + blocker.bend) {
                      blockers.push_back(number);
                    }
                  });

@@ -1,0 +1,58 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/pairs/refined_cells.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace transillum {
+
+RefinedCells::RefinedCells(const FacingPolygons& facing, bool p_is_sampled, ByPoints by_points)
+    : facing_(facing),
+      p_is_sampled_(p_is_sampled),
+      whole_(polygon_exchange(facing)),
+      by_points_(std::move(by_points)) {}
+
+double RefinedCells::exact(Outline cell) {
+  (p_is_sampled_ ? facing_.p : facing_.q).assign(cell.begin(), cell.end());
+  return polygon_exchange(facing_);
+}
+
+bool RefinedCells::misses(Outline cell, double free) {
+  constexpr double tolerated = 0.01;
+  return std::abs(free - exact(cell)) > tolerated * whole_;
+}
+
+RefinedCells::Exchange RefinedCells::operator()(Outline cell) {
+  constexpr int most_divisions = 8;
+  Exchange sum;
+  for (std::size_t k = 1; k + 1 < cell.size(); ++k) {
+    add(std::array{cell[0], cell[k], cell[k + 1]}, most_divisions, sum);
+  }
+  return sum;
+}
+
+void RefinedCells::add(Outline triangle, int most_divisions, Exchange& sum) {
+  constexpr double tolerated = 1e-3;
+  constexpr int divisions = 4;
+  const PointSums found = by_points_(triangle, divisions);
+  const double free = exact(triangle);
+  if (most_divisions > 0 && std::abs(found.free - free) > tolerated * whole_) {
+    const Vec3 &a = triangle[0], &b = triangle[1], &c = triangle[2];
+    const Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+    const std::array<std::array<Vec3, 3>, 4> parts{
+        {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}};
+    for (const auto& part : parts) {
+      add(part, most_divisions - 1, sum);
+    }
+    return;
+  }
+  const auto area_of = [&](const PointSums& sums) {
+    return sums.free > 0 ? free * sums.seen / sums.free : 0.0;
+  };
+  const double area = area_of(found);
+  sum.area += area;
+  sum.error += std::abs(area - area_of(by_points_(triangle, divisions / 2))) / 3;
+}
+
+}  // namespace transillum
