@@ -57,14 +57,14 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   /// The factor from gathered() to H.
   double scale(std::size_t i) const;
   /// @throws InputError
-  void check_count(const std::vector<Material>& given, const std::vector<std::int32_t>& by_patch)
-      const;
+  void check_count(const std::vector<Material>& given,
+                   const std::vector<std::int32_t>& by_patch) const;
   /// Sets radiance to that of E, or keeps the light that arrived last. The lobes of `materials` are
   /// scaled by the next iteration.
   void start(Start from = Start::emission);
   /// Numbers the glossy patches.
   /// @throws std::runtime_error where what is kept of them by direction does not fit into memory
-  void find_glossy(GlossyLight::Data & data);
+  void find_glossy(GlossyLight::Data& data);
   void check_radiance_memory(std::size_t patches, std::size_t directions) const;
   /// Forgets all passes.
   void forget_passes();
@@ -81,16 +81,16 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
     Pass pass;  ///< of a new direction: for statistics
     DirectionalExchanges::Run run;
   };
-  bool gather_passes(WorkerThreads & workers, const Observer& observer, bool one_pass);
+  bool gather_passes(WorkerThreads& workers, const Observer& observer, bool one_pass);
   PassLight make(int k, bool from_kept) const;
   void gather(const std::vector<Transfer>& exchanges, int k, std::vector<Rgb>& sum) const;
   /// Sets what is kept by glossy patch and pass, which no other pass writes.
   void set_of_pass(int k, bool is_new, const PassLight& made);
   void add_new(int k, PassLight& made);
   void add_all(const std::vector<PassLight>& batch, WorkerThreads& workers);
-  void finish_iteration(WorkerThreads & workers, const Observer& observer);
+  void finish_iteration(WorkerThreads& workers, const Observer& observer);
   /// Scales lobes that are pending.
-  void make_lobes(WorkerThreads & workers, const Observer& observer);
+  void make_lobes(WorkerThreads& workers, const Observer& observer);
   /// Tells `observer` of a stage of lobes.
   LobeReport report_of(SolveProgress::Stage now, const Observer& observer);
   Rgb lambertian_of(std::size_t i, const Rgb& received) const;

@@ -85,8 +85,8 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
   /// Continues with one replica more.
   void add_replica();
   /// As RadiositySolver::save() and restore()
-  void save(std::ostream & out) const;
-  void restore(std::istream & in, std::uint64_t size);
+  void save(std::ostream& out) const;
+  void restore(std::istream& in, std::uint64_t size);
   /// Power received against power sent, before rows are scaled (ALGORITHM.md, oracle 4).
   double energy_defect() const;
 
@@ -101,7 +101,7 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
   /// Makes room for the passes of a replica more.
   void append_replica();
   template <class Archive, class Self>
-  static void visit_state(Archive & archive, Self & self);
+  static void visit_state(Archive& archive, Self& self);
 };
 
 }  // namespace transillum
