@@ -168,7 +168,7 @@ class ProgramTest : public QObject {
     for (const QByteArray key : {"select", "hidden"}) {
       const QByteArray value = key == "hidden" ? "[3, 99]" : "99";
       QTest::newRow(key.constData())
-          << QByteArray(R"("scene": "furnace", "options": {"directions": 16}, ")" + key +
+          << QByteArray("\"scene\": \"furnace\", \"options\": {\"directions\": 16}, \"" + key +
                         "\": " + value)
           << QByteArray(key + ": there is no patch 99; the scene has 0 to 11");
     }
