@@ -104,6 +104,10 @@ const std::vector<Vec>& triangle_rule() {
 /// from the origin: Lambert's sum would cancel.
 Real small_form_factor(const Vec& normal, const Polygon& polygon) {
   const Vec whole = area_vector(polygon);
+  const Real square_of_area = dot(whole, whole);
+  if (square_of_area == 0) {
+    return 0;  // a cut has left a line
+  }
   Real sum = 0;
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     const Vec a = polygon[k] - polygon[0], b = polygon[k + 1] - polygon[0];
@@ -114,7 +118,7 @@ Real small_form_factor(const Vec& normal, const Polygon& polygon) {
       sum += at.z * area * dot(normal, y) * -dot(whole, y) / (square * square);
     }
   }
-  return sum / (std::numbers::pi_v<Real> * dot(whole, whole));
+  return sum / (std::numbers::pi_v<Real> * square_of_area);
 }
 
 /// What a point sees of q past blockers.
