@@ -196,6 +196,10 @@ void MaterialEdits::push(const MaterialChange& change, const QString& text) {
   if (after == changes_) {
     return;
   }
+  if (after.size() > changes_.size()) {
+    SceneDescription tried = faces_;  // where it does not fit, nothing is changed
+    change_materials(tried, std::vector{change});
+  }
   auto command = std::make_unique<Change>(*this, change.target, std::move(after));
   command->setText(text);
   undo_.push(command.release());

@@ -59,6 +59,7 @@ class MaterialEdits : public QObject {
   Extent extent_of(const std::string& target) const;
 
   /// Sets E (W/m²) or rho of a target. Changes since begin_drag() are undone together.
+  /// @throws InputError where the scene has no such target
   void set_exitance(const std::string& target, const Rgb& exitance);
   void set_reflectance(const std::string& target, const Rgb& reflectance);
   /// Sets the lobe of a target, which only glossy runs use.
