@@ -16,6 +16,7 @@
 namespace transillum::testing {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -83,7 +84,8 @@ TEST(CliLinearBasis, PairsHaveFunctionsToo) {
     SCOPED_TRACE(::testing::PrintToString(option));
     const ProgramResult result = run_program(pairs + option);
     EXPECT_EQ(result.status, 2);
-    EXPECT_EQ(line_count(result.err), 1U) << result.err;
+    // A warning may stand before it: the sky lights nothing in a closed box.
+    EXPECT_THAT(result.err, ContainsRegex("transillum: engine pairs has no directions[^\n]*\n$"));
   }
   // Beside passes, in a study: both are compared with linear passes.
   const ProgramResult study =

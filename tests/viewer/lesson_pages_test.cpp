@@ -651,7 +651,7 @@ class LessonPagesTest : public QObject {
                                      [](const Rgb& b) { return luminance(b) == 0; });
     QVERIFY2(black > 3 && black < 20, qPrintable(QString::number(black)));
     const Shown all(1, 5);
-    QVERIFY(all.contains("a millionth of the largest"));
+    QVERIFY(all.contains("a millionth of the reflected light"));
     QCOMPARE(all.page.state.options.solve.tolerance, 1e-6);
     const SolveStatistics run = all.solution().statistics;
     QVERIFY(run.converged && run.predicted_contraction > run.rho_max);
