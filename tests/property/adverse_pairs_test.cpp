@@ -209,7 +209,9 @@ void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int
     const PatchExchange found = exchange(i, j);
     const double deviation =
         std::sqrt(std::max(0.0, sum[1] / replicas - mean * mean) / (replicas - 1)) + 1e-9 * mean;
-    const double allowed = 3 * deviation + 2 * std::abs(found.error);
+    // Points past blockers that touch the sampled patch: not promised better (decision 53).
+    const double of_points = found.whole ? 0 : 2 * std::abs(found.error) + 5e-3 * mean;
+    const double allowed = 3 * deviation + of_points;
     beyond_three += std::abs(found.area - mean) > allowed ? 1 : 0;
     // Five times as much, or a third of the factor: only a wrong factor is so far off.
     EXPECT_LE(std::abs(found.area - mean), 5 * allowed + mean / 3)
