@@ -11,6 +11,7 @@
 #include "messages.h"
 #include "report_text.h"
 #include "scene_options.h"
+#include "transillum/accuracy_plan.h"
 #include "transillum/at.h"
 
 namespace transillum::cli {
@@ -259,6 +260,11 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
                     solution.linear_parts.empty()
                         ? "--first-shot 0 treats the sources separately; or give more --directions"
                         : "Give more --directions"));
+  } else if (const std::size_t count = uncertain_patches(solution).size(); count > 0) {
+    warnings.push_back(fmt::format(
+        "the standard errors of {} patches cannot be trusted: fewer than {} directions per replica "
+        "are expected to bring them light of small sources. --first-shot 0 treats these separately",
+        count, least_light_directions));
   }
   return warnings;
 }

@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Solves to an accuracy: the goal is reached, the reported limits contain the true error about as
-// often as stated, also when the solve stops by them, and little is wasted.
+// often as stated, also when the solve stops by them, and little is wasted. Errors are computed
+// here, against B by pairs of patches, without directions.
 #include "transillum/accuracy_plan.h"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/form_factor_solve.h"
 #include "transillum/solve_errors.h"
 #include "transillum/study.h"
 
@@ -32,18 +34,59 @@ ScenePtr box_in_a_room() {
   return sketch.scene({.max_patch_area = 0.5});
 }
 
+/// A room with a lamp, and apart from it a bright box of 10 cm in which light is reflected most
+/// often: what its iteration leaves out exceeds the light in the room.
+ScenePtr bright_box_beside_a_room() {
+  testing::Sketch sketch("bright box");
+  const int lamp = sketch.material(0, 1), small_lamp = sketch.material(0, 1e6);
+  sketch.box({0, 0, 0}, {4, 4, 3}, true, sketch.material(0.5, 0));
+  sketch.face({{1, 1, 2.9}, {1, 3, 2.9}, {3, 3, 2.9}, {3, 1, 2.9}}, lamp);
+  sketch.box({5, 0, 0}, {5.1, 0.1, 0.1}, true, sketch.material(0.95, 0));
+  sketch.face({{5.02, 0.02, 0.09}, {5.02, 0.08, 0.09}, {5.08, 0.08, 0.09}, {5.08, 0.02, 0.09}},
+              small_lamp);
+  return sketch.scene({.max_patch_area = 1});
+}
+
+/// B of engine pairs.
+std::vector<Rgb> truth_by_pairs(const ScenePtr& scene, int points) {
+  SolveOptions options{.engine = Engine::pairs, .tolerance = 1e-10};
+  options.engine_options.points = points;
+  return solve_by_form_factors(scene, options).radiosity;
+}
+
+/// RMS over channels and the patches that do not emit of the error of B, over that of B - E; over
+/// all patches where all emit.
+double error_of(const Scene& scene, const std::vector<Rgb>& b, const std::vector<Rgb>& truth) {
+  double errors[2] = {}, values[2] = {};
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const Rgb off = at(b, i) - at(truth, i), reflected = at(truth, i) - scene.exitance(i);
+    for (int all = max_abs(scene.exitance(i)) > 0 ? 1 : 0; all < 2; ++all) {
+      errors[all] += off.r * off.r + off.g * off.g + off.b * off.b;
+      values[all] +=
+          reflected.r * reflected.r + reflected.g * reflected.g + reflected.b * reflected.b;
+    }
+  }
+  const int all = values[0] > 0 ? 0 : 1;
+  return std::sqrt(errors[all] / values[all]);
+}
+
+/// What a share of so many runs exceeds in 99 % of all cases, if each holds with probability 0.95.
+double least_share(int runs) { return 0.95 - 2.33 * std::sqrt(0.95 * 0.05 / runs); }
+
 /// Shares of runs and of values.
 struct Coverage {
   double limit = 0;      ///< runs whose RMS error is at most its limit
   double intervals = 0;  ///< values of B in their 95 % interval
-  double above = 0;      ///< runs whose RMS error is above the goal
+  double above = 0;      ///< trusted runs whose RMS error is above the goal
   double passes = 0;     ///< mean over runs
 };
 
 /// Compares runs with a reference.
 class CoverageCount {
  public:
-  CoverageCount(ScenePtr scene, const SolveOptions& options, int reference_passes)
+  /// @param most the error by which two references, by pairs and by passes, may differ; the one by
+  /// passes is used where it is 0
+  CoverageCount(ScenePtr scene, const SolveOptions& options, int reference_passes, double most = 0)
       : scene_(std::move(scene)),
         tree_(std::make_shared<const BspTree>(*scene_)),
         options_(options) {
@@ -53,6 +96,10 @@ class CoverageCount {
     solver.advance(RadiositySolver::Until::finished);
     shot_ = solver.direct_light();
     truth_ = solver.radiosity();
+    if (most > 0) {
+      truth_ = truth_by_pairs(scene_, 64);
+      EXPECT_LE(error_of(*scene_, solver.radiosity(), truth_), most);
+    }
   }
 
   /// @param runs with different rotations; with a goal, else with the options' directions.
@@ -64,9 +111,10 @@ class CoverageCount {
       options.seed = 1000 * static_cast<std::uint64_t>(run + 1);
       const Solution solution =
           goal.set() ? solve_to_accuracy(scene_, options, tree_, shot_) : solved(options);
-      const double error = radiosity_error(*scene_, solution.radiosity, truth_).rms;
+      const double error = error_of(*scene_, solution.radiosity, truth_);
       coverage.limit += (error <= solution.error.rms_limit) / double(runs);
-      coverage.above += (goal.set() && error > goal.accuracy) / double(runs);
+      coverage.above +=
+          (goal.set() && solution.accuracy->trusted && error > goal.accuracy) / double(runs);
       coverage.intervals += share_within(solution) / runs;
       coverage.passes +=
           double(goal.set() ? solution.accuracy->passes_made : options.directions) / runs;
@@ -120,8 +168,7 @@ TEST(Accuracy, IsReachedAndReported) {
   EXPECT_EQ(report.error, report.stages.back().error);
   EXPECT_EQ(solution.statistics.passes, report.stages.back().directions);
   EXPECT_GE(report.passes_made, report.stages.back().directions);
-  const auto reference = solve(scene, reference_options(8192));
-  EXPECT_LE(radiosity_error(*scene, solution.radiosity, reference.radiosity).rms, 0.01);
+  EXPECT_LE(error_of(*scene, solution.radiosity, truth_by_pairs(scene, 64)), 0.01);
 }
 
 /// The last stage is what `directions` and `replicas` give, if no replica was added.
@@ -164,6 +211,64 @@ TEST(Accuracy, OfOtherErrors) {
   options.goal = accuracy_of_from_name("patch:100000");
   options.goal.accuracy = 0.01;
   EXPECT_THROW(solve(scene, options), InputError);
+}
+
+/// The error of a patch in the room asks for more iterations than that of all patches. More and
+/// more passes were made instead: 3,768 for 744 %, then ten times as many.
+TEST(Accuracy, OfADarkPatchAddsIterationsNotPasses) {
+  const ScenePtr scene = bright_box_beside_a_room();
+  SolveOptions options;
+  options.goal = {.accuracy = 0.02, .of = AccuracyOf::patch, .patch = 0};
+  const Solution solution = solve(scene, options);
+  EXPECT_TRUE(solution.accuracy->reached);
+  EXPECT_LE(solution.accuracy->passes_made, 2500);
+  EXPECT_NEAR(solution.radiosity[0].r / truth_by_pairs(scene, 64)[0].r, 1, 0.02);
+}
+
+/// Stars shine on each other along hardly any direction: what all replicas miss alike, no spread
+/// shows. 40 % and less of the patches that emit had their B in its interval, unmentioned.
+TEST(Accuracy, NamesPatchesWhoseErrorsCannotBeTrusted) {
+  const ScenePtr scene = load_scene("stars:n=3");
+  SolveOptions options{.directions = 4096, .replicas = 8};
+  const Solution solution = solve(scene, options);
+  options.first_shot = 0;
+  const Solution shot = solve(scene, options);
+  EXPECT_TRUE(uncertain_patches(shot).empty());
+  const std::vector<PatchId> uncertain = uncertain_patches(solution);
+  // Shares of the patches, named or not, whose B is outside of its interval.
+  double outside[2] = {}, count[2] = {};
+  for (PatchId i = 0; i < scene->patch_count(); ++i) {
+    const double error = max_abs(at(solution.radiosity, i) - at(shot.radiosity, i));
+    const double interval = solution.error.quantile * max_abs(at(solution.error.standard_error, i));
+    const int named = std::binary_search(uncertain.begin(), uncertain.end(), i) ? 1 : 0;
+    if (interval > 0) {
+      count[named] += 1;
+      outside[named] += error > interval ? 1 : 0;
+    }
+  }
+  EXPECT_GE(outside[1], 0.3 * count[1]) << count[1];
+  EXPECT_LE(outside[0], 0.1 * count[0]) << count[0];
+}
+
+/// 96 small sources. With E in the yardstick, 6 of 30 runs exceeded their limit, 5 of them trusted.
+TEST(Accuracy, OfStarsHoldsWhereItIsTrusted) {
+  const ScenePtr scene = load_scene("stars");
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  SolveOptions options{.directions = 2048, .first_shot = 0};
+  const std::vector<Rgb> truth = solve(scene, options).radiosity;
+  constexpr int runs = 30;
+  int trusted = 0, held = 0;
+  options = {};
+  options.goal.accuracy = 0.05;
+  for (int run = 0; run < runs; ++run) {
+    options.seed = static_cast<std::uint64_t>(run + 1);
+    const Solution solution = solve_to_accuracy(scene, options, tree);
+    const double error = error_of(*scene, solution.radiosity, truth);
+    trusted += solution.accuracy->trusted ? 1 : 0;
+    held += solution.accuracy->trusted && error <= solution.error.rms_limit ? 1 : 0;
+  }
+  EXPECT_GE(trusted, runs / 2);
+  EXPECT_GE(held, least_share(trusted) * trusted);
 }
 
 /// A time limit ends a solve that could go on; what the goal asks for ends it before.
@@ -292,16 +397,17 @@ TEST(Accuracy, FirstShotIsTakenWhereItPays) {
 }
 
 TEST(Accuracy, LimitsHoldAsOftenAsStated) {
-  CoverageCount count(box_in_a_room(), {.directions = 96, .replicas = 4}, 8192);
-  const Coverage fixed = count.of(40, {});
-  EXPECT_GE(fixed.limit, 0.9);
-  EXPECT_GE(fixed.intervals, 0.9);
+  constexpr int runs = 100;
+  CoverageCount count(box_in_a_room(), {.directions = 96, .replicas = 4}, 8192, 1e-3);
+  const Coverage fixed = count.of(runs, {});
+  EXPECT_GE(fixed.limit, least_share(runs));
+  EXPECT_GE(fixed.intervals, 0.93);
   EXPECT_LE(fixed.intervals, 0.98);
   // Stopping when the error looks small must not make it look smaller than it is.
-  const Coverage stopped = count.of(40, {.accuracy = 0.01});
-  EXPECT_GE(stopped.limit, 0.9);
-  EXPECT_GE(stopped.intervals, 0.9);
-  EXPECT_LE(stopped.above, 0.1);
+  const Coverage stopped = count.of(runs, {.accuracy = 0.01});
+  EXPECT_GE(stopped.limit, least_share(runs));
+  EXPECT_GE(stopped.intervals, 0.93);
+  EXPECT_LE(stopped.above, 1 - least_share(runs));
 }
 
 struct CoverageCase {
@@ -330,9 +436,9 @@ TEST_P(NightlyAccuracy, Coverage) {
       "{:.1f} % ({:.1f} %)\n",
       of.spec, of.shot ? ", first shot" : "", 100 * of.accuracy, stopped.passes,
       100 * stopped.limit, 100 * fixed.limit, 100 * stopped.intervals, 100 * fixed.intervals);
-  EXPECT_GE(stopped.intervals, 0.9);
-  EXPECT_GE(fixed.intervals, 0.9);
-  EXPECT_GE(stopped.limit, 0.8);
+  EXPECT_GE(stopped.intervals, 0.92);
+  EXPECT_GE(fixed.intervals, 0.92);
+  EXPECT_GE(stopped.limit, least_share(60));
 }
 INSTANTIATE_TEST_SUITE_P(EightScenes, NightlyAccuracy,
                          ::testing::Values(CoverageCase{"rooms", 0, 0.01, false},

@@ -10,6 +10,7 @@
 #include <iosfwd>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "transillum/export.h"
 #include "transillum/radiosity.h"
@@ -24,6 +25,14 @@ namespace TRANSILLUM_API transillum {
 /// @throws InputError where the scene does not have the goal's patch.
 double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector<Rgb>& b,
                  const ErrorEstimate& error);
+
+/// The patches whose standard errors may be much too small: all replicas miss light alike that
+/// comes to them from a small source. Not measured but expected, by sizes and distances: light of
+/// sources that fewer than least_light_directions per replica bring to the patch is more than half
+/// of its interval. What stands between is not counted, so these may be too many.
+/// @param solution of passes with replicas; otherwise, and where all sources were shot first or
+/// patches times sources exceed 2^22, the result is empty.
+std::vector<PatchId> uncertain_patches(const Solution& solution);
 
 /// Chooses the stages of a solve with SolveOptions::goal. The caller makes each: a new
 /// RadiositySolver with stage(), or RadiositySolver::add_replica() of the last.

@@ -13,9 +13,11 @@
 #include <utility>
 
 #include "base/seconds_since.h"
+#include "radiosity/error_bounds.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
+#include "radiosity/solver/error_estimate.h"
 #include "radiosity/state_archive.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -44,6 +46,8 @@ constexpr double usual_growth = 8, largest_growth = 12;
 constexpr int enough_to_converge = 1 << 14;
 /// Share of the time left that a stage is made for.
 constexpr double time_share = 0.85;
+/// Share of the goal from which on missing iterations are made, instead of more passes.
+constexpr double iteration_share = 0.25;
 
 double length(const Rgb& v) { return std::hypot(v.r, v.g, v.b); }
 
@@ -54,6 +58,32 @@ double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorE
     largest = measured[i] != 0 ? std::max(largest, max_abs(error.standard_error[i])) : largest;
   }
   return ratio_or_zero(error.quantile * largest, max_norm(reflected_light(scene, b)));
+}
+
+/// The part of error_for() that further iterations can take away: a bound of what they would
+/// change.
+/// @param error of `solver`
+double error_of_iteration(const AccuracyGoal& goal, const RadiositySolver& solver,
+                          const SolveStatistics& statistics, const ErrorEstimate& error) {
+  const Scene& scene = solver.scene();
+  const std::vector<Rgb>& b = solver.radiosity();
+  if (error.replicas == 0 || statistics.iteration_records.empty()) {
+    return 0;
+  }
+  const IterationRecord& last = statistics.iteration_records.back();
+  const double change = last.change * max_norm(reflected_light(scene, b));
+  const double to_limit = distance_to_limit(change, std::max(statistics.rho_max, last.contraction));
+  std::vector<Rgb> left(scene.patches().size());
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    at(left, i) = to_limit * scene.reflectance(i);
+  }
+  ErrorEstimate missing;
+  missing.replicas = error.replicas;
+  missing.quantile = error.quantile;
+  missing.standard_error.resize(left.size());
+  missing.mean_reflected = error.mean_reflected;
+  include_bias(missing, scene, b, left);
+  return error_for(goal, scene, b, missing);
 }
 
 /// Times of a whole solve instead of those of its last stage.
@@ -110,7 +140,8 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   const SolveOptions& solved = solver.options();
   const SolveStatistics statistics = solver.statistics();
   const AccuracyGoal& goal = report_.goal;
-  report_.error = error_for(goal, solver.scene(), solver.radiosity(), solver.error_estimate());
+  const ErrorEstimate estimate = solver.error_estimate();
+  report_.error = error_for(goal, solver.scene(), solver.radiosity(), estimate);
   if (!std::isfinite(report_.error)) {  // replicas of few directions may diverge
     report_.error = std::numeric_limits<double>::infinity();
   }
@@ -128,6 +159,20 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
       goal.seconds > 0 ? goal.seconds - seconds : std::numeric_limits<double>::infinity();
   if (report_.reached || report_.error == 0 || left <= 0 || is_stalled()) {
     return Next::done;
+  }
+  // No number of passes replaces iterations, which the goal may ask more of than the tolerance:
+  // a patch, where it is dark.
+  const double missing_iterations = error_of_iteration(goal, solver, statistics, estimate);
+  if (goal.accuracy > 0 && missing_iterations > iteration_share * goal.accuracy &&
+      std::isfinite(missing_iterations) && solved.directions * per_pass <= time_share * left) {
+    const IterationRecord& last = statistics.iteration_records.back();
+    const double reached = std::max(last.remainder, last.remainder_dimmest);
+    if (!is_rounding(last) && reached > 0) {
+      stage_.tolerance = 0.5 * iteration_share * goal.accuracy / missing_iterations *
+                         std::min(stage_.tolerance, reached);
+      passes_before_ = 0;
+      return Next::stage;
+    }
   }
   // As the root of the number of replicas; a new stage makes all its passes, but gains more.
   const double missing = report_.error / goal.accuracy;
@@ -223,7 +268,8 @@ void AccuracyPlan::visit_state(Archive& archive, Self& self) {
     archive(stage.directions, stage.replicas, stage.error);
   }
   archive(report.error, report.reached, report.trusted, report.passes_made, self.stage_.directions,
-          self.stage_.replicas, self.light_directions_, self.seconds_, self.passes_before_);
+          self.stage_.replicas, self.stage_.tolerance, self.light_directions_, self.seconds_,
+          self.passes_before_);
 }
 
 void AccuracyPlan::save(std::ostream& out) const {

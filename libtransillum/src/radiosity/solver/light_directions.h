@@ -45,7 +45,7 @@ class LightDirections {
 
   bool two_way_;
   std::size_t columns_ = 1;
-  std::vector<double> weight_;       ///< per patch: (rho / A)²
+  std::vector<double> weight_;       ///< per patch: (rho / A)², 0 where errors are not measured
   std::vector<double> exitance_;     ///< per patch: sum of channels, less that of the shot
   std::vector<std::uint8_t> emits_;  ///< per patch: whether exitance_ is above 0; in few bytes
   std::vector<std::size_t> column_;  ///< per patch: of its source
