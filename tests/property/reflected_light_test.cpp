@@ -291,6 +291,19 @@ TEST(ReflectedLight, AccuracyIsThatOfReflectedLight) {
   EXPECT_LE(means_missed, 4);
 }
 
+/// All replicas agree on B = 0 where no direction passes both the lamp and the plate.
+TEST(ReflectedLight, AnAccuracyIsNotReachedByLightThatNoDirectionMeets) {
+  testing::Sketch sketch("far apart");
+  const int plate = sketch.material(0.5, 0), lamp = sketch.material(0, 1e9);
+  sketch.face({{0, 0, 0}, {1e-3, 0, 0}, {1e-3, 1e-3, 0}, {0, 1e-3, 0}}, plate);
+  sketch.face({{0, 0, 10}, {0, 1e-3, 10}, {1e-3, 1e-3, 10}, {1e-3, 0, 10}}, lamp);
+  SolveOptions options;
+  options.goal.accuracy = 0.01;
+  const Solution solution = solve(sketch.scene(), options);
+  EXPECT_FALSE(solution.accuracy->reached);
+  EXPECT_FALSE(solution.accuracy->trusted);
+}
+
 TEST(ReflectedLight, WithoutLightEverythingIsZeroAndConverged) {
   const ScenePtr scene = without_light();
   const Solution solution = solve(scene, {.directions = 16});
