@@ -227,8 +227,8 @@ std::shared_ptr<const Scene> imperfect(Imperfect kind, int count, int digits, bo
 }
 
 TEST(AdversePairs, OfImperfectScenesAgreeWithDirections) {
-  expect_factors_within_errors(imperfect(Imperfect::terrain, 3, 7, true, true), 256);
-  expect_factors_within_errors(imperfect(Imperfect::rails, 2, 6, true, true), 256);
+  expect_factors_within_errors(imperfect(Imperfect::terrain, 3, 7, true, true), 1024);
+  expect_factors_within_errors(imperfect(Imperfect::rails, 2, 6, true, true), 1024);
 }
 
 TEST(NightlyAdversePairs, OfImperfectScenesAgreeWithDirections) {
