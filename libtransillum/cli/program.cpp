@@ -266,7 +266,7 @@ int run_program(int argc, char** argv, void (*report)(std::string_view) noexcept
     return failure;
   } catch (const std::exception& error) {
     if (is_closed_pipe(error)) {
-      return success;  // as `head` has what it asked for
+      return success;  // `head` has what it asked for
     }
     report(error_text(error));
     return failure;

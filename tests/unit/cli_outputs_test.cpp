@@ -194,7 +194,7 @@ TEST_F(CliOutputs, FilesOfASeriesAreNotWrittenTwice) {
   }
 }
 
-/// It was found after the solve, when other files had been written.
+/// The program found this after the solve, when other files had been written.
 TEST_F(CliOutputs, APictureFromThePointInItsMiddleIsRefusedBeforeTheSolve) {
   const Arguments solve{"solve", "a.obj", "-m", "8", "--out", "b.csv", "--out", "b.png"};
   expect_refused(solve + Arguments{"--eye", "0.2,0.3,0.4", "--target", "0.2,0.3,0.4"},

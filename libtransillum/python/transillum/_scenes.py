@@ -168,7 +168,7 @@ def built_in_scenes() -> dict[str, str]:
 
 
 def _indices(faces: Sequence[Sequence[int]]) -> list[list[int]]:
-    """As int; other numbers would be rounded down."""
+    """The indices as int; other numbers would be rounded down."""
     lists: list[list[int]] = []
     for face in faces:
         try:
