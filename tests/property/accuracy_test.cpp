@@ -397,16 +397,16 @@ TEST(Accuracy, FirstShotIsTakenWhereItPays) {
 }
 
 TEST(Accuracy, LimitsHoldAsOftenAsStated) {
-  constexpr int runs = 100;
+  constexpr int runs = 60;
   CoverageCount count(box_in_a_room(), {.directions = 96, .replicas = 4}, 8192, 1e-3);
   const Coverage fixed = count.of(runs, {});
   EXPECT_GE(fixed.limit, least_share(runs));
-  EXPECT_GE(fixed.intervals, 0.93);
+  EXPECT_GE(fixed.intervals, 0.91);  // decision 30: 92 % with 24 directions per replica
   EXPECT_LE(fixed.intervals, 0.98);
   // Stopping when the error looks small must not make it look smaller than it is.
   const Coverage stopped = count.of(runs, {.accuracy = 0.01});
   EXPECT_GE(stopped.limit, least_share(runs));
-  EXPECT_GE(stopped.intervals, 0.93);
+  EXPECT_GE(stopped.intervals, 0.91);
   EXPECT_LE(stopped.above, 1 - least_share(runs));
 }
 
@@ -436,8 +436,8 @@ TEST_P(NightlyAccuracy, Coverage) {
       "{:.1f} % ({:.1f} %)\n",
       of.spec, of.shot ? ", first shot" : "", 100 * of.accuracy, stopped.passes,
       100 * stopped.limit, 100 * fixed.limit, 100 * stopped.intervals, 100 * fixed.intervals);
-  EXPECT_GE(stopped.intervals, 0.92);
-  EXPECT_GE(fixed.intervals, 0.92);
+  EXPECT_GE(stopped.intervals, 0.91);
+  EXPECT_GE(fixed.intervals, 0.91);
   EXPECT_GE(stopped.limit, least_share(60));
 }
 INSTANTIATE_TEST_SUITE_P(EightScenes, NightlyAccuracy,
