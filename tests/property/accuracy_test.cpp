@@ -70,7 +70,7 @@ double error_of(const Scene& scene, const std::vector<Rgb>& b, const std::vector
   return std::sqrt(errors[all] / values[all]);
 }
 
-/// What a share of so many runs exceeds in 99 % of all cases, if each holds with probability 0.95.
+/// The share of so many runs that is exceeded in 99 % of all cases, if each holds in 95 %.
 double least_share(int runs) { return 0.95 - 2.33 * std::sqrt(0.95 * 0.05 / runs); }
 
 /// Shares of runs and of values.

@@ -27,7 +27,7 @@ bool reflects_without_emission(const Scene& scene) {
   return false;
 }
 
-/// What a source brings to a patch where nothing is between them, and along how many directions.
+/// Light that a source brings to a patch where nothing is between them.
 struct UnmetLight {
   Rgb light;               ///< B of the patch, W/m²
   double solid_angle = 0;  ///< of the directions along which both overlap, sr
