@@ -244,8 +244,10 @@ class QuestionsTest : public QObject {
     QCOMPARE(value_of(R"({"figure": "function-error", "with": {"basis": "linear"},
         "patch-area": 1, "reference-area": 1})"),
              0.0);
-    // All patches of the furnace emit, and lamps do not count.
-    QCOMPARE(value_of(R"({"figure": "function-error", "reference-area": 1})"), 0.0);
+    // All patches of the furnace emit, so that B - E of all counts. It is uniform up to the error
+    // of the directions.
+    const double error = value_of(R"({"figure": "function-error", "reference-area": 1})");
+    QVERIFY2(error > 0 && error < 1e-3, qPrintable(QString::number(error)));
     QVERIFY(value_of(R"({"figure": "jump", "patch": 3})") >= 0);
   }
 

@@ -66,6 +66,7 @@ class SolveRunnerTest : public QObject {
   void a_small_lamp_is_no_measure() {
     Watched watched;
     watched.open(TRANSILLUM_SOURCE "/data/corpus/small-lamp.obj", 256);
+    QVERIFY(watched.pauses_after_opening());
     watched.runner.run();
     QVERIFY(watched.advances([](const SolveProgress& p) { return p.finished; }));
     QVERIFY(watched.snapshot->statistics.converged);

@@ -170,7 +170,7 @@ class StudyTest : public QObject {
     const std::vector<double> predicted = predicted_changes(*snapshot);
     QVERIFY(predicted.size() >= steps.size());
     for (std::size_t k = 0; k < steps.size(); ++k) {
-      QVERIFY(steps[k].change <= predicted[k] * (1 + 1e-12));
+      QVERIFY(steps[k].change_of_b <= predicted[k] * (1 + 1e-12));
     }
   }
 

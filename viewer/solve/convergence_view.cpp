@@ -66,7 +66,8 @@ std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
   for (double change = s.iteration_records.front().change_of_b; predicted.size() < last;
        change *= rate) {
     predicted.push_back(change);
-    if (requested == 0 && change <= snapshot.options.tolerance) {
+    if (requested == 0 && change <= snapshot.options.tolerance &&
+        predicted.size() >= s.iteration_records.size()) {
       break;
     }
   }
