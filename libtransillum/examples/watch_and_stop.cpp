@@ -5,7 +5,7 @@
 //
 // Usage: watch_and_stop SCENE [SHARE]
 //   SCENE  a .obj file or a built-in scene, such as "cornell-box"
-//   SHARE  relative change of B in the maximum norm; default 0.001
+//   SHARE  largest change of B over the largest reflected light; default 0.001
 #include <transillum/transillum.h>
 
 #include <cstdio>

@@ -33,9 +33,12 @@ std::vector<Rgb> exitance_of(const Scene& scene, std::size_t per_patch) {
   return exitance;
 }
 
-/// 0 / 0 is 0.
+/// 0 / 0 is 0; infinite where either exceeds the range of numbers.
 double relative(double value, double unit) {
-  return value > 0 ? (unit > 0 ? value / unit : HUGE_VAL) : 0.0;
+  if (value == 0) {
+    return 0;
+  }
+  return unit > 0 && std::isfinite(value) && std::isfinite(unit) ? value / unit : HUGE_VAL;
 }
 
 }  // namespace
