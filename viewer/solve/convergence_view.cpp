@@ -75,7 +75,7 @@ std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
 }
 
 ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent), focus_(focus) {
-  iteration_chart_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Change of B"));
+  iteration_chart_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Relative"));
   iteration_chart_->set_hint(tr("One point per finished iteration"));
   direction_chart_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative"));
   direction_chart_->set_hint(tr("One point per direction"));
