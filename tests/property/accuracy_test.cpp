@@ -225,8 +225,8 @@ TEST(Accuracy, OfADarkPatchAddsIterationsNotPasses) {
   EXPECT_NEAR(solution.radiosity[0].r / truth_by_pairs(scene, 64)[0].r, 1, 0.02);
 }
 
-/// Stars shine on each other along hardly any direction: what all replicas miss alike, no spread
-/// shows. 40 % and less of the patches that emit had their B in its interval, unmentioned.
+/// Hardly any direction brings the light of one star to another: all replicas miss it alike, and
+/// their spread does not show it. Of the patches that emit, 40 % and less had B in their interval.
 TEST(Accuracy, NamesPatchesWhoseErrorsCannotBeTrusted) {
   const ScenePtr scene = load_scene("stars:n=3");
   SolveOptions options{.directions = 4096, .replicas = 8};

@@ -88,7 +88,7 @@ TEST(CliStreams, APipeWithoutAReaderEndsThemSilently) {
   EXPECT_EQ(result.err, "");
 }
 
-/// Another failure is told, whether it comes before the closed pipe or after it.
+/// The program reports another failure, whether it comes before the closed pipe or after it.
 TEST(CliStreams, APipeWithoutAReaderHidesNoOtherFailure) {
   const TemporaryFolder folder;
   const std::string full = folder / "full.csv";
