@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
+#include <random>
 #include <thread>
 
 #include "support/scenes.h"
@@ -191,6 +193,34 @@ TEST_P(MapsAgree, LocalAndGlobalWithExact) {
 INSTANTIATE_TEST_SUITE_P(BuiltIns, MapsAgree,
                          ::testing::Values("cornell-box", "boards", "furnace", "stars", "rooms",
                                            "sphere-flake:levels=1,slices=6,stacks=4"));
+
+/// Two triangles with the same corners are a sheet of two sides, which do not see each other. The
+/// rounding of a needle's plane cut the other in two: F was 0.44 instead of 0.
+TEST(Needles, BackToBackDoNotSeeEachOther) {
+  std::mt19937_64 random(3);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
+  };
+  const auto point = [&](double size) {
+    return Vec3{uniform(-size, size), uniform(-size, size), uniform(-size, size)};
+  };
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 a = point(100), b = point(100), c = b + point(std::pow(10, uniform(-6, 1)));
+    Sketch sketch;
+    const int gray = sketch.material(0.5, 1);
+    sketch.face({a, b, c}, gray).face({a, c, b}, gray);
+    sketch.box({-200, -200, -200}, {200, 200, 200}, true, gray);
+    const std::shared_ptr<const Scene> scene = sketch.scene();
+    for (const Engine engine : {Engine::fast, Engine::local, Engine::global, Engine::exact}) {
+      for (const Vec3& omega : test_directions(5, static_cast<std::uint64_t>(k))) {
+        for (const Transfer& t : transfers_of(engine, scene, omega).exchanges) {
+          EXPECT_TRUE(t.receiver > 1 || t.source > 1 || t.source < 0)
+              << name_of(engine) << ", needles " << k << ": " << t.area << " m²";
+        }
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace transillum::exact_engines_test

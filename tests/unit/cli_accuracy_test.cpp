@@ -83,6 +83,17 @@ TEST(CliAccuracy, WarnsWhereItCannotBeTrusted) {
   EXPECT_THAT(result.err, HasSubstr("--first-shot 0"));
 }
 
+TEST(CliAccuracy, CountsPatchesWhoseErrorsCannotBeTrusted) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"solve", "stars", "-m", "512", "--replicas", "4", "--stats", folder / "s.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  const auto& count = json.at("error_estimate").at("uncertain_patches");
+  EXPECT_GT(count, 0);
+  EXPECT_THAT(result.err, HasSubstr("standard errors of " + count.dump() + " patches cannot be"));
+}
+
 TEST(CliAccuracy, RefusesWhatItCannotKeep) {
   const std::pair<std::vector<std::string>, std::string> calls[] = {
       {{"--accuracy", "0"}, "--accuracy: \"0\" is not a percentage"},

@@ -11,6 +11,7 @@
 #include "bindings.h"
 #include "interrupt.h"
 #include "options.h"
+#include "transillum/accuracy_plan.h"
 
 namespace transillum::python {
 namespace {
@@ -253,7 +254,11 @@ void bind_solution(py::module_& module) {
                                return s.error.rms_limit;
                              })
       .def_property_readonly("complete", [](const Solution& s) { return s.complete; })
-      .def_property_readonly("statistics", [](const Solution& s) { return to_dict(s.statistics); });
+      .def_property_readonly("statistics", [](const Solution& s) {
+        py::dict dict = to_dict(s.statistics);
+        dict["uncertain_patches"] = uncertain_patches(s).size();
+        return dict;
+      });
 }
 
 void bind_run(py::module_& module) {

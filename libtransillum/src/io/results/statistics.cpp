@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "io/results/options_json.h"
+#include "transillum/accuracy_plan.h"
 #include "transillum/files.h"
 
 namespace transillum {
@@ -25,7 +26,8 @@ Json list_of(const std::vector<Record>& steps, ValueOf value_of) {
 }
 
 /// The error estimate; null without replicas.
-Json error_json(const ErrorEstimate& error) {
+Json error_json(const Solution& solution) {
+  const ErrorEstimate& error = solution.error;
   if (error.replicas == 0) {
     return {};
   }
@@ -36,6 +38,7 @@ Json error_json(const ErrorEstimate& error) {
           {"independent_errors", error.independent_errors},
           {"confidence", 0.95},
           {"quantile", error.quantile},
+          {"uncertain_patches", uncertain_patches(solution).size()},
           {"mean_B", list_of(error.mean_radiosity)},
           {"mean_B_standard_error", list_of(error.mean_standard_error)}};
 }
@@ -155,7 +158,7 @@ void write_statistics(const std::filesystem::path& path, const SolveOptions& opt
   json["covered_faces"] = solution.scene->report().covered_faces;
   json["options"] = options_json(options, solution.scene->options());
   json.update(statistics_json(solution.statistics));
-  json["error_estimate"] = error_json(solution.error);
+  json["error_estimate"] = error_json(solution);
   json["accuracy"] = accuracy_json(solution.accuracy);
   // nlohmann writes doubles in the shortest form that reads back, and what is not finite as null.
   // A scene's name may be a file name, which need not be UTF-8; JSON must be.

@@ -21,6 +21,18 @@ namespace {
 /// Larger sets are split node by node, others are each built by one task.
 constexpr std::size_t largest_part = 2048;
 
+/// a·d − b·c, right to a few units in the last place of the result, however much cancels (Kahan).
+double difference_of_products(double a, double d, double b, double c) {
+  const double bc = b * c;
+  return std::fma(a, d, -bc) + std::fma(-b, c, bc);
+}
+
+/// As cross(a, b), for vectors that are nearly parallel.
+Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
+  return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+          difference_of_products(a.x, b.y, a.y, b.x)};
+}
+
 }  // namespace
 
 BspBuilder::BspBuilder(const Scene& scene, BspTree& tree, const Cancellation& cancellation,
@@ -173,8 +185,12 @@ void BspBuilder::add_pieces() {
   for (const Piece& piece : scene_.pieces()) {
     check_cancellation();
     const auto points = scene_.corners(piece);
+    if (points.size() == 3) {
+      add_triangle(piece.patch, {points[0], points[1], points[2]});
+      continue;
+    }
     const BspTree::Plane plane = plane_of(points);
-    if (is_planar(points, plane)) {
+    if (contains(plane, points)) {
       add_polygon(piece.patch, points);
       planes_.push_back(plane);
       continue;
@@ -186,11 +202,24 @@ void BspBuilder::add_pieces() {
     const std::size_t start = dot(normal, scene_.point(points[3]) - origin) > 0 ? 1 : 0;
     const auto corner = [&](std::size_t k) { return points[(start + k) % points.size()]; };
     for (std::size_t k = 1; k + 1 < points.size(); ++k) {
-      const std::array<PointId, 3> triangle{corner(0), corner(k), corner(k + 1)};
-      add_polygon(piece.patch, triangle);
-      planes_.push_back(plane_of(triangle));
+      add_triangle(piece.patch, {corner(0), corner(k), corner(k + 1)});
     }
   }
+}
+
+/// A long needle's own corners may miss its plane, when its normal has lost the digits that cancel
+/// in the vector product. Another triangle with the same corners would then be cut by that plane,
+/// and parts of both would face each other.
+void BspBuilder::add_triangle(PatchId patch, const std::array<PointId, 3>& points) {
+  add_polygon(patch, points);
+  BspTree::Plane plane = plane_of(points);
+  if (!contains(plane, points)) {
+    const Vec3 &a = scene_.point(points[0]), &b = scene_.point(points[1]),
+               &c = scene_.point(points[2]);
+    plane.normal = normalized(accurate_cross(b - a, c - a));
+    plane.offset = dot(plane.normal, a + (b - a) / 3 + (c - a) / 3);
+  }
+  planes_.push_back(plane);
 }
 
 void BspBuilder::add_polygon(PatchId patch, std::span<const PointId> points) {
@@ -218,10 +247,10 @@ BspTree::Plane BspBuilder::plane_of(std::span<const PointId> points) const {
   return {normal, dot(normal, origin + sum / static_cast<double>(points.size()))};
 }
 
-bool BspBuilder::is_planar(std::span<const PointId> points, const BspTree::Plane& plane) const {
-  return points.size() == 3 || std::all_of(points.begin(), points.end(), [&](PointId p) {
-           return std::abs(dot(plane.normal, scene_.point(p)) - plane.offset) <= thickness_;
-         });
+bool BspBuilder::contains(const BspTree::Plane& plane, std::span<const PointId> points) const {
+  return std::all_of(points.begin(), points.end(), [&](PointId p) {
+    return std::abs(dot(plane.normal, scene_.point(p)) - plane.offset) <= thickness_;
+  });
 }
 
 /// To be called in loops over many polygons.

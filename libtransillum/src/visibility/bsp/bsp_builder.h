@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -36,7 +37,8 @@ class BspBuilder {
 
   void add_pieces();
   void add_polygon(PatchId patch, std::span<const PointId> points);
-  bool is_planar(std::span<const PointId> points, const BspTree::Plane& plane) const;
+  void add_triangle(PatchId patch, const std::array<PointId, 3>& points);
+  bool contains(const BspTree::Plane& plane, std::span<const PointId> points) const;
   BspTree::Plane plane_of(std::span<const PointId> points) const;
   void check_cancellation();
   LineId line_between(PointId a, PointId b);
