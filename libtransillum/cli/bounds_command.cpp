@@ -11,7 +11,6 @@
 #include "output_files.h"
 #include "progress_display.h"
 #include "scene_options.h"
-#include "sequence_options.h"
 #include "standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
@@ -20,23 +19,20 @@ namespace transillum::cli {
 namespace {
 
 struct BoundsCall {
-  const CLI::App* command = nullptr;
-  SceneInput scene;
-  SequenceOptions sequence;
+  RunInput scene;
   BoundsOptions options;
-  bool one_way = false;
   std::string out;
 };
 
 void check_options(const BoundsCall& call) {
-  check_seed(*call.command, call.sequence);
+  check_seed(call.scene);
   for (const char* option :
        {"--two-sided", "--max-patch-area", "--patches", "--default-reflectance",
         "--max-reflectance", "--scale", "--units", "--join", "--photometric"}) {
-    refuse_unless(!call.scene.spec.empty(), *call.command, option, "used only with a SCENE");
+    refuse_unless(!call.scene.spec.empty(), *call.scene.command, option, "used only with a SCENE");
   }
   for (const char* option : {"--directions", "--tolerance"}) {
-    refuse_unless(!call.scene.spec.empty() || call.options.rho, *call.command, option,
+    refuse_unless(!call.scene.spec.empty() || call.options.rho, *call.scene.command, option,
                   "used only with a SCENE or --reflectance, for the prediction");
   }
 }
@@ -53,9 +49,9 @@ int run(const BoundsCall& call) {
   }
   const Cancellation& cancellation = cancel_on_signals();
   BoundsOptions options = call.options;
-  options.directions = call.sequence.directions;
-  options.sets = {call.sequence.used_sampling(!call.one_way), call.sequence.seed,
-                  call.sequence.rotation, !call.one_way};
+  const SolveOptions& set = call.scene.run.solve;
+  options.directions = set.directions;
+  options.sets = {set.used_sampling(), set.seed, set.rotation, set.two_way};
   if (!call.scene.spec.empty()) {
     options.scene = load_input_scene(call.scene, outputs, cancellation);
   }
@@ -115,12 +111,11 @@ Run add_bounds_command(CLI::App& program) {
   command
       .add_option("SCENE", call->scene.spec, "scene that defines the largest reflectance and R2/A")
       ->type_name("");
-  call->command = call->scene.command = &command;
+  call->scene.command = &command;
   add_bounds_options(command, call->options);
-  add_sequence_options(command, call->sequence);
-  command.add_flag("--one-way", call->one_way, "use the directions without their opposites");
-  add_reading_options(command, call->scene);
-  add_patch_options(command, call->scene);
+  add_groups(command, call->scene, {"Directions", "Patches"});
+  add_options(command, call->scene,
+              {"default-reflectance", "max-reflectance", "scale", "units", "join", "photometric"});
   command
       .add_option("--run", call->options.run,
                   "file of solve --stats with --replicas; M is estimated from its error")

@@ -51,7 +51,7 @@ OrderedJson errors_json(const DirectionStatistics& s, const std::vector<double>&
 
 }  // namespace
 
-DirectionStatistics measure_directions(const SequenceOptions& set,
+DirectionStatistics measure_directions(const SolveOptions& set,
                                        const std::vector<DirectionSample>& samples,
                                        std::shared_ptr<const Scene> scene,
                                        const Cancellation& cancellation) {

@@ -4,22 +4,22 @@
 #include <memory>
 #include <string>
 
-#include "sequence_options.h"
 #include "transillum/discrepancy.h"
+#include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
 namespace transillum::cli {
 
 /// Quality measures of a set of directions, to compare with the bounds for Hammersley points.
 struct DirectionStatistics {
-  SequenceOptions set;
+  SolveOptions set;
   double star = 0, star_two_way = 0;  ///< two_way: of the directions and their opposites
   CapDiscrepancy cap, cap_two_way;
   std::shared_ptr<const Scene> scene;    ///< scene whose normals were used; null: all normals
   std::vector<double> one_way, two_way;  ///< eps_i(M) of eq. 17, one per normal
 };
 
-DirectionStatistics measure_directions(const SequenceOptions& set,
+DirectionStatistics measure_directions(const SolveOptions& set,
                                        const std::vector<DirectionSample>& samples,
                                        std::shared_ptr<const Scene> scene,
                                        const Cancellation& cancellation);

@@ -11,7 +11,6 @@
 #include "messages.h"
 #include "output_files.h"
 #include "scene_options.h"
-#include "sequence_options.h"
 #include "standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
@@ -23,16 +22,16 @@ namespace {
 constexpr int max_measured = 1 << 20;
 
 struct DirectionsCall {
-  const CLI::App* command = nullptr;
-  SequenceOptions sequence;
   std::string out;
   CLI::Option* stats = nullptr;
   std::string stats_file;
-  SceneInput scene;
+  RunInput scene;
+
+  const SolveOptions& set() const { return scene.run.solve; }
 };
 
 std::vector<std::string> checked_outputs(const DirectionsCall& call) {
-  check_seed(*call.command, call.sequence);
+  check_seed(call.scene);
   if (is_standard_output(call.out) && call.stats->count() > 0 && call.stats_file.empty()) {
     throw InputError("--out: standard output takes the text of --stats; name a file");
   }
@@ -45,9 +44,9 @@ std::vector<std::string> checked_outputs(const DirectionsCall& call) {
   if (!call.scene.spec.empty() && !measured) {
     throw InputError("--scene requires --stats");
   }
-  if (measured && call.sequence.directions > max_measured) {
+  if (measured && call.set().directions > max_measured) {
     throw InputError(fmt::format("--stats: {} directions exceed the limit of {}",
-                                 call.sequence.directions, max_measured));
+                                 call.set().directions, max_measured));
   }
   return files;
 }
@@ -59,7 +58,7 @@ void measure(const DirectionsCall& call, const std::vector<DirectionSample>& sam
   if (!call.scene.spec.empty()) {
     scene = load_input_scene(call.scene, outputs, cancellation);
   }
-  const auto statistics = measure_directions(call.sequence, samples, scene, cancellation);
+  const auto statistics = measure_directions(call.set(), samples, scene, cancellation);
   if (call.stats_file.empty()) {
     print_results(text_of(statistics));
   } else {
@@ -69,10 +68,10 @@ void measure(const DirectionsCall& call, const std::vector<DirectionSample>& sam
 
 int run(const DirectionsCall& call) {
   const std::vector<std::string> outputs = checked_outputs(call);
-  const SequenceOptions& sequence = call.sequence;
-  auto samples = make_directions(sequence.used_sampling(), sequence.directions, sequence.seed);
-  if (sequence.rotation) {
-    samples = rotated(std::move(samples), *sequence.rotation);
+  const SolveOptions& set = call.set();
+  auto samples = make_directions(set.used_sampling(), set.directions, set.seed);
+  if (set.rotation) {
+    samples = rotated(std::move(samples), *set.rotation);
   }
   if (call.stats->count() > 0) {
     measure(call, samples, outputs);
@@ -91,9 +90,8 @@ Run add_directions_command(CLI::App& program) {
   auto call = std::make_shared<DirectionsCall>();
   CLI::App& command = *program.add_subcommand(
       "directions", "Writes the points and directions of a sequence, or measures their quality");
-  call->command = &command;
   call->scene.command = &command;
-  add_sequence_options(command, call->sequence);
+  add_options(command, call->scene, {"directions", "sampling", "seed", "rotate"});
   command.add_option("-o,--out", call->out, "CSV: u,v,x,y,z (default: standard output)")
       ->type_name("FILE.csv");
   call->stats =

@@ -12,7 +12,6 @@
 #include "progress_display.h"
 #include "scene_options.h"
 #include "sensor_factors.h"
-#include "sequence_options.h"
 #include "standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
@@ -25,32 +24,31 @@ namespace transillum::cli {
 namespace {
 
 struct FactorsCall {
-  const CLI::App* command = nullptr;
-  SceneInput scene;
-  SequenceOptions sequence;
-  SolveOptions passes;
+  RunInput scene;
   GatherOptions rays;
   SensorCall sensors;
   double drop = 0;  ///< form factors below it are left out; 0: all are written
   std::string out;
+
+  const SolveOptions& passes() const { return scene.run.solve; }
 };
 
 FormFactors gather_by_rays(const FactorsCall& call, const Scene& scene,
                            const Cancellation& cancellation, ProgressDisplay& display) {
   GatherOptions options = call.rays;
-  options.seed = call.sequence.seed;
-  options.threads = call.passes.threads;
+  options.seed = call.passes().seed;
+  options.threads = call.passes().threads;
   return gather_form_factors(scene, options, cancellation,
                              [&](double share) { display.show("tracing rays", share); });
 }
 
 HemicubeOptions hemicube_options(const FactorsCall& call) {
   HemicubeOptions options;
-  if (call.passes.engine_options.resolution > 0) {
-    options.resolution = call.passes.engine_options.resolution;
+  if (call.passes().engine_options.resolution > 0) {
+    options.resolution = call.passes().engine_options.resolution;
   }
-  options.memory = call.passes.memory;
-  options.threads = call.passes.threads;
+  options.memory = call.passes().memory;
+  options.threads = call.passes().threads;
   return options;
 }
 
@@ -63,11 +61,11 @@ FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
 
 PairOptions pair_options(const FactorsCall& call) {
   PairOptions options;
-  if (call.passes.engine_options.points > 0) {
-    options.points = call.passes.engine_options.points;
+  if (call.passes().engine_options.points > 0) {
+    options.points = call.passes().engine_options.points;
   }
-  options.memory = call.passes.memory;
-  options.threads = call.passes.threads;
+  options.memory = call.passes().memory;
+  options.threads = call.passes().threads;
   return options;
 }
 
@@ -81,18 +79,14 @@ FormFactors compute_pairs(const FactorsCall& call, const Scene& scene,
 }
 
 SolveOptions pass_options(const FactorsCall& call) {
-  SolveOptions options = call.passes;
-  options.directions = call.sequence.directions;
-  options.sampling = call.sequence.sampling;
-  options.seed = call.sequence.seed;
-  options.rotation = call.sequence.rotation;
+  SolveOptions options = call.passes();
   options.iterations = 1;
   return options;
 }
 
 FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
                        const Cancellation& cancellation, ProgressDisplay& display) {
-  const auto tree = build_tree(*scene, cancellation, display, call.passes.threads);
+  const auto tree = build_tree(*scene, cancellation, display, call.passes().threads);
   RadiositySolver solver(scene, pass_options(call), tree, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
     display.show_passes("", watched.progress());
@@ -103,7 +97,7 @@ FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scen
 
 FormFactors compute_form_factors(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
                                  const Cancellation& cancellation, ProgressDisplay& display) {
-  switch (call.passes.engine) {
+  switch (call.passes().engine) {
     case Engine::rays:
       return gather_by_rays(call, *scene, cancellation, display);
     case Engine::hemicube:
@@ -116,19 +110,20 @@ FormFactors compute_form_factors(const FactorsCall& call, const std::shared_ptr<
 }
 
 void check_options(const FactorsCall& call) {
-  const Engine engine = call.passes.engine;
-  refuse_unless(engine == Engine::rays, *call.command, "--rays", "used only with engine rays");
+  const Engine engine = call.passes().engine;
+  refuse_unless(engine == Engine::rays, *call.scene.command, "--rays",
+                "used only with engine rays");
   if (engine == Engine::hemicube) {
     hemicube_options(call).validate();
   }
   if (engine != Engine::rays) {
-    refuse_unused(*call.command, {pass_options(call)});
+    refuse_unused(call.scene, {call.scene.run});
     return;
   }
   // Here its rays start at patches: there is no direction, no plane of pixels, no memory limit.
   for (const char* option :
        {"--directions", "--sampling", "--rotate", "--resolution", "--points", "--memory"}) {
-    refuse_unless(false, *call.command, option, "not used with engine rays");
+    refuse_unless(false, *call.scene.command, option, "not used with engine rays");
   }
 }
 
@@ -154,9 +149,10 @@ FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactor
 }
 
 int run(const FactorsCall& call) {
-  check_sensor_options(*call.command, call.sensors);
+  check_sensor_options(*call.scene.command, call.sensors);
   if (!call.sensors.points.empty()) {
-    return run_sensors(call.sensors, call.scene, call.out, call.passes.memory, call.passes.threads);
+    return run_sensors(call.sensors, call.scene, call.out, call.passes().memory,
+                       call.passes().threads);
   }
   const Cancellation& cancellation = cancel_on_signals();
   check_options(call);
@@ -184,16 +180,17 @@ void add_methods(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
       command, "--engine", "NAME",
       fmt::format("{} (default {}); rays: cosine-distributed rays from every patch instead of "
                   "directions; hemicube: a hemicube on every patch; pairs: pair by pair",
-                  fmt::join(engine_names(), " | "), name_of(call->passes.engine)),
-      [call](const std::string& text) { call->passes.engine = engine_from_name(text); });
+                  fmt::join(engine_names(), " | "), name_of(Engine::fast)),
+      [call](const std::string& text) { call->scene.run.solve.engine = engine_from_name(text); });
   add_parsed_option(
       command, "--points", "P|FILE",
-      help_of("points", EngineOptions::default_points) +
+      option("points").help_text() +
           "; or a file with points x,y,z,nx,ny,nz, one a line: form factors from them instead of "
           "patches, exactly by the visible parts",
       [call](const std::string& text) {
         if (text.find_first_not_of("+-0123456789") == std::string::npos) {
-          call->passes.engine_options.points = parse_points("--points", text);
+          call->scene.run.solve.engine_options.points = parse_points("--points", text);
+          call->scene.given.insert("points");
         } else {
           call->sensors.points = text;
         }
@@ -212,7 +209,8 @@ void add_methods(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
                   "pixels along the longer side of the projected scene (default {})",
                   HemicubeOptions().resolution, EngineOptions::default_resolution),
       [call](const std::string& text) {
-        call->passes.engine_options.resolution = parse_resolution("--resolution", text);
+        call->scene.run.solve.engine_options.resolution = parse_resolution("--resolution", text);
+        call->scene.given.insert("resolution");
       });
 }
 
@@ -242,12 +240,11 @@ Run add_factors_command(CLI::App& program) {
   auto call = std::make_shared<FactorsCall>();
   CLI::App& command =
       *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
-  call->command = &command;
   add_scene_argument(command, call->scene);
-  add_sequence_options(command, call->sequence);
+  add_options(command, call->scene, {"directions", "sampling", "seed", "rotate"});
   add_methods(command, call);
   add_scene_options(command, call->scene);
-  add_machine_limits(command, call->passes.memory, call->passes.threads);
+  add_groups(command, call->scene, {"Machine"});
   command.get_option("--memory")
       ->description("largest memory for form factors (default: a quarter of the machine's)");
   add_outputs(command, call);

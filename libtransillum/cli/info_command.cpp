@@ -32,9 +32,8 @@ constexpr std::size_t max_listed = 20;
 constexpr std::size_t max_overlaps = 10000;
 
 struct InfoCall {
-  SceneInput scene;
+  RunInput scene;
   int directions = 0;  ///< 0: rays only
-  int threads = 0;
 };
 
 void print_row(const std::string& name, const std::string& value) {
@@ -184,9 +183,9 @@ void print_directions(const std::shared_ptr<const Scene>& scene, const InfoCall&
   SolveOptions options;
   options.directions = call.directions;
   options.iterations = 1;
-  options.threads = call.threads;
+  options.threads = call.scene.run.solve.threads;
   ProgressDisplay display;
-  const auto tree = build_tree(*scene, cancellation, display, call.threads);
+  const auto tree = build_tree(*scene, cancellation, display, call.scene.run.solve.threads);
   RadiositySolver solver(scene, options, tree, cancellation);
   display.expect_passes("checking visibility, ", call.directions);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
@@ -210,7 +209,7 @@ int run(const InfoCall& call) {
       make_input_scene(call.scene, describe_input(call.scene, cancellation), cancellation);
   print_counts(*scene);
   print_size_and_light(*scene);
-  const BackShare backs = print_rays(*scene, call.threads, cancellation);
+  const BackShare backs = print_rays(*scene, call.scene.run.solve.threads, cancellation);
   if (call.directions > 0) {
     print_directions(scene, call, cancellation);
   }
@@ -237,7 +236,7 @@ Run add_info_command(CLI::App& program) {
                       call->directions =
                           static_cast<int>(parse_whole_number("--directions", text, 1, 1 << 20));
                     });
-  add_threads_option(command, call->threads);
+  add_options(command, call->scene, {"threads"});
   command.footer(
       "Whether the scene is closed and what is seen from behind is measured by random rays from\n"
       "the lit sides, which miss holes smaller than about 1e-4 of the area; with --directions "

@@ -25,16 +25,17 @@ namespace {
 
 struct MapCall {
   const CLI::App* command = nullptr;
-  SceneInput scene;
+  RunInput scene;
   Vec3 direction;
   PatchId receiver = no_patch;
   std::optional<std::int32_t> step;  ///< number of steps done; unset: all
-  Engine engine = Engine::local;
-  EngineOptions engine_options;
   bool difference = false;
-  std::uint64_t memory = 0;
   MapPictureOptions picture;
   std::vector<std::string> out;
+
+  MapCall() { scene.run.solve.engine = Engine::local; }
+  Engine engine() const { return scene.run.solve.engine; }
+  bool is_exact() const { return engine() == Engine::local; }
 };
 
 void check_receiver(const MapCall& call, const Scene& scene) {
@@ -48,7 +49,7 @@ void check_receiver(const MapCall& call, const Scene& scene) {
 VisibilityMap exact_map(const MapCall& call, const Scene& scene, const BspTree& tree,
                         const Cancellation& cancellation) {
   const RecordedDirection direction =
-      record_local_map(scene, tree, call.direction, cancellation, call.memory);
+      record_local_map(scene, tree, call.direction, cancellation, call.scene.run.solve.memory);
   const std::int32_t steps = direction.record.step_count();
   if (call.step.value_or(0) > steps) {
     throw InputError(fmt::format("--step: no step {}; the steps of this direction are 0 to {}",
@@ -62,11 +63,11 @@ VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& 
                        const Cancellation& cancellation) {
   ProgressDisplay progress;
   const auto tree = build_tree(*scene, cancellation, progress);
-  if (call.engine == Engine::local) {
+  if (call.is_exact()) {
     return exact_map(call, *scene, *tree, cancellation);
   }
-  const PixelMap pixels = pixel_map(call.engine, scene, tree, call.direction, call.receiver,
-                                    call.engine_options, cancellation);
+  const PixelMap pixels = pixel_map(call.engine(), scene, tree, call.direction, call.receiver,
+                                    call.scene.run.solve.engine_options, cancellation);
   VisibilityMap map = drawn_in_pixels(*scene, pixels);
   if (call.difference) {
     mark_differences(pixels, exact_map(call, *scene, *tree, cancellation), map, cancellation);
@@ -76,8 +77,8 @@ VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& 
 
 /// A hint for engines whose results only the viewer can show.
 std::string viewer_hint(Engine engine) {
-  const bool has_view = engine == Engine::corrected || engine == Engine::hemicube;
-  return has_view ? " (the viewer can show it)" : "";
+  return traits_of(engine).picture != EngineTraits::Picture::none ? " (the viewer can show it)"
+                                                                  : "";
 }
 
 void add_pixel_options(CLI::App& command, MapCall& call) {
@@ -85,32 +86,34 @@ void add_pixel_options(CLI::App& command, MapCall& call) {
       command, "--engine", "NAME",
       "local (default): exact map; zbuffer | painter | rays: map from the pixels of this engine",
       [&call](const std::string& text) {
-        call.engine = engine_from_name(text);
-        if (call.engine != Engine::local && !has_pixels(call.engine)) {
+        call.scene.run.solve.engine = engine_from_name(text);
+        if (!call.is_exact() && !has_pixels(call.engine())) {
           throw InputError(
               fmt::format("--engine: {} has no map that can be written; choose local, zbuffer, "
                           "painter or rays{}",
-                          text, viewer_hint(call.engine)));
+                          text, viewer_hint(call.engine())));
         }
       });
   add_parsed_option(command, "--resolution", "R",
                     fmt::format("pixels along the longer side of the projected scene (default {})",
                                 PixelMap::default_resolution),
                     [&call](const std::string& text) {
-                      call.engine_options.resolution = static_cast<int>(parse_whole_number(
-                          "--resolution", text, 1, PixelMap::largest_resolution));
+                      call.scene.run.solve.engine_options.resolution =
+                          static_cast<int>(parse_whole_number("--resolution", text, 1,
+                                                              PixelMap::largest_resolution));
+                      call.scene.given.insert("resolution");
                     });
-  add_order_option(command, call.engine_options);
+  add_options(command, call.scene, {"order"});
   command.add_flag("--difference", call.difference, "mark pixels that differ from the exact map");
 }
 
 void check_options(const MapCall& call) {
-  refuse_unused(*call.command, {{.engine = call.engine, .engine_options = call.engine_options}});
-  refuse_unless(call.engine != Engine::local, *call.command, "--difference",
+  refuse_unused(call.scene, {call.scene.run});
+  refuse_unless(!call.is_exact(), *call.command, "--difference",
                 "used only with engine zbuffer, painter or rays");
-  refuse_unless(call.engine == Engine::local && call.receiver == no_patch, *call.command, "--step",
+  refuse_unless(call.is_exact() && call.receiver == no_patch, *call.command, "--step",
                 "used only with engine local, without --receiver");
-  refuse_unless(call.engine == Engine::local || call.difference, *call.command, "--memory",
+  refuse_unless(call.is_exact() || call.difference, *call.command, "--memory",
                 "used only with engine local, or with --difference");
   const bool pictures = std::any_of(call.out.begin(), call.out.end(), is_map_picture);
   refuse_unless(pictures, *call.command, "--size", "used only with .svg and .png files");
@@ -164,9 +167,11 @@ Run add_map_command(CLI::App& program) {
             parse_whole_number("--step", text, 0, std::numeric_limits<std::int32_t>::max()));
       });
   add_pixel_options(command, *call);
-  add_memory_option(command, call->memory,
-                    "what the record of the map's making may take, such as 2G or 800M (default: a "
-                    "quarter of the machine's)");
+  add_options(command, call->scene, {"memory"});
+  command.get_option("--memory")
+      ->description(
+          "what the record of the map's making may take, such as 2G or 800M (default: a quarter of "
+          "the machine's)");
   add_parsed_option(
       command, "--size", "PIXELS",
       fmt::format("length of the longer side of .svg and .png (default {})", call->picture.size),

@@ -52,7 +52,7 @@ int merge(const MergeCall& call) {
     throw InputError(
         fmt::format("{}: its options cannot be read: {}", call.parts.front(), error.what()));
   }
-  set_up_of_display(command, solve.options.sky, solve.colors);
+  set_up_of_display(command, solve.options().sky, solve.colors);
   solve.shards = call.parts;
   return run_solve(solve);
 }

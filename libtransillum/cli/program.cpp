@@ -82,7 +82,11 @@ struct Program {
                      add_factors_command, add_directions_command, add_bounds_command,
                      add_study_command, add_compare_command, add_info_command, add_merge_command}) {
       Run run = add(app);
-      commands.emplace_back(app.get_subcommands({}).back(), std::move(run));
+      CLI::App& command = *app.get_subcommands({}).back();
+      if (command.get_groups().size() > 2) {  // with that of arguments
+        command.set_help_all_flag("--help-all", "show all options, by group");
+      }
+      commands.emplace_back(&command, std::move(run));
     }
     app.footer(program_footer());
   }

@@ -15,9 +15,9 @@ Refinement refine_in_rounds(const SolveCall& call, const std::shared_ptr<const S
   int number = 1;
   const auto begin = [&] { display.begin(fmt::format("round {}", number)); };
   begin();
-  const char* figure = *call.refine_by == RefineBy::jump ? "RMS jump" : "L2 error";
+  const char* figure = *call.scene.run.refine.by == RefineBy::jump ? "RMS jump" : "L2 error";
   Refinement refined = refine(
-      scene, options, {*call.refine_by, call.scene.patches, call.refine_until},
+      scene, options, call.scene.run.refine.options(),
       [&](const RefinementRound& round, const Solution& /*solved*/) {
         display.clear();
         if (!call.quiet) {

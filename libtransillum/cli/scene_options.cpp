@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The argument SCENE and its options: parsing, and the steps from them to a Scene: reading, changes
-// of materials, the limit of patch areas, checks and warnings.
+// The steps from the argument SCENE and its options to a Scene: reading, changes of materials, the
+// limit of patch areas, checks and warnings.
 #include "scene_options.h"
 
 #include <fmt/format.h>
@@ -18,49 +18,6 @@
 namespace transillum::cli {
 namespace {
 
-constexpr std::int64_t most_patches_asked_for = 50'000'000;
-
-/// A number, in the range that `valid` describes to the user.
-double parse_in_range(const std::string& option, const std::string& text, const std::string& valid,
-                      bool (*is_valid)(double)) {
-  const double number = parse_number(option, text);
-  if (!is_valid(number)) {
-    throw InputError(fmt::format("{}: \"{}\" is not {}", option, text, valid));
-  }
-  return number;
-}
-
-double parse_reflectance(const std::string& option, const std::string& text) {
-  return parse_in_range(option, text, "at least 0 and below 1",
-                        [](double r) { return r >= 0 && r < 1; });
-}
-
-double parse_positive(const std::string& option, const std::string& text) {
-  return parse_in_range(option, text, "greater than 0", [](double x) { return x > 0; });
-}
-
-/// An option NAME=V or NAME=V,V,V that may be given several times.
-void add_change_option(CLI::App& command, const std::string& name, const std::string& type,
-                       const std::string& help, std::vector<MaterialChange>& changes,
-                       MaterialChange (*parse)(const std::string&)) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          name,
-          [=, &changes](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) {
-              try {
-                changes.push_back(parse(text));
-              } catch (const InputError& error) {
-                throw InputError(fmt::format("{}: {}", name, error.what()));
-              }
-            }
-          },
-          help)
-      ->type_name(type)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
 /// "12345 patches of at most 0.01 m2; about 24 MB of memory", before they are made.
 std::string patches_text(std::int64_t count, double max_area, bool keeps_factors) {
   return fmt::format("{} patches of at most {:.4g} m2; about {:.3g} MB of memory{}", count,
@@ -70,14 +27,6 @@ std::string patches_text(std::int64_t count, double max_area, bool keeps_factors
 
 bool has_option(const CLI::App& command, const std::string& name) {
   return command.get_option_no_throw(name) != nullptr;
-}
-
-/// The value of --threads; 0: not given.
-int threads_of(const CLI::App& command) {
-  const CLI::Option* threads = command.get_option_no_throw("--threads");
-  return threads == nullptr || threads->count() == 0
-             ? 0
-             : parse_thread_count("--threads", threads->results().back());
 }
 
 bool is_quiet(const CLI::App& command) {
@@ -95,12 +44,12 @@ std::string most_backs(const BackShare& backs) {
 }
 
 /// Turns parts of the scene and prints what was done, and what is still seen from behind.
-void orient_input(const SceneInput& input, SceneDescription& description,
+void orient_input(const RunInput& input, SceneDescription& description,
                   const Cancellation& cancellation) {
   ProgressDisplay display(is_quiet(*input.command));
   display.begin("turning faces");
   const OrientationReport report =
-      orient(description, threads_of(*input.command), cancellation,
+      orient(description, input.run.solve.threads, cancellation,
              [&](double share) { display.show("turning faces", share); });
   display.clear();
   if (!is_quiet(*input.command)) {
@@ -108,11 +57,11 @@ void orient_input(const SceneInput& input, SceneDescription& description,
       print_message("orientation: " + sentence);
     }
   }
-  if (input.options.two_sided) {
+  if (input.run.scene.two_sided) {
     return;
   }
   const BackShare backs =
-      back_share(Scene(description, {}, cancellation), threads_of(*input.command), cancellation);
+      back_share(Scene(description, {}, cancellation), input.run.solve.threads, cancellation);
   if (backs.share > BackShare::worth_a_warning) {
     print_message(
         fmt::format("warning: {} of what light meets are backs of faces, which absorb it, also "
@@ -122,7 +71,7 @@ void orient_input(const SceneInput& input, SceneDescription& description,
 }
 
 /// One line that says that a sky lights nothing where all lit sides are shut in; else empty.
-std::string sky_advice(const SceneInput& input, const Scene& scene, const BackShare& backs) {
+std::string sky_advice(const RunInput& input, const Scene& scene, const BackShare& backs) {
   // A room of two-sided faces is closed, but the sky lights it outside.
   if (backs.open > 0 || has_two_sided_faces(scene)) {
     return {};
@@ -130,25 +79,25 @@ std::string sky_advice(const SceneInput& input, const Scene& scene, const BackSh
   return fmt::format(
       "the sky lights no face: no ray from a lit side leaves the scene, and backs of faces absorb "
       "its light (try --two-sided{})",
-      input.orient ? ", or --orient keep" : " or --orient auto");
+      input.run.input.orient ? ", or --orient keep" : " or --orient auto");
 }
 
 /// The options of the scene with the limit of patch areas that --patches asks for. Prints what the
 /// division will make.
-SceneOptions division(const SceneInput& input, const SceneDescription& description,
+SceneOptions division(const RunInput& input, const SceneDescription& description,
                       const Cancellation& cancellation) {
-  SceneOptions options = input.options;
-  if (input.in_rounds || (input.patches == 0 && options.max_patch_area == 0)) {
+  SceneOptions options = input.run.scene;
+  if (input.run.refine.set() || (input.run.input.patches == 0 && options.max_patch_area == 0)) {
     return options;
   }
   options.max_patch_area = 0;
   const Scene whole(description, options, cancellation);
-  options.max_patch_area = input.patches > 0
-                               ? max_patch_area_for(whole, input.patches, cancellation)
-                               : input.options.max_patch_area;
-  if (whole.patch_count() > input.patches && input.patches > 0) {
+  options.max_patch_area = input.run.input.patches > 0
+                               ? max_patch_area_for(whole, input.run.input.patches, cancellation)
+                               : input.run.scene.max_patch_area;
+  if (whole.patch_count() > input.run.input.patches && input.run.input.patches > 0) {
     print_message(fmt::format("warning: --patches: the faces make {} patches already, more than {}",
-                              whole.patch_count(), input.patches));
+                              whole.patch_count(), input.run.input.patches));
   } else if (options.max_patch_area > 0) {
     const std::int64_t count = count_patches(whole, options.max_patch_area);
     if (!is_quiet(*input.command)) {
@@ -171,7 +120,7 @@ std::string scene_endings() {
 
 }  // namespace
 
-void add_scene_argument(CLI::App& command, SceneInput& input) {
+void add_scene_argument(CLI::App& command, RunInput& input) {
   input.command = &command;
   command
       .add_option("SCENE", input.spec,
@@ -183,102 +132,25 @@ void add_scene_argument(CLI::App& command, SceneInput& input) {
       ->type_name("");
 }
 
-void add_reading_options(CLI::App& command, SceneInput& input) {
-  add_parsed_option(command, "--default-reflectance", "R",
-                    fmt::format("reflectance where a file defines none: missing, undefined or "
-                                "nameless materials, unreadable textures (default {})",
-                                input.read.default_reflectance),
-                    [&input](const std::string& text) {
-                      input.read.default_reflectance =
-                          parse_reflectance("--default-reflectance", text);
-                    });
-  add_parsed_option(command, "--max-reflectance", "R",
-                    fmt::format("lower larger reflectances of a file to R (default: lower only "
-                                "those of 1 and more, to {})",
-                                ReadOptions::default_max_reflectance),
-                    [&input](const std::string& text) {
-                      input.read.max_reflectance = parse_reflectance("--max-reflectance", text);
-                    });
-  auto* scale = add_parsed_option(
-      command, "--scale", "X", "meters per unit of the scene's coordinates (default 1)",
-      [&input](const std::string& text) { input.read.scale = parse_positive("--scale", text); });
-  add_parsed_option(
-      command, "--units", "NAME",
-      fmt::format("unit of the scene's coordinates: {} (default m)",
-                  fmt::join(length_unit_names(), " | ")),
-      [&input](const std::string& text) { input.read.scale = length_unit_from_name(text); })
-      ->excludes(scale);
-  command.add_flag_function(
-      "--join,!--no-join", [&input](std::int64_t count) { input.read.join = count > 0; },
-      "join faces of one plane, material and group that share edges (default: only "
-      "for glTF and STL, which have triangles alone)");
-  command.add_flag("--photometric", input.read.photometric,
-                   "glTF: emissive colors are luminances in cd/m2 instead of radiances: divide by "
-                   "683 lm/W");
+void add_scene_options(CLI::App& command, RunInput& input) {
+  add_groups(command, input, {"Scene", "Patches"});
 }
 
-void add_material_options(CLI::App& command, SceneInput& input) {
-  add_change_option(command, "--emission", "NAME=E[,E,E]",
-                    "exitance of a material, a group or face:N, in W/m2; may be given several "
-                    "times",
-                    input.changes, exitance_change);
-  add_change_option(command, "--reflectance", "NAME=R[,R,R]",
-                    "reflectance of a material, a group or face:N; may be given several times",
-                    input.changes, reflectance_change);
-  add_change_option(command, "--lobe", "NAME=K,N",
-                    "lobe of a material, a group or face:N, for --glossy: the share K of the light "
-                    "that it reflects (or R,G,B,N) and the exponent N of Phong's cosine; may be "
-                    "given several times",
-                    input.changes, lobe_change);
+void check_seed(const RunInput& input) {
+  refuse_unless(is_seeded(input.run.solve.used_sampling()), *input.command, "--seed",
+                "used only with sampling random, sobol or scrambled-hammersley");
 }
 
-void add_orientation_option(CLI::App& command, SceneInput& input) {
-  add_parsed_option(
-      command, "--orient", "NAME",
-      "auto: turn parts of the scene so that what is seen is the lit side, and make "
-      "open sheets two-sided; keep: as in the file (default keep)",
-      [&input](const std::string& text) {
-        if (text != "keep" && text != "auto") {
-          throw InputError(fmt::format("--orient: \"{}\" is neither keep nor auto", text));
-        }
-        input.orient = text == "auto";
-      });
-}
-
-void add_patch_options(CLI::App& command, SceneInput& input) {
-  command.add_flag("--two-sided", input.options.two_sided, description_of("two-sided"));
-  auto* area =
-      add_parsed_option(command, "--max-patch-area", "A", help_of("max-patch-area", "no limit"),
-                        [&input](const std::string& text) {
-                          input.options.max_patch_area = parse_positive("--max-patch-area", text);
-                        });
-  add_parsed_option(command, "--patches", "N",
-                    "divide faces into about N patches, by a limit of their area that is chosen "
-                    "for it",
-                    [&input](const std::string& text) {
-                      input.patches =
-                          parse_whole_number("--patches", text, 1, most_patches_asked_for);
-                    })
-      ->excludes(area);
-}
-
-void add_scene_options(CLI::App& command, SceneInput& input) {
-  add_reading_options(command, input);
-  add_material_options(command, input);
-  add_orientation_option(command, input);
-  add_patch_options(command, input);
-}
-
-SceneDescription describe_input(const SceneInput& input, const Cancellation& cancellation) {
-  SceneDescription description = describe_scene(input.spec, input.read, cancellation);
-  change_materials(description, input.changes);
-  if (input.orient) {
+SceneDescription describe_input(const RunInput& input, const Cancellation& cancellation) {
+  SceneDescription description = describe_scene(input.spec, input.run.input.read, cancellation);
+  change_materials(description, input.run.input.changes);
+  if (input.run.input.orient) {
     orient_input(input, description, cancellation);
   }
   return description;
 }
 
-std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
+std::shared_ptr<const Scene> make_input_scene(const RunInput& input,
                                               const SceneDescription& description,
                                               const Cancellation& cancellation) {
   return std::make_shared<const Scene>(description, division(input, description, cancellation),
@@ -292,8 +164,8 @@ bool has_two_sided_faces(const Scene& scene) {
          }) != patches.end();
 }
 
-std::string orientation_advice(const SceneInput& input, const BackShare& backs) {
-  if (backs.share <= BackShare::worth_a_warning || input.orient) {
+std::string orientation_advice(const RunInput& input, const BackShare& backs) {
+  if (backs.share <= BackShare::worth_a_warning || input.run.input.orient) {
     return {};
   }
   return fmt::format(
@@ -302,7 +174,7 @@ std::string orientation_advice(const SceneInput& input, const BackShare& backs) 
       share_text(backs.share));
 }
 
-std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
+std::shared_ptr<const Scene> load_input_scene(const RunInput& input,
                                               const std::vector<std::string>& outputs,
                                               const Cancellation& cancellation, Light light) {
   const SceneDescription description = describe_input(input, cancellation);
@@ -316,8 +188,8 @@ std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
         "an exitance in W/m2, such as --emission '{}=10'",
         scene->name(), suggested_light(description)));
   }
-  if (light == Light::sky || (light == Light::required && !input.orient)) {
-    const BackShare backs = back_share(*scene, threads_of(*input.command), cancellation);
+  if (light == Light::sky || (light == Light::required && !input.run.input.orient)) {
+    const BackShare backs = back_share(*scene, input.run.solve.threads, cancellation);
     const std::string advice = light == Light::required ? orientation_advice(input, backs)
                                                         : sky_advice(input, *scene, backs);
     if (!advice.empty()) {

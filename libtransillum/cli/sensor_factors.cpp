@@ -73,7 +73,7 @@ void check_sensor_options(const CLI::App& command, const SensorCall& call) {
   }
 }
 
-int run_sensors(const SensorCall& call, const SceneInput& scene_input, const std::string& out,
+int run_sensors(const SensorCall& call, const RunInput& scene_input, const std::string& out,
                 std::uint64_t memory, int threads) {
   const Cancellation& cancellation = cancel_on_signals();
   const std::vector<std::string> outputs = given_files({out, call.irradiance});

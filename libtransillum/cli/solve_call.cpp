@@ -12,7 +12,6 @@
 #include "processes.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/study.h"
 
 namespace transillum::cli {
 namespace {
@@ -26,14 +25,14 @@ void check_glossy(const SolveCall& call) {
       return std::find(endings.begin(), endings.end(), ending) != endings.end();
     });
   };
-  refuse_unless(call.options.glossy || any_file({".png"}), *call.command, "--eye",
+  refuse_unless(call.options().glossy || any_file({".png"}), *call.scene.command, "--eye",
                 "used only with --glossy, or a .png file");
-  refuse_unless(any_file({".csv", ".vtp", ".ply", ".png"}), *call.command, "--eye",
+  refuse_unless(any_file({".csv", ".vtp", ".ply", ".png"}), *call.scene.command, "--eye",
                 "used only with a .csv, .vtp, .ply or .png file");
-  if (call.options.glossy) {
+  if (call.options().glossy) {
     for (const char* option :
          {"--factors", "--by", "--series", "--checkpoint", "--shard", "--refine-by"}) {
-      refuse_unless(false, *call.command, option, "not used with --glossy");
+      refuse_unless(false, *call.scene.command, option, "not used with --glossy");
     }
   }
 }
@@ -44,121 +43,17 @@ void check_stored_factors(const SolveCall& call) {
     return;
   }
   for (const char* option :
-       {"--directions", "--sampling", "--seed",      "--rotate",  "--engine",
-        "--resolution", "--points",   "--lines",     "--order",   "--random-lines",
-        "--one-way",    "--two-way",  "--normalize", "--scheme",  "--first-shot",
-        "--burn-in",    "--replicas", "--accuracy",  "--seconds", "--sky",
-        "--basis",      "--memory"}) {
-    refuse_unless(false, *call.command, option, "not used with --factors");
+       {"--directions", "--sampling", "--seed", "--rotate", "--engine", "--resolution", "--points",
+        "--order", "--one-way", "--normalize", "--scheme", "--first-shot", "--burn-in",
+        "--replicas", "--accuracy", "--seconds", "--sky", "--basis", "--memory"}) {
+    refuse_unless(false, *call.scene.command, option, "not used with --factors");
   }
-}
-
-void add_stopping_rules(CLI::App& command, SolveCall& call) {
-  auto* iterations = add_parsed_option(
-      command, "--iterations", "K", description_of("iterations"), [&call](const std::string& text) {
-        call.options.iterations =
-            static_cast<int>(parse_whole_number("--iterations", text, 1, 1'000'000));
-        call.stop_given = true;
-      });
-  auto* tolerance =
-      add_parsed_option(command, "--tolerance", "T", help_of("tolerance", call.options.tolerance),
-                        [&call](const std::string& text) {
-                          call.options.tolerance = parse_number("--tolerance", text);
-                          call.stop_given = true;
-                          if (!(call.options.tolerance > 0 && call.options.tolerance < 1)) {
-                            throw InputError(fmt::format(
-                                "--tolerance: \"{}\" is not greater than 0 and less than 1", text));
-                          }
-                        });
-  iterations->excludes(tolerance);
-}
-
-void add_estimator(CLI::App& command, SolveCall& call) {
-  SolveOptions& options = call.options;
-  add_engine_options(command, options.engine, options.engine_options);
-  auto* one_way = command.add_flag("--one-way", call.one_way,
-                                   "use each pass for one direction, as in the paper");
-  auto* two_way = command.add_flag("--two-way", call.two_way, help_of("two-way", "yes"));
-  one_way->excludes(two_way);
-  add_parsed_option(
-      command, "--normalize", "NAME", help_of("normalize", name_of(options.normalize)),
-      [&options](const std::string& text) { options.normalize = normalization_from_name(text); });
-}
-
-void add_scheme(CLI::App& command, SolveCall& call) {
-  SolveOptions& options = call.options;
-  add_parsed_option(
-      command, "--scheme", "NAME", help_of("scheme", name_of(options.scheme)),
-      [&options](const std::string& text) { options.scheme = scheme_from_name(text); });
-  add_parsed_option(command, "--basis", "NAME", help_of("basis", name_of(options.basis)),
-                    [&options](const std::string& text) { options.basis = basis_from_name(text); });
-  auto* glossy = command.add_flag("--glossy", options.glossy, description_of("glossy"));
-  command
-      .add_flag("--diffuse-only", call.diffuse_only,
-                "leave lobes of materials out, as without --glossy, and do not mention them")
-      ->excludes(glossy);
-  add_parsed_option(
-      command, "--eye", "X,Y,Z",
-      "a point in m: with --glossy, .csv, .vtp and .ply files have the radiance toward it; .png "
-      "files are seen from it",
-      [&call](const std::string& text) { call.eye = parse_point("--eye", text); });
-  add_parsed_option(command, "--first-shot", "RATIO",
-                    choice_help("first-shot", {"none", "auto", "a number"}, "none"),
-                    [&call, &options](const std::string& text) {
-                      options.first_shot = parse_first_shot("--first-shot", text);
-                      call.shot_given = true;
-                    });
-  add_parsed_option(
-      command, "--burn-in", "N", help_of("burn-in", "auto"), [&options](const std::string& text) {
-        options.burn_in.reset();
-        if (text != "auto") {
-          options.burn_in = static_cast<int>(parse_whole_number("--burn-in", text, 0, 1'000'000));
-        }
-      });
-  add_parsed_option(command, "--replicas", "R", help_of("replicas", "1: no error estimate"),
-                    [&options](const std::string& text) {
-                      options.replicas =
-                          static_cast<int>(parse_whole_number("--replicas", text, 1, 64));
-                    });
-}
-
-void add_refinement(CLI::App& command, SolveCall& call) {
-  auto* by = add_parsed_option(command, "--refine-by", "NAME", description_of("refine-by"),
-                               [&call](const std::string& text) {
-                                 call.refine_by = refine_by_from_name(text);
-                                 call.scene.in_rounds = true;
-                               });
-  add_parsed_option(command, "--refine-until", "P%|X", description_of("refine-until"),
-                    [&call](const std::string& text) {
-                      call.refine_until = parse_accuracy("--refine-until", text);
-                    })
-      ->needs(by);
-}
-
-void add_goal(CLI::App& command, AccuracyGoal& goal) {
-  add_parsed_option(
-      command, "--accuracy", "P%|X", description_of("accuracy"),
-      [&goal](const std::string& text) { goal.accuracy = parse_accuracy("--accuracy", text); });
-  add_parsed_option(command, "--accuracy-of", "NAME",
-                    choice_help("accuracy-of", {"rms", "max", "patch:I", "mean"}, "rms"),
-                    [&goal](const std::string& text) {
-                      const AccuracyGoal of = parse_accuracy_of("--accuracy-of", text);
-                      goal.of = of.of;
-                      goal.patch = of.patch;
-                    });
-  add_parsed_option(
-      command, "--seconds", "S", description_of("seconds"), [&goal](const std::string& text) {
-        goal.seconds = parse_number("--seconds", text);
-        if (!(goal.seconds > 0)) {
-          throw InputError(fmt::format("--seconds: \"{}\" is not greater than 0", text));
-        }
-      });
 }
 
 void add_outputs(CLI::App& command, SolveCall& call) {
   command
       .add_option("-o,--out", call.out,
-                  "result file: .csv, .vtp, .ply, .obj, .glb, .gltf or, with --eye, .png, by its "
+                  "result file: .csv, .vtp, .ply, .glb, .gltf or, with --eye, .png, by its "
                   "ending, or - for CSV on "
                   "standard output; "
                   "may be given several times "
@@ -178,6 +73,10 @@ void add_outputs(CLI::App& command, SolveCall& call) {
                                 fmt::join(parts_by_names(), " or ")),
                     [&call](const std::string& text) { call.by = parts_by_from_name(text); });
   command.add_flag("-q,--quiet", call.quiet, "no progress and no summary on standard error");
+  for (const char* option :
+       {"--exposure", "--target", "--light-map", "--series", "--series-every", "--by"}) {
+    command.get_option(option)->group("Results");
+  }
 }
 
 void add_runs(CLI::App& command, SolveCall& call) {
@@ -226,24 +125,19 @@ void check_share(const SolveCall& call) {
   }
   for (const char* option :
        {"--stats", "--by", "--series", "--checkpoint", "--factors", "--exposure", "--light-map"}) {
-    refuse_unless(false, *call.command, option, "not used with --shard; `merge` takes it");
+    refuse_unless(false, *call.scene.command, option, "not used with --shard; `merge` takes it");
   }
 }
 
 /// Refuses what rounds of refinement cannot have.
 void check_refinement(const SolveCall& call) {
-  if (!call.refine_by) {
+  if (!call.scene.run.refine.set()) {
     return;
   }
-  if (call.scene.patches == 0) {
-    throw InputError("--refine-by: requires --patches N, the most patches to make");
+  for (const char* option : {"--shard", "--factors"}) {
+    refuse_unless(false, *call.scene.command, option, "not used with --refine-by");
   }
-  for (const char* option : {"--shard", "--factors", "--seconds"}) {
-    refuse_unless(false, *call.command, option, "not used with --refine-by");
-  }
-  refuse_unless(takes_directions(call.options.engine), *call.command, "--refine-by",
-                fmt::format("not used with engine {}", name_of(call.options.engine)));
-  refuse_unless(!processes().group, *call.command, "--refine-by",
+  refuse_unless(!processes().group, *call.scene.command, "--refine-by",
                 "not available with several processes");
 }
 
@@ -253,9 +147,10 @@ void check_run(const SolveCall& call) {
   if (call.checkpoint.file.empty()) {
     return;
   }
-  refuse_unless(call.factors.empty(), *call.command, "--checkpoint", "not used with --factors");
-  refuse_unless(takes_directions(call.options.engine), *call.command, "--checkpoint",
-                fmt::format("not used with engine {}", name_of(call.options.engine)));
+  refuse_unless(call.factors.empty(), *call.scene.command, "--checkpoint",
+                "not used with --factors");
+  refuse_unless(takes_directions(call.options().engine), *call.scene.command, "--checkpoint",
+                fmt::format("not used with engine {}", name_of(call.options().engine)));
 }
 
 }  // namespace
@@ -297,45 +192,32 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
   return files;
 }
 
-SolveOptions solve_options(const SolveCall& call) {
+void complete(SolveCall& call) {
   check_glossy(call);
   check_stored_factors(call);
-  SolveOptions options = call.options;
-  options.directions = call.sequence.directions;
-  options.sampling = call.sequence.sampling;
-  options.seed = options.engine_options.seed = call.sequence.seed;
-  options.rotation = call.sequence.rotation;
-  options.two_way = !call.one_way;
-  // Its error decreases as 1 / sqrt(iterations): the default tolerance would take days.
-  if (options.scheme == Scheme::semi_iterative && !call.stop_given) {
-    options.averaged_iterations = default_averaged_iterations;
-  }
-  if (options.goal.set() && !call.shot_given && takes_directions(options.engine) &&
-      options.basis == Basis::constant) {
-    options.first_shot = first_shot_where_it_pays;
-  }
-  options.validate();
-  refuse_unused(*call.command, {options});
-  check_color_outputs(*call.command, call.colors, call.out, options);
-  return options;
+  complete(static_cast<GivenOptions&>(call.scene));
+  check_color_outputs(*call.scene.command, call.colors, call.out, call.options());
 }
 
 void add_output_options(CLI::App& command, SolveCall& call) {
-  add_machine_limits(command, call.options.memory, call.options.threads);
+  add_groups(command, call.scene, {"Machine"});
   add_outputs(command, call);
 }
 
 void add_solve_options(CLI::App& command, SolveCall& call) {
-  call.command = &command;
   add_scene_argument(command, call.scene);
-  add_sequence_options(command, call.sequence);
-  add_estimator(command, call);
-  add_scheme(command, call);
-  add_refinement(command, call);
-  add_goal(command, call.options.goal);
-  add_stopping_rules(command, call);
-  add_scene_options(command, call.scene);
-  add_sky_options(command, call.options.sky);
+  add_groups(
+      command, call.scene,
+      {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches", "Refinement", "Sky"});
+  command.get_option("--up")->description(
+      "the zenith of the sky cie-overcast (default 0,0,1); the direction that becomes up, +y, in "
+      ".glb and .gltf files (default 0,1,0: coordinates stay)");
+  add_parsed_option(
+      command, "--eye", "X,Y,Z",
+      "a point in m: with --glossy, .csv, .vtp and .ply files have the radiance toward it; .png "
+      "files are seen from it",
+      [&call](const std::string& text) { call.eye = parse_point("--eye", text); })
+      ->group("Results");
   command
       .add_option("--factors", call.factors,
                   "iterate with the form factors in this file, .npz or .mtx, instead of computing "
@@ -343,6 +225,10 @@ void add_solve_options(CLI::App& command, SolveCall& call) {
       ->type_name("FILE");
   add_runs(command, call);
   add_output_options(command, call);
+  for (const char* option :
+       {"--factors", "--checkpoint", "--checkpoint-every", "--resume", "--shard"}) {
+    command.get_option(option)->group("Long runs");
+  }
 }
 
 }  // namespace transillum::cli

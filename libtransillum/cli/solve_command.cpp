@@ -24,7 +24,7 @@
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"
-#include "transillum/settings.h"
+#include "transillum/option_table.h"
 #include "transillum/shard_files.h"
 #include "wall_clock.h"
 
@@ -55,7 +55,9 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
     });
   }
   if (!call.stats.empty()) {
-    writers.emplace_back([&] { write_statistics(call.stats, options, solution); });
+    RunOptions run = call.scene.run;
+    run.solve = options;
+    writers.emplace_back([=, &call, &solution] { write_statistics(call.stats, run, solution); });
   }
   if (call.by) {
     writers.emplace_back([&] { print_powers(call, solution); });
@@ -103,18 +105,19 @@ struct Preparation {
   bool resume = false;
 };
 
-Preparation prepare_call(const SolveCall& call, const Cancellation& cancellation) {
+Preparation prepare_call(SolveCall& call, const Cancellation& cancellation) {
   Preparation prepared;
   std::vector<std::string> outputs;
   if (is_first_process()) {
     outputs = checked_outputs(call);
   }
-  prepared.options = solve_options(call);
+  complete(call);
+  prepared.options = call.options();
   prepared.scene = load_input_scene(call.scene, outputs, cancellation,
                                     prepared.options.sky.set() ? Light::sky : Light::required);
   check_series(call.colors, prepared.scene->files());
   check_pictures(call.colors, call.out, *prepared.scene, call.eye);
-  if (call.refine_by) {
+  if (call.scene.run.refine.set()) {
     Refinement refined = refine_in_rounds(call, prepared.scene, prepared.options, cancellation);
     prepared.scene = std::move(refined.scene);
     prepared.rounds = std::move(refined.rounds);
@@ -149,7 +152,7 @@ bool uses_lobes(const SolveCall& call, const SolveOptions& options, const Scene&
     for (const std::string& warning : lobe_warnings(scene, options.directions)) {
       print_message("warning: " + warning);
     }
-  } else if (present && !call.diffuse_only && !call.quiet) {
+  } else if (present && !call.quiet) {
     const std::string metal = metal_of(scene);
     print_message(
         "lobes of materials are left out (--glossy: they reflect too" +
@@ -162,8 +165,8 @@ bool uses_lobes(const SolveCall& call, const SolveOptions& options, const Scene&
 
 /// Whether several processes share the solve. Otherwise the first does it alone.
 bool is_shared(const SolveCall& call) {
-  return processes().group && call.factors.empty() && takes_directions(call.options.engine) &&
-         !call.options.glossy;
+  return processes().group && call.factors.empty() && takes_directions(call.options().engine) &&
+         !call.options().glossy;
 }
 
 /// Shares threads and memory between the processes of a machine, where the options leave them open.
@@ -176,7 +179,7 @@ void share_machine(SolveOptions& options) {
   }
 }
 
-Preparation prepare_in_all(const SolveCall& call, const Cancellation& cancellation) {
+Preparation prepare_in_all(SolveCall& call, const Cancellation& cancellation) {
   Preparation prepared;
   processes().group->agree([&] { prepared = prepare_call(call, cancellation); });
   share_machine(prepared.options);
@@ -185,7 +188,7 @@ Preparation prepare_in_all(const SolveCall& call, const Cancellation& cancellati
 
 }  // namespace
 
-int run_solve(const SolveCall& call) {
+int run_solve(SolveCall& call) {
   const auto start = WallClock::now();
   const bool shared = is_shared(call);
   if (!shared && !is_first_process()) {
@@ -239,9 +242,10 @@ int run_solve(const SolveCall& call) {
   return interrupted;
 }
 
-int run_shard(const SolveCall& call) {
+int run_shard(SolveCall& call) {
   const std::vector<std::string> outputs = checked_outputs(call);
-  const SolveOptions options = solve_options(call);
+  complete(call);
+  const SolveOptions& options = call.options();
   check_can_be_shared(options, *call.share);
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.quiet);
@@ -254,7 +258,7 @@ int run_shard(const SolveCall& call) {
     const auto tree = build_tree(*scene, cancellation, display, options.threads);
     display.begin("passes");
     write_shard(call.out.front(), scene, options, tree, *call.share,
-                stored_arguments(*call.command), cancellation, [&](int count) {
+                stored_arguments(*call.scene.command), cancellation, [&](int count) {
                   done = count;
                   display.show_rate("passes", count / static_cast<double>(passes), passes,
                                     "passes");
@@ -288,7 +292,7 @@ Run add_solve_command(CLI::App& program) {
       "merge.\n"
       "Example: transillum solve cornell-box --max-patch-area 0.01 -m 256 --out cornell.vtp");
   return [call] {
-    set_up_of_display(*call->command, call->options.sky, call->colors);
+    set_up_of_display(*call->scene.command, call->options().sky, call->colors);
     if (call->share) {
       return is_first_process() ? run_shard(*call) : success;
     }

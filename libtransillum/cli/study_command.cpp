@@ -37,8 +37,7 @@ struct StudiedEngine {
 };
 
 struct StudyCall {
-  const CLI::App* command = nullptr;
-  SceneInput scene;
+  RunInput scene;
   std::vector<int> directions{16, 64, 256, 1024};
   std::vector<Sampling> given_samplings;
   std::vector<Normalization> normalizations{Normalization::none};
@@ -57,6 +56,12 @@ struct StudyCall {
   CheckpointCall checkpoint;
   bool quiet = false;
 
+  StudyCall() { scene.run.solve = study.solve; }
+  StudyOptions options() const {
+    StudyOptions all = study;
+    all.solve = scene.run.solve;
+    return all;
+  }
   bool uses(bool both_ways) const { return both_ways ? two_way || !one_way : one_way; }
   /// Those given, or random, the paper's, and the default.
   std::vector<Sampling> samplings() const {
@@ -69,12 +74,12 @@ struct StudyCall {
 /// All combinations of the options, valid or not.
 std::vector<StudySeries> all_combinations(const StudyCall& call) {
   std::vector<StudySeries> all;
-  const EngineOptions& common = call.study.solve.engine_options;
+  const EngineOptions& common = call.scene.run.solve.engine_options;
   const auto resolution_of = [&common](const StudiedEngine& studied) {
     if (studied.resolution > 0) {
       return studied.resolution;
     }
-    return studied.engine == Engine::pairs ? common.points : common.resolution;
+    return traits_of(studied.engine).takes_points ? common.points : common.resolution;
   };
   for (const Sampling sampling : call.samplings()) {
     for (const bool two_way : {false, true}) {
@@ -113,7 +118,7 @@ std::vector<StudySeries> all_series(const StudyCall& call) {
       }
     }
     try {
-      StudyOptions alone = call.study;
+      StudyOptions alone = call.options();
       alone.series = {series};
       alone.directions.assign(1, call.directions.front());  // = {…}: GCC 14 warns of its array
       alone.validate();
@@ -133,24 +138,28 @@ std::vector<StudySeries> all_series(const StudyCall& call) {
 
 /// Refuses options that do nothing for any of the series.
 void check_options(const StudyCall& call, const StudyOptions& options) {
-  const CLI::App& command = *call.command;
-  std::vector<SolveOptions> solves;
+  const CLI::App& command = *call.scene.command;
+  std::vector<RunOptions> solves;
   for (const StudySeries& series : options.series) {
-    solves.push_back(options.solve_options(series, options.directions.front()));
+    solves.push_back({.solve = options.solve_options(series, options.directions.front())});
   }
   const bool own_resolutions = std::all_of(call.engines.begin(), call.engines.end(),
                                            [](const auto& one) { return one.resolution > 0; });
   refuse_unless(!own_resolutions, command, "--resolution", "every engine has its own");
-  const bool by_passes = std::any_of(solves.begin(), solves.end(), [](const SolveOptions& solve) {
-    return takes_directions(solve.engine);
+  const bool by_passes = std::any_of(solves.begin(), solves.end(), [](const RunOptions& run) {
+    return takes_directions(run.solve.engine);
   });
-  refuse_unused(command, solves, by_passes && options.rotations > 1 ? "seed" : "");
+  refuse_unused(call.scene, solves, by_passes && options.rotations > 1 ? "seed" : "");
+  for (const std::string name : {"directions", "sampling", "one-way"}) {
+    const std::string why = why_unused(name, solves);
+    refuse_unless(why.empty(), command, "--" + name, why);
+  }
   refuse_unless(by_passes, command, "--rotations", "not used with engine hemicube or pairs");
   refuse_unless(!call.plots.empty(), command, "--against", "used only with --plot");
 }
 
 StudyOptions study_options(const StudyCall& call) {
-  StudyOptions options = call.study;
+  StudyOptions options = call.options();
   options.directions = call.directions;
   options.series = all_series(call);
   options.validate();
@@ -354,7 +363,7 @@ StudiedEngine parse_engine(const std::string& text) {
   const std::size_t colon = text.find(':');
   StudiedEngine engine{engine_from_name(text.substr(0, colon)), 0};
   if (colon != std::string::npos) {
-    const auto parse = engine.engine == Engine::pairs ? parse_points : parse_resolution;
+    const auto parse = traits_of(engine.engine).takes_points ? parse_points : parse_resolution;
     engine.resolution = parse("--engines", text.substr(colon + 1));
   }
   return engine;
@@ -404,10 +413,7 @@ void add_series_options(CLI::App& command, StudyCall& call) {
       [&call](const std::string& text) {
         call.study.rotations = static_cast<int>(parse_whole_number("--rotations", text, 1, 1000));
       });
-  add_parsed_option(
-      command, "--seed", "S",
-      fmt::format("random seed of samplings and rotations (default {})", call.study.solve.seed),
-      [&call](const std::string& text) { call.study.solve.seed = parse_seed("--seed", text); });
+  add_options(command, call.scene, {"seed"});
   add_list_option(
       command, "--engines,--engine", "NAME[:R],...",
       fmt::format(
@@ -415,7 +421,7 @@ void add_series_options(CLI::App& command, StudyCall& call) {
           "(default {})",
           fmt::join(engine_names(), " | "), name_of(Engine::fast)),
       call.engines, [](const std::string& text) { return std::vector{parse_engine(text)}; });
-  add_engine_details(command, call.study.solve.engine_options);
+  add_options(command, call.scene, {"resolution", "points", "order"});
 }
 
 void add_error_options(CLI::App& command, StudyCall& call) {
@@ -456,13 +462,12 @@ Run add_study_command(CLI::App& program) {
   auto call = std::make_shared<StudyCall>();
   CLI::App& command =
       *program.add_subcommand("study", "Measures the error of B against the number of passes");
-  call->command = &command;
   add_scene_argument(command, call->scene);
   add_series_options(command, *call);
   add_error_options(command, *call);
   add_reference_options(command, *call);
   add_scene_options(command, call->scene);
-  add_machine_limits(command, call->study.solve.memory, call->study.solve.threads);
+  add_groups(command, call->scene, {"Machine"});
   command
       .add_option("-o,--out", call->out,
                   "CSV: sampling,directions,passes,rms_error,max_error,bound,seconds, engine,"
@@ -485,6 +490,14 @@ Run add_study_command(CLI::App& program) {
   add_checkpoint_options(command, call->checkpoint,
                          "save the points so far in this file, so that --resume can go on");
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");
+  for (const char* option :
+       {"--normalize", "--scheme", "--basis", "--first-shot", "--rotations", "--two-way"}) {
+    command.get_option(option)->group("Series");
+  }
+  for (const char* option : {"--without-sources", "--error", "--against", "--cache", "--no-cache",
+                             "--checkpoint", "--resume"}) {
+    command.get_option(option)->group("Reference and results");
+  }
   command.footer(
       "rms_error: RMS over patches of the error of B, relative to the RMS of the reflected light,\n"
       "B - E; max_error: largest error, relative to the largest reflected light; both without\n"

@@ -39,7 +39,7 @@ std::string single_solve_text(const std::string& name, Engine engine, std::size_
   }
   const StudyPoint& point = points.front();
   const std::string means =
-      engine == Engine::hemicube
+      traits_of(engine).takes_resolution
           ? fmt::format("{} hemicubes of {} pixels", point.passes, point.directions)
           : fmt::format("the pairs of {} patches, {} points", point.passes, point.directions);
   return fmt::format("{:<{}}  {} % by {}, {}\n", name, width, percent_text(point.error(error)),

@@ -21,28 +21,25 @@ namespace transillum::cli {
 namespace {
 
 struct TransfersCall {
-  const CLI::App* command = nullptr;
-  SceneInput scene;
+  RunInput scene;
   Vec3 direction;
-  Engine engine = Engine::fast;
-  EngineOptions engine_options;
-  int threads = 0;
   std::string out;
 };
 
 int run(const TransfersCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
-  if (!takes_directions(call.engine)) {
+  const SolveOptions& options = call.scene.run.solve;
+  if (!takes_directions(options.engine)) {
     throw InputError(fmt::format("--engine: {} has no directions (try solve, factors or study)",
-                                 name_of(call.engine)));
+                                 name_of(options.engine)));
   }
-  refuse_unused(*call.command, {{.engine = call.engine, .engine_options = call.engine_options}});
+  refuse_unused(call.scene, {call.scene.run});
   const std::vector<std::string> outputs = given_files({call.out});
   check_output_files(outputs);
   const auto scene = load_input_scene(call.scene, outputs, cancellation);
   ProgressDisplay progress;
-  const auto tree = build_tree(*scene, cancellation, progress, call.threads);
-  const TransferEngine engine = make_engine(call.engine, scene, tree, call.engine_options);
+  const auto tree = build_tree(*scene, cancellation, progress, options.threads);
+  const TransferEngine engine = make_engine(options.engine, scene, tree, options.engine_options);
   const Transfers transfers = engine(call.direction, cancellation);
   progress.clear();
   if (call.out.empty() || is_standard_output(call.out)) {
@@ -59,12 +56,11 @@ Run add_transfers_command(CLI::App& program) {
   auto call = std::make_shared<TransfersCall>();
   CLI::App& command =
       *program.add_subcommand("transfers", "Writes the areas A(i,j,omega) of one direction");
-  call->command = &command;
   add_scene_argument(command, call->scene);
   add_direction_option(command, call->direction);
-  add_engine_options(command, call->engine, call->engine_options);
+  add_groups(command, call->scene, {"Engine"});
   add_scene_options(command, call->scene);
-  add_threads_option(command, call->threads);
+  add_options(command, call->scene, {"threads"});
   command
       .add_option("-o,--out", call->out,
                   "CSV: receiver,source,area in m2 (default: standard output); source -1: no "

@@ -8,14 +8,10 @@
 #include <regex>
 #include <stdexcept>
 
-#include "transillum/directions.h"
 #include "transillum/engine.h"
+#include "transillum/option_table.h"
 #include "transillum/pixel_map.h"
 #include "transillum/power_table.h"
-#include "transillum/radiosity.h"
-#include "transillum/refinement.h"
-#include "transillum/scene.h"
-#include "transillum/sky.h"
 #include "transillum/study.h"
 #include "transillum/study_files.h"
 
@@ -37,29 +33,24 @@ Names engines_of(const std::string& command) {
 
 /// The names that an option accepts; empty if it has no fixed names.
 Names choices_of(const std::string& command, const std::string& option) {
-  static const std::map<std::string, Names> known{
-      {"sampling", sampling_names()},
-      {"normalize", normalization_names()},
-      {"basis", basis_names()},
-      {"refine-by", refine_by_names()},
-      {"scheme", scheme_names()},
-      {"sky-model", sky_model_names()},
-      {"order", painters_order_names()},
-      {"units", length_unit_names()},
+  static const std::map<std::string, Names> of_commands{
       {"by", parts_by_names()},
       {"error", error_measure_names()},
       {"against", study_axis_names()},
-      {"accuracy-of", {"rms", "max", "mean"}},
-      {"orient", {"keep", "auto"}},
-      {"first-shot", {"none", "auto"}},
-      {"burn-in", {"auto"}},
       {"series-every", {"iteration", "direction"}},
   };
   if (option == "engine" || option == "engines") {
     return engines_of(command);
   }
-  const auto found = known.find(option);
-  return found == known.end() ? Names() : found->second;
+  if (const auto found = of_commands.find(option); found != of_commands.end()) {
+    return found->second;
+  }
+  const auto& all = transillum::options();
+  const auto known = std::find_if(all.begin(), all.end(),
+                                  [&](const transillum::Option& o) { return o.name == option; });
+  Names names = known == all.end() || known->is_flag() ? Names() : known->choices;
+  std::erase_if(names, [](const std::string& name) { return name.find(':') != std::string::npos; });
+  return names;
 }
 
 /// CLI11's names of types, in the notation of our help; what follows a colon are its checks.

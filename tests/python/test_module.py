@@ -274,7 +274,7 @@ class Errors(unittest.TestCase):
             "sky: expected one number or three, W/m², not True": lambda: transillum.solve(
                 scene, sky=True
             ),
-            "two_way: expected": lambda: transillum.solve(scene, two_way=1),
+            "one_way: expected": lambda: transillum.solve(scene, one_way=1),
             "face 1 is [0, 1.5, 2], not integers": lambda: transillum.Scene(
                 CORNERS, [[0, 1, 2], [0, 1.5, 2]]
             ),
@@ -298,8 +298,8 @@ class Errors(unittest.TestCase):
             "not an option of transfers()": lambda: transillum.transfers(
                 scene, (0, 0, 1), directions=5
             ),
-            "memory: expected a number of bytes": lambda: transillum.solve(scene, memory="2G"),
-            "two_way: expected True or False": lambda: transillum.solve(scene, two_way="yes"),
+            'memory: "lots" is not a size': lambda: transillum.solve(scene, memory="lots"),
+            "one_way: expected True or False": lambda: transillum.solve(scene, one_way="yes"),
             "neither": lambda: transillum.Run(scene).advance("end"),
         }
         for message, call in cases.items():
@@ -310,7 +310,7 @@ class Errors(unittest.TestCase):
 
     def test_every_option_has_a_description(self):
         options = transillum.options()
-        for name in ("directions", "two_way", "first_shot", "accuracy", "sky", "threads"):
+        for name in ("directions", "one_way", "first_shot", "accuracy", "sky", "threads"):
             self.assertIn("default:", options[name])
 
     def test_what_progress_raises_ends_the_solve(self):

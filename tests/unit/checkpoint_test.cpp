@@ -260,10 +260,10 @@ TEST_F(CheckpointFile, IsRefusedByAnotherSolveWhichNamesTheDifference) {
   EXPECT_THAT(refused(scene_, other), HasSubstr("engine is \"fast\" there and \"local\" here"));
   other = options_;
   other.sky.exitance = {1, 1, 1};
-  EXPECT_THAT(refused(scene_, other), HasSubstr("sky is not given there and {"));
+  EXPECT_THAT(refused(scene_, other), HasSubstr("sky is not given there and 1 here"));
   other = options_;
   other.goal.accuracy = 0.1;
-  EXPECT_THAT(refused(scene_, other), HasSubstr("accuracy is 0.0 there and 0.1 here"));
+  EXPECT_THAT(refused(scene_, other), HasSubstr("accuracy is not given there and 0.1 here"));
   EXPECT_THAT(refused(load_scene("furnace"), options_),
               HasSubstr("of another scene: \"cornell-box\" has 27 patches, this one has"));
   SceneDescription description = describe_scene("cornell-box");

@@ -57,7 +57,7 @@ TEST(CliAccuracy, ShootsLampsFirst) {
                                           "--accuracy", "0.01", "--stats", folder / "s.json"});
   ASSERT_EQ(shot.status, 0) << shot.err;
   const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
-  EXPECT_EQ(json.at("options").at("first_shot"), "auto");
+  EXPECT_EQ(json.at("options").at("first-shot"), "auto");
   EXPECT_GT(json.at("first_shot").at("sources"), 0);
   EXPECT_EQ(json.at("light_directions"), 0);
 }

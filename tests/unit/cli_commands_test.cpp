@@ -88,11 +88,11 @@ TEST(CliSolve, WritesEveryFormatAndNoOtherFiles) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(
       {"solve", "furnace", "-m", "16", "--out", folder / "a.csv", "--out", folder / "a.vtp",
-       "--out", folder / "a.ply", "-o", folder / "a.obj", "--stats", folder / "a.json"});
+       "--out", folder / "a.ply", "-o", folder / "a.glb", "--stats", folder / "a.json"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out, "");
   EXPECT_THAT(result.err, HasSubstr("closure defect"));
-  EXPECT_THAT(folder.names(), ElementsAre("a.csv", "a.json", "a.obj", "a.ply", "a.vtp"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.csv", "a.glb", "a.json", "a.ply", "a.vtp"));
   EXPECT_EQ(split(read_file(folder / "a.csv"), '\n').front(),
             "face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b,H_r,H_g,H_b,F_sum,sky,group,"
             "material");
@@ -152,7 +152,7 @@ TEST(CliSolve, ReportsTheFirstShot) {
     const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
     EXPECT_EQ(json.at("first_shot").at("sources"), sources);
     EXPECT_EQ(json.at("first_shot").at("power_share"), sources > 0 ? 1.0 : 0.0);
-    EXPECT_EQ(json.at("options").at("first_shot").is_null(), std::string(ratio) == "none");
+    EXPECT_EQ(json.at("options").at("first-shot").is_null(), std::string(ratio) == "none");
     EXPECT_TRUE(json.at("seconds").at("first_shot").is_number());
   }
 }
@@ -214,7 +214,7 @@ TEST(CliSolve, RotationChangesOnlyTheError) {
                   .status,
               0);
     const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
-    EXPECT_EQ(json.at("options").at("rotation"), std::stoi(seed));
+    EXPECT_EQ(json.at("options").at("rotate"), std::stoi(seed));
     write_text(folder / seed, read_file(folder / "b.csv"));
   }
   const auto a = numbers(read_file(folder / "1")), b = numbers(read_file(folder / "2"));
@@ -389,8 +389,8 @@ TEST(CliTransfers, RaysEstimateTheSameAreas) {
     return sum;
   };
   const double exact = total({"--engine", "local"});
-  EXPECT_NEAR(total({"--engine", "rays", "--lines", "10000"}), exact, 2e-3 * exact);
-  EXPECT_NE(total({"--engine", "rays"}), total({"--engine", "rays", "--lines", "200"}));
+  EXPECT_NEAR(total({"--engine", "rays", "--resolution", "1024"}), exact, 2e-3 * exact);
+  EXPECT_NE(total({"--engine", "rays"}), total({"--engine", "rays", "--resolution", "64"}));
 }
 
 TEST(CliFactors, PassesAndRaysGiveTheSameMatrix) {

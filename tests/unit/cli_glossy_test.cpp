@@ -34,7 +34,6 @@ TEST(CliGlossy, IsRefusedInOneLineWhereItIsNotAvailable) {
       {{"--by", "material"}, "--by: not used with --glossy"},
       {{"--series", "s.pvd"}, "--series: not used with --glossy"},
       {{"--checkpoint", "c.tck"}, "--checkpoint: not used with --glossy"},
-      {{"--diffuse-only"}, "excludes"},
       {{"--eye", "1,2"}, "three finite numbers X,Y,Z"},
       {{"--eye", "1,2,3"}, "--eye: used only with a .csv, .vtp, .ply or .png file"},
       {{"--lobe", "white=0.5"}, "is not NAME=SHARE,EXPONENT"},
@@ -91,7 +90,7 @@ TEST(CliGlossy, FilesHaveTheRadianceTowardAnEye) {
 TEST(CliGlossy, DrawsAPictureFromAnEye) {
   TemporaryFolder folder;
   const Arguments eye{"--eye", "-0.1,0.3,-0.5", "--target", "0.3,0.2,0.3", "--up", "0,1,0"};
-  for (const Arguments& glossy : {Arguments{"--glossy"}, Arguments{"--diffuse-only"}}) {
+  for (const Arguments& glossy : {Arguments{"--glossy"}, Arguments{}}) {
     const ProgramResult result =
         run_program(shining + glossy + eye + Arguments{"--out", folder / "r.png"});
     ASSERT_EQ(result.status, 0) << result.err;
@@ -111,7 +110,7 @@ TEST(CliGlossy, DrawsAPictureFromAnEye) {
 TEST(CliGlossy, SaysWhatItDoesWithLobes) {
   const Arguments loud{"solve", "cornell-box", "-m", "16", "--lobe", "white=0.5,100"};
   EXPECT_THAT(run_program(loud).err, HasSubstr("lobes of materials are left out (--glossy"));
-  EXPECT_THAT(run_program(loud + Arguments{"--diffuse-only"}).err, Not(HasSubstr("lobes")));
+  EXPECT_THAT(run_program(loud + Arguments{"-q"}).err, Not(HasSubstr("lobes")));
   // A metal, as materials of glTF are by default, is black.
   EXPECT_THAT(run_program(loud + Arguments{"--reflectance", "white=0"}).err,
               HasSubstr("white reflects nothing else: try --reflectance 'white=0.5'"));
@@ -145,8 +144,6 @@ TEST(CliGlossy, SolvesWithAwkwardLobes) {
 TEST(CliGlossy, DiffuseSolvesIgnoreLobes) {
   const Arguments plain{"solve", "cornell-box", "-q", "-m", "24", "--out", "-"};
   EXPECT_EQ(run_program(shining + Arguments{"--out", "-"}).out, run_program(plain).out);
-  EXPECT_EQ(run_program(shining + Arguments{"--out", "-", "--diffuse-only"}).out,
-            run_program(plain).out);
 }
 
 /// Through an OBJ with its MTL, to the bit.

@@ -62,7 +62,6 @@ TEST_F(CliOutputs, NoCommandOverwritesAFileThatItReads) {
   expect_refused({"scene", "a.obj", "--out", "./folder/./a.obj"}, obj);
   expect_refused({"scene", "a.obj", "--out", "link.obj"}, obj);
   expect_refused({"scene", "a.obj", "--out", "mats.obj"}, "mats.mtl: " + mtl);
-  expect_refused({"solve", "a.obj", "-m", "8", "--out", "link.obj"}, obj);
   expect_refused({"solve", "a.obj", "-m", "8", "--out", "hard.csv"}, mtl);
   expect_refused({"solve", "a.obj", "-m", "8", "--stats", "hard.json"}, mtl);
   expect_refused({"factors", "a.obj", "-m", "8", "-o", "hard.csv"}, mtl);

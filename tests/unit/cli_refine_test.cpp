@@ -20,12 +20,12 @@ const Arguments whole_box{"solve", "cornell-box", "-m", "64"};
 
 TEST(CliRefine, RefusesInOneLineWhatItCannotDo) {
   const std::pair<Arguments, const char*> calls[] = {
-      {{"--refine-by", "jump"}, "--refine-by: requires --patches N"},
+      {{"--refine-by", "jump"}, "refine-by: requires patches"},
       {{"--refine-by", "edge", "--patches", "60"}, "choose one of jump, error"},
-      {{"--refine-by", "jump", "--max-patch-area", "1"}, "--refine-by: requires --patches N"},
+      {{"--refine-by", "jump", "--max-patch-area", "1"}, "refine-by: requires patches"},
       {{"--refine-until", "1%"}, "--refine-by"},
       {{"--refine-by", "jump", "--patches", "60", "--refine-until", "2"}, "--refine-until"},
-      {{"--refine-by", "jump", "--patches", "60", "--seconds", "9"}, "--seconds"},
+      {{"--refine-by", "jump", "--patches", "60", "--seconds", "9"}, "no time limit"},
       {{"--refine-by", "jump", "--patches", "60", "--shard", "1/2", "-o", "a.tsh"}, "--shard"},
       {{"--refine-by", "jump", "--patches", "60", "--factors", "f.npz"}, "--factors"},
       {{"--refine-by", "jump", "--patches", "60", "--engine", "hemicube"}, "engine hemicube"},

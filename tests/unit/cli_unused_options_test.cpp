@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "program_run.h"
+#include "transillum/option_table.h"
 #include "transillum/radiosity.h"
-#include "transillum/settings.h"
 
 namespace transillum::testing {
 namespace {
@@ -41,11 +41,6 @@ const Unused unused[] = {
     {by_directions,
      {"--engine", "zbuffer", "--order", "bsp"},
      "--order: used only with engine painter"},
-    {by_directions, {"--lines", "10"}, "--lines: used only with engine rays"},
-    {by_directions,
-     {"--engine", "rays", "--resolution", "64", "--lines", "10"},
-     "without a resolution"},
-    {by_directions, {"--random-lines"}, "--random-lines: used only with engine rays"},
     {by_directions, {"--burn-in", "2"}, "--burn-in: used only with scheme semi-iterative"},
     {by_directions, {"--seed", "2"}, "--seed: used only with sampling random"},
     {by_directions, {"--seed", "1"}, "--seed: used only with"},
@@ -55,7 +50,6 @@ const Unused unused[] = {
      "--seed: used only with"},
     {by_hemicubes, {"--sampling", "fibonacci"}, "--sampling: not used with engine hemicube"},
     {by_hemicubes, {"--one-way"}, "--one-way: not used with engine hemicube"},
-    {by_hemicubes, {"--two-way"}, "--two-way: not used with engine hemicube"},
     {by_hemicubes, {"-m", "64"}, "--directions: not used with engine hemicube"},
     {by_hemicubes, {"--rotate", "2"}, "--rotate: not used with engine hemicube"},
     {by_hemicubes, {"--seed", "2"}, "--seed: used only with"},
@@ -67,8 +61,6 @@ const Unused unused[] = {
     {factors, {"--engine", "rays", "--points", "8"}, "--points: not used with engine rays"},
     {transfers, {"--resolution", "64"}, "--resolution: used only with"},
     {transfers, {"--order", "newell"}, "--order: used only with"},
-    {transfers, {"--lines", "10"}, "--lines: used only with"},
-    {transfers, {"--random-lines"}, "--random-lines: used only with"},
     {map, {"--out", "m.svg", "--resolution", "64"}, "--resolution: used only with"},
     {map, {"--out", "m.svg", "--order", "newell"}, "--order: used only with"},
     {map, {"--out", "m.svg", "--receiver", "0", "--step", "3"}, "--step: used only with"},
@@ -95,8 +87,6 @@ const Unused unused[] = {
     {study, {"--seed", "2"}, "--seed: used only with"},
     {study, {"--resolution", "64"}, "--resolution: used only with"},
     {study, {"--order", "newell"}, "--order: used only with"},
-    {study, {"--lines", "10"}, "--lines: used only with"},
-    {study, {"--random-lines"}, "--random-lines: used only with"},
     {study, {"--engines", "zbuffer:64", "--resolution", "32"}, "every engine has its own"},
     {study, {"--against", "seconds"}, "--against: used only with --plot"},
     {study_hemicubes, {"--one-way"}, "--one-way: not used with engine hemicube"},
@@ -120,9 +110,7 @@ TEST(CliUnusedOptions, AreRefused) {
 
 TEST(CliUnusedOptions, AreAcceptedWhereTheyHaveAnEffect) {
   const Call calls[] = {
-      joined(by_directions,
-             {"--engine", "rays", "--resolution", "64", "--seed", "2", "--random-lines"}),
-      joined(by_directions, {"--engine", "rays", "--lines", "10"}),
+      joined(by_directions, {"--engine", "rays", "--resolution", "64", "--seed", "2"}),
       joined(by_directions, {"--engine", "painter", "--order", "newell", "--resolution", "64"}),
       joined(by_directions, {"--sampling", "sobol", "--seed", "2", "--one-way"}),
       joined(by_directions, {"--replicas", "2", "--seed", "2"}),
@@ -161,8 +149,8 @@ TEST(CliUnusedOptions, ZbufferFormFactorsDependOnTheResolution) {
 /// Every setting is known: a misspelled name in the table would never be found.
 TEST(CliUnusedOptions, TheTableNamesSettings) {
   std::size_t count = 0;
-  for (const Setting& setting : settings()) {
-    count += why_unused(setting.name, {}).empty() ? 0 : 1;
+  for (const Option& option : options()) {
+    count += why_unused(option.name, {}).empty() ? 0 : 1;
   }
   EXPECT_EQ(count, 14U);
 }

@@ -165,7 +165,7 @@ TEST_F(FileTables, Statistics) {
   Solution solution = solve(scene_, options_);
   solution.statistics.refinement = {{6, 0.5, 1}};
   solution.statistics.glossy.patches = 1;  // no solve has both
-  write_statistics(folder_ / "s.json", options_, solution);
+  write_statistics(folder_ / "s.json", {.solve = options_}, solution);
   EXPECT_THAT(keys_of(folder_ / "s.json"), ::testing::ContainerEq(leaf_keys("Statistics JSON")));
 }
 
@@ -211,7 +211,7 @@ TEST_F(FileTables, DirectionsAndBounds) {
           .status,
       0);
   EXPECT_THAT(keys_of(folder_ / "d.json"), ::testing::ContainerEq(leaf_keys("Directions JSON")));
-  write_statistics(folder_ / "s.json", options_, solve(scene_, options_));
+  write_statistics(folder_ / "s.json", {.solve = options_}, solve(scene_, options_));
   ASSERT_EQ(run_program({"bounds", "furnace", "-m", "16", "--run", folder_ / "s.json", "--out",
                          folder_ / "b.json"})
                 .status,

@@ -157,30 +157,6 @@ TEST_F(IoWriters, PlyReadsBackBitForBit) {
   EXPECT_EQ(row, rows.size());
 }
 
-TEST_F(IoWriters, ObjStoresRadiosityAtUnsharedCorners) {
-  const auto rows = cells(written("a.obj"), ' ');
-  std::size_t row = 1;  // after the comment
-  std::size_t corner = 0;
-  for (PatchId i = 0; i < 3; ++i) {
-    const Rgb& b = at(solution_.radiosity, i);
-    for (const PointId p : solution_.scene->outline(i)) {
-      ASSERT_EQ(rows[row].size(), 7U);
-      EXPECT_EQ(rows[row][0], "v");
-      expect_same_bits(rows[row][1], solution_.scene->point(p).x);
-      expect_same_bits(rows[row][4], b.r);
-      expect_same_bits(rows[row][5], b.g);
-      expect_same_bits(rows[row++][6], b.b);
-    }
-    EXPECT_EQ(rows[row][0], "f");
-    EXPECT_EQ(rows[row].size(), solution_.scene->outline(i).size() + 1);
-    for (std::size_t k = 1; k < rows[row].size(); ++k) {
-      EXPECT_EQ(rows[row][k], std::to_string(++corner));
-    }
-    ++row;
-  }
-  EXPECT_EQ(row, rows.size());
-}
-
 TEST_F(IoWriters, VtpReadsBackBitForBit) {
   written("a.vtp");
   vtkNew<vtkXMLPolyDataReader> reader;
@@ -220,7 +196,7 @@ TEST_F(IoWriters, StatisticsWriteNullForNonFiniteNumbers) {
   solution_.statistics.energy_defect = std::nan("");
   solution_.statistics.closure_defect_max = HUGE_VAL;
   solution_.statistics.iteration_records = {{0.1 + 0.2, 0, 1e-3}};
-  write_statistics(folder_ / "s.json", SolveOptions{}, solution_);
+  write_statistics(folder_ / "s.json", RunOptions{}, solution_);
   const auto json = nlohmann::json::parse(read_file(folder_ / "s.json"));
   EXPECT_TRUE(json.at("energy_defect").is_null());
   EXPECT_TRUE(json.at("closure_defect_max").is_null());

@@ -61,11 +61,11 @@ std::map<std::string, std::string> files_written(const Solution& solution) {
   description.name = "room";  // instead of the path, which differs from call to call
   write_obj(path("copy.obj"), description);
   const Scene scene(description);
-  for (const char* name : {"r.vtp", "r.csv", "r.ply", "r.obj", "r.gltf", "r.glb"}) {
+  for (const char* name : {"r.vtp", "r.csv", "r.ply", "r.gltf", "r.glb"}) {
     write_result(path(name), solution);
   }
   write_result(path("again.csv"), read_result(path("r.vtp")));
-  write_statistics(path("s.json"), SolveOptions{}, solution);
+  write_statistics(path("s.json"), RunOptions{}, solution);
   const BspTree tree(scene);
   const VisibilityMap map =
       map_from_below(record_local_map(scene, tree, normalized({0.3, 0.2, 0.9})));

@@ -401,10 +401,11 @@ TEST(SchemeOptions, ReportInvalidCombinations) {
   const auto message = [](const SolveOptions& options) {
     return test::refusal([&] { options.validate(); });
   };
-  EXPECT_THAT(message({.replicas = 65}), HasSubstr("replicas: 65 is not in the range 1 to 64"));
+  EXPECT_THAT(message({.replicas = 65}),
+              HasSubstr("replicas: \"65\" is not a whole number from 1 to 64"));
   EXPECT_THAT(message({.directions = 3, .replicas = 4}),
               HasSubstr("exceeds the number of directions, 3"));
-  EXPECT_THAT(message({.burn_in = -1}), HasSubstr("burn-in: -1"));
+  EXPECT_THAT(message({.burn_in = -1}), HasSubstr("burn-in: \"-1\""));
   EXPECT_THAT(message({.scheme = Scheme::semi_iterative, .burn_in = 5, .iterations = 5}),
               HasSubstr("leave none for the mean"));
   EXPECT_THAT(message({.two_way = false, .normalize = Normalization::symmetric}),

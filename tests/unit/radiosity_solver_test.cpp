@@ -193,12 +193,12 @@ TEST(SolveOptions, ReportValuesOutOfRange) {
   const auto message = [](const SolveOptions& options) {
     return test::refusal([&] { options.validate(); });
   };
-  EXPECT_THAT(message({.directions = 0}), HasSubstr("directions: 0"));
-  EXPECT_THAT(message({.directions = -5}), HasSubstr("directions: -5"));
-  EXPECT_THAT(message({.iterations = -1}), HasSubstr("iterations: -1"));
-  EXPECT_THAT(message({.tolerance = 0}), HasSubstr("tolerance: 0"));
+  EXPECT_THAT(message({.directions = 0}), HasSubstr("directions: \"0\""));
+  EXPECT_THAT(message({.directions = -5}), HasSubstr("directions: \"-5\""));
+  EXPECT_THAT(message({.iterations = -1}), HasSubstr("iterations: \"-1\""));
+  EXPECT_THAT(message({.tolerance = 0}), HasSubstr("tolerance: \"0\""));
   EXPECT_THAT(message({.tolerance = std::nan("")}), HasSubstr("tolerance"));
-  EXPECT_THAT(message({.threads = -1}), HasSubstr("threads: -1"));
+  EXPECT_THAT(message({.threads = -1}), HasSubstr("threads: \"-1\""));
   EXPECT_EQ(message({}), "");
 }
 

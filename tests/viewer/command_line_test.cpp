@@ -38,22 +38,22 @@ class CommandLineTest : public QObject {
     const Outcome outcome = parse({});
     QVERIFY(!outcome.parsed.exit_now);
     const SolveOptions solve;
-    QCOMPARE(outcome.parsed.command_line.solve_options.directions, solve.directions);
-    QCOMPARE(outcome.parsed.command_line.solve_options.tolerance, solve.tolerance);
-    QVERIFY(outcome.parsed.command_line.solve_options.two_way);
+    QCOMPARE(outcome.parsed.command_line.options.solve.directions, solve.directions);
+    QCOMPARE(outcome.parsed.command_line.options.solve.tolerance, solve.tolerance);
+    QVERIFY(outcome.parsed.command_line.options.solve.two_way);
     QVERIFY(outcome.parsed.command_line.scene.empty());
-    QVERIFY(outcome.parsed.command_line.solve_options == solve);
+    QVERIFY(outcome.parsed.command_line.options.solve == solve);
     QVERIFY(solve.used_sampling() == Sampling::antipodal);
-    const SolveOptions one_way = parse({"--one-way"}).parsed.command_line.solve_options;
+    const SolveOptions one_way = parse({"--one-way"}).parsed.command_line.options.solve;
     QVERIFY(one_way.used_sampling() == Sampling::fibonacci);
     const auto two_way_lattice = parse({"--sampling", "fibonacci"}).parsed.command_line;
-    QVERIFY(two_way_lattice.solve_options.used_sampling() == Sampling::fibonacci);
+    QVERIFY(two_way_lattice.options.solve.used_sampling() == Sampling::fibonacci);
   }
 
   void a_screenshot_takes_fewer_directions_unless_told() {
     const auto directions = [](std::vector<const char*> words) {
       words.insert(words.begin(), {"furnace", "--screenshot", "a.png"});
-      return parse(std::move(words)).parsed.command_line.solve_options.directions;
+      return parse(std::move(words)).parsed.command_line.options.solve.directions;
     };
     QCOMPARE(directions({}), 128);
     QCOMPARE(directions({"-m", "1024"}), 1024);
@@ -67,9 +67,9 @@ class CommandLineTest : public QObject {
     };
     for (const char* scene : {"cornell-box", "rooms:rooms=2"}) {
       const CommandLine soft = parsed({scene, "--threads", "1"});
-      QVERIFY(soft.solve_options.basis == Basis::linear);
-      QVERIFY(soft.input.patches >= 1000);
-      QCOMPARE(soft.solve_options.directions, 1024);
+      QVERIFY(soft.options.solve.basis == Basis::linear);
+      QVERIFY(soft.options.input.patches >= 1000);
+      QCOMPARE(soft.options.solve.directions, 1024);
     }
     const std::vector<std::vector<const char*>> others{{"furnace"},
                                                        {"room.obj"},
@@ -78,11 +78,11 @@ class CommandLineTest : public QObject {
                                                        {"cornell-box", "--after", "3"}};
     for (const auto& words : others) {
       const CommandLine line = parsed(words);
-      QVERIFY(line.solve_options.basis == Basis::constant);
-      QCOMPARE(line.input.patches, std::int64_t{0});
+      QVERIFY(line.options.solve.basis == Basis::constant);
+      QCOMPARE(line.options.input.patches, std::int64_t{0});
     }
     const ParsedCommandLine window = parse({"cornell-box"}).parsed;
-    QVERIFY(window.command_line.solve_options.basis == Basis::constant);
+    QVERIFY(window.command_line.options.solve.basis == Basis::constant);
   }
 
   void options_of_scenes() {
@@ -91,7 +91,7 @@ class CommandLineTest : public QObject {
          "--orient", "auto", "--emission", "lamp=10", "--reflectance", "group:box=0.1,0.2,0.3",
          "--emission", "face:3=1,2,3", "--lobe", "floor=0.4,24", "--patches", "500"});
     QVERIFY2(!outcome.parsed.exit_now, outcome.error.c_str());
-    const SceneInput& input = outcome.parsed.command_line.input;
+    const SceneInput& input = outcome.parsed.command_line.options.input;
     QCOMPARE(input.read.default_reflectance, 0.25);
     QCOMPARE(input.read.max_reflectance.value_or(0), 0.9);
     QCOMPARE(input.read.scale, 0.01);
@@ -108,7 +108,8 @@ class CommandLineTest : public QObject {
     QVERIFY(std::count(input.changes.begin(), input.changes.end(), lobe_change("floor=0.4,24")) ==
             1);
     QVERIFY(change(0).target == "lamp");
-    QCOMPARE(parse({"room.obj", "--scale", "0.5"}).parsed.command_line.input.read.scale, 0.5);
+    QCOMPARE(parse({"room.obj", "--scale", "0.5"}).parsed.command_line.options.input.read.scale,
+             0.5);
   }
 
   void options_of_solve() {
@@ -140,17 +141,17 @@ class CommandLineTest : public QObject {
     QCOMPARE(outcome.error, std::string());
     const CommandLine& line = outcome.parsed.command_line;
     QCOMPARE(line.scene, std::string("room.obj"));
-    QCOMPARE(line.solve_options.directions, 77);
-    QVERIFY(line.solve_options.sampling == Sampling::random);
-    QCOMPARE(line.solve_options.seed, std::uint64_t{5});
-    QVERIFY(line.solve_options.rotation == std::optional<std::uint64_t>(8));
-    QVERIFY(!line.solve_options.two_way);
-    QVERIFY(line.solve_options.normalize == Normalization::rows);
-    QCOMPARE(line.solve_options.iterations, 3);
-    QCOMPARE(line.solve_options.memory, std::uint64_t{2} << 30);
-    QCOMPARE(line.solve_options.threads, 2);
-    QVERIFY(line.scene_options.two_sided);
-    QCOMPARE(line.scene_options.max_patch_area, 0.5);
+    QCOMPARE(line.options.solve.directions, 77);
+    QVERIFY(line.options.solve.sampling == Sampling::random);
+    QCOMPARE(line.options.solve.seed, std::uint64_t{5});
+    QVERIFY(line.options.solve.rotation == std::optional<std::uint64_t>(8));
+    QVERIFY(!line.options.solve.two_way);
+    QVERIFY(line.options.solve.normalize == Normalization::rows);
+    QCOMPARE(line.options.solve.iterations, 3);
+    QCOMPARE(line.options.solve.memory, std::uint64_t{2} << 30);
+    QCOMPARE(line.options.solve.threads, 2);
+    QVERIFY(line.options.scene.two_sided);
+    QCOMPARE(line.options.scene.max_patch_area, 0.5);
     QCOMPARE(line.screenshot, std::string("a.png"));
     QCOMPARE(line.after, 9);
   }
@@ -162,7 +163,6 @@ class CommandLineTest : public QObject {
     QTest::newRow("too few directions") << QStringList{"furnace", "-m", "0"};
     QTest::newRow("unknown sampling") << QStringList{"furnace", "--sampling", "fibonaci"};
     QTest::newRow("unknown normalization") << QStringList{"furnace", "--normalize", "columns"};
-    QTest::newRow("two-way and one-way") << QStringList{"furnace", "--one-way", "--two-way"};
     QTest::newRow("two scenes") << QStringList{"furnace", "boards"};
     QTest::newRow("screenshot of nothing") << QStringList{"--screenshot", "a.png"};
     QTest::newRow("no picture") << QStringList{"furnace", "--screenshot", "a.txt"};

@@ -4,12 +4,14 @@
 #include "model/command_text.h"
 
 #include <QClipboard>
+#include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QProcess>
+#include <QPushButton>
 #include <QTemporaryDir>
 
 #include "solved_window.h"
@@ -32,6 +34,7 @@ QByteArray output_of(const QString& command) {
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
   environment.insert("PATH", QFileInfo(TRANSILLUM_VIEWER).path() + ':' + environment.value("PATH"));
   process.setProcessEnvironment(environment);
+  process.setWorkingDirectory(QDir::tempPath());
   process.start("/bin/sh", {"-c", command});
   if (!process.waitForFinished(60000) || process.exitCode() != 0) {
     qInfo() << command << process.readAllStandardError();
@@ -50,7 +53,7 @@ class CommandTextTest : public QObject {
     QCOMPARE(QString::fromStdString(solve_command("cornell-box", {}, {})),
              QString("transillum solve cornell-box"));
     QCOMPARE(QString::fromStdString(map_command("a b's.obj", {}, {}, {0, 0.5, -1})),
-             QString("transillum map 'a b'\\''s.obj' --direction 0,0.5,-1"));
+             QString("transillum map 'a b'\\''s.obj' --direction 0,0.5,-1 --out map.svg"));
   }
 
   void a_copied_solve_has_the_same_bits_data() {
@@ -80,18 +83,34 @@ class CommandTextTest : public QObject {
     const auto window = make_window(options.solve);
     window->scene.open("cornell-box", options, {Goal::Kind::finished});
     QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
-    window->findChild<QAction*>("copy_solve")->trigger();
-    const QString command = QApplication::clipboard()->text() + " --quiet --out -";
-    const QList<QByteArray> rows = output_of(command).split('\n');
-    const QList<QByteArray> header = rows[0].split(',');
-    const int column = header.indexOf("B_r");
-    QVERIFY2(column >= 0, rows[0].constData());
-    const std::vector<Rgb>& radiosity = window->snapshot()->radiosity;
-    QVERIFY(rows.size() > static_cast<int>(radiosity.size()));
-    for (std::size_t i = 0; i < radiosity.size(); ++i) {
-      const QList<QByteArray> fields = rows[static_cast<int>(i) + 1].split(',');
-      QCOMPARE(fields[column].toDouble(), radiosity[i].r);
-      QCOMPARE(fields[column + 2].toDouble(), radiosity[i].b);
+    expect_same_bits(*window);
+  }
+
+  /// Materials that were changed in the window are those of the next solve.
+  void a_copied_solve_of_an_edited_scene_has_the_same_bits() {
+    const auto window = make_window(8);
+    window->scene.open("cornell-box", {.solve = {.directions = 8}}, {Goal::Kind::finished});
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    MaterialEdits& edits = window->relighting.edits();
+    for (int k = 0; k < 20; ++k) {
+      const double x = 0.01 + k / 30.0;
+      const std::string face = "face:" + std::to_string(k % 12);
+      if (k % 3 == 0) {
+        edits.set_exitance(face, {1 + x, 2, 3 / x});
+      } else if (k % 3 == 1) {
+        edits.set_reflectance(k % 2 == 0 ? face : "material:white", {x, 0.5, 1 - x});
+      } else {
+        edits.set_exitance("material:light", {k + x, 0, 1});
+        edits.set_reflectance(face, {0, x, 0.25});
+      }
+      const auto before = window->scene.loaded();
+      window->findChild<QPushButton*>("restart")->click();
+      QVERIFY(wait_for([&] { return window->scene.loaded() != before && window->settled(); }));
+      QVERIFY(edits.changes().empty());
+      expect_same_bits(*window);
+      if (QTest::currentTestFailed()) {
+        return;
+      }
     }
   }
 
@@ -143,6 +162,24 @@ class CommandTextTest : public QObject {
     QVERIFY(
         !output_of(copied(solved, "copy_map") + " --out " + file + " && echo written").isEmpty());
     QVERIFY(QFileInfo(file).size() > 100);
+  }
+
+ private:
+  /// Of the window and of the command that is copied from it.
+  static void expect_same_bits(const TestWindow& window) {
+    window.findChild<QAction*>("copy_solve")->trigger();
+    const QString command = QApplication::clipboard()->text() + " --quiet --out -";
+    const QList<QByteArray> rows = output_of(command).split('\n');
+    const QList<QByteArray> header = rows[0].split(',');
+    const int column = header.indexOf("B_r");
+    QVERIFY2(column >= 0, rows[0].constData());
+    const std::vector<Rgb>& radiosity = window.snapshot()->radiosity;
+    QCOMPARE(rows.size(), static_cast<int>(radiosity.size()) + 2);
+    for (std::size_t i = 0; i < radiosity.size(); ++i) {
+      const QList<QByteArray> fields = rows[static_cast<int>(i) + 1].split(',');
+      QCOMPARE(fields[column].toDouble(), radiosity[i].r);
+      QCOMPARE(fields[column + 2].toDouble(), radiosity[i].b);
+    }
   }
 };
 

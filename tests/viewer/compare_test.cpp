@@ -414,7 +414,7 @@ class CompareTest : public QObject {
       choose_engine(*engine, chosen);
       QCOMPARE(panel.solve_options().engine, chosen);
       QVERIFY(!engine->toolTip().isEmpty());
-      QCOMPARE(resolution->isVisible(), takes_resolution(chosen));
+      QCOMPARE(resolution->isVisible(), traits_of(chosen).takes_resolution);
       QCOMPARE(order->isVisible(), chosen == Engine::painter);
     };
     for (const std::string& name : engine_names()) {

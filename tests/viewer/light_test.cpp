@@ -241,11 +241,28 @@ class LightTest : public QObject {
     opened.part<QPushButton>("restart")->click();
     QVERIFY(wait_for([&] { return opened.window->snapshot()->loaded->scene->patch_count() > 12; }));
     QVERIFY(opened.settles());
-    QVERIFY(opened.is_relit());
     for (PatchId i = 0; i < opened.scene().patch_count(); ++i) {
       QCOMPARE(max_abs(material_of(*opened.window->snapshot(), i).exitance) > 0,
                opened.scene().patch(i).face == 5);
     }
+  }
+
+  /// The solve was that of the file: B = 0 everywhere, "good enough: error at most 0 %".
+  void a_lamp_made_here_is_solved() {
+    const Opened opened;
+    QVERIFY(opened.ready);
+    QCOMPARE(largest(opened.window->snapshot()->radiosity), 0.0);
+    opened.edits().set_exitance("face:5", {10, 20, 30});
+    QVERIFY(opened.is_relit());
+    opened.part<QLineEdit>("accuracy")->setText("5");
+    opened.part<QPushButton>("restart")->click();
+    QVERIFY(wait_for([&] { return opened.scene().has_light(); }));
+    QVERIFY(opened.settles());
+    const SolverSnapshot& snapshot = *opened.window->snapshot();
+    QVERIFY(!snapshot.materials);
+    QVERIFY(largest(snapshot.radiosity) >= 30);
+    QVERIFY(snapshot.error.rms_limit > 0);
+    QVERIFY(opened.edits().changes().empty());
   }
 
   void faces_are_turned_after_a_preview() {

@@ -244,7 +244,8 @@ class SceneFilesTest : public QObject {
           parse_command_line(static_cast<int>(arguments.size()), arguments.data(), out, error)
               .command_line;
       const auto before = window.scene.loaded();
-      window.files().open(QString::fromStdString(line.scene), {}, line.input, line.reading_given);
+      window.files().open(QString::fromStdString(line.scene), {}, line.options.input,
+                          line.reading_given);
       return wait_for([&] { return window.scene.loaded() != before && window.settled(); });
     };
     const auto window = make_window(16);

@@ -262,13 +262,13 @@ CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
   choice.resolution->setValue(128);
   choice.resolution->setSingleStep(64);
   choice.resolution->setSuffix(tr(" px"));
-  if (!takes_resolution(engine)) {
+  if (!traits_of(engine).takes_resolution) {
     choice.resolution->hide();
   }
   connect(choice.engine, qOverload<int>(&QComboBox::currentIndexChanged), this, [this, choice] {
     const Engine chosen = engine_of(*choice.engine);
     choice.engine->setToolTip(engine_sentence(chosen));
-    choice.resolution->setVisible(takes_resolution(chosen));
+    choice.resolution->setVisible(traits_of(chosen).takes_resolution);
     send_request();
   });
   connect(choice.resolution, QOverload<int>::of(&QSpinBox::valueChanged), this,
@@ -316,7 +316,7 @@ int CompareView::Choice::requested_resolution() const {
   if (is_hemicube()) {
     return resolution->value() / 2 * 2;
   }
-  return takes_resolution(engine_of(*engine)) ? resolution->value() : 0;
+  return traits_of(engine_of(*engine)).takes_resolution ? resolution->value() : 0;
 }
 
 void CompareView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -419,7 +419,8 @@ void CompareView::show_maps() {
     }
     choice->hemicube->clear();
     content.choice = {};
-    if (has_pixels(engine) || engine == Engine::corrected) {
+    const EngineTraits::Picture picture = traits_of(engine).picture;
+    if (picture == EngineTraits::Picture::pixels || picture == EngineTraits::Picture::corrected) {
       content.choice.engine = engine;
       content.choice.order = snapshot_->options.engine_options.order;
       content.choice.resolution = choice->resolution->value();

@@ -48,13 +48,13 @@ EngineMenu::EngineMenu(QWidget* parent) : QToolButton(parent) {
 void EngineMenu::add_engines(QMenu& menu) {
   menu.addSection(tr("Engine"));
   auto* engines = new QActionGroup(this);
-  const auto add_engine = [&](std::optional<Engine> engine, const char* name,
+  const auto add_engine = [&](std::optional<Engine> engine, const std::string& name,
                               PaintersOrder order = PaintersOrder::bsp) {
     MapEngineChoice shown;
     shown.engine = engine;
     shown.order = order;
     QAction* action = engines->addAction(label_of(shown));
-    action->setObjectName(QString::fromLatin1(name));
+    action->setObjectName(QString::fromStdString(name));
     action->setToolTip(engine ? engine_sentence(*engine) : tr("The exact visibility map V"));
     action->setCheckable(true);
     action->setChecked(!engine);
@@ -66,12 +66,15 @@ void EngineMenu::add_engines(QMenu& menu) {
     });
   };
   add_engine(std::nullopt, "map_exact");
-  add_engine(Engine::zbuffer, "map_zbuffer");
-  add_engine(Engine::painter, "map_painter");
-  add_engine(Engine::painter, "map_newell", PaintersOrder::newell);
-  add_engine(Engine::rays, "map_rays");
-  add_engine(Engine::corrected, "map_corrected");
-  add_engine(Engine::hemicube, "map_hemicube");
+  for (const EngineTraits& traits : transillum::engines()) {
+    using Picture = EngineTraits::Picture;
+    if (traits.picture != Picture::polygons && traits.picture != Picture::none) {
+      add_engine(traits.engine, std::string("map_") + traits.name);
+    }
+    if (traits.takes_order) {
+      add_engine(traits.engine, "map_newell", PaintersOrder::newell);
+    }
+  }
   menu.addActions(engines->actions());
 }
 
@@ -93,11 +96,11 @@ void EngineMenu::add_resolutions(QMenu& menu) {
 
 void EngineMenu::change(const MapEngineChoice& choice) {
   choice_ = choice;
-  const bool pixels = choice_.engine && takes_resolution(*choice_.engine);
+  const bool pixels = choice_.engine && traits_of(*choice_.engine).takes_resolution;
   resolutions_->setEnabled(pixels);
   differences_->setEnabled(choice_.engine.has_value());
   QString label = label_of(choice_);
-  if (choice_.engine == Engine::painter) {  // short: there is little room
+  if (choice_.engine && traits_of(*choice_.engine).takes_order) {  // short: there is little room
     label = choice_.order == PaintersOrder::newell ? tr("Painter (Newell)") : tr("Painter (BSP)");
   }
   setText(pixels ? tr("%1, %2 px ").arg(label).arg(choice_.resolution) : label + QLatin1Char(' '));

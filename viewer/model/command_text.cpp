@@ -1,18 +1,16 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Lines for a shell. Options have the same names in session files and on the command line, so the
-// line is made of what a session file would hold (run_options.h); the few that are written
-// differently are named here.
+// Lines for a shell.
 #include "model/command_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "transillum/option_table.h"
 
 namespace transillum::viewer {
-
-using nlohmann::json;
 
 namespace {
 
@@ -32,10 +30,6 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-std::string text_of(const json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
 class Line {
  public:
   explicit Line(const std::string& begin) : text_(begin) {}
@@ -45,13 +39,17 @@ class Line {
     add("--" + option);
     add(value);
   }
-  /// Options of `given` that differ from `usual`; the caller writes those of `others`.
-  void add_differences(const json& given, const json& usual,
-                       const std::vector<std::string>& others) {
-    for (const auto& [key, value] : given.items()) {
-      if (value != usual.value(key, json()) &&
-          std::find(others.begin(), others.end(), key) == others.end()) {
-        add(key, text_of(value));
+  /// The options in which a run differs from the default one, those that `is_wanted`.
+  template <class IsWanted>
+  void add_differences(const RunOptions& options, IsWanted is_wanted) {
+    for (const auto& [name, value] : differences_from_default(options)) {
+      if (!is_wanted(option(name))) {
+        continue;
+      }
+      if (option(name).is_flag()) {
+        add((value == "no" ? "--no-" : "--") + name);
+      } else {
+        add(name, value);
       }
     }
   }
@@ -80,81 +78,19 @@ class Line {
   std::string text_;
 };
 
-/// How the scene is read, which the two commands have in common.
-void add_scene(Line& line, const std::string& scene, const RunOptions& options,
-               const std::vector<MaterialChange>& changes) {
-  line.add(scene);
-  const SceneInput& input = options.input;
-  const json read = to_json(RunOptions{{}, {}, input}).value("read", json::object());
-  const json usual = {{"default-reflectance", ReadOptions().default_reflectance},
-                      {"scale", ReadOptions().scale}};
-  line.add_differences(read, usual, {"changes", "turn-faces", "join", "photometric"});
-  if (input.read.join) {
-    line.add(*input.read.join ? "--join" : "--no-join");
-  }
-  if (input.read.photometric) {
-    line.add("--photometric");
-  }
-  line.add_changes(input.changes);
-  line.add_changes(changes);
-  if (input.orient) {
-    line.add("orient", "auto");
-  }
-  if (options.scene.two_sided) {
-    line.add("--two-sided");
-  }
-  if (options.scene.max_patch_area > 0) {
-    line.add("max-patch-area", fmt::format("{}", options.scene.max_patch_area));
-  }
-}
-
-void add_sky(Line& line, const Sky& sky) {
-  if (!sky.set()) {
-    return;
-  }
-  const Rgb& e = sky.exitance;
-  line.add("sky", e.r == e.g && e.g == e.b ? fmt::format("{}", e.r)
-                                           : fmt::format("{},{},{}", e.r, e.g, e.b));
-  if (sky.model != Sky().model) {
-    line.add("sky-model", name_of(sky.model));
-    line.add("up", fmt::format("{},{},{}", sky.up.x, sky.up.y, sky.up.z));
-  }
-}
-
 }  // namespace
 
 std::string solve_command(const std::string& scene, const RunOptions& options,
                           const std::vector<MaterialChange>& changes) {
   Line line("transillum solve");
-  add_scene(line, scene, options, changes);
-  const SolveOptions& solve = options.solve;
-  std::vector<std::string> others{"read",      "two-way",   "two-sided",   "max-patch-area",
-                                  "sky",       "sky-model", "up",          "glossy",
-                                  "refine-by", "patches",   "refine-until"};
-  if (solve.goal.set()) {
-    // Chosen by the goal.
-    others.insert(others.end(), {"directions", "replicas", "tolerance"});
-  } else {
-    others.insert(others.end(), {"accuracy", "accuracy-of", "seconds"});
+  line.add(scene);
+  line.add_changes(options.input.changes);
+  line.add_changes(changes);
+  RunOptions asked = options;
+  if (asked.solve.goal.set()) {
+    asked.solve.tolerance = SolveOptions{}.tolerance;  // chosen by the goal
   }
-  line.add_differences(to_json(options), to_json(RunOptions{}), others);
-  if (!solve.two_way) {
-    line.add("--one-way");
-  }
-  if (solve.glossy) {
-    line.add("--glossy");
-  }
-  add_sky(line, solve.sky);
-  if (options.refine.set()) {
-    line.add("refine-by", name_of(*options.refine.by));
-    line.add("patches", fmt::format("{}", options.refine.patches));
-    if (options.refine.until > 0) {
-      line.add("refine-until", fmt::format("{}", options.refine.until));
-    }
-  }
-  if (solve.engine_options.order != EngineOptions().order) {
-    line.add("order", "newell");
-  }
+  line.add_differences(asked, [](const Option& option) { return option.name != "threads"; });
   return line.text();
 }
 
@@ -162,11 +98,17 @@ std::string map_command(const std::string& scene, const RunOptions& options,
                         const std::vector<MaterialChange>& changes, const Vec3& omega,
                         std::optional<std::int32_t> steps) {
   Line line("transillum map");
-  add_scene(line, scene, options, changes);
+  line.add(scene);
+  line.add_changes(options.input.changes);
+  line.add_changes(changes);
+  line.add_differences(options, [](const Option& option) {
+    return option.group == "Scene" || option.group == "Patches";
+  });
   line.add("direction", fmt::format("{},{},{}", omega.x, omega.y, omega.z));
   if (steps) {
     line.add("step", fmt::format("{}", *steps));
   }
+  line.add("out", "map.svg");
   return line.text();
 }
 

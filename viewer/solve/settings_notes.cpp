@@ -13,7 +13,6 @@
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
-#include "widgets/engine_text.h"
 
 namespace transillum::viewer {
 
@@ -29,6 +28,7 @@ void SettingsPanel::add_glossy_row(QFormLayout& form) {
   glossy_note_ = new QLabel;
   glossy_note_->setObjectName("glossy_note");
   glossy_note_->setForegroundRole(QPalette::PlaceholderText);
+  glossy_note_->setWordWrap(true);
   glossy_note_->hide();
   auto* column = new QVBoxLayout;
   column->setSpacing(2);
@@ -38,31 +38,9 @@ void SettingsPanel::add_glossy_row(QFormLayout& form) {
 }
 
 void SettingsPanel::show_basis_state() {
-  const bool linear = basis_->currentIndex() == static_cast<int>(Basis::linear);
-  const QString note = !linear                             ? QString()
-                       : !has_moments(engine_of(*engine_)) ? tr("not with this engine")
-                       : normalize_->currentIndex() == static_cast<int>(Normalization::symmetric)
-                           ? tr("not with Symmetric")
-                       : scheme_->currentIndex() == static_cast<int>(Scheme::semi_iterative)
-                           ? tr("not with Semi-iterative")
-                           : QString();
+  const QString note = QString::fromStdString(conflict_of("basis", options()));
   basis_note_->setText(note);
   basis_note_->setVisible(!note.isEmpty());
-}
-
-QString SettingsPanel::glossy_obstacle() const {
-  return !takes_directions(engine_of(*engine_)) ? tr("not with this engine")
-         : pass_serves_->currentIndex() != 0    ? tr("not with one-way passes")
-         : basis_->currentIndex() != static_cast<int>(Basis::constant)
-             ? tr("not with linear functions")
-         : normalize_->currentIndex() == static_cast<int>(Normalization::symmetric)
-             ? tr("not with Symmetric")
-         : scheme_->currentIndex() != static_cast<int>(Scheme::fixed)
-             ? tr("only with the scheme Fixed")
-         : goal().set()            ? tr("not with an accuracy")
-         : replicas_->value() != 1 ? tr("not with replicas")
-         : refinement().set()      ? tr("not with rounds of refinement")
-                                   : QString();
 }
 
 void SettingsPanel::show_glossy_state() {
@@ -73,7 +51,7 @@ void SettingsPanel::show_glossy_state() {
 }
 
 QString SettingsPanel::note_on_lobes() const {
-  const QString obstacle = glossy_obstacle();
+  const QString obstacle = QString::fromStdString(conflict_of("glossy", options()));
   if (!obstacle.isEmpty()) {
     return obstacle;
   }

@@ -23,7 +23,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
+#include <string>
 
 #include "model/run_options.h"
 #include "solve/refine_controls.h"
@@ -52,7 +53,7 @@ bool same(const SceneOptions& a, const SceneOptions& b) {
 
 // Rich text, so that Qt wraps long lines.
 QString tip(const char* setting) {
-  const QString sentence = capitalized(SettingsPanel::tr(description_of(setting)));
+  const QString sentence = capitalized(QString::fromStdString(option(setting).help));
   return QStringLiteral("<span>%1</span>").arg(sentence.toHtmlEscaped());
 }
 
@@ -166,7 +167,7 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   pass_serves_ = new QComboBox;
   pass_serves_->setObjectName("pass_serves");
   pass_serves_->addItems({tr("serves ω and −ω"), tr("serves ω only (paper)")});
-  pass_serves_->setToolTip(tip("two-way"));
+  pass_serves_->setToolTip(tip("one-way"));
   normalize_ = new QComboBox;
   normalize_->addItems({tr("None (paper)"), tr("Rows"), tr("Symmetric")});
   normalize_->setToolTip(
@@ -197,6 +198,7 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   basis_note_ = new QLabel;
   basis_note_->setObjectName("basis_note");
   basis_note_->setForegroundRole(QPalette::PlaceholderText);
+  basis_note_->setWordWrap(true);
   basis_note_->hide();
   auto* basis_column = new QVBoxLayout;
   basis_column->setSpacing(2);
@@ -221,7 +223,7 @@ void SettingsPanel::add_stop_row(QFormLayout& form) {
   tolerance_->setMinimumWidth(60);
   tolerance_->setToolTip(tip("tolerance"));
   iterations_ = new QSpinBox;
-  iterations_->setRange(1, std::numeric_limits<int>::max());
+  iterations_->setRange(1, 1'000'000);
   iterations_->setMinimumWidth(60);
   stop_value_ = new QStackedWidget;
   stop_value_->addWidget(tolerance_);
@@ -439,8 +441,6 @@ SolveOptions SettingsPanel::solve_options() const {
   options.glossy = glossy_->isChecked();
   if (options.basis == Basis::linear || options.glossy) {
     options.first_shot.reset();  // is not available, and has no control here
-  } else if (options.goal.set() && !options.first_shot) {
-    options.first_shot = first_shot_where_it_pays;
   }
   options.directions = directions_->value();
   bool number = false;
@@ -451,8 +451,7 @@ SolveOptions SettingsPanel::solve_options() const {
   options.engine_options.resolution = resolution_->value();
   options.engine_options.order = static_cast<PaintersOrder>(order_->currentIndex());
   options.two_way = pass_serves_->currentIndex() == 0;
-  options.sampling =
-      unless_default(static_cast<Sampling>(sampling_->currentIndex()), options.two_way);
+  options.sampling = static_cast<Sampling>(sampling_->currentIndex());
   options.normalize = static_cast<Normalization>(normalize_->currentIndex());
   options.scheme = static_cast<Scheme>(scheme_->currentIndex());
   options.replicas = options.goal.set() ? 1 : replicas_->value();
@@ -462,7 +461,10 @@ SolveOptions SettingsPanel::solve_options() const {
     options.tolerance = tolerance;
   }
   options.sky = sky();
-  return options;
+  RunOptions run{.solve = options};
+  set_dependent_defaults(
+      run, options.first_shot ? std::set<std::string>{"first-shot"} : std::set<std::string>());
+  return run.solve;
 }
 
 SceneOptions SettingsPanel::scene_options() const {
@@ -561,7 +563,10 @@ void SettingsPanel::show_state() {
   if (!restart_) {
     return;  // the constructor has not made all controls yet
   }
-  seed_->setEnabled(is_seeded(static_cast<Sampling>(sampling_->currentIndex())));
+  const auto has_effect = [run = options()](const char* setting) {
+    return why_unused(setting, {run}).empty();
+  };
+  seed_->setEnabled(has_effect("seed"));
   stop_value_->setCurrentIndex(stop_at_->currentIndex());
   const bool chosen = goal().set();
   for (QWidget* widget : {static_cast<QWidget*>(directions_), static_cast<QWidget*>(replicas_)}) {
@@ -575,8 +580,8 @@ void SettingsPanel::show_state() {
   show_basis_state();
   refine_->set_available(!fixed_);
   show_glossy_state();
-  show_row(order_label_, order_, engine == Engine::painter);
-  show_row(resolution_label_, resolution_, takes_resolution(engine));
+  show_row(order_label_, order_, has_effect("order"));
+  show_row(resolution_label_, resolution_, has_effect("resolution"));
   const bool rays = engine == Engine::rays;
   resolution_->setSpecialValueText(
       rays ? tr("%1 rays per patch").arg(solve_in_effect_.engine_options.lines_per_patch)

@@ -77,8 +77,6 @@ class SettingsPanel : public QWidget {
   void show_basis_state();
   void show_glossy_state();
   QString note_on_lobes() const;
-  /// Why lobes cannot take part with the other settings; empty if they can.
-  QString glossy_obstacle() const;
   void add_glossy_row(QFormLayout& form);
   void add_stop_row(QFormLayout& form);
   void connect_solve_rows();

@@ -66,7 +66,7 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
   engines->setVerticalSpacing(4);
   for (std::size_t k = 0; k < engine_names().size(); ++k) {
     const auto engine = static_cast<Engine>(k);
-    if (engine == Engine::hemicube || engine == Engine::pairs) {
+    if (!takes_directions(engine)) {
       continue;  // their error does not depend on M
     }
     const QString name = QString::fromStdString(name_of(engine));

@@ -15,8 +15,6 @@ namespace transillum::viewer {
 QString engine_label(Engine engine);
 /// One sentence on its method; the tool tip.
 QString engine_sentence(Engine engine);
-/// Whether the engine uses EngineOptions::resolution.
-bool takes_resolution(Engine engine);
 
 /// Fills an empty box with the engines, each with its sentence as tool tip; data: the engine as
 /// int.

@@ -17,17 +17,14 @@ namespace transillum::viewer {
 
 /// The parsed arguments.
 struct CommandLine {
-  std::string scene;  ///< file or built-in; empty: none given
-  SceneOptions scene_options;
-  SceneInput input;            ///< how the scene is read
-  bool reading_given = false;  ///< whether the arguments say so, were it as is usual
-  SolveOptions solve_options;
-  RefineChoice refine;
-  std::string lesson;       ///< number of a built-in lesson, or a file; empty: none
-  int page = 1;             ///< of the lesson, from 1
-  std::string screenshot;   ///< path of a PNG; empty: none
-  int after = 0;            ///< directions before the screenshot; 0: a converged solve
-  std::string lesson_file;  ///< path of an HTML file for the lesson; empty: none
+  std::string scene;           ///< file or built-in; empty: none given
+  RunOptions options;          ///< of the run
+  bool reading_given = false;  ///< whether they say how the scene is read, were it as is usual
+  std::string lesson;          ///< number of a built-in lesson, or a file; empty: none
+  int page = 1;                ///< of the lesson, from 1
+  std::string screenshot;      ///< path of a PNG; empty: none
+  int after = 0;               ///< directions before the screenshot; 0: a converged solve
+  std::string lesson_file;     ///< path of an HTML file for the lesson; empty: none
 };
 
 /// Either a command line to run, or the status to exit with at once.

@@ -293,7 +293,7 @@ void ExportActions::choose_scene() {
 }
 
 void ExportActions::choose_result() {
-  write_chosen(tr("Result"), tr("Results (*.vtp *.csv *.ply *.obj)"), name_with(".vtp"),
+  write_chosen(tr("Result"), tr("Results (*.vtp *.csv *.ply)"), name_with(".vtp"),
                [this](const QString& path) { write_result(path); });
 }
 

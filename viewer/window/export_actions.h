@@ -31,7 +31,7 @@ class ExportActions : public QObject {
   void add_to(QMenu& menu) const;
   /// The scene as it is drawn, `scale` times as many pixels a side (1 … 8).
   void write_scene(const QString& path, int scale) const;
-  /// The result shown, in the formats of `transillum solve`: .vtp, .csv, .ply or .obj. Written on a
+  /// The result shown, in the formats of `transillum solve`: .vtp, .csv or .ply. Written on a
   /// worker thread; a failure there is shown in the window.
   /// @throws InputError where it is clear at once that it cannot be written
   void write_result(const QString& path);

@@ -162,8 +162,8 @@ void export_lesson(MainWindow& window, const std::string& path,
 void open_arguments(MainWindow& window, const CommandLine& command_line) {
   const std::string scene = scene_of(command_line);
   if (!scene.empty()) {
-    window.files().open(QString::fromStdString(scene), goal_of(command_line), command_line.input,
-                        command_line.reading_given);
+    window.files().open(QString::fromStdString(scene), goal_of(command_line),
+                        command_line.options.input, command_line.reading_given);
   }
   if (!command_line.lesson.empty()) {
     window.files().open_lesson(command_line.lesson, command_line.page);
@@ -189,8 +189,7 @@ int run(Application& application, const CommandLine& command_line) {
   const bool for_file = for_screenshot || !command_line.lesson_file.empty();
   SharedState state;
   MainWindow window(state, !for_file);
-  window.parts().settings.set_options(
-      RunOptions{command_line.solve_options, command_line.scene_options, {}, command_line.refine});
+  window.parts().settings.set_options(command_line.options);
   QObject::connect(&signals_of_user, &EndingSignals::received, &window,
                    [&window](int number) { end_by_signal(window, number); });
   std::unique_ptr<Screenshot> screenshot;

@@ -2,20 +2,20 @@
 #include "window/setting_list.h"
 
 #include "support/number_text.h"
-#include "transillum/settings.h"
+#include "transillum/option_table.h"
 #include "widgets/page_dialog.h"
 
 namespace transillum::viewer {
 
 QString setting_page() {
   QString rows;
-  for (const Setting& setting : settings()) {
-    const QString name = setting.name;
+  for (const Option& setting : options()) {
+    const QString name = QString::fromStdString(setting.name);
     rows += QStringLiteral("<tr><td><b>%1</b></td><td>%2</td><td>%3</td><td>%4</td></tr>")
                 .arg(setting.in_files ? name : name + '*',
-                     capitalized(setting.description).toHtmlEscaped(),
-                     QString::fromUtf8(setting.type).toHtmlEscaped(),
-                     QString::fromStdString(setting.default_value).toHtmlEscaped());
+                     capitalized(QString::fromStdString(setting.help)).toHtmlEscaped(),
+                     QString::fromStdString(setting.values).toHtmlEscaped(),
+                     QString::fromStdString(setting.default_value()).toHtmlEscaped());
   }
   return PageDialog::tr(
              "<h3>Settings of a solve</h3><p>On the command line, put two dashes before the name. "

@@ -94,13 +94,12 @@ void SolveControl::solve_again() {
     return;
   }
   parts_.notifier.dismiss();
-  RunOptions options = parts_.settings.options();
+  RunOptions options = wanted_options();
   const auto& shown = parts_.scene.snapshot();
   if (shown && shown->options.glossy != options.solve.glossy &&
       has_lobes(*parts_.scene.loaded()->scene)) {
     parts_.colors.show_lobes(options.solve.glossy);
   }
-  options.input = parts_.scene.input();
   if (options.refine.set() && !may_refine(options.refine.patches)) {
     return;
   }
@@ -114,11 +113,17 @@ void SolveControl::solve_again() {
   }
 }
 
-void SolveControl::open_again() {
+/// Of the panel, for the open scene. Materials that were changed in the window become those of the
+/// scene: they are solved, estimated, refined and copied as any others.
+RunOptions SolveControl::wanted_options() const {
   RunOptions options = parts_.settings.options();
   options.input = parts_.scene.input();
-  applier_.open_again(options);
+  const std::vector<MaterialChange> changes = parts_.relighting.edits().changes();
+  options.input.changes.insert(options.input.changes.end(), changes.begin(), changes.end());
+  return options;
 }
+
+void SolveControl::open_again() { applier_.open_again(wanted_options()); }
 
 void SolveControl::show_forecast(const SceneOptions& options, std::int64_t patches) {
   parts_.settings.show_forecast(options, forecast_text(patches));

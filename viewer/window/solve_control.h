@@ -32,6 +32,7 @@ class SolveControl : public QObject {
   void show_forecast(const SceneOptions& options, std::int64_t patches);
   /// Asks about a scene of very many patches. Whether to make it.
   bool may_refine(std::int64_t patches);
+  RunOptions wanted_options() const;
   void open_again();
   void start_over();
   void show_state(RunState state);

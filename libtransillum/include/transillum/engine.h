@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,42 @@ enum class Engine {
   hemicube,   ///< no directions: item buffers at each patch's center, by solve_by_form_factors()
   pairs,      ///< no directions: form factors pair by pair, by solve_by_form_factors()
 };
+
+/// What callers may rely on about an engine; the only place that says it.
+struct EngineTraits {
+  /// How its transfers are wrong.
+  enum class Error {
+    none,         ///< not at all, up to rounding
+    statistical,  ///< by chance: its own random numbers
+    own,          ///< in a way that directions and replicas do not show
+  };
+  /// How a window can show V.
+  enum class Picture {
+    polygons,   ///< the exact map
+    pixels,     ///< pixel_map()
+    corrected,  ///< corrected_map()
+    hemicube,   ///< the hemicube of a patch
+    none,       ///< not at all
+  };
+
+  Engine engine;                        ///< which one
+  const char* name;                     ///< in options and files
+  const char* label;                    ///< in a list of choices
+  const char* sentence;                 ///< on its method
+  Error error = Error::none;            ///< of its transfers
+  Picture picture = Picture::polygons;  ///< of V
+  bool takes_directions = true;         ///< make_engine() accepts it
+  bool has_moments = false;             ///< computes Transfers::moments
+  bool has_linear_basis = false;        ///< solves with Basis::linear
+  bool takes_resolution = false;        ///< reads EngineOptions::resolution
+  bool takes_points = false;            ///< reads EngineOptions::points
+  bool takes_order = false;             ///< reads EngineOptions::order
+};
+/// The traits of all engines, in the order of the enumeration.
+std::span<const EngineTraits> engines();
+/// Those of one.
+const EngineTraits& traits_of(Engine engine);
+
 /// The names of the engines as in options and files, in the order of the enumeration.
 const std::vector<std::string>& engine_names();
 /// The engine called `name`.
@@ -67,7 +104,7 @@ struct EngineOptions {
 
   double lines_per_patch = 100;  ///< rays: lines per direction over number of patches, (0, 1e6]
   bool gridded = true;           ///< rays: on a jittered grid; else uniformly random
-  std::uint64_t seed = 1;        ///< rays: seed of the positions
+  std::uint64_t seed = 1;        ///< rays: seed of the positions; a solve takes its own seed
   /// zbuffer, painter: pixels along the longer side of the window, the bounding box of the
   /// projected scene; 0: default_resolution. rays: the same grid with one line per pixel; 0: by
   /// lines_per_patch. hemicube: pixels along a side of the cube; 0: HemicubeOptions::resolution's

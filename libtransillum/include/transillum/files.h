@@ -16,6 +16,7 @@
 #include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/radiosity.h"
+#include "transillum/run_options.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
 
@@ -144,9 +145,10 @@ void write_directions_csv(const std::filesystem::path& path,
                           const std::vector<DirectionSample>& directions);
 /// @}
 
-/// Writes options and statistics of a solve run as JSON.
+/// Writes options and statistics of a solve run as JSON. How faces became patches is that of the
+/// solution's scene.
 /// @throws std::runtime_error if it cannot be written.
-void write_statistics(const std::filesystem::path& path, const SolveOptions& options,
+void write_statistics(const std::filesystem::path& path, const RunOptions& options,
                       const Solution& solution);
 
 }  // namespace TRANSILLUM_API transillum

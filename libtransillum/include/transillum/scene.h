@@ -150,6 +150,8 @@ struct ReadOptions {
 
   /// @throws InputError naming the value and the valid range
   void validate() const;
+  /// Exact comparison of all members.
+  friend bool operator==(const ReadOptions&, const ReadOptions&) = default;
 };
 
 /// Names of units of length that ReadOptions::scale can be given by: mm, cm, m, in, ft.
@@ -162,6 +164,9 @@ double length_unit_from_name(const std::string& name);
 struct SceneOptions {
   bool two_sided = false;     ///< every face gives two opposite patches, front first
   double max_patch_area = 0;  ///< m²; faces larger than this are subdivided; 0: none are
+
+  /// Exact comparison of all members.
+  friend bool operator==(const SceneOptions&, const SceneOptions&) = default;
 };
 
 /// A planar polygon of constant radiosity.

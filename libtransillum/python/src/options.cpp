@@ -1,174 +1,104 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "options.h"
 
-#include <pybind11/stl.h>
-
 #include <algorithm>
-#include <functional>
-#include <map>
-#include <stdexcept>
+#include <set>
 #include <string>
-#include <type_traits>
 
-#include "arrays.h"
 #include "transillum/did_you_mean.h"
-#include "transillum/settings.h"
+#include "transillum/errors.h"
+#include "transillum/option_table.h"
+
+namespace py = pybind11;
 
 namespace transillum::python {
 namespace {
 
-using Setter = std::function<void(SolveOptions&, const py::handle&)>;
-
-bool is_bool(const py::handle& value) {
-  const std::string type = Py_TYPE(value.ptr())->tp_name;
-  return PyBool_Check(value.ptr()) || type == "numpy.bool_" || type == "numpy.bool";
-}
-
-/// A number, or True or False: Python would take each for the other.
-template <class T>
-T number(const py::handle& value) {
-  if (is_bool(value) != std::is_same_v<T, bool>) {
-    throw py::cast_error();
-  }
-  return py::cast<T>(value);
-}
 std::string text(const py::handle& value) { return py::cast<std::string>(value); }
-bool is_text(const py::handle& value, const char* expected) {
-  return PyUnicode_Check(value.ptr()) && text(value) == expected;
-}
-
-Rgb color(const py::handle& value, const std::string& name) {
-  if (is_bool(value)) {
-    throw py::cast_error();
-  }
-  if (PyFloat_Check(value.ptr()) || PyLong_Check(value.ptr())) {
-    const auto gray = number<double>(value);
-    return {gray, gray, gray};
-  }
-  const Vec3 channels = to_vec3(value, name);
-  return {channels.x, channels.y, channels.z};
-}
-
-const std::map<std::string, Setter>& setters() {
-  using Options = SolveOptions;
-  using Value = const py::handle&;
-  static const std::map<std::string, Setter> all{
-      {"directions", [](Options& o, Value v) { o.directions = number<int>(v); }},
-      {"sampling", [](Options& o, Value v) { o.sampling = sampling_from_name(text(v)); }},
-      {"seed",
-       [](Options& o, Value v) {
-         o.seed = number<std::uint64_t>(v);
-         o.engine_options.seed = o.seed;
-       }},
-      {"rotate", [](Options& o, Value v) { o.rotation = number<std::uint64_t>(v); }},
-      {"engine", [](Options& o, Value v) { o.engine = engine_from_name(text(v)); }},
-      {"resolution", [](Options& o, Value v) { o.engine_options.resolution = number<int>(v); }},
-      {"points", [](Options& o, Value v) { o.engine_options.points = number<int>(v); }},
-      {"lines", [](Options& o, Value v) { o.engine_options.lines_per_patch = number<double>(v); }},
-      {"order",
-       [](Options& o, Value v) { o.engine_options.order = painters_order_from_name(text(v)); }},
-      {"random-lines", [](Options& o, Value v) { o.engine_options.gridded = !number<bool>(v); }},
-      {"two-way", [](Options& o, Value v) { o.two_way = number<bool>(v); }},
-      {"basis", [](Options& o, Value v) { o.basis = basis_from_name(text(v)); }},
-      {"glossy", [](Options& o, Value v) { o.glossy = number<bool>(v); }},
-      {"normalize", [](Options& o, Value v) { o.normalize = normalization_from_name(text(v)); }},
-      {"scheme", [](Options& o, Value v) { o.scheme = scheme_from_name(text(v)); }},
-      {"first-shot",
-       [](Options& o, Value v) {
-         o.first_shot = PyUnicode_Check(v.ptr()) ? first_shot_from_name(text(v))
-                                                 : std::optional(number<double>(v));
-       }},
-      {"burn-in",
-       [](Options& o, Value v) {
-         o.burn_in = is_text(v, "auto") ? std::optional<int>() : number<int>(v);
-       }},
-      {"replicas", [](Options& o, Value v) { o.replicas = number<int>(v); }},
-      {"accuracy",
-       [](Options& o, Value v) {
-         o.goal.accuracy =
-             PyUnicode_Check(v.ptr()) ? accuracy_from_text(text(v)) : number<double>(v);
-       }},
-      {"accuracy-of",
-       [](Options& o, Value v) {
-         const AccuracyGoal of = accuracy_of_from_name(text(v));
-         o.goal.of = of.of;
-         o.goal.patch = of.patch;
-       }},
-      {"seconds", [](Options& o, Value v) { o.goal.seconds = number<double>(v); }},
-      {"iterations", [](Options& o, Value v) { o.iterations = number<int>(v); }},
-      {"tolerance", [](Options& o, Value v) { o.tolerance = number<double>(v); }},
-      {"sky", [](Options& o, Value v) { o.sky.exitance = color(v, "sky"); }},
-      {"sky-model", [](Options& o, Value v) { o.sky.model = sky_model_from_name(text(v)); }},
-      {"up", [](Options& o, Value v) { o.sky.up = to_direction(v, "up"); }},
-      {"memory", [](Options& o, Value v) { o.memory = number<std::uint64_t>(v); }},
-      {"threads", [](Options& o, Value v) { o.threads = number<int>(v); }},
-  };
-  return all;
-}
 
 std::string with(std::string name, char from, char to) {
   std::replace(name.begin(), name.end(), from, to);
   return name;
 }
 
-/// The values that an option accepts; some differ from those on the command line.
-std::string type_of(const std::string& name) {
-  static const std::map<std::string, std::string> of_python{{"memory", "a number of bytes"},
-                                                            {"rotate", "a number, or None"},
-                                                            {"random-lines", "True or False"},
-                                                            {"two-way", "True or False"},
-                                                            {"glossy", "True or False"},
-                                                            {"sky", "one number or three, W/m²"},
-                                                            {"up", "three numbers"}};
-  const auto own = of_python.find(name);
-  if (own != of_python.end()) {
-    return own->second;
+/// Those that say how a scene is made belong to Scene.
+bool is_of_solve(const Option& option) {
+  return !option.reads_scene && option.group != "Patches" && option.group != "Refinement";
+}
+
+/// A value as JSON. Numbers of NumPy are numbers, its arrays lists.
+std::string json_of(const py::handle& value) {
+  py::object plain = py::reinterpret_borrow<py::object>(value);
+  if (py::hasattr(plain, "tolist")) {
+    plain = plain.attr("tolist")();
   }
-  return std::find_if(settings().begin(), settings().end(),
-                      [&](const Setting& s) { return s.name == name; })
-      ->type;
+  return text(py::module_::import("json").attr("dumps")(plain));
+}
+
+/// The values that an option accepts, in the words of Python.
+std::string values_of(const Option& option) {
+  return option.json == Option::Json::flag ? "True or False"
+         : option.unset == "none" && option.json == Option::Json::number
+             ? option.values.substr(0, option.values.rfind(", or none")) + ", or None"
+             : option.values;
+}
+
+void set(RunOptions& options, const Option& option, const std::string& keyword,
+         const py::handle& value) {
+  std::string json;
+  try {
+    json = json_of(value);
+    // Not numbers to JSON.
+    if (json.find("NaN") == std::string::npos && json.find("Infinity") == std::string::npos) {
+      option.from_json(options, json);
+      return;
+    }
+  } catch (const py::error_already_set&) {
+    // an object that JSON does not have
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.find("expected") != 0) {
+      throw InputError(message.find('"') == 0 ? keyword + ": " + message : message);
+    }
+  }
+  throw InputError(keyword + ": expected " + values_of(option) + ", not " +
+                   py::cast<std::string>(py::repr(value)));
 }
 
 }  // namespace
 
 SolveOptions options_from(const py::dict& keywords) {
-  SolveOptions options;
-  std::vector<std::string> given;
+  RunOptions options;
+  std::set<std::string> given;
   for (const auto& [key, value] : keywords) {
     const std::string keyword = text(key);
     const std::string name = with(keyword, '_', '-');
-    const auto setter = setters().find(name);
-    if (setter == setters().end()) {
+    const auto found = std::find_if(
+        transillum::options().begin(), transillum::options().end(),
+        [&](const Option& option) { return option.name == name && is_of_solve(option); });
+    if (found == transillum::options().end()) {
       std::vector<std::string> known;
-      for (const auto& [other, ignored] : setters()) {
-        known.push_back(with(other, '-', '_'));
+      for (const Option& option : transillum::options()) {
+        if (is_of_solve(option)) {
+          known.push_back(with(option.name, '-', '_'));
+        }
       }
       throw InputError("there is no option " + keyword + did_you_mean(keyword, known));
     }
     if (value.is_none()) {
       continue;
     }
-    try {
-      setter->second(options, value);
-    } catch (const py::cast_error&) {
-      throw InputError(keyword + ": expected " + type_of(name) + ", not " +
-                       py::cast<std::string>(py::repr(value)));
-    }
-    given.push_back(name);
+    set(options, *found, keyword, value);
+    given.insert(name);
   }
+  set_dependent_defaults(options, given);
+  options.validate();
   for (const std::string& name : given) {
     if (const std::string why = why_unused(name, {options}); !why.empty()) {
       throw InputError(with(name, '-', '_') + " is " + why);
     }
   }
-  options.validate();
-  // As in the programs.
-  const bool shot_given = std::find(given.begin(), given.end(), "first-shot") != given.end();
-  if (options.goal.set() && !shot_given && takes_directions(options.engine) &&
-      options.basis == Basis::constant) {
-    options.first_shot = first_shot_where_it_pays;
-  }
-  return options;
+  return options.solve;
 }
 
 void refuse(const py::dict& keywords, const std::vector<std::string>& names,
@@ -191,18 +121,11 @@ void refuse_others(const py::dict& keywords, const std::vector<std::string>& nam
 
 py::list option_list() {
   py::list list;
-  for (const Setting& setting : settings()) {
-    const std::string name = setting.name;
-    static const std::vector<std::string> of_scenes{"two-sided", "max-patch-area", "refine-by",
-                                                    "patches", "refine-until"};
-    if (std::find(of_scenes.begin(), of_scenes.end(), name) != of_scenes.end()) {
-      continue;
+  for (const Option& option : transillum::options()) {
+    if (is_of_solve(option)) {
+      list.append(py::make_tuple(with(option.name, '-', '_'), values_of(option), option.help,
+                                 option.default_value()));
     }
-    if (setters().count(name) == 0) {
-      throw std::logic_error("option " + name + " is missing in Python");
-    }
-    list.append(py::make_tuple(with(name, '-', '_'), type_of(name), setting.description,
-                               setting.default_value));
   }
   return list;
 }

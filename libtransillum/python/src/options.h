@@ -10,7 +10,7 @@
 
 namespace transillum::python {
 
-/// Options of a solve from keywords: the names of settings(), with underscores.
+/// Options of a solve from keywords: the names in the table of options, with underscores.
 /// @throws InputError for a name or value that does not exist, or that would have no effect
 SolveOptions options_from(const pybind11::dict& keywords);
 

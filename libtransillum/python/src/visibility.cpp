@@ -16,16 +16,16 @@ namespace {
 using ScenePtr = std::shared_ptr<Scene>;
 
 py::dict transfers(const ScenePtr& scene, const py::handle& direction, const py::dict& keywords) {
-  refuse_others(keywords, {"engine", "resolution", "lines", "order", "random_lines", "seed"},
-                "transfers()");
+  refuse_others(keywords, {"engine", "resolution", "order", "seed"}, "transfers()");
   const SolveOptions options = options_from(keywords);
   const Vec3 omega = to_direction(direction, "direction");
   const Cancellation cancellation;
   const Transfers found = run_interruptibly(
       [&] {
         const auto tree = std::make_shared<const BspTree>(*scene, cancellation);
-        return make_engine(options.engine, scene, tree, options.engine_options)(omega,
-                                                                                cancellation);
+        EngineOptions engine_options = options.engine_options;
+        engine_options.seed = options.seed;
+        return make_engine(options.engine, scene, tree, engine_options)(omega, cancellation);
       },
       [] {}, [&] { cancellation.cancel(); });
   std::vector<PatchId> receivers, sources;

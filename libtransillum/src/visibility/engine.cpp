@@ -14,27 +14,6 @@
 
 namespace transillum {
 
-const std::vector<std::string>& engine_names() {
-  static const std::vector<std::string> names{"fast",     "local",   "global", "exact",
-                                              "zbuffer",  "painter", "rays",   "corrected",
-                                              "hemicube", "pairs"};
-  return names;
-}
-
-Engine engine_from_name(const std::string& name) {
-  return choice_from_name<Engine>(engine_names(), "engine", name);
-}
-
-const std::string& name_of(Engine engine) { return at(engine_names(), engine); }
-
-bool takes_directions(Engine engine) {
-  return engine != Engine::hemicube && engine != Engine::pairs;
-}
-
-bool has_moments(Engine engine) {
-  return engine == Engine::fast || engine == Engine::local || engine == Engine::exact;
-}
-
 const std::vector<std::string>& painters_order_names() {
   static const std::vector<std::string> names{"bsp", "newell"};
   return names;

@@ -3,12 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "transillum/radiosity.h"
-#include "transillum/scene.h"
+#include "transillum/run_options.h"
 
 namespace transillum {
 
-/// Options of a solve and of its scene, as in statistics (data/FILES.md). Those not given are null.
-nlohmann::ordered_json options_json(const SolveOptions& options, const SceneOptions& scene_options);
+/// Options of a solve and of its scene, as in statistics (data/FILES.md). Those that are not
+/// chosen, or change nothing, are null.
+nlohmann::ordered_json options_json(const RunOptions& run);
 
 }  // namespace transillum

@@ -34,7 +34,7 @@ void add_options(ContentHash& hash, const SolveOptions& options) {
   hash.add(name_of(options.engine));
   hash.add(options.engine_options.lines_per_patch);
   hash.add(static_cast<int>(options.engine_options.gridded));
-  hash.add(options.engine_options.seed);
+  hash.add(options.seed);
   hash.add(options.engine_options.resolution);
   hash.add(name_of(options.engine_options.order));
   hash.add(static_cast<int>(options.two_way));

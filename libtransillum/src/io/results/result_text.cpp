@@ -191,27 +191,4 @@ void write_result_ply(std::ostream& out, const Solution& solution, const Display
   }
 }
 
-void write_result_obj(std::ostream& out, const Solution& solution) {
-  const Scene& scene = *solution.scene;
-  TextBuffer text(out);
-  text.add(
-      "# transillum: one face per patch; v x y z r g b, where r g b is the patch's radiosity B{}, "
-      "W/m2, linear\n",
-      solution.linear_parts.empty() ? "" : " at that corner");
-  std::int64_t corner = 0;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const std::vector<Rgb> corners = corner_radiosity(solution, i);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Vec3& p = scene.point(scene.outline(i)[k]);
-      const Rgb& b = corners[k];
-      text.add("v {} {} {} {} {} {}\n", p.x, p.y, p.z, b.r, b.g, b.b);
-    }
-    text.add("f");
-    for (std::size_t k = 0; k < scene.outline(i).size(); ++k) {
-      text.add(" {}", ++corner);
-    }
-    text.add("\n");
-  }
-}
-
 }  // namespace transillum

@@ -8,6 +8,7 @@
 #include "io/results/options_json.h"
 #include "transillum/accuracy_plan.h"
 #include "transillum/files.h"
+#include "transillum/option_table.h"
 
 namespace transillum {
 namespace {
@@ -149,14 +150,21 @@ Json statistics_json(const SolveStatistics& statistics) {
 
 }  // namespace
 
-void write_statistics(const std::filesystem::path& path, const SolveOptions& options,
+void write_statistics(const std::filesystem::path& path, const RunOptions& options,
                       const Solution& solution) {
   Json json;
   json["program"] = "transillum " TRANSILLUM_VERSION;
   json["scene"] = solution.scene->name();
   json["complete"] = solution.complete;
   json["covered_faces"] = solution.scene->report().covered_faces;
-  json["options"] = options_json(options, solution.scene->options());
+  RunOptions used = options;
+  used.scene = solution.scene->options();
+  json["options"] = options_json(used);
+  for (const Option& option : transillum::options()) {
+    if (json["options"].contains(option.name) && !why_unused(option.name, {used}).empty()) {
+      json["options"][option.name] = nullptr;
+    }
+  }
   json.update(statistics_json(solution.statistics));
   json["error_estimate"] = error_json(solution);
   json["accuracy"] = accuracy_json(solution.accuracy);

@@ -34,18 +34,13 @@ std::string text_of(const Json& value) {
 }  // namespace
 
 Json run_options(const SolveOptions& options, const SceneOptions& scene_options) {
-  Json json = options_json(options, scene_options);
+  Json json = options_json({.solve = options, .scene = scene_options});
   json.erase("memory");
   json.erase("threads");
   json.erase("glossy");  // glossy solves have no checkpoints and no shards
   const EngineOptions& engine = options.engine_options;
   json["lines"] = engine.lines_per_patch;
-  json["random_lines"] = !engine.gridded;
-  json["order"] = name_of(engine.order);
-  const AccuracyGoal& goal = options.goal;
-  json["accuracy"] = goal.accuracy;
-  json["accuracy_of"] = goal.set() ? Json(name_of_accuracy(goal)) : Json();
-  json["seconds"] = goal.seconds;
+  json["random-lines"] = !engine.gridded;
   return json;
 }
 

@@ -36,9 +36,6 @@ ResultWriter writer_for(const std::filesystem::path& path) {
   if (ending == ".ply") {
     return write_result_ply;
   }
-  if (ending == ".obj") {
-    return without_colors(write_result_obj);
-  }
   if (ending == ".glb") {
     return write_result_glb;
   }
@@ -49,7 +46,7 @@ ResultWriter writer_for(const std::filesystem::path& path) {
     return write_result_png;
   }
   throw InputError(fmt::format(
-      "{}: the name of a result must end in .csv, .vtp, .ply, .obj, .glb, .gltf or .png",
+      "{}: the name of a result must end in .csv, .vtp, .ply, .glb, .gltf or .png",
       path.string()));
 }
 

@@ -354,14 +354,13 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
   options.first_shot = of.first_shot;
   options.engine = of.engine;
   options.basis = of.basis;
-  (of.engine == Engine::pairs ? options.engine_options.points : options.engine_options.resolution) =
+  (traits_of(of.engine).takes_points ? options.engine_options.points : options.engine_options.resolution) =
       of.resolution;
   if (of.scheme == Scheme::semi_iterative && options.averaged_iterations == 0) {
     options.averaged_iterations = default_averaged_iterations;
   }
   if (rotations > 1) {
     options.seed = mixed(solve.seed + golden_step * static_cast<std::uint64_t>(rotation));
-    options.engine_options.seed = options.seed;
     options.rotation = mixed(options.seed);
   }
   return options;

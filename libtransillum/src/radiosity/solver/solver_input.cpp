@@ -22,6 +22,7 @@ const SolveOptions& validated(const SolveOptions& options) {
 
 EngineOptions used_engine_options(const SolveOptions& options) {
   EngineOptions used = options.engine_options;
+  used.seed = options.seed;
   used.moments = options.basis == Basis::linear;
   return used;
 }

@@ -74,7 +74,7 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   result.form_factors = static_cast<std::int64_t>(kept.size());
   statistics.write_to(result);
   // Other engines are wrong by more than the number of directions tells.
-  if (!has_moments(input.options.engine) && input.options.engine != Engine::global) {
+  if (traits_of(input.options.engine).error != EngineTraits::Error::none) {
     result.shot_disagreement = 0;
     result.shot_disagreement_patch = -1;
   }

@@ -47,7 +47,7 @@ class ItemBuffer : public VisibilitySink {
 }  // namespace
 
 bool has_pixels(Engine engine) {
-  return engine == Engine::zbuffer || engine == Engine::painter || engine == Engine::rays;
+  return traits_of(engine).picture == EngineTraits::Picture::pixels;
 }
 
 namespace {

@@ -1,0 +1,63 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// All that is chosen for a solve, from the file to the radiosity. option_table.h says what each
+// member is called, on the command line and in files.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "transillum/export.h"
+#include "transillum/material_changes.h"
+#include "transillum/radiosity.h"
+#include "transillum/refinement.h"
+#include "transillum/scene.h"
+
+namespace TRANSILLUM_API transillum {
+
+/// How a scene's file is read, and what is changed before its faces become patches.
+struct SceneInput {
+  ReadOptions read = {};                     ///< of the file
+  std::vector<MaterialChange> changes = {};  ///< of materials, in their order
+  bool orient = false;                       ///< faces are turned by orient()
+  /// About how many patches to make, instead of SceneOptions::max_patch_area; 0: not given. Once
+  /// the scene is loaded, that area says the same.
+  std::int64_t patches = 0;
+
+  /// Exact comparison of all members.
+  friend bool operator==(const SceneInput&, const SceneInput&) = default;
+};
+
+/// Whether and how patches are divided in rounds.
+struct RefineChoice {
+  std::optional<RefineBy> by = {};  ///< unset: they are not
+  int patches = 0;                  ///< RefineOptions::patches
+  double until = 0;                 ///< RefineOptions::until
+
+  /// Whether there are rounds.
+  bool set() const { return by.has_value(); }
+  /// Requires set().
+  RefineOptions options() const { return {*by, patches, until}; }
+
+  /// Limits without a criterion change nothing.
+  friend bool operator==(const RefineChoice& a, const RefineChoice& b) {
+    return a.by == b.by && (!a.set() || (a.patches == b.patches && a.until == b.until));
+  }
+};
+
+/// All options of a solve run.
+struct RunOptions {
+  SolveOptions solve = {};   ///< of the solve
+  SceneOptions scene = {};   ///< how faces become patches
+  SceneInput input = {};     ///< how the scene is read and changed
+  RefineChoice refine = {};  ///< rounds of refinement
+
+  /// @throws InputError naming the option and its range, or two options that exclude each other
+  void validate() const;
+  /// Exact comparison of all members.
+  friend bool operator==(const RunOptions&, const RunOptions&) = default;
+};
+
+}  // namespace TRANSILLUM_API transillum

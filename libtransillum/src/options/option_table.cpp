@@ -1,0 +1,610 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The only place that knows an option: a line here, and one in conflicts.cpp if it excludes
+// another.
+#include "transillum/option_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "base/memory_limit.h"
+#include "transillum/errors.h"
+#include "transillum/first_shot.h"
+#include "transillum/option_values.h"
+#include "transillum/study.h"
+
+namespace transillum {
+namespace {
+
+constexpr int largest_count = 1'000'000;
+constexpr std::int64_t most_patches = 50'000'000;
+
+/// Access to a member of RunOptions by a path of members.
+template <class... Members>
+auto member(Members... members) {
+  return [=](auto& options) -> auto& { return (options.*....*members); };
+}
+template <class... Members>
+auto solve(Members... members) {
+  return member(&RunOptions::solve, members...);
+}
+
+std::string exact_text(double value) { return fmt::format("{}", value); }
+
+/// A whole number; 0 stands for `unset`, unless that is empty.
+template <class Get>
+void whole(Option& o, Get get, std::int64_t low, std::int64_t high, std::string unset = {}) {
+  o.json = Option::Json::number;
+  o.unset = unset;
+  o.parse = [=](RunOptions& options, const std::string& text) {
+    auto& value = get(options);
+    using Value = std::remove_reference_t<decltype(value)>;
+    value = !unset.empty() && text == unset
+                ? Value{0}
+                : static_cast<Value>(whole_number_from_text(text, low, high));
+  };
+  o.print = [=](const RunOptions& options) {
+    const auto value = get(options);
+    return value == 0 && !unset.empty() ? unset : fmt::to_string(value);
+  };
+}
+
+/// A number that `is_valid`; 0 stands for `unset`, unless that is empty.
+template <class Get, class IsValid>
+void real(Option& o, Get get, IsValid is_valid, const char* valid, std::string unset = {}) {
+  o.json = Option::Json::number;
+  o.unset = unset;
+  o.parse = [=](RunOptions& options, const std::string& text) {
+    if (!unset.empty() && text == unset) {
+      get(options) = {};
+      return;
+    }
+    const double value = number_from_text(text);
+    if (!is_valid(value)) {
+      throw InputError(fmt::format("\"{}\" is not {}", text, valid));
+    }
+    get(options) = value;
+  };
+  o.print = [=](const RunOptions& options) {
+    const double value = get(options);
+    return value == 0 && !unset.empty() ? unset : exact_text(value);
+  };
+}
+
+/// A percentage, or a number between 0 and 1.
+template <class Get>
+void percentage(Option& o, Get get) {
+  o.json = Option::Json::number;
+  o.unset = "none";
+  o.parse = [=](RunOptions& options, const std::string& text) {
+    try {
+      get(options) = text == "none" ? 0 : accuracy_from_text(text);
+    } catch (const InputError&) {
+      throw InputError(fmt::format(
+          "\"{}\" is not a percentage such as 1%, or a number greater than 0 and less than 1",
+          text));
+    }
+  };
+  o.print = [=](const RunOptions& options) {
+    return get(options) == 0 ? std::string("none") : exact_text(get(options));
+  };
+}
+
+/// One of the names of an enumeration.
+template <class Get, class FromName>
+void choice(Option& o, Get get, const std::vector<std::string>& names, FromName from_name) {
+  o.choices = names;
+  o.parse = [=](RunOptions& options, const std::string& text) { get(options) = from_name(text); };
+  o.print = [=](const RunOptions& options) { return name_of(get(options)); };
+}
+
+/// @param given the value that the flag gives
+template <class Get>
+void flag(Option& o, Get get, bool given = true) {
+  o.json = Option::Json::flag;
+  o.choices = {"yes", "no"};
+  o.parse = [=](RunOptions& options, const std::string& text) {
+    if (text != "yes" && text != "no") {
+      throw InputError(fmt::format("\"{}\" is neither yes nor no", text));
+    }
+    get(options) = (text == "yes") == given;
+  };
+  o.print = [=](const RunOptions& options) {
+    return std::string(get(options) == given ? "yes" : "no");
+  };
+}
+
+std::string exact_text(const Rgb& value) {
+  return value.r == value.g && value.g == value.b
+             ? exact_text(value.r)
+             : fmt::format("{},{},{}", value.r, value.g, value.b);
+}
+
+/// A change of a material, of which there may be several.
+void change(Option& o, MaterialChange (*from_text)(const std::string&)) {
+  o.in_files = false;  // as a list of all changes, in their order
+  o.reads_scene = true;
+  o.repeats = true;
+  o.parse = [=](RunOptions& options, const std::string& text) {
+    options.input.changes.push_back(from_text(text));
+  };
+  o.print = [](const RunOptions&) { return std::string(); };
+}
+
+bool is_reflectance(double value) { return value >= 0 && value < 1; }
+bool is_positive(double value) { return value > 0; }
+
+/// Makes options, and adds them to the list.
+class Table {
+ public:
+  std::vector<Option> list;
+  std::string group;
+
+  Option& add(const char* name, const char* argument, const char* values, std::string help) {
+    Option& o = list.emplace_back();
+    o.name = name;
+    o.group = group;
+    o.argument = argument;
+    o.values = values;
+    o.help = std::move(help);
+    return o;
+  }
+  Option& common(const char* name, const char* argument, const char* values, std::string help) {
+    Option& o = add(name, argument, values, std::move(help));
+    o.common = true;
+    return o;
+  }
+};
+
+void add_directions(Table& t) {
+  t.group = "Directions";
+  Option& directions =
+      t.common("directions", "M", "a number", "number of directions per iteration (one pass each)");
+  whole(directions, solve(&SolveOptions::directions), 1, 1 << 24);
+  directions.letter = 'm';
+  Option& sampling = t.common(
+      "sampling", "NAME", "a name",
+      "set of directions (section 4 of the paper); of one-way passes fibonacci by default");
+  sampling.choices = sampling_names();
+  sampling.lists_choices = true;
+  sampling.parse = [](RunOptions& o, const std::string& text) {
+    o.solve.sampling = sampling_from_name(text);
+  };
+  sampling.print = [](const RunOptions& o) { return name_of(o.solve.used_sampling()); };
+  Option& seed =
+      t.add("seed", "S", "a number",
+            "random seed of random, sobol and scrambled-hammersley directions, and of the engine "
+            "rays");
+  seed.json = Option::Json::number;
+  seed.parse = [](RunOptions& o, const std::string& text) { o.solve.seed = seed_from_text(text); };
+  seed.print = [](const RunOptions& o) { return fmt::to_string(o.solve.seed); };
+  Option& rotate = t.add("rotate", "S", "a number, or none",
+                         "apply a random rotation with this seed to all directions");
+  rotate.json = Option::Json::number;
+  rotate.unset = "none";
+  rotate.parse = [](RunOptions& o, const std::string& text) {
+    o.solve.rotation.reset();
+    if (text != "none") {
+      o.solve.rotation = seed_from_text(text);
+    }
+  };
+  rotate.print = [](const RunOptions& o) {
+    return o.solve.rotation ? fmt::to_string(*o.solve.rotation) : "none";
+  };
+  Option& one_way = t.add("one-way", "", "yes or no",
+                          "use each pass for one direction, as in the paper, instead of for it "
+                          "and its opposite");
+  flag(one_way, solve(&SolveOptions::two_way), false);
+}
+
+void add_engine(Table& t) {
+  t.group = "Engine";
+  const auto engine = [](auto m) { return solve(&SolveOptions::engine_options, m); };
+  Option& name =
+      t.common("engine", "NAME", "a name", "algorithm that computes visibility along a direction");
+  choice(name, solve(&SolveOptions::engine), engine_names(), engine_from_name);
+  name.lists_choices = true;
+  Option& resolution =
+      t.add("resolution", "R", "a number, or auto",
+            "zbuffer and painter: pixels along the longer side of the projected scene; rays: lines "
+            "along that side, instead of a number per patch; hemicube: pixels along a side of the "
+            "cube, even");
+  whole(resolution, engine(&EngineOptions::resolution), 1, EngineOptions::largest_resolution,
+        "auto");
+  resolution.default_text = fmt::format("{}, hemicube 64", EngineOptions::default_resolution);
+  Option& points =
+      t.add("points", "P", "a number, or auto",
+            "engine pairs: number of points along a patch as large as its distance from the other, "
+            "where something is between");
+  whole(points, engine(&EngineOptions::points), 1, EngineOptions::largest_points, "auto");
+  points.default_text = fmt::to_string(EngineOptions::default_points);
+  Option& order =
+      t.add("order", "NAME", "a name",
+            "engine painter: order of the patches (newell fails if patches overlap in a cycle)");
+  choice(order, engine(&EngineOptions::order), painters_order_names(), painters_order_from_name);
+  order.lists_choices = true;
+}
+
+void add_equations(Table& t) {
+  t.group = "Iteration";
+  choice(t.add("normalize", "NAME", "a name",
+               "none: the paper's estimator; rows: divide each row of form factors by the "
+               "quadrature of its cosine; symmetric: scale rows and columns alike so that rows sum "
+               "to 1"),
+         solve(&SolveOptions::normalize), normalization_names(), normalization_from_name);
+  choice(t.add("scheme", "NAME", "a name",
+               "fixed: the same directions in every iteration; growing: twice as many in each "
+               "iteration, up to M; semi-iterative: new directions in each iteration, and the mean "
+               "over iterations; conjugate-gradients: as fixed, solved in symmetric form"),
+         solve(&SolveOptions::scheme), scheme_names(), scheme_from_name);
+  choice(t.common("basis", "NAME", "a name",
+                  "constant: one value of B per patch; linear: a linear function on each patch, "
+                  "from engines fast, local, exact and pairs"),
+         solve(&SolveOptions::basis), basis_names(), basis_from_name);
+  flag(t.add("glossy", "", "yes or no",
+             "lobes of materials (MTL: Ks with Ns or Pr; glTF: metallic and rough) reflect too"),
+       solve(&SolveOptions::glossy));
+  Option& shot =
+      t.add("first-shot", "RATIO", "none, auto or a number",
+            "treat small bright sources separately before the iteration: those with R2/A of at "
+            "least this ratio, R the scene's diagonal and A the source's area; auto: those for "
+            "which it takes less time than the passes it saves; with an accuracy, auto is the "
+            "default");
+  shot.json = Option::Json::number;
+  shot.choices = {"none", "auto"};
+  shot.unset = "none";
+  shot.parse = [](RunOptions& o, const std::string& text) {
+    try {
+      o.solve.first_shot = first_shot_from_name(text);
+    } catch (const InputError&) {
+      throw InputError(fmt::format("\"{}\" is not none, auto or a number of at least 0", text));
+    }
+  };
+  shot.print = [](const RunOptions& o) { return name_of_first_shot(o.solve.first_shot); };
+  Option& burn_in =
+      t.add("burn-in", "N", "a number, or auto",
+            "semi-iterative: first iterations to exclude from the mean; auto: until what is left "
+            "of the start counts for less than the differences between iterations");
+  burn_in.json = Option::Json::number;
+  burn_in.choices = {"auto"};
+  burn_in.unset = "auto";
+  burn_in.parse = [](RunOptions& o, const std::string& text) {
+    o.solve.burn_in.reset();
+    if (text != "auto") {
+      o.solve.burn_in = static_cast<int>(whole_number_from_text(text, 0, largest_count));
+    }
+  };
+  burn_in.print = [](const RunOptions& o) {
+    return o.solve.burn_in ? fmt::to_string(*o.solve.burn_in) : "auto";
+  };
+  whole(t.add("iterations", "K", "a number, or none", "stop after this many iterations"),
+        solve(&SolveOptions::iterations), 1, largest_count, "none");
+  real(
+      t.common("tolerance", "T", "a number",
+               "stop when the light not yet propagated is at most this fraction of the reflected "
+               "light, of all patches and of the dimmest tenth of their area; semi-iterative: "
+               "when the estimated error of the mean, 95 % confidence, is at most that"),
+      solve(&SolveOptions::tolerance), [](double x) { return x > 0 && x < 1; },
+      "greater than 0 and less than 1");
+}
+
+void add_accuracy(Table& t) {
+  t.group = "Accuracy";
+  const auto goal = [](auto m) { return solve(&SolveOptions::goal, m); };
+  percentage(t.common("accuracy", "P%|X", "a percentage or a number, or none",
+                      "choose M and the replicas so that the error of B is at most that, with 95 % "
+                      "confidence"),
+             goal(&AccuracyGoal::accuracy));
+  Option& of =
+      t.add("accuracy-of", "NAME", "a name",
+            "error that the accuracy is about, relative to reflected light, B - E, without patches "
+            "that emit: rms, the RMS error over the RMS; max, the largest error over the largest "
+            "value; patch:I, the error of patch I; mean, the error of the mean");
+  of.choices = {"rms", "max", "patch:I", "mean"};
+  of.lists_choices = true;
+  of.parse = [](RunOptions& o, const std::string& text) {
+    AccuracyGoal named;
+    try {
+      named = accuracy_of_from_name(text);
+    } catch (const InputError&) {
+      throw InputError(fmt::format(
+          "\"{}\" is not rms, max, mean or patch:I, where I is the number of a patch", text));
+    }
+    o.solve.goal.of = named.of;
+    o.solve.goal.patch = named.patch;
+  };
+  of.print = [](const RunOptions& o) { return name_of_accuracy(o.solve.goal); };
+  real(t.add("seconds", "S", "a number, or none",
+             "time limit in s, loading excluded: the most accurate result that it allows"),
+       goal(&AccuracyGoal::seconds), is_positive, "greater than 0", "none");
+  Option& replicas = t.add("replicas", "R", "a number",
+                           "split M into this many rotated sets; their spread gives error bars");
+  whole(replicas, solve(&SolveOptions::replicas), 1, 64);
+  replicas.default_text = "1: no error estimate";
+}
+
+void add_sky(Table& t) {
+  t.group = "Sky";
+  Option& sky = t.common("sky", "E[,E,E]", "W/m2, one number or three, or none",
+                         "what escapes from an open scene meets a sky: what an unobstructed patch "
+                         "turned upward receives from it, in W/m2");
+  sky.json = Option::Json::numbers;
+  sky.unset = "none";
+  sky.default_text = "no sky";
+  sky.parse = [](RunOptions& o, const std::string& text) {
+    o.solve.sky.exitance = text == "none" ? Rgb{} : exitance_from_text(text);
+  };
+  sky.print = [](const RunOptions& o) {
+    return o.solve.sky.set() ? exact_text(o.solve.sky.exitance) : "none";
+  };
+  Option& model =
+      t.add("sky-model", "NAME", "a name",
+            "uniform: the same from everywhere, also from below; cie-overcast: three times as "
+            "bright at the zenith as at the horizon, nothing from below");
+  choice(model, solve(&SolveOptions::sky, &Sky::model), sky_model_names(), sky_model_from_name);
+  model.lists_choices = true;
+  Option& up = t.add("up", "X,Y,Z", "a direction x,y,z", "the zenith of the sky cie-overcast");
+  up.json = Option::Json::numbers;
+  up.parse = [](RunOptions& o, const std::string& text) {
+    const Vec3 direction = direction_from_text(text), given = point_from_text(text);
+    // A unit vector keeps its bits.
+    o.solve.sky.up = std::abs(norm(given) - 1) < 1e-12 ? given : direction;
+  };
+  up.print = [](const RunOptions& o) {
+    const Vec3& v = o.solve.sky.up;
+    return fmt::format("{},{},{}", v.x, v.y, v.z);
+  };
+}
+
+void add_patches(Table& t) {
+  t.group = "Patches";
+  flag(t.common("two-sided", "", "yes or no",
+                "every face emits and receives on both sides: two opposite patches per face"),
+       member(&RunOptions::scene, &SceneOptions::two_sided));
+  Option& area = t.common("max-patch-area", "A", "m2, or none",
+                          "divide faces into patches of at most this area, in m2");
+  real(area, member(&RunOptions::scene, &SceneOptions::max_patch_area), is_positive,
+       "greater than 0", "none");
+  area.default_text = "no limit";
+  Option& patches =
+      t.common("patches", "N", "a number, or none",
+               "divide faces into about N patches, by a limit of their area that is chosen for it; "
+               "with --refine-by: the most patches to make");
+  patches.json = Option::Json::number;
+  patches.unset = "none";
+  patches.parse = [](RunOptions& o, const std::string& text) {
+    o.input.patches = text == "none" ? 0 : whole_number_from_text(text, 1, most_patches);
+    o.refine.patches = static_cast<int>(o.input.patches);
+  };
+  patches.print = [](const RunOptions& o) {
+    const std::int64_t number = o.refine.set() ? o.refine.patches : o.input.patches;
+    return number == 0 ? "none" : fmt::to_string(number);
+  };
+  t.group = "Refinement";
+  Option& by = t.add("refine-by", "NAME", "a name, or none",
+                     "divide faces in rounds, worst patches first, until there are as many patches "
+                     "as asked for; jump: where B jumps across edges; error: where a solve with "
+                     "every patch divided differs most");
+  by.choices = refine_by_names();
+  by.unset = "none";
+  by.parse = [](RunOptions& o, const std::string& text) {
+    o.refine.by.reset();
+    if (text != "none") {
+      o.refine.by = refine_by_from_name(text);
+    }
+  };
+  by.print = [](const RunOptions& o) {
+    return o.refine.by ? name_of(*o.refine.by) : std::string("none");
+  };
+  percentage(t.add("refine-until", "P%|X", "a percentage or a number, or none",
+                   "end the rounds when their figure is this small: relative RMS jump, or relative "
+                   "L2 error"),
+             member(&RunOptions::refine, &RefineChoice::until));
+}
+
+/// Marks those that only a scene's file has.
+void add_reading(Table& t) {
+  t.group = "Scene";
+  const std::size_t first = t.list.size();
+  const auto read = [](auto m) { return member(&RunOptions::input, &SceneInput::read, m); };
+  real(t.add("default-reflectance", "R", "a number",
+             "reflectance where a file defines none: missing, undefined or nameless materials, "
+             "unreadable textures"),
+       read(&ReadOptions::default_reflectance), is_reflectance, "at least 0 and below 1");
+  Option& most = t.add("max-reflectance", "R", "a number, or auto",
+                       "lower larger reflectances of a file to R");
+  most.json = Option::Json::number;
+  most.unset = "auto";
+  most.default_text =
+      fmt::format("lower only those of 1 and more, to {}", ReadOptions::default_max_reflectance);
+  most.parse = [](RunOptions& o, const std::string& text) {
+    o.input.read.max_reflectance.reset();
+    if (text != "auto") {
+      const double value = number_from_text(text);
+      if (!is_reflectance(value)) {
+        throw InputError(fmt::format("\"{}\" is not at least 0 and below 1", text));
+      }
+      o.input.read.max_reflectance = value;
+    }
+  };
+  most.print = [](const RunOptions& o) {
+    const auto& value = o.input.read.max_reflectance;
+    return value ? exact_text(*value) : "auto";
+  };
+  real(t.add("scale", "X", "a number", "meters per unit of the scene's coordinates"),
+       read(&ReadOptions::scale), is_positive, "greater than 0");
+  Option& units = t.common("units", "NAME", "a name", "unit of the scene's coordinates");
+  units.choices = length_unit_names();
+  units.lists_choices = true;
+  units.default_text = "m";
+  units.in_files = false;
+  units.parse = [](RunOptions& o, const std::string& text) {
+    o.input.read.scale = length_unit_from_name(text);
+  };
+  units.print = [](const RunOptions&) { return std::string(); };
+  Option& join = t.add("join", "", "yes, no or auto",
+                       "join faces of one plane, material and group that share edges");
+  join.json = Option::Json::flag;
+  join.choices = {"yes", "no"};
+  join.unset = "auto";
+  join.default_text = "only for glTF and STL, which have triangles alone";
+  join.parse = [](RunOptions& o, const std::string& text) {
+    if (text != "yes" && text != "no" && text != "auto") {
+      throw InputError(fmt::format("\"{}\" is not yes, no or auto", text));
+    }
+    o.input.read.join = text == "auto" ? std::optional<bool>() : text == "yes";
+  };
+  join.print = [](const RunOptions& o) {
+    const auto& value = o.input.read.join;
+    return std::string(!value ? "auto" : *value ? "yes" : "no");
+  };
+  flag(t.add("photometric", "", "yes or no",
+             "glTF: emissive colors are luminances in cd/m2 instead of radiances: divide by 683 "
+             "lm/W"),
+       read(&ReadOptions::photometric));
+  Option& orient =
+      t.common("orient", "NAME", "a name",
+               "auto: turn parts of the scene so that what is seen is the lit side, and make open "
+               "sheets two-sided; keep: as in the file");
+  orient.choices = {"keep", "auto"};
+  orient.parse = [](RunOptions& o, const std::string& text) {
+    if (text != "keep" && text != "auto") {
+      throw InputError(fmt::format("\"{}\" is neither keep nor auto", text));
+    }
+    o.input.orient = text == "auto";
+  };
+  orient.print = [](const RunOptions& o) { return std::string(o.input.orient ? "auto" : "keep"); };
+  change(t.common("emission", "NAME=E[,E,E]", "a name and one number or three",
+                  "exitance of a material, a group or face:N, in W/m2; may be given several times"),
+         exitance_change);
+  change(t.common("reflectance", "NAME=R[,R,R]", "a name and one number or three",
+                  "reflectance of a material, a group or face:N; may be given several times"),
+         reflectance_change);
+  change(t.add("lobe", "NAME=K,N", "a name and two numbers or four",
+               "lobe of a material, a group or face:N, for --glossy: the share K of the light that "
+               "it reflects (or R,G,B,N) and the exponent N of Phong's cosine; may be given "
+               "several times"),
+         lobe_change);
+  for (std::size_t k = first; k < t.list.size(); ++k) {
+    t.list[k].reads_scene = true;
+  }
+}
+
+void add_machine(Table& t) {
+  t.group = "Machine";
+  Option& memory =
+      t.add("memory", "SIZE", "a size such as 2G or 800M",
+            "memory for stored form factors; beyond it they are recomputed in each iteration, "
+            "which changes last digits");
+  memory.json = Option::Json::number;
+  memory.unset = "auto";
+  memory.default_text = "a quarter of the machine's";
+  memory.parse = [](RunOptions& o, const std::string& text) {
+    // To the library, 0 means the default; here it means that nothing is stored.
+    o.solve.memory = text == "auto" ? 0 : std::max<std::uint64_t>(1, memory_size_from_text(text));
+  };
+  memory.print = [](const RunOptions& o) {
+    return o.solve.memory == 0 ? "auto" : fmt::to_string(o.solve.memory);
+  };
+  Option& threads =
+      t.common("threads", "N", "a number", "number of threads; results do not depend on it");
+  whole(threads, solve(&SolveOptions::threads), 1, 4096, "all");
+  threads.default_text = "all cores";
+}
+
+std::vector<Option> all_options() {
+  Table table;
+  add_directions(table);
+  add_engine(table);
+  add_equations(table);
+  add_accuracy(table);
+  add_sky(table);
+  add_patches(table);
+  add_reading(table);
+  add_machine(table);
+  return std::move(table.list);
+}
+
+}  // namespace
+
+const std::vector<Option>& options() {
+  static const std::vector<Option> all = all_options();
+  return all;
+}
+
+const Option& option(const std::string& name) {
+  const auto found = std::find_if(options().begin(), options().end(),
+                                  [&](const Option& o) { return o.name == name; });
+  if (found == options().end()) {
+    throw std::out_of_range("there is no option " + name);
+  }
+  return *found;
+}
+
+std::string Option::default_value() const {
+  return default_text.empty() ? print(RunOptions{}) : default_text;
+}
+
+std::string Option::help_text() const {
+  std::string text = help;
+  if (lists_choices) {
+    text += fmt::format(": {}", fmt::join(choices, " | "));
+  }
+  const std::string value = default_value();
+  const bool tells = !value.empty() && value != "none" && !(is_flag() && value == "no");
+  return tells ? fmt::format("{} (default {})", text, value) : text;
+}
+
+void set_dependent_defaults(RunOptions& options, const std::set<std::string>& given) {
+  SolveOptions& solve = options.solve;
+  if (solve.goal.set() && given.count("first-shot") == 0 && takes_directions(solve.engine) &&
+      solve.basis == Basis::constant && !solve.glossy) {
+    solve.first_shot = first_shot_where_it_pays;
+  }
+  // Its error decreases as 1 / sqrt(iterations): the default tolerance would take days.
+  const bool stops = solve.iterations > 0 || solve.tolerance != SolveOptions{}.tolerance;
+  solve.averaged_iterations =
+      solve.scheme == Scheme::semi_iterative && !stops ? default_averaged_iterations : 0;
+  if (solve.sampling == default_sampling(solve.two_way)) {
+    solve.sampling.reset();
+  }
+  if (options.refine.set()) {
+    options.input.patches = 0;
+  } else {
+    options.refine = {};
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> differences_from_default(
+    const RunOptions& options) {
+  std::vector<std::pair<std::string, std::string>> differences;
+  RunOptions made;
+  std::set<std::string> given;
+  // An option that is given may change the default of another.
+  for (bool added = true; added;) {
+    added = false;
+    for (const Option& o : transillum::options()) {
+      const std::string text = o.print(options);
+      if (given.count(o.name) == 0 && text != o.print(made) &&
+          why_unused(o.name, {options}).empty()) {
+        differences.emplace_back(o.name, text);
+        given.insert(o.name);
+        added = true;
+      }
+    }
+    made = {};
+    for (const auto& [name, text] : differences) {
+      option(name).parse(made, text);
+    }
+    set_dependent_defaults(made, given);
+  }
+  return differences;
+}
+
+std::uint64_t default_memory_limit() { return memory_limit(0); }
+
+}  // namespace transillum

@@ -1,0 +1,80 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Options that only some runs read.
+#include <algorithm>
+#include <string_view>
+
+#include "transillum/option_table.h"
+
+namespace transillum {
+namespace {
+
+bool has_directions(const RunOptions& run) { return takes_directions(run.solve.engine); }
+
+bool takes_resolution(const RunOptions& run) {
+  return traits_of(run.solve.engine).takes_resolution;
+}
+bool takes_points(const RunOptions& run) { return traits_of(run.solve.engine).takes_points; }
+bool takes_order(const RunOptions& run) { return traits_of(run.solve.engine).takes_order; }
+
+bool draws_random_numbers(const RunOptions& run) {
+  const SolveOptions& solve = run.solve;
+  const bool seeded_rotations = (solve.replicas > 1 || solve.goal.set()) && !solve.rotation;
+  return has_directions(run) &&
+         (is_seeded(solve.used_sampling()) ||
+          traits_of(solve.engine).error == EngineTraits::Error::statistical || seeded_rotations ||
+          (solve.scheme == Scheme::semi_iterative && differs_by_iteration(solve.used_sampling())));
+}
+
+bool has_goal(const RunOptions& run) { return run.solve.goal.set(); }
+bool has_no_goal(const RunOptions& run) { return !has_goal(run); }
+bool has_sky(const RunOptions& run) { return run.solve.sky.set(); }
+bool is_semi_iterative(const RunOptions& run) { return run.solve.scheme == Scheme::semi_iterative; }
+bool stops_by_tolerance(const RunOptions& run) {
+  return run.solve.iterations == 0 && run.solve.averaged_iterations == 0;
+}
+bool has_rounds(const RunOptions& run) { return run.refine.set(); }
+
+/// An option that only some runs read; all runs read the others.
+struct Use {
+  std::string_view option;
+  bool (*used)(const RunOptions&);
+  const char* why_not;
+};
+
+constexpr const char* without_directions =
+    "not used with engine hemicube or pairs, which have no directions";
+constexpr const char* chosen_by_goal = "not used with an accuracy or a time limit, which choose it";
+
+constexpr Use uses[] = {
+    {"directions", has_directions, without_directions},
+    {"directions", has_no_goal, chosen_by_goal},
+    {"replicas", has_no_goal, chosen_by_goal},
+    {"accuracy-of", has_goal, "used only with an accuracy or a time limit"},
+    {"sampling", has_directions, without_directions},
+    {"rotate", has_directions, without_directions},
+    {"one-way", has_directions, without_directions},
+    {"seed", draws_random_numbers,
+     "used only with sampling random, sobol or scrambled-hammersley, with engine rays, with scheme "
+     "semi-iterative, or to rotate replicas"},
+    {"resolution", takes_resolution, "used only with engine zbuffer, painter, rays or hemicube"},
+    {"points", takes_points, "used only with engine pairs"},
+    {"order", takes_order, "used only with engine painter"},
+    {"sky-model", has_sky, "used only with a sky"},
+    {"burn-in", is_semi_iterative, "used only with scheme semi-iterative"},
+    {"tolerance", stops_by_tolerance, "not used with a given number of iterations"},
+    {"refine-until", has_rounds, "used only with --refine-by"},
+};
+
+}  // namespace
+
+std::string why_unused(const std::string& name, const std::vector<RunOptions>& runs) {
+  for (const Use& use : uses) {
+    if (use.option == name && std::none_of(runs.begin(), runs.end(), use.used)) {
+      return use.why_not;
+    }
+  }
+  return {};
+}
+
+}  // namespace transillum

@@ -1,0 +1,108 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The table of options and the tables of engines. That all front ends agree is tested with the
+// viewer, which has most of them (viewer/options_agree_test.cpp).
+#include "transillum/option_table.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "support/scenes.h"
+#include "transillum/errors.h"
+
+namespace transillum::option_table_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(OptionTable, ReadsWhatItPrints) {
+  std::set<std::string> names;
+  for (const Option& o : options()) {
+    EXPECT_TRUE(names.insert(o.name).second) << o.name;
+    const std::string text = o.print(RunOptions{});
+    if (text.empty()) {
+      EXPECT_FALSE(o.in_files) << o.name;
+      continue;
+    }
+    RunOptions read;
+    o.parse(read, text);
+    EXPECT_EQ(o.print(read), text) << o.name;
+    o.from_json(read, o.to_json(RunOptions{}));
+    EXPECT_EQ(o.print(read), text) << o.name;
+  }
+}
+
+TEST(OptionTable, RefusesValuesOfAnotherType) {
+  RunOptions read;
+  for (const auto& [name, json] : {std::pair{"directions", "true"},
+                                   {"directions", "\"64\""},
+                                   {"directions", "[64]"},
+                                   {"glossy", "1"},
+                                   {"glossy", "\"yes\""},
+                                   {"engine", "3"},
+                                   {"sky", "{}"},
+                                   {"directions", "null"}}) {
+    try {
+      option(name).from_json(read, json);
+      ADD_FAILURE() << name << ' ' << json;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("expected"));
+    }
+  }
+  EXPECT_EQ(read, RunOptions{});
+}
+
+TEST(OptionTable, MakesARunOfItsDifferences) {
+  RunOptions run;
+  run.solve.engine = Engine::painter;
+  run.solve.engine_options.order = PaintersOrder::newell;
+  run.solve.tolerance = 1e-4;
+  run.solve.seed = 9;  // has no effect, so it would be refused
+  const std::vector<std::pair<std::string, std::string>> expected{
+      {"engine", "painter"}, {"order", "newell"}, {"tolerance", "0.0001"}};
+  EXPECT_EQ(differences_from_default(run), expected);
+}
+
+/// It did nothing in the library and the viewer: only the programs copied it to the engine.
+TEST(OptionTable, TheSeedIsThatOfEngineRays) {
+  const auto scene = testing::box_in_cube(3, 1).scene();
+  const auto with_seed = [&](std::uint64_t seed) {
+    return solve(scene, {.directions = 4, .seed = seed, .engine = Engine::rays}).radiosity;
+  };
+  EXPECT_EQ(with_seed(5), with_seed(5));
+  EXPECT_NE(with_seed(1), with_seed(5));
+}
+
+TEST(OptionTable, TheFirstShotOfAnAccuracyIsAutomaticWhereThereAreDirections) {
+  RunOptions run{.solve = {.engine = Engine::pairs, .goal = {.accuracy = 0.01}}};
+  set_dependent_defaults(run, {});
+  EXPECT_FALSE(run.solve.first_shot);
+  run.solve.engine = Engine::fast;
+  set_dependent_defaults(run, {"first-shot"});
+  EXPECT_FALSE(run.solve.first_shot);
+  set_dependent_defaults(run, {});
+  EXPECT_EQ(run.solve.first_shot, first_shot_where_it_pays);
+}
+
+TEST(EngineTraits, SayWhatMakeEngineDoes) {
+  const auto scene = testing::box_in_cube(2, 1).scene();
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  for (const EngineTraits& traits : engines()) {
+    EXPECT_EQ(engine_from_name(traits.name), traits.engine);
+    if (!traits.takes_directions) {
+      EXPECT_THROW(make_engine(traits.engine, scene, tree), InputError) << traits.name;
+      continue;
+    }
+    EXPECT_NO_THROW(make_engine(traits.engine, scene, tree)) << traits.name;
+    if (traits.has_moments) {
+      EXPECT_NO_THROW(make_engine(traits.engine, scene, tree, {.moments = true})) << traits.name;
+    } else {
+      EXPECT_THROW(make_engine(traits.engine, scene, tree, {.moments = true}), InputError)
+          << traits.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace transillum::option_table_test
