@@ -134,7 +134,7 @@ build() {
     esac
   done || {
     [ ! -t 1 ] || printf '\r\033[K'
-    grep -A 20 'FAILED\|rror' "$log" | head -n 60 >&2
+    grep -A 20 'FAILED:\|[Ee]rror:\|CMake Error\|^ninja: ' "$log" | head -n 60 >&2
     stop "the build failed (full log: $log)"
   }
   [ ! -t 1 ] || printf '\r\033[K'
