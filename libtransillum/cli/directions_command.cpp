@@ -108,6 +108,9 @@ Run add_directions_command(CLI::App& program) {
           "with --stats: eps(M) for the normals of this scene's patches instead of all normals")
       ->type_name("SCENE");
   command.footer(
+      "A solve takes the same directions in another order, which spreads the first ones evenly: "
+      "row\n"
+      "37 is not pass 37.\n"
       "Example: transillum directions --sampling hammersley -m 64 --out points.csv\n"
       "         transillum directions -m 1024 --stats --scene cornell-box");
   return [call] { return run(*call); };

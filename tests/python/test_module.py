@@ -256,7 +256,7 @@ class Errors(unittest.TestCase):
         scene = room()
         cases = {
             'did you mean "directions"': lambda: transillum.solve(scene, direction=3),
-            "directions: expected a number": lambda: transillum.solve(scene, directions="x"),
+            'directions: "x" is not a whole number': lambda: transillum.solve(scene, directions="x"),
             "resolution is used only": lambda: transillum.solve(scene, resolution=5),
             "no such file": lambda: transillum.load("nothing.obj"),
             'did you mean "cornell-box"': lambda: transillum.load("cornel-box"),
@@ -264,14 +264,14 @@ class Errors(unittest.TestCase):
             "three finite numbers": lambda: transillum.transfers(scene, (0, np.nan, 1)),
             "three numbers": lambda: transillum.transfers(scene, (0, 1)),
             "direction: expected three": lambda: transillum.transfers(scene, [[0], [0], [1]]),
-            "up: expected three": lambda: transillum.solve(
+            "up: expected a direction": lambda: transillum.solve(
                 scene, sky=1, sky_model="cie-overcast", up=[[0, 0, 1]]
             ),
             "directions: expected a number, not True": lambda: transillum.solve(
                 scene, directions=True
             ),
             "tolerance: expected": lambda: transillum.solve(scene, tolerance=np.True_),
-            "sky: expected one number or three, W/m², not True": lambda: transillum.solve(
+            "sky: expected one number or three, W/m2, or None, not True": lambda: transillum.solve(
                 scene, sky=True
             ),
             "one_way: expected": lambda: transillum.solve(scene, one_way=1),

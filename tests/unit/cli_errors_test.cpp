@@ -96,7 +96,7 @@ const InvalidCall invalid_calls[] = {
     {{"solve", "no-such-scene.obj"}, "no-such-scene.obj"},
     {{"solve", "cornel-box"}, "cornell-box"},
     {{"solve", "rooms:m=3"}, "rooms"},
-    {{"solve", ""}, ""},
+    {{"solve", ""}, "SCENE: the value is empty"},
     {{"info", "no-such-scene.obj"}, "no-such-scene.obj"},
     {{"scene", "furnace"}, "--out is required"},
     {{"scene", "furnace", "--out", "a.stl"}, ".obj"},

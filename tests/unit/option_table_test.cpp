@@ -53,6 +53,19 @@ TEST(OptionTable, RefusesValuesOfAnotherType) {
   EXPECT_EQ(read, RunOptions{});
 }
 
+TEST(OptionTable, ReadsZeroOfFormerFilesWhereItMeansNothing) {
+  RunOptions read;
+  for (const char* name : {"iterations", "resolution", "accuracy", "seconds", "patches",
+                           "max-patch-area", "refine-until", "sky", "memory", "threads"}) {
+    option(name).from_json(read, "0");
+  }
+  EXPECT_EQ(read, RunOptions{});
+  option("max-reflectance").from_json(read, "0");
+  EXPECT_EQ(read.input.read.max_reflectance, 0);
+  option("rotate").from_json(read, "0");
+  EXPECT_EQ(read.solve.rotation, 0U);
+}
+
 TEST(OptionTable, MakesARunOfItsDifferences) {
   RunOptions run;
   run.solve.engine = Engine::painter;

@@ -344,7 +344,7 @@ class CompareTest : public QObject {
     SolveOptions solve;
     solve.seed = std::numeric_limits<std::uint64_t>::max();
     solve.tolerance = 0.1 + 0.2;
-    solve.iterations = 2'000'000;
+    solve.iterations = 1'000'000;
     panel.set_options(solve, {false, 1e-9});
     QVERIFY(panel.solve_options() == solve);
     QCOMPARE(panel.scene_options().max_patch_area, 1e-9);

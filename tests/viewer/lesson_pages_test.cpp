@@ -458,13 +458,18 @@ QString name_of_color(const QColor& color) {
 }
 
 // All string literals of the viewer's sources, without the marks of menu keys.
+/// Labels of engines are in the library's table.
 QStringList texts_of_the_viewer() {
-  QStringList texts;
-  QDirIterator files(QStringLiteral(TRANSILLUM_SOURCE "/viewer"), {"*.cpp"}, QDir::Files,
-                     QDirIterator::Subdirectories);
+  QStringList texts,
+      names{QStringLiteral(TRANSILLUM_SOURCE "/libtransillum/src/visibility/engine_table.cpp")};
+  for (QDirIterator files(QStringLiteral(TRANSILLUM_SOURCE "/viewer"), {"*.cpp"}, QDir::Files,
+                          QDirIterator::Subdirectories);
+       files.hasNext();) {
+    names << files.next();
+  }
   static const QRegularExpression literal(QStringLiteral("\"((?:[^\"\\\\\n]|\\\\.)*)\""));
-  while (files.hasNext()) {
-    QFile file(files.next());
+  for (const QString& name : names) {
+    QFile file(name);
     if (!file.open(QIODevice::ReadOnly)) {
       continue;
     }

@@ -407,7 +407,7 @@ class LinearTest : public QObject {
     auto* engine = shown.window->findChild<QComboBox*>("engine");
     const int usual = engine->currentIndex();
     engine->setCurrentIndex(engine->findText("Z-buffer"));
-    QCOMPARE(note->text(), QString("not with this engine"));
+    QVERIFY(note->text().contains("engine zbuffer does not have"));
     QVERIFY(!note->isHidden());
     engine->setCurrentIndex(usual);
     QVERIFY(note->isHidden());

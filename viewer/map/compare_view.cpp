@@ -304,7 +304,9 @@ void CompareView::link(const std::vector<MapCanvas*>& maps) {
   }
 }
 
-bool CompareView::Choice::is_hemicube() const { return engine_of(*engine) == Engine::hemicube; }
+bool CompareView::Choice::is_hemicube() const {
+  return traits_of(engine_of(*engine)).picture == EngineTraits::Picture::hemicube;
+}
 
 bool CompareView::Choice::has_directions() const { return takes_directions(engine_of(*engine)); }
 

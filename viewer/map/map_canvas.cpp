@@ -486,7 +486,7 @@ void MapCanvas::draw_legend(QPainter& painter) const {
   }
   std::vector<std::pair<QBrush, QString>> entries{{back_side_brush(1), tr("back side")}};
   const MapEngineChoice& choice = picture_->request.choice;
-  if (choice.engine == Engine::corrected && choice.differences) {
+  if (choice.shows(EngineTraits::Picture::corrected) && choice.differences) {
     entries.emplace_back(theme::inside, tr("too much"));
     entries.emplace_back(theme::outside, tr("too little"));
   } else if (choice.engine && choice.differences) {

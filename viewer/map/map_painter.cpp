@@ -164,7 +164,7 @@ class MapPainting {
     return make_pixel_view(request_.map, request_.step, request_.choice, cancellation_);
   }
 
-  bool draws_corrected() const { return request_.choice.engine == Engine::corrected; }
+  bool draws_corrected() const { return request_.choice.shows(EngineTraits::Picture::corrected); }
 
   void draw(const PixelView& view) {
     if (!view.failure.empty()) {

@@ -43,6 +43,10 @@ struct MapEngineChoice {
   int resolution = 64;                       ///< pixels along the longer side
   bool differences = true;                   ///< mark errors
 
+  /// Whether V is shown in this way.
+  bool shows(EngineTraits::Picture picture) const {
+    return engine && traits_of(*engine).picture == picture;
+  }
   friend bool operator==(const MapEngineChoice&, const MapEngineChoice&) = default;
 };
 struct PixelView;

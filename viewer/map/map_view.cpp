@@ -220,7 +220,9 @@ bool MapView::up_to_date() const {
   return painted && !recolor_timer_->isActive();
 }
 
-bool MapView::shows_hemicube() const { return engine_menu_->choice().engine == Engine::hemicube; }
+bool MapView::shows_hemicube() const {
+  return engine_menu_->choice().shows(EngineTraits::Picture::hemicube);
+}
 
 bool MapView::shows_pair() const {
   return pair_->choice() != PhasePair::Choice::off && !engine_menu_->choice().engine &&

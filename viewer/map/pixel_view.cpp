@@ -46,7 +46,7 @@ std::shared_ptr<const PixelView> make_pixel_view(const std::shared_ptr<const Rec
   view->step = step;
   view->choice = choice;
   try {
-    if (choice.engine == Engine::corrected) {
+    if (choice.shows(EngineTraits::Picture::corrected)) {
       view->corrected =
           corrected_map_after(loaded.scene, loaded.tree, map->record(), step, cancellation);
       view->wrong = view->corrected->wrong_share();

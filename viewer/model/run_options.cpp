@@ -45,6 +45,16 @@ json options_json(const RunOptions& options, bool of_reading) {
 
 }  // namespace
 
+bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked) {
+  SolveOptions expected = asked;
+  if (expected.goal.set() && expected.goal == in_effect.goal) {
+    expected.directions = in_effect.directions;
+    expected.replicas = in_effect.replicas;
+    expected.tolerance = in_effect.tolerance;
+  }
+  return expected == in_effect;
+}
+
 RunOptions run_options_from_json(const json& value, const std::string& where) {
   RunOptions options;
   JsonObject object(value, where);

@@ -8,6 +8,10 @@
 
 namespace transillum::viewer {
 
+/// Whether a solve with the options `in_effect` is that of `asked`: a goal that is the same has
+/// chosen directions, replicas and the tolerance.
+bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked);
+
 /// Reads options from a lesson or session file. Names as on the command line, without dashes;
 /// missing options have their defaults. The numbers of threads and bytes depend on the computer and
 /// are not included.

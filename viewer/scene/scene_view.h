@@ -70,7 +70,6 @@ class SceneView : public QWidget {
   void set_antialiased(bool antialiased);
   /// Goes back to the scene's initial view.
   void reset_view();
-  /// Keeps the viewing direction and fits the whole scene.
   /// Draws the faces that `plan` would change over the scene, until hide_turn() or another scene.
   void preview_turn(const OrientationPlan& plan);
   void hide_turn();
@@ -79,6 +78,7 @@ class SceneView : public QWidget {
   /// @param emphasized  index of a path; -1: none
   void show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized);
   bool previews_turn() const { return turn_preview_->shown(); }
+  /// Keeps the viewing direction and fits the whole scene.
   void fit_all();
   void fit_selected();
   void view_from_side(Side side);

@@ -517,15 +517,8 @@ void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions&
 }
 
 bool SettingsPanel::differ_from_effect() const {
-  SolveOptions given = solve_options();
-  if (given.goal.set() && given.goal == solve_in_effect_.goal) {
-    // The goal has chosen these.
-    given.directions = solve_in_effect_.directions;
-    given.replicas = solve_in_effect_.replicas;
-    given.tolerance = solve_in_effect_.tolerance;
-  }
-  return !(given == solve_in_effect_) || !same(scene_options(), scene_in_effect_) ||
-         !(refinement() == refine_in_effect_);
+  return !is_run_of(solve_in_effect_, solve_options()) ||
+         !same(scene_options(), scene_in_effect_) || !(refinement() == refine_in_effect_);
 }
 
 void SettingsPanel::set_restart_enabled(bool enabled) {
@@ -582,7 +575,7 @@ void SettingsPanel::show_state() {
   show_glossy_state();
   show_row(order_label_, order_, has_effect("order"));
   show_row(resolution_label_, resolution_, has_effect("resolution"));
-  const bool rays = engine == Engine::rays;
+  const bool rays = traits_of(engine).error == EngineTraits::Error::statistical;
   resolution_->setSpecialValueText(
       rays ? tr("%1 rays per patch").arg(solve_in_effect_.engine_options.lines_per_patch)
            : tr("Default: %1 px").arg(EngineOptions::default_resolution));

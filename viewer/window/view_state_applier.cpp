@@ -145,6 +145,13 @@ void ViewStateApplier::reload() {
 void ViewStateApplier::open_again(const RunOptions& options) {
   requested_ = state();
   requested_.options = options;
+  // Changed materials may be among those of the scene now.
+  const auto& changes = options.input.changes;
+  const auto& edits = requested_.materials;
+  if (changes.size() >= edits.size() &&
+      std::equal(edits.begin(), edits.end(), changes.end() - std::ssize(edits))) {
+    requested_.materials.clear();
+  }
   requested_.solve = {Goal::Kind::finished};
   requested_.selection = no_patch;
   requested_.also_selected.clear();
@@ -236,7 +243,7 @@ bool ViewStateApplier::run_has_started() const {
 }
 
 bool ViewStateApplier::is_requested(const SolverSnapshot& snapshot) const {
-  return snapshot.options == requested_.options.solve &&
+  return is_run_of(snapshot.options, requested_.options.solve) &&
          (snapshot.refine == requested_.options.refine || snapshot.loaded->stored);
 }
 
@@ -266,9 +273,14 @@ void ViewStateApplier::fail(const QString& message) {
 }
 
 void ViewStateApplier::on_snapshot() {
+  if (applies_view_) {
+    return;  // materials that change nothing show the snapshot again at once
+  }
   if (awaits_ == Awaits::run && run_has_started()) {
     run_before_ = nullptr;
+    applies_view_ = true;
     apply_view();
+    applies_view_ = false;
     awaits_ = Awaits::rounds;
   }
   if (awaits_ == Awaits::rounds && has_patches()) {

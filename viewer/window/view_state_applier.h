@@ -76,6 +76,7 @@ class ViewStateApplier : public QObject {
   std::optional<ViewState> before_lesson_;  ///< appearance and options
   RunOptions applied_options_;              ///< in the settings panel after the last request
   bool leaving_ = false;                    ///< leave_lesson() was called for the next scene
+  bool applies_view_ = false;  ///< within apply_view()
   Awaits awaits_ = Awaits::nothing;
   /// The first directions of the run that the requested one replaces; null: none. Each run has its
   /// own copy.

@@ -35,6 +35,7 @@ struct Option {
   std::vector<std::string> choices = {};  ///< words that it accepts
   bool lists_choices = false;             ///< help_text() lists them
   std::string unset = {};                 ///< what nothing is called: none or auto
+  bool zero_is_unset = false;             ///< files of former versions have 0 for `unset`
   std::string default_text = {};          ///< for help; empty: that of RunOptions
   bool common = false;                    ///< among those that most people need
   bool in_files = true;                   ///< sessions and statistics have it

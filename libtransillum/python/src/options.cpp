@@ -37,10 +37,10 @@ std::string json_of(const py::handle& value) {
 
 /// The values that an option accepts, in the words of Python.
 std::string values_of(const Option& option) {
+  const std::size_t none = option.values.rfind(", or none");
   return option.json == Option::Json::flag ? "True or False"
-         : option.unset == "none" && option.json == Option::Json::number
-             ? option.values.substr(0, option.values.rfind(", or none")) + ", or None"
-             : option.values;
+         : none != std::string::npos       ? option.values.substr(0, none) + ", or None"
+                                           : option.values;
 }
 
 void set(RunOptions& options, const Option& option, const std::string& keyword,

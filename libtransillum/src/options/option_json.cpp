@@ -75,9 +75,7 @@ void Option::from_json(RunOptions& options, const std::string& value) const {
         fmt::format("expected {}, not {}", values,
                     parsed.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
   }
-  // Files of former versions have 0 where nothing is chosen.
-  const bool none = !unset.empty() && parsed.is_number() && parsed == 0 && name != "rotate" &&
-                    name != "first-shot" && name != "burn-in";
+  const bool none = zero_is_unset && parsed.is_number() && parsed == 0;
   parse(options, none ? unset : *text);
 }
 

@@ -40,6 +40,7 @@ template <class Get>
 void whole(Option& o, Get get, std::int64_t low, std::int64_t high, std::string unset = {}) {
   o.json = Option::Json::number;
   o.unset = unset;
+  o.zero_is_unset = !unset.empty();
   o.parse = [=](RunOptions& options, const std::string& text) {
     auto& value = get(options);
     using Value = std::remove_reference_t<decltype(value)>;
@@ -58,6 +59,7 @@ template <class Get, class IsValid>
 void real(Option& o, Get get, IsValid is_valid, const char* valid, std::string unset = {}) {
   o.json = Option::Json::number;
   o.unset = unset;
+  o.zero_is_unset = !unset.empty();
   o.parse = [=](RunOptions& options, const std::string& text) {
     if (!unset.empty() && text == unset) {
       get(options) = {};
@@ -80,6 +82,7 @@ template <class Get>
 void percentage(Option& o, Get get) {
   o.json = Option::Json::number;
   o.unset = "none";
+  o.zero_is_unset = true;
   o.parse = [=](RunOptions& options, const std::string& text) {
     try {
       get(options) = text == "none" ? 0 : accuracy_from_text(text);
@@ -329,10 +332,11 @@ void add_accuracy(Table& t) {
 
 void add_sky(Table& t) {
   t.group = "Sky";
-  Option& sky = t.common("sky", "E[,E,E]", "W/m2, one number or three, or none",
+  Option& sky = t.common("sky", "E[,E,E]", "one number or three, W/m2, or none",
                          "what escapes from an open scene meets a sky: what an unobstructed patch "
                          "turned upward receives from it, in W/m2");
   sky.json = Option::Json::numbers;
+  sky.zero_is_unset = true;
   sky.unset = "none";
   sky.default_text = "no sky";
   sky.parse = [](RunOptions& o, const std::string& text) {
@@ -375,6 +379,7 @@ void add_patches(Table& t) {
                "divide faces into about N patches, by a limit of their area that is chosen for it; "
                "with --refine-by: the most patches to make");
   patches.json = Option::Json::number;
+  patches.zero_is_unset = true;
   patches.unset = "none";
   patches.parse = [](RunOptions& o, const std::string& text) {
     o.input.patches = text == "none" ? 0 : whole_number_from_text(text, 1, most_patches);
@@ -501,6 +506,7 @@ void add_machine(Table& t) {
             "memory for stored form factors; beyond it they are recomputed in each iteration, "
             "which changes last digits");
   memory.json = Option::Json::number;
+  memory.zero_is_unset = true;
   memory.unset = "auto";
   memory.default_text = "a quarter of the machine's";
   memory.parse = [](RunOptions& o, const std::string& text) {
