@@ -39,7 +39,8 @@ CLI::Option* add_value(CLI::App& command, GivenOptions& options, const Option& o
         }
       },
       option.help_text());
-  added->type_name(option.argument)->expected(1);
+  // Without extra arguments: what follows a value may be the scene.
+  added->type_name(option.argument)->expected(1)->allow_extra_args(false);
   if (option.repeats) {
     added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   }
@@ -91,6 +92,9 @@ void add_groups(CLI::App& command, GivenOptions& options,
 
 void complete(GivenOptions& options) {
   set_dependent_defaults(options.run, options.given);
+  if (!options.run.refine.set()) {
+    options.run.refine = {};
+  }
   options.run.validate();
   refuse_unused(options, {options.run});
 }

@@ -104,7 +104,7 @@ class Draw {
   }
   /// Some options with values.
   Words set() {
-    Words words{"furnace"};
+    Words words;
     const std::size_t count = 1 + below(6);
     std::vector<const Option*> left;
     for (const Option& option : transillum::options()) {
@@ -119,9 +119,15 @@ class Draw {
       if (option.is_flag()) {
         words.push_back("--" + option.name);
       } else {
-        words.push_back("--" + option.name + "=" + value_of(option));
+        const std::string value = value_of(option);
+        if (value.front() == '-' || below(2) == 0) {
+          words.push_back("--" + option.name + "=" + value);
+        } else {
+          words.insert(words.end(), {"--" + option.name, value});
+        }
       }
     }
+    words.insert(below(2) == 0 ? words.begin() : words.end(), "furnace");
     return words;
   }
 
@@ -150,6 +156,7 @@ Words words_of(const std::string& line) {
 RunOptions stored(RunOptions options) {
   options.solve.memory = 0;
   options.solve.threads = 0;
+  options.input.patches = 0;  // once the scene is loaded, the area says it
   return options;
 }
 

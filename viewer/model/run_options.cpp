@@ -68,6 +68,7 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   object.done();
   try {
     set_dependent_defaults(options, given);
+    options.input.patches = 0;  // of the command line: here, the area says it
     options.validate();
   } catch (const InputError& error) {
     object.fail(error.what());

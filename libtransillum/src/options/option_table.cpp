@@ -386,7 +386,9 @@ void add_patches(Table& t) {
     o.refine.patches = static_cast<int>(o.input.patches);
   };
   patches.print = [](const RunOptions& o) {
-    const std::int64_t number = o.refine.set() ? o.refine.patches : o.input.patches;
+    // A file may have a limit for rounds that are not chosen yet.
+    const bool by_area = !o.refine.set() && o.input.patches > 0;
+    const std::int64_t number = by_area ? o.input.patches : o.refine.patches;
     return number == 0 ? "none" : fmt::to_string(number);
   };
   t.group = "Refinement";
@@ -580,13 +582,14 @@ void set_dependent_defaults(RunOptions& options, const std::set<std::string>& gi
   }
   if (options.refine.set()) {
     options.input.patches = 0;
-  } else {
-    options.refine = {};
   }
 }
 
-std::vector<std::pair<std::string, std::string>> differences_from_default(
-    const RunOptions& options) {
+std::vector<std::pair<std::string, std::string>> differences_from_default(const RunOptions& asked) {
+  RunOptions options = asked;
+  if (!options.refine.set()) {
+    options.refine = {};
+  }
   std::vector<std::pair<std::string, std::string>> differences;
   RunOptions made;
   std::set<std::string> given;
