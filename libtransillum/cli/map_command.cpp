@@ -77,8 +77,10 @@ VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& 
 
 /// A hint for engines whose results only the viewer can show.
 std::string viewer_hint(Engine engine) {
-  return traits_of(engine).picture != EngineTraits::Picture::none ? " (the viewer can show it)"
-                                                                  : "";
+  using Picture = EngineTraits::Picture;
+  const Picture picture = traits_of(engine).picture;
+  const bool has_view = picture == Picture::corrected || picture == Picture::hemicube;
+  return has_view ? " (the viewer can show it)" : "";
 }
 
 void add_pixel_options(CLI::App& command, MapCall& call) {

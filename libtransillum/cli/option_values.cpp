@@ -9,7 +9,7 @@
 namespace transillum::cli {
 namespace {
 
-/// What `parse` returns; names the option in its error.
+/// Calls `parse`, and puts the name of the option before its error.
 template <class Parse>
 auto named(const std::string& option, Parse parse) {
   try {

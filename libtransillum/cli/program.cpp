@@ -83,7 +83,7 @@ struct Program {
                      add_study_command, add_compare_command, add_info_command, add_merge_command}) {
       Run run = add(app);
       CLI::App& command = *app.get_subcommands({}).back();
-      if (command.get_groups().size() > 2) {  // with that of arguments
+      if (command.get_groups().size() > 2) {  // one of them has the arguments
         command.set_help_all_flag("--help-all", "show all options, by group");
       }
       commands.emplace_back(&command, std::move(run));

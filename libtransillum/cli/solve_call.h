@@ -31,7 +31,7 @@ struct SolveCall {
   std::vector<std::string> shards;  ///< of `merge`: the passes are read from these
   bool quiet = false;
 
-  /// As given, before solve_options().
+  /// The options of the solve: as given before complete(), checked and complete after it.
   const SolveOptions& options() const { return scene.run.solve; }
 };
 

@@ -30,7 +30,7 @@ enum class Engine {
   pairs,      ///< no directions: form factors pair by pair, by solve_by_form_factors()
 };
 
-/// What callers may rely on about an engine; the only place that says it.
+/// The properties of an engine. Callers ask these instead of naming engines.
 struct EngineTraits {
   /// How its transfers are wrong.
   enum class Error {
@@ -62,7 +62,7 @@ struct EngineTraits {
 };
 /// The traits of all engines, in the order of the enumeration.
 std::span<const EngineTraits> engines();
-/// Those of one.
+/// The traits of one engine.
 const EngineTraits& traits_of(Engine engine);
 
 /// The names of the engines as in options and files, in the order of the enumeration.

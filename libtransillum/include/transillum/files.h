@@ -145,8 +145,8 @@ void write_directions_csv(const std::filesystem::path& path,
                           const std::vector<DirectionSample>& directions);
 /// @}
 
-/// Writes options and statistics of a solve run as JSON. How faces became patches is that of the
-/// solution's scene.
+/// Writes options and statistics of a solve run as JSON. The options of the scene come from the
+/// scene of `solution`.
 /// @throws std::runtime_error if it cannot be written.
 void write_statistics(const std::filesystem::path& path, const RunOptions& options,
                       const Solution& solution);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "transillum/export.h"
@@ -36,12 +37,12 @@ struct Option {
   bool lists_choices = false;             ///< help_text() lists them
   std::string unset = {};                 ///< what nothing is called: none or auto
   bool zero_is_unset = false;             ///< files of former versions have 0 for `unset`
-  std::string default_text = {};          ///< for help; empty: that of RunOptions
+  std::string default_text = {};          ///< for help; empty: the value in RunOptions is shown
   bool common = false;                    ///< among those that most people need
   bool in_files = true;                   ///< sessions and statistics have it
   bool reads_scene = false;               ///< says how a file is read: not for results
   bool repeats = false;                   ///< may be given several times
-  char letter = 0;                        ///< as in -m; 0: none
+  char letter = 0;                        ///< the m of -m; 0: the option has no short name
   /// Sets it from text. @throws InputError
   std::function<void(RunOptions&, const std::string&)> parse = {};
   /// Its value as text that parse() reads back, bit for bit.
@@ -73,14 +74,14 @@ bool set_from_json(RunOptions& options, const std::string& key, const std::strin
 /// Why an option changes nothing in any of these runs, as "used only with engine painter"; empty
 /// if it has an effect. For front ends, to refuse options that would silently do nothing.
 std::string why_unused(const std::string& name, const std::vector<RunOptions>& runs);
-/// Why the value of an option excludes that of another one of these, as "lobes are not available
-/// with a linear basis"; empty if it does not.
+/// The reason why an option cannot be combined with another one in `options`, such as "lobes are
+/// not available with a linear basis"; empty if all can be combined with it.
 std::string conflict_of(const std::string& name, const RunOptions& options);
 /// The defaults that depend on other options: of the first shot and the iterations in the mean.
 /// @param given names of the options that were given
 void set_dependent_defaults(RunOptions& options, const std::set<std::string>& given);
-/// The options by which set_dependent_defaults() makes these of default ones: name and text of
-/// each. Those that would change nothing are not among them.
+/// The name and the value, as text, of each option that must be given to get `options` from the
+/// defaults, by parse() and then set_dependent_defaults(). Options without effect are omitted.
 std::vector<std::pair<std::string, std::string>> differences_from_default(
     const RunOptions& options);
 
