@@ -204,7 +204,7 @@ TEST(Sky, IsRefusedWhereItCannotBe) {
     return refusal([&] { SolveOptions{.sky = sky}.validate(); });
   };
   EXPECT_EQ(refused(gray_sky(2)), "");
-  EXPECT_THAT(refused(gray_sky(-1)), HasSubstr("an exitance of -1"));
+  EXPECT_THAT(refused(gray_sky(-1)), HasSubstr("\"-1\" is not one or three numbers of at least 0"));
   EXPECT_THAT(refused(gray_sky(NAN)), HasSubstr("nan"));
   EXPECT_THAT(refused(gray_sky(1, SkyModel::cie_overcast, {0, 2, 0})), HasSubstr("0 2 0"));
   EXPECT_THAT(refusal([] {
