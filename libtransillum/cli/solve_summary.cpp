@@ -11,7 +11,6 @@
 #include "messages.h"
 #include "report_text.h"
 #include "scene_options.h"
-#include "transillum/accuracy_plan.h"
 #include "transillum/at.h"
 
 namespace transillum::cli {

@@ -7,16 +7,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <string>
 
-#include "transillum/accuracy_plan.h"
-#include "transillum/bsp_tree.h"
-#include "transillum/cancellation.h"
 #include "transillum/export.h"
-#include "transillum/first_shot.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_session.h"
 
 namespace TRANSILLUM_API transillum {
 
@@ -38,42 +33,29 @@ class Checkpoint {
   const std::filesystem::path& file() const;
 
   /// Saves a solve.
-  /// @param solver the solver; an observer may call this.
-  /// @param plan of a solve with a goal, else null. In a group all members must call it after the
-  /// same pass; member 0 writes the file.
+  /// @param session prepared, without lobes; an observer may call this. In a group all members must
+  /// call it after the same pass; member 0 writes the file.
   /// @throws std::runtime_error if the file cannot be written; the one before is kept then.
-  void save(const RadiositySolver& solver, const AccuracyPlan* plan = nullptr);
+  void save(const SolveSession& session);
   /// Saves a solve if `interval` has passed since this object was made or last saved, and so long
   /// that saving takes less than a hundredth of the time.
-  /// @param solver, plan as for save().
+  /// @param session as for save().
   /// @param interval s; 0: always.
   /// @returns whether it was saved.
   /// @throws std::runtime_error as save()
-  bool save_if_due(const RadiositySolver& solver, const AccuracyPlan* plan = nullptr,
-                   double interval = 60);
+  bool save_if_due(const SolveSession& session, double interval = 60);
 
   /// Whether save_if_due() would save.
   /// @param interval s
   bool is_due(double interval) const;
 
-  /// A solve that goes on.
-  struct Resumed {
-    RadiositySolver solver;            ///< in the state saved
-    std::optional<AccuracyPlan> plan;  ///< of a solve with a goal
-    double seconds = 0;                ///< wall time that it had taken
-  };
-  /// The solve in the file.
-  /// @param scene the scene.
-  /// @param options of the solve.
-  /// @param tree, shot, cancellation, group as for RadiositySolver. The number of members may be
-  /// another than the one that has saved the file.
+  /// Sets a session to the solve in the file, which it then continues to the same bits.
+  /// @param session of the scene and options; has made no pass. In a group all members must call
+  /// this; their number may be another than when the file was saved.
   /// @throws InputError naming the file and why it cannot be used: it is damaged, or which version,
-  /// option or property of the scene is another; Canceled
-  Resumed resume(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
-                 std::shared_ptr<const BspTree> tree = nullptr,
-                 std::shared_ptr<const DirectLight> shot = nullptr,
-                 const Cancellation& cancellation = {},
-                 const std::shared_ptr<SolverGroup>& group = nullptr);
+  /// option or property of the scene is another; the session then begins at its beginning.
+  /// Canceled; as SolveSession::prepare()
+  void resume(SolveSession& session);
 
   /// Compares the file with the scene and options, without its content, before work is done that
   /// takes long.

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The solver. solve() is one call from a scene to its radiosity; RadiositySolver is the same
-// computation in steps of a pass or an iteration, for progress displays, early stopping and the
-// viewer. Options and results are plain structs.
+// Options and result of a solve, plain structs, and RadiositySolver, which makes one with given
+// directions in steps of a pass or an iteration. solve() is all of it in one call, SolveSession all
+// of it in steps (solve_session.h).
 #pragma once
 
 #include <cstddef>
@@ -107,7 +107,7 @@ struct SolveOptions {
   double tolerance = 1e-6;
   std::uint64_t memory = 0;  ///< limit for kept form factors, bytes; 0: a quarter of the machine's
   int threads = 0;           ///< 0: all cores; the result does not depend on it
-  /// If set, solve() chooses `directions` and `replicas` (accuracy_plan.h). A RadiositySolver uses
+  /// If set, a SolveSession chooses `directions` and `replicas`. A RadiositySolver uses
   /// those given.
   AccuracyGoal goal = {};
   /// Light that enters where nothing is above a patch. Not with engines hemicube and pairs.
@@ -481,18 +481,12 @@ std::vector<Rgb> reflected_light(const Scene& scene, const std::vector<Rgb>& b);
 /// B at the corners of patch i's outline, W/m². Of Basis::linear it may be below 0.
 std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i);
 
-/// Solves in one call, by a GlossySolver where options.glossy is set and materials have lobes; it
-/// then calls no observer and ignores `group`. If `cancellation` is set during the passes, it
-/// returns the best estimate so far, with complete = false.
-/// @param scene the scene.
-/// @param options of the solve run.
-/// @param observer as for RadiositySolver::advance().
-/// @param cancellation checked throughout.
-/// @param group as for RadiositySolver.
-/// @throws InputError; Canceled before the first pass; NotConvergent, std::runtime_error
-Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-               const RadiositySolver::Observer& observer = {},
-               const Cancellation& cancellation = {},
-               const std::shared_ptr<SolverGroup>& group = nullptr);
+/// The patches whose standard errors may be much too small: all replicas miss light alike that
+/// comes to them from a small source. Not measured but expected, by sizes and distances: light of
+/// sources that fewer than least_light_directions per replica bring to the patch is more than half
+/// of its interval. What stands between is not counted, so these may be too many.
+/// @param solution of passes with replicas; otherwise, and where all sources were shot first or
+/// patches times sources exceed 2^22, the result is empty.
+std::vector<PatchId> uncertain_patches(const Solution& solution);
 
 }  // namespace TRANSILLUM_API transillum

@@ -35,7 +35,6 @@ namespace transillum {}
 
 // Solving: options, progress, solution, settings for user interfaces.
 #include "transillum/accuracy_goal.h"
-#include "transillum/accuracy_plan.h"
 #include "transillum/adjoint.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factor_solve.h"
@@ -52,6 +51,7 @@ namespace transillum {}
 #include "transillum/run_options.h"
 #include "transillum/shares.h"
 #include "transillum/sky.h"
+#include "transillum/solve_session.h"
 #include "transillum/solver_group.h"
 
 // Directions and what is proven or measured about them.

@@ -11,7 +11,6 @@
 #include "bindings.h"
 #include "interrupt.h"
 #include "options.h"
-#include "transillum/accuracy_plan.h"
 
 namespace transillum::python {
 namespace {

@@ -6,7 +6,6 @@
 #include <ostream>
 
 #include "io/results/options_json.h"
-#include "transillum/accuracy_plan.h"
 #include "transillum/files.h"
 #include "transillum/option_table.h"
 

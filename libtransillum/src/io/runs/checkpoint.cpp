@@ -13,6 +13,7 @@
 #include "io/runs/run_identity.h"
 #include "io/runs/sealed_file.h"
 #include "radiosity/state_archive.h"
+#include "session/session_state.h"
 #include "transillum/errors.h"
 
 namespace transillum {
@@ -46,11 +47,9 @@ struct [[gnu::visibility("hidden")]] Checkpoint::Impl {
   std::filesystem::path file;
   Json identity;
   Cost cost;
-  double seconds_before = 0;  ///< wall time of the solve before this object
-  Clock::time_point start = Clock::now(), saved = start;
+  Clock::time_point saved = Clock::now();
   double seconds_of_last = 0;
 
-  double seconds() const { return seconds_before + seconds_since(start); }
   /// The plan in the file, if the solve has a goal; the solver's state is what is left then.
   /// @throws InputError, Canceled
   std::optional<AccuracyPlan> read_plan(SealedFile& file_in, const Scene& scene,
@@ -91,17 +90,19 @@ Checkpoint& Checkpoint::operator=(Checkpoint&&) noexcept = default;
 const std::filesystem::path& Checkpoint::file() const { return impl_->file; }
 const Checkpoint::Cost& Checkpoint::cost() const { return impl_->cost; }
 
-void Checkpoint::save(const RadiositySolver& solver, const AccuracyPlan* plan) {
+void Checkpoint::save(const SolveSession& session) {
   const auto start = Clock::now();
+  const RadiositySolver& solver = *session.diffuse();
+  const std::optional<AccuracyPlan>& plan = session.impl_->plan;
   std::ostringstream plan_state;
-  if (plan != nullptr) {
+  if (plan) {
     plan->save(plan_state);
   }
   const std::string plan_bytes = plan_state.str();
   Json head;
   head["run"] = impl_->identity;
-  head["seconds"] = impl_->seconds();
-  head["plan"] = plan != nullptr ? Json(plan_bytes.size()) : Json();
+  head["seconds"] = session.seconds();
+  head["plan"] = plan ? Json(plan_bytes.size()) : Json();
   std::uint64_t size = 0;
   // A save that fails is not tried again at once.
   impl_->saved = start;
@@ -134,11 +135,10 @@ void Checkpoint::save(const RadiositySolver& solver, const AccuracyPlan* plan) {
   cost.bytes = error ? 0 : size;
 }
 
-bool Checkpoint::save_if_due(const RadiositySolver& solver, const AccuracyPlan* plan,
-                             double interval) {
+bool Checkpoint::save_if_due(const SolveSession& session, double interval) {
   const bool due = is_due(interval);
   if (due) {
-    save(solver, plan);
+    save(session);
   }
   return due;
 }
@@ -152,33 +152,36 @@ void Checkpoint::check() const {
   check_identity(SealedFile(impl_->file, checkpoint_kind), impl_->identity);
 }
 
-Checkpoint::Resumed Checkpoint::resume(const std::shared_ptr<const Scene>& scene,
-                                       const SolveOptions& options,
-                                       std::shared_ptr<const BspTree> tree,
-                                       std::shared_ptr<const DirectLight> shot,
-                                       const Cancellation& cancellation,
-                                       const std::shared_ptr<SolverGroup>& group) {
+void Checkpoint::resume(SolveSession& session) {
+  SolveSession::Impl& s = *session.impl_;
+  const std::shared_ptr<SolverGroup>& group = session.group();
   std::optional<SealedFile> file;
   std::optional<AccuracyPlan> plan;
   std::uint64_t left = 0;
   in_all_members(group, [&] {
     file.emplace(impl_->file, checkpoint_kind);
-    plan = impl_->read_plan(*file, *scene, options, cancellation);
+    plan = impl_->read_plan(*file, *s.scene, s.request.options, s.cancellation);
     const Json plan_size = file->head().value("plan", Json());
     left = file->size() - (plan ? plan_size.get<std::uint64_t>() : 0);
   });
-  RadiositySolver solver(scene, plan ? plan->stage() : options, std::move(tree), cancellation,
-                         std::move(shot), TransferEngine(), group);
-  in_all_members(group, [&] {
-    try {
-      solver.restore(file->in(), left);
-    } catch (const DamagedState& error) {
-      file->refuse(error.what());
-    }
-  });
-  solver.complete_estimate();
-  impl_->seconds_before = file->head().at("seconds").get<double>();
-  return {std::move(solver), std::move(plan), impl_->seconds_before};
+  s.solver.reset();
+  s.plan.swap(plan);
+  try {
+    session.prepare();
+    in_all_members(group, [&] {
+      try {
+        s.solver->diffuse()->restore(file->in(), left);
+      } catch (const DamagedState& error) {
+        file->refuse(error.what());
+      }
+    });
+  } catch (...) {
+    s.solver.reset();
+    s.plan.swap(plan);
+    throw;
+  }
+  s.solver->diffuse()->complete_estimate();
+  s.seconds_before += file->head().at("seconds").get<double>();
 }
 
 }  // namespace transillum

@@ -8,8 +8,8 @@
 
 #include "radiosity/light_sources.h"
 #include "radiosity/ratio.h"
-#include "transillum/accuracy_plan.h"
 #include "transillum/at.h"
+#include "transillum/radiosity.h"
 
 namespace transillum {
 namespace {

@@ -1,10 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <utility>
 
-#include "base/seconds_since.h"
 #include "radiosity/solver/solver_state.h"
-#include "transillum/accuracy_plan.h"
-#include "transillum/glossy.h"
 
 namespace transillum {
 
@@ -84,57 +81,5 @@ std::vector<Vec3> RadiositySolver::directions_of(int iteration) const {
 }
 
 int RadiositySolver::passes_of(int iteration) const { return impl_->plan.passes(iteration); }
-
-namespace {
-
-/// solve() where lobes take part. The observer of a RadiositySolver is not called.
-Solution solve_with_lobes(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                          const Cancellation& cancellation) {
-  const auto start = std::chrono::steady_clock::now();
-  GlossySolver solver(std::move(scene), options, nullptr, cancellation);
-  try {
-    solver.solve();
-  } catch (const Canceled&) {
-    if (solver.progress().iteration == 0) {
-      throw;
-    }
-  }
-  Solution solution = solver.solution();
-  solution.statistics.seconds_total = seconds_since(start);
-  return solution;
-}
-
-}  // namespace
-
-Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-               const RadiositySolver::Observer& observer, const Cancellation& cancellation,
-               const std::shared_ptr<SolverGroup>& group) {
-  if (options.glossy && has_lobes(*scene)) {
-    return solve_with_lobes(std::move(scene), options, cancellation);
-  }
-  if (options.goal.set()) {
-    AccuracyObserver watch;
-    if (observer) {
-      watch = [&observer](const RadiositySolver& solver, const AccuracyPlan&) {
-        return observer(solver);
-      };
-    }
-    return solve_to_accuracy(scene, options, nullptr, nullptr, watch, cancellation, 0, {}, group);
-  }
-  const auto start = std::chrono::steady_clock::now();
-  RadiositySolver solver(std::move(scene), options, nullptr, cancellation, nullptr, {}, group);
-  try {
-    while (solver.advance(RadiositySolver::Until::finished, observer)) {
-      // A pause requested by the observer ends a solve in one call.
-      if (observer) {
-        break;
-      }
-    }
-  } catch (const Canceled&) {
-  }
-  Solution solution = solver.solution();
-  solution.statistics.seconds_total = seconds_since(start);
-  return solution;
-}
 
 }  // namespace transillum

@@ -1,12 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "radiosity/solver/solver_input.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
-#include "transillum/accuracy_plan.h"
 
 namespace transillum {
 namespace {
@@ -25,6 +25,17 @@ EngineOptions used_engine_options(const SolveOptions& options) {
   used.seed = options.seed;
   used.moments = options.basis == Basis::linear;
   return used;
+}
+
+int expected_directions(const SolveOptions& options) {
+  if (!options.goal.set()) {
+    return options.directions;
+  }
+  // Some hundred passes in most scenes; the error is expected to fall as 1/M.
+  constexpr double at_1_percent = 128, most = 1 << 20;
+  const double accuracy = options.goal.accuracy > 0 ? options.goal.accuracy : 1e-3;
+  return static_cast<int>(
+      std::clamp(at_1_percent * (0.01 / accuracy), 64.0, most));
 }
 
 SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,

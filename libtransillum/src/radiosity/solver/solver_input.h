@@ -12,6 +12,10 @@ namespace transillum {
 /// The options of the engine that makes the passes of a solve.
 EngineOptions used_engine_options(const SolveOptions& options);
 
+/// Number of passes that a goal is expected to take, for decisions made before the first; M without
+/// a goal.
+int expected_directions(const SolveOptions& options);
+
 /// What a solve starts from; constant once constructed, so any thread may read it.
 struct SolverInput {
   std::shared_ptr<const Scene> scene;

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Solving to an accuracy: chooses the stages by the errors of those before, and makes them. Input:
-// a Scene and SolveOptions with a goal.
-#include "transillum/accuracy_plan.h"
+// Solving to an accuracy: chooses the stages by the errors of those before. Input: a Scene and
+// SolveOptions with a goal.
+#include "session/accuracy_plan.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/seconds_since.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
@@ -25,8 +24,6 @@
 
 namespace transillum {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Fewest replicas whose spread shows how independent the errors of patches are. More would lose
 /// more of the evenness of one set than their smaller quantile gains.
@@ -84,14 +81,6 @@ double error_of_iteration(const AccuracyGoal& goal, const RadiositySolver& solve
   missing.mean_reflected = error.mean_reflected;
   include_bias(missing, scene, b, left);
   return error_for(goal, scene, b, missing);
-}
-
-/// Times of a whole solve instead of those of its last stage.
-/// @param prepared of the first stage, which makes tree and first shot
-void set_times(SolveStatistics& statistics, const SolveStatistics& prepared, double total) {
-  statistics.seconds_bsp = prepared.seconds_bsp;
-  statistics.seconds_first_shot = prepared.seconds_first_shot;
-  statistics.seconds_total = total;
 }
 
 }  // namespace
@@ -290,89 +279,6 @@ void AccuracyPlan::restore(std::istream& in, std::uint64_t size) {
   } catch (const InputError&) {
     throw DamagedState();
   }
-}
-
-int expected_directions(const SolveOptions& options) {
-  if (!options.goal.set()) {
-    return options.directions;
-  }
-  // 1 % takes some hundred passes in most scenes.
-  constexpr double at_1_percent = 128, most = 1 << 20;
-  const double accuracy = options.goal.accuracy > 0 ? options.goal.accuracy : 1e-3;
-  return static_cast<int>(
-      std::clamp(at_1_percent * std::pow(0.01 / accuracy, 1 / expected_exponent), 64.0, most));
-}
-
-Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
-                           std::shared_ptr<const BspTree> tree,
-                           std::shared_ptr<const DirectLight> shot,
-                           const AccuracyObserver& observer, const Cancellation& cancellation,
-                           double seconds, std::optional<AccuracyRun> run,
-                           const std::shared_ptr<SolverGroup>& group) {
-  const auto start = Clock::now();
-  const auto used = [&] { return seconds + seconds_since(start); };
-  AccuracyPlan plan = run ? std::move(run->plan) : AccuracyPlan(options, *scene);
-  std::optional<Solution> best;
-  auto solver =
-      run ? std::make_unique<RadiositySolver>(std::move(run->solver))
-          : std::make_unique<RadiositySolver>(scene, plan.stage(), std::move(tree), cancellation,
-                                              std::move(shot), TransferEngine(), group);
-  const SolveStatistics prepared = solver->statistics();
-  bool ended = false;
-  const auto watch = [&](const RadiositySolver& watched) {
-    const bool late = best && options.goal.seconds > 0 && used() > options.goal.seconds;
-    ended = observer && !observer(watched, plan);
-    return !ended && !late;
-  };
-  const auto begin_stage = [&] {
-    solver =
-        std::make_unique<RadiositySolver>(scene, plan.stage(), solver->shared_tree(), cancellation,
-                                          solver->direct_light(), TransferEngine(), group);
-  };
-  // Whether the solver has finished its stage, or has a larger one to make.
-  const auto advance = [&] {
-    try {
-      return !solver->advance(RadiositySolver::Until::finished, watch);
-    } catch (const NotConvergent&) {
-      if (!plan.enlarge()) {
-        throw;
-      }
-      begin_stage();
-      return true;
-    }
-  };
-  try {
-    while (advance()) {
-      if (!solver->progress().finished) {
-        continue;
-      }
-      const AccuracyPlan::Next next =
-          plan.next(*solver, group ? group->from_first(used()) : used());
-      best = solver->solution();
-      if (next == AccuracyPlan::Next::done) {
-        break;
-      }
-      if (next == AccuracyPlan::Next::replica) {
-        solver->add_replica();
-      } else {
-        begin_stage();
-      }
-    }
-  } catch (const Canceled&) {
-    const SolveProgress progress = solver->progress();
-    if (!best && progress.direction == 0 && progress.iteration == 0) {
-      throw;
-    }
-    if (observer) {
-      observer(*solver, plan);
-    }
-    ended = true;
-  }
-  Solution solution = best ? std::move(*best) : solver->solution();
-  solution.complete = solution.complete && !ended;
-  solution.accuracy = plan.report();
-  set_times(solution.statistics, prepared, seconds_since(start));
-  return solution;
 }
 
 }  // namespace transillum

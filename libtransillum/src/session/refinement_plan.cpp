@@ -2,7 +2,7 @@
 //
 // Rounds of adaptive refinement. Input: a scene and options of solves; output: a scene whose
 // patches are divided where their functions represent the radiosity worst.
-#include "transillum/refinement.h"
+#include "session/refinement_plan.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "base/choice.h"
+#include "base/seconds_since.h"
 #include "radiosity/sum_of_squares.h"
 #include "transillum/at.h"
 #include "transillum/division.h"
@@ -167,10 +168,6 @@ std::shared_ptr<const Scene> divide_worst(const Scene& scene, std::vector<double
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 }  // namespace
 
 const std::vector<std::string>& refine_by_names() {
@@ -269,24 +266,6 @@ bool RefinementPlan::divide_worst(const Cancellation& cancellation) {
   }
   begin_round(cancellation);
   return true;
-}
-
-Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                  const RefineOptions& refine, const RoundObserver& rounds,
-                  const RadiositySolver::Observer& observer, const Cancellation& cancellation) {
-  RefinementPlan plan(std::move(scene), options, refine, cancellation);
-  while (!plan.finished()) {
-    const auto start = Clock::now();
-    const Solution solution = solve(plan.scene(), options, observer, cancellation);
-    // Patches divided by half a solve would not be the worst.
-    cancellation.throw_if_canceled();
-    const RefinementRound& round = plan.assess(solution, seconds_since(start), cancellation);
-    if (rounds) {
-      rounds(round, solution);
-    }
-    plan.divide_worst(cancellation);
-  }
-  return {plan.scene(), plan.rounds()};
 }
 
 }  // namespace transillum

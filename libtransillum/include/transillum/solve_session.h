@@ -1,0 +1,190 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A solve from beginning to end: rounds of refinement, stages of an accuracy, iterations and
+// passes, diffuse or with lobes. solve() and refine() are the same in one call.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "transillum/accuracy_goal.h"
+#include "transillum/bsp_tree.h"
+#include "transillum/cancellation.h"
+#include "transillum/engine.h"
+#include "transillum/export.h"
+#include "transillum/glossy.h"
+#include "transillum/radiosity.h"
+#include "transillum/refinement.h"
+#include "transillum/scene.h"
+#include "transillum/solver_group.h"
+
+namespace TRANSILLUM_API transillum {
+
+/// What is made before the first pass of a solve.
+enum class Preparation { tree, first_shot };
+
+/// What a solve is made of.
+struct SolveRequest {
+  std::shared_ptr<const Scene> scene;             ///< with the materials to be solved for
+  SolveOptions options = {};                      ///< of each solve
+  std::optional<RefineOptions> refine = {};       ///< of rounds that come first, if any
+  std::shared_ptr<const BspTree> tree = nullptr;  ///< of `scene`; built if null
+  TransferEngine engine = {};                     ///< makes the passes; options.engine if null
+  std::shared_ptr<SolverGroup> group = nullptr;   ///< as for RadiositySolver; null: this process
+  bool keep_form_factors = false;                 ///< as RadiositySolver::keep_form_factors()
+  /// Called with the finished share of a preparation, 0 to 1, on any thread, one at a time.
+  std::function<void(Preparation, double)> preparing = {};
+};
+
+/// A solve that can be observed, paused, saved (Checkpoint) and continued.
+///
+/// Without a goal and without rounds it has one stage. With SolveOptions::goal, each stage has more
+/// directions or replicas than the one before, until the error that the replicas show is below the
+/// goal (decisions/0052-accuracy.md); the result is that of the last stage that has finished. With
+/// rounds of refinement, each round is such a solve, and so is that of the refined scene.
+///
+/// Threads: at most one thread at a time may call it; an observer may read it.
+class SolveSession {
+ public:
+  /// Checks the options; prepare() and advance() do the work.
+  /// @param request scene and options. Engines that make no passes are refused.
+  /// @param cancellation checked here and in all functions that are not const.
+  /// @throws InputError, Canceled
+  explicit SolveSession(SolveRequest request, const Cancellation& cancellation = {});
+  ~SolveSession();
+  /// The moved-from object may only be destroyed or assigned to.
+  SolveSession(SolveSession&&) noexcept;
+  /// The moved-from object may only be destroyed or assigned to.
+  SolveSession& operator=(SolveSession&&) noexcept;
+
+  /// Makes what the passes of the next stage start from: the tree, the first shot, the solver.
+  /// advance() does it where it was not called. If it fails, it may be called again.
+  /// @throws InputError, Canceled, std::runtime_error where there is too little memory. In a group
+  /// all members must call it.
+  void prepare();
+  /// Whether prepare() has been called for the present stage: the functions below that return what
+  /// the solver has require it.
+  bool is_prepared() const;
+
+  /// Where a call of advance() returns.
+  enum class Until {
+    direction,  ///< after the next pass; after the next iteration if its passes are kept already
+    iteration,  ///< after the next iteration
+    stage,      ///< when a stage has ended; the next one is not prepared yet
+    finished,   ///< when the solve is finished
+  };
+  /// Called after every pass, in order, and after every iteration; with lobes after groups of
+  /// passes, and while lobes are scaled or reflect. On any thread, but never on two at once. It may
+  /// read the session and returns false to pause.
+  using Observer = std::function<bool(const SolveSession&)>;
+
+  /// Continues the solve. After a pause or an exception the session is in the state after the last
+  /// observed pass, from which the next call continues.
+  /// @returns whether the solve is unfinished.
+  /// @throws Canceled; NotConvergent, MemoryLimitExceeded (solve_errors.h); as prepare()
+  bool advance(Until until, const Observer& observer = {});
+  /// Continues through all rounds, and then until passes_done() is `passes` or the stage has ended.
+  /// @param passes to be made after the last round.
+  /// @param observer, returned value and exceptions: as for advance().
+  bool advance_to(std::int64_t passes, const Observer& observer = {});
+
+  /// Replaces the materials of a solve with lobes and starts to iterate again from the present
+  /// light, with the transfers that are kept: GlossySolver::set_materials().
+  /// @throws std::logic_error where no lobes take part; as GlossySolver::set_materials()
+  void relight(const std::vector<Material>& materials,
+               const std::vector<std::int32_t>& of_patch = {});
+
+  /// Whether solution() has more than the emission: a pass was made, or a stage of a goal has ended.
+  bool has_result() const;
+  /// Whether the solve is finished.
+  bool finished() const;
+  /// The scene of the present round.
+  const std::shared_ptr<const Scene>& scene() const;
+  /// The BSP tree of scene(); null before prepare().
+  const std::shared_ptr<const BspTree>& tree() const;
+  /// The processes that solve together; null: this one alone.
+  const std::shared_ptr<SolverGroup>& group() const;
+  /// Whether a round of refinement follows the present solve.
+  bool in_rounds() const;
+  /// The rounds that are finished.
+  const std::vector<RefinementRound>& rounds() const;
+  /// The scene as refined so far: scene(), or by RefineBy::error, in a round, that before each
+  /// patch was divided.
+  const std::shared_ptr<const Scene>& refined_scene() const;
+  /// The finished stages of a solve with a goal, and whether the last reached it; nothing without.
+  std::optional<AccuracyReport> accuracy() const;
+  /// Wall time of the present round in this session's functions, with that of the session which
+  /// saved it, s.
+  double seconds() const;
+
+  /// The solver of the present stage; null where lobes take part.
+  const RadiositySolver* diffuse() const;
+  /// The solver where lobes take part, else null.
+  const GlossySolver* glossy() const;
+  /// The options of the present stage: those of a goal have other numbers of directions.
+  const SolveOptions& options() const;
+  /// The state of the present stage.
+  SolveProgress progress() const;
+  /// Passes of the present stage, of all iterations.
+  std::int64_t passes_done() const;
+  /// Figures of the present stage.
+  SolveStatistics statistics() const;
+  /// omega of each pass of the newest iteration.
+  const std::vector<Vec3>& directions() const;
+  /// omega of the passes of any iteration of the present stage.
+  std::vector<Vec3> directions_of(int iteration) const;
+  /// Number of passes of any iteration of the present stage.
+  int passes_of(int iteration) const;
+  /// B of the last finished iteration, W/m², one per patch.
+  std::vector<Rgb> radiosity() const;
+  /// RadiositySolver::linear_parts(); empty with lobes.
+  std::vector<LinearPart> linear_parts() const;
+  /// RadiositySolver::estimate_changes(); empty with lobes.
+  std::vector<double> estimate_changes() const;
+  /// RadiositySolver::error_estimate(); empty with lobes.
+  ErrorEstimate error_estimate() const;
+  /// The result so far: with a goal, of the last finished stage, if there is one. Complete once the
+  /// solve has finished.
+  Solution solution() const;
+
+ private:
+  friend class Checkpoint;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Solves in one call. If `cancellation` is set during the passes, it returns the best estimate so
+/// far, with complete = false.
+/// @param scene the scene.
+/// @param options of the solve run.
+/// @param observer as for SolveSession::advance(); returning false ends the solve.
+/// @param cancellation checked throughout.
+/// @param group as for RadiositySolver.
+/// @throws InputError; Canceled before the first pass; NotConvergent, std::runtime_error
+Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+               const SolveSession::Observer& observer = {}, const Cancellation& cancellation = {},
+               const std::shared_ptr<SolverGroup>& group = nullptr);
+
+/// A refined scene and how it was reached.
+struct Refinement {
+  std::shared_ptr<const Scene> scene;   ///< to be solved by the caller
+  std::vector<RefinementRound> rounds;  ///< in order; by RefineBy::error the last is of `scene`
+};
+
+/// Refines a scene in rounds: each solves it and divides the patches that are worst, until the
+/// number of patches or the figure is reached, or nothing is left to divide. The number of patches
+/// at most doubles in a round, so that each decision is made by a solve that can see it.
+/// @param scene to start from.
+/// @param options of the solves. Engines that make no passes are refused.
+/// @param refine criterion and limits.
+/// @param observer of the solves; returning false ends the refinement.
+/// @throws InputError, Canceled; those of solve()
+Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+                  const RefineOptions& refine,
+                  const SolveSession::Observer& observer = {},
+                  const Cancellation& cancellation = {});
+
+}  // namespace TRANSILLUM_API transillum
