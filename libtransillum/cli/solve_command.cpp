@@ -15,7 +15,6 @@
 #include "power_report.h"
 #include "processes.h"
 #include "progress_display.h"
-#include "refine_rounds.h"
 #include "solve_call.h"
 #include "solve_job.h"
 #include "solve_summary.h"
@@ -76,16 +75,6 @@ std::string size_text(std::uint64_t bytes) {
                          : fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }
 
-/// The checkpoint of a call; nothing if none is asked for.
-std::optional<Checkpoint> make_checkpoint(const SolveCall& call, const Scene& scene,
-                                          const SolveOptions& options) {
-  std::optional<Checkpoint> checkpoint;
-  if (!call.checkpoint.file.empty()) {
-    checkpoint.emplace(call.checkpoint.file, scene, options);
-  }
-  return checkpoint;
-}
-
 void print_cost(const SolveCall& call, const Checkpoint& checkpoint) {
   const Checkpoint::Cost& cost = checkpoint.cost();
   if (!call.quiet && cost.times > 0) {
@@ -96,17 +85,14 @@ void print_cost(const SolveCall& call, const Checkpoint& checkpoint) {
 }
 
 /// What is needed before a solve begins.
-struct Preparation {
+struct PreparedCall {
   SolveOptions options;
   std::shared_ptr<const Scene> scene;
-  std::vector<RefinementRound> rounds;  ///< that led to the scene
   std::optional<ResultSeries> series;
-  std::optional<Checkpoint> checkpoint;
-  bool resume = false;
 };
 
-Preparation prepare_call(SolveCall& call, const Cancellation& cancellation) {
-  Preparation prepared;
+PreparedCall prepare_call(SolveCall& call, const Cancellation& cancellation) {
+  PreparedCall prepared;
   std::vector<std::string> outputs;
   if (is_first_process()) {
     outputs = checked_outputs(call);
@@ -117,18 +103,8 @@ Preparation prepare_call(SolveCall& call, const Cancellation& cancellation) {
                                     prepared.options.sky.set() ? Light::sky : Light::required);
   check_series(call.colors, prepared.scene->files());
   check_pictures(call.colors, call.out, *prepared.scene, call.eye);
-  if (call.scene.run.refine.set()) {
-    Refinement refined = refine_in_rounds(call, prepared.scene, prepared.options, cancellation);
-    prepared.scene = std::move(refined.scene);
-    prepared.rounds = std::move(refined.rounds);
-  }
   if (!call.colors.series.empty() && is_first_process()) {
     prepared.series.emplace(call.colors.series);
-  }
-  prepared.checkpoint = make_checkpoint(call, *prepared.scene, prepared.options);
-  prepared.resume = can_resume(call.checkpoint);
-  if (prepared.resume) {
-    prepared.checkpoint->check();
   }
   return prepared;
 }
@@ -143,8 +119,8 @@ std::string metal_of(const Scene& scene) {
   return {};
 }
 
-/// Whether lobes take part; says what about them a user may not expect.
-bool uses_lobes(const SolveCall& call, const SolveOptions& options, const Scene& scene) {
+/// Says what about lobes a user may not expect.
+void say_of_lobes(const SolveCall& call, const SolveOptions& options, const Scene& scene) {
   const bool present = has_lobes(scene);
   if (options.glossy && !present) {
     print_message("no material has a lobe: --glossy changes nothing");
@@ -160,7 +136,6 @@ bool uses_lobes(const SolveCall& call, const SolveOptions& options, const Scene&
              ? ")"
              : fmt::format("; {0} reflects nothing else: try --reflectance '{0}=0.5')", metal)));
   }
-  return options.glossy && present;
 }
 
 /// Whether several processes share the solve. Otherwise the first does it alone.
@@ -179,8 +154,8 @@ void share_machine(SolveOptions& options) {
   }
 }
 
-Preparation prepare_in_all(SolveCall& call, const Cancellation& cancellation) {
-  Preparation prepared;
+PreparedCall prepare_in_all(SolveCall& call, const Cancellation& cancellation) {
+  PreparedCall prepared;
   processes().group->agree([&] { prepared = prepare_call(call, cancellation); });
   share_machine(prepared.options);
   return prepared;
@@ -196,25 +171,33 @@ int run_solve(SolveCall& call) {
   }
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.quiet || !is_first_process());
-  Preparation prepared =
+  PreparedCall prepared =
       shared ? prepare_in_all(call, cancellation) : prepare_call(call, cancellation);
   const SolveOptions& options = prepared.options;
-  std::optional<Checkpoint>& checkpoint = prepared.checkpoint;
   const double seconds_load = seconds_since(start);
-  const SolveJob job{prepared.scene, options, cancellation, display,
-                     // Those of constant functions are not what linear ones exchange.
-                     call.by.has_value() && options.basis == Basis::constant,
-                     !call.colors.series.empty(), prepared.series ? &*prepared.series : nullptr,
-                     call.colors.series_every, checkpoint ? &*checkpoint : nullptr,
-                     call.checkpoint_every, prepared.resume, call.shards,
-                     shared ? processes().group : nullptr};
-  const bool lobes = uses_lobes(call, options, *prepared.scene);
-  Solution solution = lobes                              ? solve_with_lobes(job)
-                      : !call.factors.empty()            ? solve_with_stored(call.factors, job)
-                      : takes_directions(options.engine) ? solve_by_passes(job)
+  std::optional<Checkpoint> checkpoint;
+  const RefineChoice& refine = call.scene.run.refine;
+  const SolveJob job{
+      .scene = prepared.scene,
+      .options = options,
+      .refine = refine.set() ? std::optional(refine.options()) : std::nullopt,
+      .cancellation = cancellation,
+      .display = display,
+      .quiet = call.quiet,
+      // Form factors between constant functions are not what linear functions exchange.
+      .form_factors = call.by.has_value() && options.basis == Basis::constant,
+      .has_series = !call.colors.series.empty(),
+      .series = prepared.series ? &*prepared.series : nullptr,
+      .series_every = call.colors.series_every,
+      .checkpoint = call.checkpoint,
+      .checkpoint_every = call.checkpoint_every,
+      .shards = call.shards,
+      .group = shared ? processes().group : nullptr};
+  say_of_lobes(call, options, *prepared.scene);
+  Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
+                      : takes_directions(options.engine) ? solve_by_passes(job, checkpoint)
                                                          : solve_without_directions(job);
   display.clear();
-  solution.statistics.refinement = prepared.rounds;
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
   solution.eye = call.eye;

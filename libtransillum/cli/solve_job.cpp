@@ -10,36 +10,29 @@
 #include "interruption.h"
 #include "messages.h"
 #include "report_text.h"
-#include "transillum/accuracy_plan.h"
 #include "transillum/errors.h"
 #include "transillum/form_factor_files.h"
 #include "transillum/form_factor_solve.h"
-#include "transillum/glossy.h"
-#include "transillum/patch_count.h"
 #include "transillum/shard_files.h"
 #include "transillum/solve_errors.h"
-#include "wall_clock.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::cli {
 namespace {
 
-void show_progress(ProgressDisplay& display, const RadiositySolver& solver) {
-  const SolveProgress progress = solver.progress();
-  const int replicas = solver.options().replicas;
-  const std::string stage =
-      solver.options().goal.set() ? fmt::format("{} replicas, ", replicas) : std::string();
-  if (progress.direction > 0) {
-    display.show_passes(fmt::format("{}iteration {}, ", stage, progress.iteration + 1), progress);
-  } else if (progress.iteration > 0) {
-    display.show(fmt::format("iteration {}", progress.iteration), -1,
-                 fmt::format("change {:.1e}", progress.change));
-  }
+/// Where the display says an iteration is: in a round, with how many replicas.
+std::string place_of(const SolveSession& session) {
+  const std::string round =
+      session.in_rounds() ? fmt::format("round {}, ", session.rounds().size() + 1) : std::string();
+  const SolveOptions& options = session.options();
+  return options.goal.set() ? fmt::format("{}{} replicas, ", round, options.replicas) : round;
 }
 
-/// Of a solve in which lobes take part.
-void show_lobes(ProgressDisplay& display, const SolveProgress& progress) {
+void show_progress(ProgressDisplay& display, const SolveSession& session) {
   using Stage = SolveProgress::Stage;
-  const std::string iteration = fmt::format("iteration {}", progress.iteration + 1);
+  const SolveProgress progress = session.progress();
+  const std::string iteration =
+      fmt::format("{}iteration {}", place_of(session), progress.iteration + 1);
   if (progress.stage != Stage::passes) {
     display.show(
         progress.stage == Stage::scaling_lobes ? "scaling lobes" : iteration + ", reflecting",
@@ -48,91 +41,69 @@ void show_lobes(ProgressDisplay& display, const SolveProgress& progress) {
                     time_text(progress.seconds_left)));
   } else if (progress.direction > 0) {
     display.show_passes(iteration + ", ", progress);
-  } else {
+  } else if (progress.iteration > 0) {
     display.show(fmt::format("iteration {}", progress.iteration), -1,
                  fmt::format("change {:.1e}", progress.change));
   }
 }
 
-struct FirstShot {
-  std::shared_ptr<const DirectLight> light;  ///< null if there is none
-  double seconds = 0;
-};
-
-FirstShot shoot_first(const SolveJob& job) {
-  const SolveOptions& options = job.options;
-  FirstShot shot;
-  if (!options.first_shot) {
-    return shot;
-  }
-  const auto start = WallClock::now();
-  shot.light = std::make_shared<const DirectLight>(
-      shoot(*job.scene,
-            first_shot_sources(*job.scene, *options.first_shot, expected_directions(options),
-                               job.cancellation),
-            options.threads, job.cancellation,
-            [&](double share) { job.display.show("first shot", share); }));
-  shot.seconds = seconds_since(start);
-  return shot;
-}
-
 /// Adds the result so far to a series: after an iteration, or within one the estimate by its
 /// directions so far.
-void add_to_series(const SolveJob& job, const RadiositySolver& solver) {
-  solver.complete_estimate();
+void add_to_series(const SolveJob& job, const SolveSession& session) {
+  session.diffuse()->complete_estimate();
   if (job.series == nullptr) {
     return;
   }
-  const SolveProgress progress = solver.progress();
+  const SolveProgress progress = session.progress();
   const double share =
       progress.direction > 0 ? progress.direction / static_cast<double>(progress.passes) : 0.0;
-  job.series->add(solver.solution(), progress.iteration + share);
+  job.series->add(session.solution(), progress.iteration + share);
 }
 
 /// The checkpoint of a solve, if one is asked for. An error of saving is a warning: the solve is
 /// worth more than its checkpoint.
 class Saver {
  public:
-  explicit Saver(const SolveJob& job) : job_(job) {}
+  Saver(const SolveJob& job, std::optional<Checkpoint>& checkpoint)
+      : job_(job), checkpoint_(checkpoint) {}
 
-  /// Also after the last iteration of a stage, and where the solve is canceled.
-  void save_if_due(const RadiositySolver& solver, const AccuracyPlan* plan) {
+  void save_if_due(const SolveSession& session) {
     constexpr double between_stages = 1;
     if (job_.group) {
-      save_in_group_if_due(solver, plan);
+      save_in_group_if_due(session);
       return;
     }
+    const bool stage_ends = session.options().goal.set() && session.progress().finished;
     attempt([&] {
-      if (job_.cancellation.canceled()) {
-        job_.checkpoint->save(solver, plan);
-      } else {
-        const bool stage_ends = plan != nullptr && solver.progress().finished;
-        job_.checkpoint->save_if_due(
-            solver, plan,
-            stage_ends ? std::min(between_stages, job_.checkpoint_every) : job_.checkpoint_every);
-      }
+      checkpoint_->save_if_due(session, stage_ends ? std::min(between_stages, job_.checkpoint_every)
+                                                   : job_.checkpoint_every);
     });
   }
-  void save(const RadiositySolver& solver) {
-    attempt([&] { job_.checkpoint->save(solver); });
+  /// Where the solve pauses or ends. The state of an accuracy is that before its last stage is
+  /// judged.
+  void save(const SolveSession& session) {
+    const bool judged = session.options().goal.set() && session.progress().finished;
+    if (!judged) {
+      attempt([&] { checkpoint_->save(session); });
+    }
   }
 
  private:
   /// The first process decides; asking it after each pass would take long.
-  void save_in_group_if_due(const RadiositySolver& solver, const AccuracyPlan* plan) {
+  void save_in_group_if_due(const SolveSession& session) {
     constexpr int passes_between = 32;
-    const int direction = solver.progress().direction;
-    if (job_.checkpoint == nullptr || direction % (passes_between * job_.group->size()) != 0) {
+    const int direction = session.progress().direction;
+    if (!checkpoint_ || direction % (passes_between * job_.group->size()) != 0) {
       return;
     }
-    const bool due = job_.checkpoint->is_due(job_.checkpoint_every);
+    const bool due = checkpoint_->is_due(job_.checkpoint_every);
     if (job_.group->from_first(due ? 1 : 0) > 0) {
-      attempt([&] { job_.checkpoint->save(solver, plan); });
+      attempt([&] { checkpoint_->save(session); });
     }
   }
   template <class Save>
   void attempt(Save save) {
-    if (job_.checkpoint == nullptr) {
+    if (!checkpoint_) {
       return;
     }
     try {
@@ -144,100 +115,70 @@ class Saver {
   }
 
   const SolveJob& job_;
+  std::optional<Checkpoint>& checkpoint_;
 };
 
-/// Advances a solver until it has finished.
-void advance(RadiositySolver& solver, const SolveJob& job, Saver& saver) {
-  const auto until =
-      job.has_series ? RadiositySolver::Until::iteration : RadiositySolver::Until::finished;
-  bool unfinished = true;
-  while (unfinished) {
-    unfinished = solver.advance(until, [&](const RadiositySolver& watched) {
+/// The rounds of refinement, with a line for each.
+void run_rounds(SolveSession& session, const SolveJob& job) {
+  while (session.in_rounds()) {
+    job.display.begin(fmt::format("round {}", session.rounds().size() + 1));
+    session.advance(SolveSession::Until::stage, [&](const SolveSession& watched) {
       show_progress(job.display, watched);
-      const SolveProgress now = watched.progress();
-      const bool between = now.direction > 0 && now.direction < now.passes;
-      // Here, not after a pause: other threads may finish more passes before it.
-      if (job.series_every > 0 && between && now.direction % job.series_every == 0) {
-        add_to_series(job, watched);
-      }
-      saver.save_if_due(watched, nullptr);
       return true;
     });
+    job.display.clear();
+    const std::size_t number = session.rounds().size();
+    if (number == 0 || job.quiet) {
+      continue;
+    }
+    const RefinementRound& round = session.rounds().back();
+    print_message(fmt::format("round {}: {} patches, {} {:.3g} % of B, {:.2g} s", number,
+                              round.patches,
+                              job.refine->by == RefineBy::jump ? "RMS jump" : "L2 error",
+                              100 * round.figure, round.seconds));
+  }
+}
+
+/// Makes the checkpoint that the job asks for, and goes on with what is in it.
+void resume(SolveSession& session, const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
+  if (job.checkpoint.file.empty()) {
+    return;
+  }
+  checkpoint.emplace(job.checkpoint.file, *session.scene(), job.options);
+  if (!can_resume(job.checkpoint)) {
+    return;
+  }
+  checkpoint->resume(session);
+  const SolveProgress progress = session.progress();
+  job.display.clear();
+  print_message(fmt::format(
+      "{}: goes on after {} iterations{}, {:.3g} s done", job.checkpoint.file, progress.iteration,
+      progress.direction > 0
+          ? fmt::format(" and {} of {} passes", progress.direction, progress.passes)
+          : "",
+      session.seconds()));
+}
+
+void advance(SolveSession& session, const SolveJob& job, Saver& saver) {
+  using Until = SolveSession::Until;
+  bool unfinished = true;
+  while (unfinished) {
+    unfinished = session.advance(
+        job.has_series ? Until::iteration : Until::finished, [&](const SolveSession& watched) {
+          show_progress(job.display, watched);
+          const SolveProgress now = watched.progress();
+          const bool between = now.direction > 0 && now.direction < now.passes;
+          // Here, not after a pause: other threads may finish more passes before it.
+          if (job.series_every > 0 && between && now.direction % job.series_every == 0) {
+            add_to_series(job, watched);
+          }
+          saver.save_if_due(watched);
+          return true;
+        });
     if (job.has_series) {
-      add_to_series(job, solver);
+      add_to_series(job, session);
     }
   }
-}
-
-/// The solve of the checkpoint, and a message about where it goes on.
-Checkpoint::Resumed resume(const SolveJob& job, const std::shared_ptr<const BspTree>& tree,
-                           const std::shared_ptr<const DirectLight>& light) {
-  Checkpoint::Resumed run =
-      job.checkpoint->resume(job.scene, job.options, tree, light, job.cancellation, job.group);
-  const SolveProgress progress = run.solver.progress();
-  job.display.clear();
-  print_message(
-      fmt::format("{}: goes on after {} iterations{}, {:.3g} s done",
-                  job.checkpoint->file().string(), progress.iteration,
-                  progress.direction > 0
-                      ? fmt::format(" and {} of {} passes", progress.direction, progress.passes)
-                      : "",
-                  run.seconds));
-  return run;
-}
-
-/// What passes start from.
-struct Prepared {
-  std::shared_ptr<const BspTree> tree;
-  FirstShot shot;
-  double seconds_bsp = 0, seconds = 0;
-
-  void add_times(SolveStatistics& statistics) const {
-    statistics.seconds_bsp = seconds_bsp;
-    statistics.seconds_first_shot = shot.seconds;
-  }
-};
-
-Prepared prepare(const SolveJob& job) {
-  const auto start = WallClock::now();
-  Prepared prepared;
-  const auto make = [&] {
-    check_memory(job.scene->name(), job.scene->patch_count(), job.options.replicas,
-                 job.options.basis == Basis::linear ? 3 : 1);
-    prepared.tree = build_tree(*job.scene, job.cancellation, job.display, job.options.threads);
-    prepared.seconds_bsp = seconds_since(start);
-    prepared.shot = shoot_first(job);
-  };
-  if (job.group) {
-    job.group->agree(make);
-  } else {
-    make();
-  }
-  prepared.seconds = seconds_since(start);
-  return prepared;
-}
-
-/// Solves to the accuracy that is asked for.
-Solution solve_to_goal(const SolveJob& job) {
-  const Prepared prepared = prepare(job);
-  Saver saver(job);
-  double seconds = prepared.seconds;
-  std::optional<AccuracyRun> run;
-  if (job.resume) {
-    Checkpoint::Resumed resumed = resume(job, prepared.tree, prepared.shot.light);
-    run.emplace(AccuracyRun{std::move(*resumed.plan), std::move(resumed.solver)});
-    seconds += resumed.seconds;
-  }
-  Solution solution = solve_to_accuracy(
-      job.scene, job.options, prepared.tree, prepared.shot.light,
-      [&](const RadiositySolver& watched, const AccuracyPlan& plan) {
-        show_progress(job.display, watched);
-        saver.save_if_due(watched, &plan);
-        return true;
-      },
-      job.cancellation, seconds, std::move(run), job.group);
-  prepared.add_times(solution.statistics);
-  return solution;
 }
 
 /// The passes of shards; null without any.
@@ -249,13 +190,16 @@ TransferEngine read_shards(const SolveJob& job) {
   return engine_of_shards(job.shards, *job.scene, job.options, job.cancellation);
 }
 
-/// The solver to be advanced: of the checkpoint, or a new one.
-RadiositySolver make_solver(const SolveJob& job, const Prepared& prepared, TransferEngine engine) {
-  if (job.resume) {
-    return resume(job, prepared.tree, prepared.shot.light).solver;
-  }
-  return {job.scene,           job.options,       prepared.tree, job.cancellation,
-          prepared.shot.light, std::move(engine), job.group};
+SolveRequest request_of(const SolveJob& job) {
+  return {.scene = job.scene,
+          .options = job.options,
+          .refine = job.refine,
+          .engine = read_shards(job),
+          .group = job.group,
+          .preparing = [&job](Preparation preparation, double share) {
+            job.display.show(preparation == Preparation::tree ? "building BSP tree" : "first shot",
+                             share);
+          }};
 }
 
 /// Engine pairs with as many points as an accuracy takes.
@@ -277,48 +221,35 @@ Solution solve_by_pairs_to(const AccuracyGoal& goal, const SolveJob& job) {
 
 }  // namespace
 
-Solution solve_by_passes(const SolveJob& job) {
-  if (job.options.goal.set()) {
-    return solve_to_goal(job);
+Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
+  SolveSession session(request_of(job), job.cancellation);
+  run_rounds(session, job);
+  resume(session, job, checkpoint);
+  session.prepare();
+  const bool lobes = session.glossy() != nullptr;
+  if (lobes) {
+    job.display.begin("scaling lobes");
+  } else {
+    job.display.expect_passes("iteration 1, ", session.progress().passes);
   }
-  TransferEngine shards = read_shards(job);
-  const Prepared prepared = prepare(job);
-  RadiositySolver solver = make_solver(job, prepared, std::move(shards));
-  Saver saver(job);
-  job.display.expect_passes("iteration 1, ", solver.progress().passes);
+  Saver saver(job, checkpoint);
   try {
-    advance(solver, job, saver);
+    advance(session, job, saver);
   } catch (const Canceled&) {
-    const SolveProgress progress = solver.progress();
-    if (progress.direction == 0 && progress.iteration == 0) {
-      throw;  // nothing to save
-    }
-  }
-  saver.save(solver);
-  Solution solution = solver.solution();
-  if (job.form_factors && solution.complete && solution.statistics.kept_form_factors) {
-    solution.form_factors = std::make_shared<const FormFactors>(solver.form_factors());
-  }
-  prepared.add_times(solution.statistics);
-  return solution;
-}
-
-Solution solve_with_lobes(const SolveJob& job) {
-  const Prepared prepared = prepare(job);
-  GlossySolver solver(job.scene, job.options, prepared.tree, job.cancellation);
-  job.display.begin("scaling lobes");
-  try {
-    solver.solve([&](const SolveProgress& progress) {
-      show_lobes(job.display, progress);
-      return true;
-    });
-  } catch (const Canceled&) {
-    if (solver.progress().iteration == 0) {
+    if (lobes && session.progress().iteration == 0) {
       throw NothingToSave("no iteration was finished: nothing is saved");
     }
+    if (!session.has_result()) {
+      throw;
+    }
   }
-  Solution solution = solver.solution();
-  prepared.add_times(solution.statistics);
+  if (session.is_prepared()) {
+    saver.save(session);
+  }
+  Solution solution = session.solution();
+  if (job.form_factors && solution.complete && solution.statistics.kept_form_factors) {
+    solution.form_factors = std::make_shared<const FormFactors>(session.diffuse()->form_factors());
+  }
   return solution;
 }
 

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "checkpoint_options.h"
 #include "progress_display.h"
-#include "solve_call.h"
 #include "transillum/cancellation.h"
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/radiosity.h"
+#include "transillum/refinement.h"
 
 namespace transillum::cli {
 
@@ -16,23 +20,23 @@ namespace transillum::cli {
 struct SolveJob {
   std::shared_ptr<const Scene> scene;
   SolveOptions options;
+  std::optional<RefineOptions> refine;  ///< rounds that come first
   const Cancellation& cancellation;
   ProgressDisplay& display;
+  bool quiet = false;                            ///< no line for each round
   bool form_factors = false;                     ///< wanted in the solution, if they are kept
   bool has_series = false;                       ///< a series gets the result after every iteration
-  ResultSeries* series = nullptr;                ///< it, in the first process
+  ResultSeries* series = nullptr;                ///< gets them in the first process
   int series_every = 0;                          ///< and after so many directions; 0: not
-  Checkpoint* checkpoint = nullptr;              ///< null: the solve is not kept
+  CheckpointCall checkpoint = {};                ///< file and whether to resume
   double checkpoint_every = 60;                  ///< s
-  bool resume = false;                           ///< go on with what is in the checkpoint
   std::vector<std::string> shards = {};          ///< the passes are read from these
   std::shared_ptr<SolverGroup> group = nullptr;  ///< processes that share the passes
 };
 
 /// Solves by passes, until it has finished or is interrupted.
-Solution solve_by_passes(const SolveJob& job);
-/// Solves with lobes.
-Solution solve_with_lobes(const SolveJob& job);
+/// @param checkpoint made here if the job has one.
+Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint);
 /// Solves with the form factors in a file.
 Solution solve_with_stored(const std::string& file, const SolveJob& job);
 /// Solves with an engine that makes no passes.

@@ -22,6 +22,7 @@
 #include "transillum/form_factors.h"
 #include "transillum/line_chart.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 #include "transillum/study.h"
 
 namespace transillum::benchmarks {

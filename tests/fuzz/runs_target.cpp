@@ -89,7 +89,10 @@ void check_file(std::string_view bytes) {
   static const MemoryFile file;
   file.set(bytes);
   const SolveOptions options = options_of(0);
-  check_reader(file, [&] { Checkpoint(file.path(), *scene(), options).resume(scene(), options); });
+  check_reader(file, [&] {
+    SolveSession session({.scene = scene(), .options = options, .tree = tree()});
+    Checkpoint(file.path(), *scene(), options).resume(session);
+  });
   check_reader(file, [&] { engine_of_shards({file.path()}, *scene(), options); });
 }
 

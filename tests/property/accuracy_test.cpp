@@ -3,7 +3,7 @@
 // Solves to an accuracy: the goal is reached, the reported limits contain the true error about as
 // often as stated, also when the solve stops by them, and little is wasted. Errors are computed
 // here, against B by pairs of patches, without directions.
-#include "transillum/accuracy_plan.h"
+#include "session/accuracy_plan.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -109,8 +109,7 @@ class CoverageCount {
       SolveOptions options = options_;
       options.goal = goal;
       options.seed = 1000 * static_cast<std::uint64_t>(run + 1);
-      const Solution solution =
-          goal.set() ? solve_to_accuracy(scene_, options, tree_, shot_) : solved(options);
+      const Solution solution = goal.set() ? solved_to_accuracy(options) : solved(options);
       const double error = error_of(*scene_, solution.radiosity, truth_);
       coverage.limit += (error <= solution.error.rms_limit) / double(runs);
       coverage.above +=
@@ -123,6 +122,11 @@ class CoverageCount {
   }
 
  private:
+  Solution solved_to_accuracy(const SolveOptions& options) {
+    SolveSession session({.scene = scene_, .options = options, .tree = tree_, .shot = shot_});
+    session.advance(SolveSession::Until::finished);
+    return session.solution();
+  }
   Solution solved(const SolveOptions& options) {
     RadiositySolver solver(scene_, options, tree_, {}, shot_);
     solver.advance(RadiositySolver::Until::finished);
@@ -253,7 +257,6 @@ TEST(Accuracy, NamesPatchesWhoseErrorsCannotBeTrusted) {
 /// 96 small sources. With E in the yardstick, 6 of 30 runs exceeded their limit, 5 of them trusted.
 TEST(Accuracy, OfStarsHoldsWhereItIsTrusted) {
   const ScenePtr scene = load_scene("stars");
-  const auto tree = std::make_shared<const BspTree>(*scene);
   SolveOptions options{.directions = 2048, .first_shot = 0};
   const std::vector<Rgb> truth = solve(scene, options).radiosity;
   constexpr int runs = 30;
@@ -262,7 +265,7 @@ TEST(Accuracy, OfStarsHoldsWhereItIsTrusted) {
   options.goal.accuracy = 0.05;
   for (int run = 0; run < runs; ++run) {
     options.seed = static_cast<std::uint64_t>(run + 1);
-    const Solution solution = solve_to_accuracy(scene, options, tree);
+    const Solution solution = solve(scene, options);
     const double error = error_of(*scene, solution.radiosity, truth);
     trusted += solution.accuracy->trusted ? 1 : 0;
     held += solution.accuracy->trusted && error <= solution.error.rms_limit ? 1 : 0;
@@ -375,7 +378,7 @@ TEST(Accuracy, IsCanceledAtOnce) {
   options.goal.accuracy = 1e-4;
   const Cancellation cancellation;
   int passes = 0;
-  const auto observer = [&](const RadiositySolver&) {
+  const auto observer = [&](const SolveSession&) {
     if (++passes == 40) {
       cancellation.cancel();
     }

@@ -13,6 +13,7 @@
 #include "transillum/engine.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 #include "transillum/transfer_comparison.h"
 
 namespace transillum::corrected_engine_test {

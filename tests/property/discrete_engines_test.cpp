@@ -11,6 +11,7 @@
 #include "transillum/engine.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::discrete_engines_test {
 namespace {

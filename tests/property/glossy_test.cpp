@@ -19,6 +19,7 @@
 #include "transillum/directions.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::glossy_test {
 namespace {

@@ -14,6 +14,7 @@
 #include "transillum/exact_form_factors.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/hemicube_image.h"
+#include "transillum/solve_session.h"
 #include "visibility/pixels/hemicube.h"
 
 namespace transillum::hemicube_test {

@@ -16,6 +16,7 @@
 #include "transillum/first_shot.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/point_sensors.h"
+#include "transillum/solve_session.h"
 #include "transillum/study.h"
 
 namespace transillum::pair_form_factors_test {

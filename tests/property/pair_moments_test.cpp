@@ -17,6 +17,7 @@
 #include "transillum/form_factor_solve.h"
 #include "transillum/linear_basis.h"
 #include "transillum/pair_form_factors.h"
+#include "transillum/solve_session.h"
 #include "transillum/study.h"
 
 namespace transillum::pair_moments_test {

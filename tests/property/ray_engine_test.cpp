@@ -11,6 +11,7 @@
 #include "transillum/engine.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum::ray_engine_test {

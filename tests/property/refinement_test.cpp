@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // ALGORITHM.md 6.13: jumps across edges by hand, and refinement in rounds against even division.
 #include "transillum/refinement.h"
+#include "transillum/solve_session.h"
 
 #include <gmock/gmock.h>
 
@@ -211,7 +212,7 @@ TEST(Refinement, RefusesWhatItCannotDo) {
   EXPECT_THROW(refine_by_from_name("jumps"), InputError);
   const Cancellation canceled;
   canceled.cancel();
-  EXPECT_THROW(refine(scene, options(), {.patches = 99}, {}, {}, canceled), Canceled);
+  EXPECT_THROW(refine(scene, options(), {.patches = 99}, {}, canceled), Canceled);
 }
 
 }  // namespace

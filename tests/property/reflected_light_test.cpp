@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "support/scenes.h"
-#include "transillum/accuracy_plan.h"
 #include "transillum/at.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/relight.h"
+#include "transillum/solve_session.h"
 #include "transillum/study.h"
 
 namespace transillum::reflected_light_test {

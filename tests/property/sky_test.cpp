@@ -17,6 +17,7 @@
 #include "transillum/form_factor_solve.h"
 #include "transillum/power_table.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::sky_test {
 namespace {

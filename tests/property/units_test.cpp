@@ -11,6 +11,7 @@
 #include "support/scenes.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 #include "transillum/study.h"
 
 namespace transillum::units_test {

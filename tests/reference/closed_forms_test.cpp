@@ -8,6 +8,7 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::closed_forms_test {
 namespace {

@@ -8,6 +8,7 @@
 #include "transillum/errors.h"
 #include "transillum/form_factors.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::form_factors_test {
 namespace {

@@ -15,6 +15,7 @@
 #include "transillum/glossy.h"
 #include "transillum/picking.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::glossy_paths_test {
 namespace {

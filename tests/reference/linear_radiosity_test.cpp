@@ -13,6 +13,7 @@
 #include "transillum/linear_basis.h"
 #include "transillum/radiosity.h"
 #include "transillum/sky.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::linear_radiosity_test {
 namespace {

@@ -13,6 +13,7 @@
 #include "transillum/light_paths.h"
 #include "transillum/material_changes.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::adjoint_test {
 namespace {

@@ -15,6 +15,7 @@
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::testing::browser_test {
 namespace {

@@ -173,17 +173,17 @@ Solution interrupted_solve(const SolveOptions& options, int events, const std::s
   const auto scene = box();
   int count = 0;
   Checkpoint checkpoint(file, *scene, options);
-  solve_to_accuracy(scene, options, nullptr, nullptr,
-                    [&](const RadiositySolver& solver, const AccuracyPlan& plan) {
-                      if (++count < events) {
-                        return true;
-                      }
-                      checkpoint.save(solver, &plan);
-                      return false;
-                    });
-  Checkpoint::Resumed resumed = checkpoint.resume(scene, options);
-  return solve_to_accuracy(scene, options, nullptr, nullptr, {}, {}, 0,
-                           AccuracyRun{std::move(*resumed.plan), std::move(resumed.solver)});
+  solve(scene, options, [&](const SolveSession& session) {
+    if (++count < events) {
+      return true;
+    }
+    checkpoint.save(session);
+    return false;
+  });
+  SolveSession resumed({.scene = scene, .options = options});
+  checkpoint.resume(resumed);
+  resumed.advance(SolveSession::Until::finished);
+  return resumed.solution();
 }
 
 TEST(Checkpoint, AnAccuracyIsReachedByTheSameStages) {
@@ -207,11 +207,11 @@ TEST(Checkpoint, AnAccuracyIsReachedByTheSameStages) {
 class CheckpointFile : public ::testing::Test {
  protected:
   CheckpointFile() {
-    RadiositySolver solver(scene_, options_);
+    SolveSession session({.scene = scene_, .options = options_});
     for (int pass = 0; pass < 5; ++pass) {
-      solver.advance(Until::direction);
+      session.advance(SolveSession::Until::direction);
     }
-    Checkpoint(file_, *scene_, options_).save(solver);
+    Checkpoint(file_, *scene_, options_).save(session);
     std::ostringstream text;
     text << std::ifstream(file_, std::ios::binary).rdbuf();
     content_ = text.str();
@@ -221,7 +221,8 @@ class CheckpointFile : public ::testing::Test {
     return refusal([&] { resume(scene_, options_); });
   }
   void resume(const std::shared_ptr<const Scene>& scene, const SolveOptions& options) const {
-    Checkpoint(file_, *scene, options).resume(scene, options);
+    SolveSession session({.scene = scene, .options = options});
+    Checkpoint(file_, *scene, options).resume(session);
   }
 
   TemporaryFolder folder_;
@@ -293,20 +294,21 @@ TEST_F(CheckpointFile, OfAnotherKindOrPlaceIsRefused) {
 
 /// A write that fails leaves the file before.
 TEST_F(CheckpointFile, StaysWhereItsSuccessorCannotBeWritten) {
-  RadiositySolver solver(scene_, options_);
-  solver.advance(Until::direction);
+  SolveSession session({.scene = scene_, .options = options_});
+  session.advance(SolveSession::Until::direction);
   Checkpoint full("/dev/full", *scene_, options_);
-  EXPECT_THROW(full.save(solver), std::runtime_error);
+  EXPECT_THROW(full.save(session), std::runtime_error);
   EXPECT_EQ(full.cost().times, 0);
   EXPECT_EQ(refusal([&] { resume(scene_, options_); }), "");
 }
 
 TEST_F(CheckpointFile, IsSavedWhenItIsDueAndSaysItsCost) {
-  RadiositySolver solver(scene_, options_);
+  SolveSession session({.scene = scene_, .options = options_});
+  session.prepare();
   Checkpoint checkpoint(folder_.path() / "due.tck", *scene_, options_);
-  EXPECT_FALSE(checkpoint.save_if_due(solver, nullptr, 3600));
-  EXPECT_TRUE(checkpoint.save_if_due(solver, nullptr, 0));
-  EXPECT_TRUE(checkpoint.save_if_due(solver, nullptr, 0));
+  EXPECT_FALSE(checkpoint.save_if_due(session, 3600));
+  EXPECT_TRUE(checkpoint.save_if_due(session, 0));
+  EXPECT_TRUE(checkpoint.save_if_due(session, 0));
   EXPECT_EQ(checkpoint.cost().times, 2);
   EXPECT_GT(checkpoint.cost().seconds, 0);
   EXPECT_EQ(checkpoint.cost().bytes, std::filesystem::file_size(checkpoint.file()));

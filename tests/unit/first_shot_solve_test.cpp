@@ -7,6 +7,7 @@
 #include "support/scenes.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::first_shot_solve_test {
 namespace {

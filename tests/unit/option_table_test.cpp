@@ -10,6 +10,7 @@
 
 #include "support/scenes.h"
 #include "transillum/errors.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::option_table_test {
 namespace {

@@ -12,6 +12,7 @@
 #include "transillum/at.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::orientation_test {
 namespace {

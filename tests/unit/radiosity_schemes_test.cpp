@@ -9,6 +9,7 @@
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
 #include "transillum/solve_errors.h"
+#include "transillum/solve_session.h"
 #include "transillum/study.h"
 
 namespace transillum::radiosity_schemes_test {

@@ -12,6 +12,7 @@
 #include "support/scenes.h"
 #include "transillum/radiosity.h"
 #include "transillum/solve_errors.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::radiosity_solver_test {
 namespace {

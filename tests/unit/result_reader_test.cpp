@@ -23,6 +23,7 @@
 #include "support/scenes.h"
 #include "transillum/files.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::testing::result_reader_test {
 namespace {

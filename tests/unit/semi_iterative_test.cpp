@@ -12,6 +12,7 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_session.h"
 #include "transillum/study.h"
 
 namespace transillum::semi_iterative_test {

@@ -13,6 +13,7 @@
 #include "support/thread_group.h"
 #include "transillum/radiosity.h"
 #include "transillum/solve_errors.h"
+#include "transillum/solve_session.h"
 
 namespace transillum::solver_group_test {
 namespace {

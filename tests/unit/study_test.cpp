@@ -18,6 +18,7 @@
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
 #include "transillum/reference_cache.h"
+#include "transillum/solve_session.h"
 #include "transillum/study_files.h"
 
 namespace transillum::testing::study_test {

@@ -28,13 +28,14 @@ enum class Preparation { tree, first_shot };
 
 /// What a solve is made of.
 struct SolveRequest {
-  std::shared_ptr<const Scene> scene;             ///< with the materials to be solved for
-  SolveOptions options = {};                      ///< of each solve
-  std::optional<RefineOptions> refine = {};       ///< of rounds that come first, if any
-  std::shared_ptr<const BspTree> tree = nullptr;  ///< of `scene`; built if null
-  TransferEngine engine = {};                     ///< makes the passes; options.engine if null
-  std::shared_ptr<SolverGroup> group = nullptr;   ///< as for RadiositySolver; null: this process
-  bool keep_form_factors = false;                 ///< as RadiositySolver::keep_form_factors()
+  std::shared_ptr<const Scene> scene;                 ///< with the materials to be solved for
+  SolveOptions options = {};                          ///< of each solve
+  std::optional<RefineOptions> refine = {};           ///< of rounds that come first, if any
+  std::shared_ptr<const BspTree> tree = nullptr;      ///< of `scene`; built if null
+  std::shared_ptr<const DirectLight> shot = nullptr;  ///< of `scene`; shot if null
+  TransferEngine engine = {};                         ///< makes the passes; options.engine if null
+  std::shared_ptr<SolverGroup> group = nullptr;  ///< as for RadiositySolver; null: this process
+  bool keep_form_factors = false;                ///< as RadiositySolver::keep_form_factors()
   /// Called with the finished share of a preparation, 0 to 1, on any thread, one at a time.
   std::function<void(Preparation, double)> preparing = {};
 };
@@ -97,7 +98,8 @@ class SolveSession {
   void relight(const std::vector<Material>& materials,
                const std::vector<std::int32_t>& of_patch = {});
 
-  /// Whether solution() has more than the emission: a pass was made, or a stage of a goal has ended.
+  /// Whether solution() has more than the emission: a pass was made, or a stage of a goal has
+  /// ended.
   bool has_result() const;
   /// Whether the solve is finished.
   bool finished() const;
@@ -140,6 +142,8 @@ class SolveSession {
   int passes_of(int iteration) const;
   /// B of the last finished iteration, W/m², one per patch.
   std::vector<Rgb> radiosity() const;
+  /// RadiositySolver::running_estimate(); with lobes radiosity().
+  std::vector<Rgb> running_estimate() const;
   /// RadiositySolver::linear_parts(); empty with lobes.
   std::vector<LinearPart> linear_parts() const;
   /// RadiositySolver::estimate_changes(); empty with lobes.
@@ -183,8 +187,7 @@ struct Refinement {
 /// @param observer of the solves; returning false ends the refinement.
 /// @throws InputError, Canceled; those of solve()
 Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                  const RefineOptions& refine,
-                  const SolveSession::Observer& observer = {},
+                  const RefineOptions& refine, const SolveSession::Observer& observer = {},
                   const Cancellation& cancellation = {});
 
 }  // namespace TRANSILLUM_API transillum

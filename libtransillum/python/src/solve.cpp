@@ -65,10 +65,10 @@ class ProgressRelay {
  public:
   explicit ProgressRelay(py::object callback) : callback_(std::move(callback)) {}
   /// On the thread that solves.
-  void put(const RadiositySolver& solver) {
+  void put(const SolveProgress& progress) {
     if (!callback_.is_none()) {
       const std::lock_guard lock(mutex_);
-      newest_ = solver.progress();
+      newest_ = progress;
     }
   }
   /// On Python's thread.
@@ -100,8 +100,8 @@ Solution solve_scene(const ScenePtr& scene, const py::dict& keywords, const py::
         }
         return solve(
             scene, options,
-            [&](const RadiositySolver& solver) {
-              relay.put(solver);
+            [&](const SolveSession& session) {
+              relay.put(session.progress());
               return true;
             },
             cancellation);
@@ -133,7 +133,7 @@ py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
         RadiositySolver solver(scene, options, nullptr, cancellation);
         solver.keep_form_factors();
         solver.advance(RadiositySolver::Until::iteration, [&](const RadiositySolver& s) {
-          relay.put(s);
+          relay.put(s.progress());
           return true;
         });
         return solver.form_factors();
@@ -142,15 +142,15 @@ py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
   return to_arrays(result);
 }
 
-RadiositySolver::Until until_from(const std::string& name) {
+SolveSession::Until until_from(const std::string& name) {
   if (name == "direction") {
-    return RadiositySolver::Until::direction;
+    return SolveSession::Until::direction;
   }
   if (name == "iteration") {
-    return RadiositySolver::Until::iteration;
+    return SolveSession::Until::iteration;
   }
   if (name == "finished") {
-    return RadiositySolver::Until::finished;
+    return SolveSession::Until::finished;
   }
   throw InputError("until: \"" + name + "\" is neither direction, iteration nor finished");
 }
@@ -160,31 +160,34 @@ class Run {
  public:
   Run(const ScenePtr& scene, const py::dict& keywords) {
     const SolveOptions options = options_from(keywords);
-    if (options.glossy) {
-      throw InputError("glossy is an option of solve(), not of Run");
-    }
-    if (options.goal.set()) {
-      throw InputError("accuracy and seconds are options of solve(), not of Run");
-    }
     if (!takes_directions(options.engine)) {
       throw InputError("Run: engine " + name_of(options.engine) + " has no directions");
     }
-    solver_ = run_interruptibly(
-        [&] { return std::make_unique<RadiositySolver>(scene, options, nullptr, cancellation_); },
+    session_ = run_interruptibly(
+        [&] {
+          auto session = std::make_unique<SolveSession>(
+              SolveRequest{.scene = scene, .options = options}, cancellation_);
+          session->prepare();
+          return session;
+        },
         [] {}, [&] { cancellation_.cancel(); });
   }
 
   bool advance(const std::string& until, const py::object& progress) {
-    const RadiositySolver::Until where = until_from(until);
+    const SolveSession::Until where = until_from(until);
     const Use use(busy_);
     std::atomic<bool> going = true;
     ProgressRelay relay(progress);
     return run_interruptibly(
         [&] {
-          return solver_->advance(where, [&](const RadiositySolver& solver) {
-            relay.put(solver);
+          const bool unfinished = session_->advance(where, [&](const SolveSession& session) {
+            relay.put(session.progress());
             return going.load();
           });
+          if (unfinished) {
+            session_->prepare();  // the next stage of an accuracy, for those who read it
+          }
+          return unfinished;
         },
         [&] { relay.tell(); }, [&] { going = false; });
   }
@@ -194,7 +197,7 @@ class Run {
   auto read(Get get) {
     const Use use(busy_);
     const py::gil_scoped_release released;
-    return get(*solver_);
+    return get(*session_);
   }
 
  private:
@@ -216,7 +219,7 @@ class Run {
 
   std::atomic<bool> busy_ = false;
   Cancellation cancellation_;
-  std::unique_ptr<RadiositySolver> solver_;
+  std::unique_ptr<SolveSession> session_;
 };
 
 /// B at the corners of all outlines, one outline after the other.
@@ -267,23 +270,28 @@ void bind_run(py::module_& module) {
       .def_property_readonly(
           "progress",
           [](Run& run) {
-            return to_dict(run.read([](const RadiositySolver& s) { return s.progress(); }));
+            return to_dict(run.read([](const SolveSession& s) { return s.progress(); }));
           })
       .def_property_readonly("radiosity",
                              [](Run& run) {
                                return to_table<3>(run.read(
-                                   [](const RadiositySolver& s) { return s.running_estimate(); }));
+                                   [](const SolveSession& s) { return s.running_estimate(); }));
                              })
       .def_property_readonly("directions",
                              [](Run& run) {
-                               return to_table<3>(run.read([](const RadiositySolver& s) {
+                               return to_table<3>(run.read([](const SolveSession& s) {
                                  return std::vector<Vec3>(s.directions());
                                }));
                              })
       .def("solution",
-           [](Run& run) { return run.read([](const RadiositySolver& s) { return s.solution(); }); })
+           [](Run& run) { return run.read([](const SolveSession& s) { return s.solution(); }); })
       .def("form_factors", [](Run& run) {
-        return to_arrays(run.read([](const RadiositySolver& s) { return s.form_factors(); }));
+        return to_arrays(run.read([](const SolveSession& s) {
+          if (s.diffuse() == nullptr) {
+            throw InputError("form factors are not available where lobes take part (glossy)");
+          }
+          return s.diffuse()->form_factors();
+        }));
       });
 }
 

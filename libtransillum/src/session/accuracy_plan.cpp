@@ -137,8 +137,8 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   report_.stages.push_back({solved.directions, solved.replicas, report_.error});
   light_directions_ = statistics.light_directions / solved.replicas;
   // Where no direction has met the light of a source, all replicas agree that there is none.
-  const bool is_missed = statistics.rho_max > 0 && solver.scene().has_light() &&
-                         max_abs(estimate.mean_reflected) == 0;
+  const bool is_missed =
+      statistics.rho_max > 0 && solver.scene().has_light() && max_abs(estimate.mean_reflected) == 0;
   report_.trusted =
       !is_missed && (light_directions_ >= least_light_directions || light_directions_ == 0);
   report_.reached = report_.trusted && report_.error <= goal.accuracy;

@@ -13,7 +13,7 @@
 
 #include "base/choice.h"
 #include "base/seconds_since.h"
-#include "radiosity/sum_of_squares.h"
+#include "radiosity/channel_sums.h"
 #include "transillum/at.h"
 #include "transillum/division.h"
 #include "transillum/engine.h"

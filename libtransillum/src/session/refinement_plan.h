@@ -12,8 +12,8 @@
 
 namespace transillum {
 
-/// The rounds of a refinement. Each round: the caller solves scene(), then assess(), then divide_worst(). Not
-/// thread-safe.
+/// The rounds of a refinement. Each round: the caller solves scene(), then assess(), then
+/// divide_worst(). Not thread-safe.
 class RefinementPlan {
  public:
   /// @param scene to start from.

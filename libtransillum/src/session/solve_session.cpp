@@ -48,7 +48,7 @@ void SolveSession::Impl::begin(const std::shared_ptr<const Scene>& solved) {
   plan.reset();
   scene = solved;
   tree = scene == request.scene ? request.tree : nullptr;
-  shot = nullptr;
+  shot = scene == request.scene ? request.shot : nullptr;
   seconds_bsp = seconds_first_shot = seconds_before = 0;
   if (called) {
     called = Clock::now();
@@ -83,11 +83,10 @@ void SolveSession::Impl::shoot_first() {
     report = [this](double share) { request.preparing(Preparation::first_shot, share); };
     report(0);
   }
-  shot = std::make_shared<const DirectLight>(
-      shoot(*scene,
-            first_shot_sources(*scene, *options.first_shot, expected_directions(options),
-                               cancellation),
-            options.threads, cancellation, report));
+  shot = std::make_shared<const DirectLight>(shoot(
+      *scene,
+      first_shot_sources(*scene, *options.first_shot, expected_directions(options), cancellation),
+      options.threads, cancellation, report));
   seconds_first_shot = seconds_since(start);
 }
 
@@ -206,9 +205,8 @@ bool SolveSession::advance(Until until, const Observer& observer) {
 bool SolveSession::advance_to(std::int64_t passes, const Observer& observer) {
   while (in_rounds()) {
     bool going = true;
-    advance(Until::stage, [&](const SolveSession& session) {
-      return going = !observer || observer(session);
-    });
+    advance(Until::stage,
+            [&](const SolveSession& session) { return going = !observer || observer(session); });
     if (!going) {
       return true;
     }
@@ -307,6 +305,9 @@ std::vector<Vec3> SolveSession::directions_of(int iteration) const {
 }
 int SolveSession::passes_of(int iteration) const { return impl_->solver->passes_of(iteration); }
 std::vector<Rgb> SolveSession::radiosity() const { return impl_->solver->radiosity(); }
+std::vector<Rgb> SolveSession::running_estimate() const {
+  return diffuse() != nullptr ? diffuse()->running_estimate() : radiosity();
+}
 std::vector<LinearPart> SolveSession::linear_parts() const {
   return diffuse() != nullptr ? diffuse()->linear_parts() : std::vector<LinearPart>();
 }

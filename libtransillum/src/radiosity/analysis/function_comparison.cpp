@@ -12,7 +12,7 @@
 #include <map>
 #include <vector>
 
-#include "radiosity/sum_of_squares.h"
+#include "radiosity/channel_sums.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 

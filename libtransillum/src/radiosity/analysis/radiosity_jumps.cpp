@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "geometry/box_tree.h"
-#include "radiosity/sum_of_squares.h"
+#include "radiosity/channel_sums.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
 #include "transillum/refinement.h"

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/for_each_index.h"
+#include "radiosity/channel_sums.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/form_factors/counted_pairs.h"
 #include "transillum/at.h"
@@ -19,8 +20,6 @@
 
 namespace transillum {
 namespace {
-
-double sum(const Rgb& value) { return value.r + value.g + value.b; }
 
 /// One part of zeros per material of the sources; none where they would take too much memory.
 std::vector<DirectLight::Part> empty_parts(const Scene& scene,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "radiosity/channel_sums.h"
 #include "radiosity/glossy/glossy_iteration.h"
 #include "radiosity/ratio.h"
 #include "scene/build/description_check.h"
@@ -14,8 +15,6 @@
 
 namespace transillum {
 namespace {
-
-double sum(const Rgb& value) { return value.r + value.g + value.b; }
 
 SolverInput checked(SolverInput input) {
   if (!input.options.glossy) {

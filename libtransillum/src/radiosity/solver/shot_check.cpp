@@ -12,6 +12,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "radiosity/channel_sums.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -21,8 +22,6 @@ namespace {
 constexpr double deviations = 6;
 /// Relative difference that is never reported: errors of the quadrature beyond their estimates.
 constexpr double tolerated = 0.02;
-
-double sum(const Rgb& value) { return value.r + value.g + value.b; }
 
 }  // namespace
 

@@ -34,8 +34,7 @@ int expected_directions(const SolveOptions& options) {
   // Some hundred passes in most scenes; the error is expected to fall as 1/M.
   constexpr double at_1_percent = 128, most = 1 << 20;
   const double accuracy = options.goal.accuracy > 0 ? options.goal.accuracy : 1e-3;
-  return static_cast<int>(
-      std::clamp(at_1_percent * (0.01 / accuracy), 64.0, most));
+  return static_cast<int>(std::clamp(at_1_percent * (0.01 / accuracy), 64.0, most));
 }
 
 SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "radiosity/channel_sums.h"
 #include "radiosity/linear_solution.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
@@ -16,8 +17,6 @@
 
 namespace transillum {
 namespace {
-
-double sum(const Rgb& value) { return value.r + value.g + value.b; }
 
 /// Sets rho_max, predicted_contraction and energy_balance. Requires statistics.directions.
 /// @param from_sky irradiance from the sky; empty without one
