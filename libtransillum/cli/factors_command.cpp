@@ -87,7 +87,7 @@ SolveOptions pass_options(const FactorsCall& call) {
 FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
                        const Cancellation& cancellation, ProgressDisplay& display) {
   const auto tree = build_tree(*scene, cancellation, display, call.passes().threads);
-  RadiositySolver solver(scene, pass_options(call), tree, cancellation);
+  RadiositySolver solver(scene, pass_options(call), {.tree = tree}, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
     display.show_passes("", watched.progress());
     return true;

@@ -186,7 +186,7 @@ void print_directions(const std::shared_ptr<const Scene>& scene, const InfoCall&
   options.threads = call.scene.run.solve.threads;
   ProgressDisplay display;
   const auto tree = build_tree(*scene, cancellation, display, call.scene.run.solve.threads);
-  RadiositySolver solver(scene, options, tree, cancellation);
+  RadiositySolver solver(scene, options, {.tree = tree}, cancellation);
   display.expect_passes("checking visibility, ", call.directions);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
     if (watched.progress().direction > 0) {

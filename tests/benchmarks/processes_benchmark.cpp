@@ -72,8 +72,9 @@ Parts measure(const std::shared_ptr<const Scene>& scene, const std::shared_ptr<c
               int size, int passes) {
   Parts parts;
   const SolveOptions options{.directions = passes, .iterations = 2, .threads = 1};
-  RadiositySolver solver(scene, options, tree, {}, nullptr, {},
-                         std::make_shared<LonelyGroup>(size / 2, size, parts));
+  RadiositySolver solver(
+      scene, options,
+      {.tree = tree, .group = std::make_shared<LonelyGroup>(size / 2, size, parts)});
   solver.advance(RadiositySolver::Until::iteration);
   try {
     parts.iteration = seconds_of(CLOCK_THREAD_CPUTIME_ID,

@@ -123,7 +123,8 @@ void TwoThreads(benchmark::State& state) {
   const auto tree = std::make_shared<const BspTree>(*scene);
   const auto wall = [&](int threads) {
     return seconds_of(CLOCK_MONOTONIC, [&] {
-      RadiositySolver solver(scene, {.directions = 128, .iterations = 1, .threads = threads}, tree);
+      RadiositySolver solver(scene, {.directions = 128, .iterations = 1, .threads = threads},
+                             {.tree = tree});
       solver.advance(RadiositySolver::Until::finished);
     });
   };

@@ -58,7 +58,7 @@ SolveOptions options_of(unsigned variant) {
 
 /// A state that is taken is one from which a solve goes on: to an end, or to an error of a solve.
 void check_state(std::string_view bytes, const SolveOptions& options) {
-  RadiositySolver solver(scene(), options, tree());
+  RadiositySolver solver(scene(), options, {.tree = tree()});
   try {
     std::istringstream in{std::string(bytes)};
     solver.restore(in, bytes.size());
@@ -122,8 +122,9 @@ void check_passes(std::string_view bytes) {
   file.set(content + fmt::format("{:08x}", crc));
   check_reader(file, [&] {
     const SolveOptions options = options_of(0);
-    RadiositySolver solver(scene(), options, tree(), {}, nullptr,
-                           engine_of_shards({file.path()}, *scene(), options));
+    RadiositySolver solver(
+        scene(), options,
+        {.tree = tree(), .engine = engine_of_shards({file.path()}, *scene(), options)});
     try {
       solver.advance(RadiositySolver::Until::finished);
     } catch (const InputError&) {  // a direction that no pass has

@@ -4,6 +4,7 @@
 // often as stated, also when the solve stops by them, and little is wasted. Errors are computed
 // here, against B by pairs of patches, without directions.
 #include "session/accuracy_plan.h"
+#include "transillum/solve_session.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -92,7 +93,7 @@ class CoverageCount {
         options_(options) {
     SolveOptions reference = reference_options(reference_passes);
     reference.first_shot = options.first_shot;
-    RadiositySolver solver(scene_, reference, tree_);
+    RadiositySolver solver(scene_, reference, {.tree = tree_});
     solver.advance(RadiositySolver::Until::finished);
     shot_ = solver.direct_light();
     truth_ = solver.radiosity();
@@ -128,7 +129,7 @@ class CoverageCount {
     return session.solution();
   }
   Solution solved(const SolveOptions& options) {
-    RadiositySolver solver(scene_, options, tree_, {}, shot_);
+    RadiositySolver solver(scene_, options, {.tree = tree_, .shot = shot_});
     solver.advance(RadiositySolver::Until::finished);
     return solver.solution();
   }

@@ -101,6 +101,18 @@ class Solves(unittest.TestCase):
         self.assertFalse(run.advance("finished"))
         np.testing.assert_array_equal(run.solution().radiosity, whole.radiosity)
 
+    def test_steps_of_an_accuracy_and_of_lobes_end_with_the_same_bits(self):
+        for options in ({"accuracy": "5%"}, {"directions": 24, "glossy": True}):
+            scene = room()
+            run = transillum.Run(scene, **options)
+            passes = 0
+            while run.advance("direction"):
+                passes += 1
+                self.assertEqual(run.radiosity.shape, (len(scene), 3))
+            self.assertGreater(passes, 24)
+            whole = transillum.solve(scene, **options)
+            np.testing.assert_array_equal(run.solution().radiosity, whole.radiosity)
+
     def test_error_estimate(self):
         scene = room()
         self.assertIsNone(transillum.solve(scene, directions=16).standard_error)
@@ -293,7 +305,7 @@ class Errors(unittest.TestCase):
             "out of range": lambda: transillum.Scene(CORNERS[:1], [[0, 1, 2]]),
             "(n, 3)": lambda: transillum.Scene([[0, 0]], []),
             "reflectance": lambda: transillum.Scene(CORNERS, CUBE, reflectance=[1, 2]),
-            "options of solve()": lambda: transillum.Run(scene, accuracy=0.1),
+            "engine pairs has no directions": lambda: transillum.Run(scene, engine="pairs"),
             "not an option of form_factors()": lambda: transillum.form_factors(scene, accuracy=0.1),
             "not an option of transfers()": lambda: transillum.transfers(
                 scene, (0, 0, 1), directions=5

@@ -88,7 +88,8 @@ void expect_all_states_lead_to_the_same(const std::shared_ptr<const Scene>& scen
   for (std::size_t k = 0; k < states.size(); k += 1 + states.size() / 12) {
     SCOPED_TRACE(k);
     options.threads = static_cast<int>(1 + k % 3);
-    RadiositySolver resumed(scene, options, whole.shared_tree(), {}, whole.direct_light());
+    RadiositySolver resumed(scene, options,
+                            {.tree = whole.shared_tree(), .shot = whole.direct_light()});
     std::istringstream in(states[k]);
     resumed.restore(in, states[k].size());
     // In steps of passes at first, as a viewer does.

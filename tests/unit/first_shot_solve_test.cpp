@@ -105,7 +105,7 @@ TEST(FirstShot, IsIncludedBeforeTheFirstPass) {
   SolveOptions options{.directions = 64};
   options.first_shot = small_source_ratio;
   const auto light = std::make_shared<const DirectLight>(shoot(*scene, find_small_sources(*scene)));
-  const RadiositySolver solver(scene, options, nullptr, {}, light);
+  const RadiositySolver solver(scene, options, {.shot = light});
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     EXPECT_TRUE(solver.irradiance()[k] == light->irradiance[k]);
@@ -114,7 +114,7 @@ TEST(FirstShot, IsIncludedBeforeTheFirstPass) {
   }
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(RadiositySolver(scene, options, nullptr, cancellation), Canceled);
+  EXPECT_THROW(RadiositySolver(scene, options, {}, cancellation), Canceled);
 }
 
 TEST(FirstShot, OptionsAreParsedAndChecked) {

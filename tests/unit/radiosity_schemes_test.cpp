@@ -306,7 +306,7 @@ Coverage coverage_of(int runs, int directions_a_replica, double tolerance = 1e-6
                             .scheme = scheme,
                             .replicas = 8,
                             .tolerance = tolerance},
-                           tree);
+                           {.tree = tree});
     solver.advance(Until::finished);
     const ErrorEstimate error = solver.error_estimate();
     EXPECT_EQ(error.replicas, 8);

@@ -67,7 +67,7 @@ TEST(RadiositySolver, ACanceledSolveReturnsTheEstimateSoFar) {
   const Cancellation cancellation;
   const Solution solution = solve(
       load_scene("rooms"), {.directions = 5000},
-      [&](const RadiositySolver& s) {
+      [&](const SolveSession& s) {
         if (s.progress().direction >= 20) {
           cancellation.cancel();
         }
@@ -86,7 +86,7 @@ TEST(RadiositySolver, ACanceledSolveReturnsTheEstimateSoFar) {
 TEST(RadiositySolver, CancelingIsQuick) {
   const Cancellation cancellation;
   const auto scene = load_scene("sphere-flake");
-  RadiositySolver solver(scene, {.directions = 100000}, nullptr, cancellation);
+  RadiositySolver solver(scene, {.directions = 100000}, {}, cancellation);
   std::thread later([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     cancellation.cancel();

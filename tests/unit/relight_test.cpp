@@ -37,7 +37,7 @@ Solved solved(const SceneDescription& description, const SolveOptions& options,
   if (sources) {
     result.shot = std::make_shared<const DirectLight>(shoot(*result.scene, *sources));
   }
-  RadiositySolver solver(result.scene, options, nullptr, {}, result.shot);
+  RadiositySolver solver(result.scene, options, {.shot = result.shot});
   solver.keep_form_factors();
   solver.advance(RadiositySolver::Until::finished);
   result.form_factors = solver.form_factors();

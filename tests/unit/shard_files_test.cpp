@@ -42,8 +42,8 @@ class Shards : public ::testing::Test {
     return files;
   }
   Solution merged(const std::vector<std::string>& files, const SolveOptions& options) const {
-    RadiositySolver solver(scene_, options, tree_, {}, nullptr,
-                           engine_of_shards(files, *scene_, options));
+    RadiositySolver solver(scene_, options,
+                           {.tree = tree_, .engine = engine_of_shards(files, *scene_, options)});
     solver.advance(RadiositySolver::Until::finished);
     return solver.solution();
   }

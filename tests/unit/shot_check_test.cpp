@@ -20,7 +20,7 @@ SolveStatistics checked(const std::shared_ptr<const Scene>& scene, SolveOptions 
                         std::shared_ptr<const DirectLight> light = nullptr) {
   options.first_shot = 0;
   options.iterations = 1;
-  RadiositySolver solver(scene, options, nullptr, {}, std::move(light));
+  RadiositySolver solver(scene, options, {.shot = std::move(light)});
   solver.advance(RadiositySolver::Until::finished);
   return solver.statistics();
 }

@@ -68,7 +68,7 @@ Outcome solved(const SolveOptions& options, const std::shared_ptr<SolverGroup>& 
   if (options.goal.set()) {
     return outcome_of(solve(box(), options, {}, {}, group));
   }
-  RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
+  RadiositySolver solver(box(), options, {.group = group});
   std::vector<double> changes;
   while (solver.advance(Until::iteration, [&](const RadiositySolver& watched) {
     const auto& now = watched.estimate_changes();
@@ -184,7 +184,7 @@ TEST(SolverGroup, IsCanceledTogetherAndGoesOn) {
   const SolveOptions options{.directions = 256};
   const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
     const Cancellation cancellation;
-    RadiositySolver solver(box(), options, nullptr, cancellation, nullptr, {}, group);
+    RadiositySolver solver(box(), options, {.group = group}, cancellation);
     EXPECT_THROW(solver.advance(Until::finished,
                                 [&](const RadiositySolver& watched) {
                                   if (group->rank() == 1 && watched.progress().direction == 20) {
@@ -212,7 +212,7 @@ TEST(SolverGroup, PausesTogether) {
   const SolveOptions options{.directions = 64};
   const Outcome expected = solved(options);
   const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
-    RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
+    RadiositySolver solver(box(), options, {.group = group});
     EXPECT_TRUE(solver.advance(Until::finished, [&](const RadiositySolver& watched) {
       return group->rank() != 2 || watched.progress().direction != 10;
     }));
@@ -235,7 +235,7 @@ TEST(SolverGroup, CompletesEstimatesForObservers) {
     return true;
   });
   const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
-    RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
+    RadiositySolver solver(box(), options, {.group = group});
     solver.advance(Until::iteration, [&](const RadiositySolver& watched) {
       if (watched.progress().direction == 11) {
         watched.complete_estimate();
@@ -253,7 +253,7 @@ TEST(SolverGroup, IsSavedAsOneSolverAndRestoredByAnyNumber) {
     const Outcome expected = solved(options);
     std::string state;
     const auto saving = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
-      RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
+      RadiositySolver solver(box(), options, {.group = group});
       solver.advance(Until::finished, [](const RadiositySolver& watched) {
         return watched.progress().direction != 20;
       });
@@ -265,7 +265,7 @@ TEST(SolverGroup, IsSavedAsOneSolverAndRestoredByAnyNumber) {
     });
     EXPECT_EQ(saving, std::vector<std::exception_ptr>(3));
     const auto finish = [&](const std::shared_ptr<SolverGroup>& group) {
-      RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
+      RadiositySolver solver(box(), options, {.group = group});
       std::istringstream in(state);
       solver.restore(in, state.size());
       solver.complete_estimate();

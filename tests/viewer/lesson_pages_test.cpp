@@ -56,7 +56,7 @@ struct Shown {
     return QString::fromStdString(page.text).contains(text);
   }
   Vec3 omega() const {
-    const RadiositySolver solver(scene, page.state.options.solve, tree);
+    const RadiositySolver solver(scene, page.state.options.solve, {.tree = tree});
     return solver.direction(0, page.state.focus->direction);
   }
   MapHistory history() const { return MapHistory(record_local_map(*scene, *tree, omega()).record); }
@@ -564,7 +564,7 @@ class LessonPagesTest : public QObject {
     // F_ij = 4 / (M A_i) sum of A(i, j, omega) over the directions, for i of lesson 3.
     const Shown shown(3, 4);
     const PatchId i = shown.page.state.selection;
-    RadiositySolver solver(shown.scene, shown.page.state.options.solve, shown.tree);
+    RadiositySolver solver(shown.scene, shown.page.state.options.solve, {.tree = shown.tree});
     solver.advance(RadiositySolver::Until::finished);
     const auto engine = make_engine(Engine::fast, shown.scene, shown.tree);
     std::vector<double> areas(static_cast<std::size_t>(shown.scene->patch_count()));

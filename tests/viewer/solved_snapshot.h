@@ -17,7 +17,7 @@ inline std::shared_ptr<SolverSnapshot> solved_snapshot(const char* spec, int dir
   snapshot->loaded = loaded;
   snapshot->options.directions = directions;
   snapshot->options.replicas = replicas;
-  RadiositySolver solver(loaded->scene, snapshot->options, loaded->tree);
+  RadiositySolver solver(loaded->scene, snapshot->options, {.tree = loaded->tree});
   snapshot->kept_radiosity.push_back(std::make_shared<std::vector<Rgb>>(solver.radiosity()));
   solver.advance(RadiositySolver::Until::iteration);
   snapshot->kept_radiosity.push_back(std::make_shared<std::vector<Rgb>>(solver.radiosity()));

@@ -74,8 +74,8 @@ FigureValues::Run& FigureValues::run_of(const SolveOptions& options) {
   if (known != runs_.end()) {
     return **known;
   }
-  auto run = std::make_unique<Run>(
-      Run{options, RadiositySolver(loaded_->scene, options, loaded_->tree, cancellation_)});
+  auto run = std::make_unique<Run>(Run{
+      options, RadiositySolver(loaded_->scene, options, {.tree = loaded_->tree}, cancellation_)});
   run->solver.keep_form_factors();
   return *runs_.emplace_back(std::move(run));
 }

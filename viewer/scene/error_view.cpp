@@ -201,7 +201,7 @@ void ErrorView::measure(const Job& job, const Cancellation& cancellation) {
   std::vector<std::vector<double>> errors;
   auto result = std::make_shared<Result>();
   for (const ErrorRuns::Run& run : job.runs.runs) {
-    RadiositySolver solver(loaded.scene, run.solve, loaded.tree, cancellation);
+    RadiositySolver solver(loaded.scene, run.solve, {.tree = loaded.tree}, cancellation);
     solver.advance(RadiositySolver::Until::finished);
     errors.push_back(errors_of(*loaded.scene, solver.radiosity(), reference));
     result->rms.push_back(radiosity_error(*loaded.scene, solver.radiosity(), reference).rms);

@@ -287,6 +287,19 @@ inline constexpr double least_light_directions = 3;
 struct Solution;
 class GlossyLight;
 
+/// What a solver starts from. What is null is made by the solver.
+struct SolverParts {
+  std::shared_ptr<const BspTree> tree = nullptr;  ///< of the scene
+  /// Direct light of the scene's small sources, if SolveOptions::first_shot is set.
+  std::shared_ptr<const DirectLight> shot = nullptr;
+  /// Makes the passes, such as an engine that reads them from a file; null: SolveOptions::engine.
+  TransferEngine engine = {};
+  /// Processes that solve together. Each has a solver of its own with the same scene and options,
+  /// and all call its functions that are not const, in the same order. The results have the bits of
+  /// a solver without a group. Null: this process alone.
+  std::shared_ptr<SolverGroup> group = nullptr;
+};
+
 /// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11, or 44 or 45 by its scheme) in steps that can be
 /// observed and interrupted.
 ///
@@ -298,21 +311,11 @@ class RadiositySolver {
   /// Prepares a solve; makes no pass.
   /// @param scene the scene.
   /// @param options of the solve run.
-  /// @param tree BSP tree of `scene`; built here if null.
+  /// @param parts what the caller has already.
   /// @param cancellation checked here and in advance().
-  /// @param shot direct light of the scene's small sources, if options.first_shot is set; computed
-  /// here if null.
-  /// @param engine makes the passes, such as one that reads them from a file; options.engine if
-  /// null.
-  /// @param group processes that solve together; each has a solver of its own with the same scene
-  /// and options, and all call its functions that are not const, in the same order. The results
-  /// have the bits of a solver without a group. Null: this process alone.
   /// @throws InputError, Canceled
   RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                  std::shared_ptr<const BspTree> tree = nullptr,
-                  const Cancellation& cancellation = {},
-                  std::shared_ptr<const DirectLight> shot = nullptr, TransferEngine engine = {},
-                  std::shared_ptr<SolverGroup> group = nullptr);
+                  SolverParts parts = {}, const Cancellation& cancellation = {});
   ~RadiositySolver();
   /// The moved-from object may only be destroyed or assigned to.
   RadiositySolver(RadiositySolver&&) noexcept;

@@ -130,7 +130,7 @@ py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
         if (!takes_directions(options.engine)) {
           return *solve_by_form_factors(scene, options, cancellation).form_factors;
         }
-        RadiositySolver solver(scene, options, nullptr, cancellation);
+        RadiositySolver solver(scene, options, {}, cancellation);
         solver.keep_form_factors();
         solver.advance(RadiositySolver::Until::iteration, [&](const RadiositySolver& s) {
           relay.put(s.progress());

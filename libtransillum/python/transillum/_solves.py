@@ -112,7 +112,7 @@ class Run:
     """
 
     def __init__(self, scene: Scene, **options: Any) -> None:
-        """options: those of options(), but for accuracy and seconds."""
+        """options: those of options(), for engines that make passes."""
         self._scene = scene
         self._core = _core.Run(scene._core, options)
 
@@ -126,7 +126,9 @@ class Run:
     ) -> bool:
         """Goes on until the end of a "direction" (one pass), an "iteration", or "finished".
 
-        Returns whether the solve is unfinished. Ctrl-C, and what progress raises, pause it after
+        With an accuracy, the next stage, with more directions, follows a stage that has ended;
+        then radiosity and directions are those of the new stage, and solution() is that of the last
+        finished one. Returns whether the solve is unfinished. Ctrl-C, and what progress raises, pause it after
         the pass under way: the next call goes on. progress must not read the run.
         """
         return self._core.advance(until, progress)

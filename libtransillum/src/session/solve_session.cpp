@@ -96,8 +96,10 @@ void SolveSession::Impl::make_solver() {
     solver.emplace(GlossySolver(scene, options, tree, cancellation, request.engine));
     return;
   }
-  solver.emplace(
-      RadiositySolver(scene, options, tree, cancellation, shot, request.engine, request.group));
+  solver.emplace(RadiositySolver(
+      scene, options,
+      {.tree = tree, .shot = shot, .engine = request.engine, .group = request.group},
+      cancellation));
   if (request.keep_form_factors) {
     solver->diffuse()->keep_form_factors();
   }

@@ -193,7 +193,7 @@ class StudyRun {
   double add_solve(StudyPoint& point, int m, int rotation) {
     const double start = processor_seconds();
     const auto options = options_.solve_options(options_.series[point.series], m, rotation);
-    RadiositySolver solver(scene_, options, tree_, cancellation_);
+    RadiositySolver solver(scene_, options, {.tree = tree_}, cancellation_);
     const double before = done_passes_, expected = passes_expected(options);
     solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
       report(point, before, expected, watched);
@@ -437,7 +437,7 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
                                  const SolveOptions& options,
                                  const std::function<void(const SolveProgress&)>& observer,
                                  const Cancellation& cancellation) {
-  RadiositySolver solver(scene, options, tree, cancellation);
+  RadiositySolver solver(scene, options, {.tree = tree}, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
     if (observer) {
       observer(watched.progress());

@@ -48,9 +48,9 @@ void GlossySolver::Impl::check_count(const std::vector<Material>& given,
 GlossySolver::GlossySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                            std::shared_ptr<const BspTree> tree, const Cancellation& cancellation,
                            TransferEngine engine)
-    : impl_(std::make_unique<Impl>(
-          checked(SolverInput(std::move(scene), options, std::move(tree), cancellation, nullptr,
-                              std::move(engine), nullptr)))) {}
+    : impl_(std::make_unique<Impl>(checked(
+          SolverInput(std::move(scene), options,
+                      {.tree = std::move(tree), .engine = std::move(engine)}, cancellation)))) {}
 GlossySolver::~GlossySolver() = default;
 GlossySolver::GlossySolver(GlossySolver&&) noexcept = default;
 GlossySolver& GlossySolver::operator=(GlossySolver&&) noexcept = default;

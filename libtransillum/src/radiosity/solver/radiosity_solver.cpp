@@ -6,13 +6,9 @@
 namespace transillum {
 
 RadiositySolver::RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                                 std::shared_ptr<const BspTree> tree,
-                                 const Cancellation& cancellation,
-                                 std::shared_ptr<const DirectLight> shot, TransferEngine engine,
-                                 std::shared_ptr<SolverGroup> group)
-    : impl_(std::make_unique<Impl>(SolverInput(std::move(scene), options, std::move(tree),
-                                               cancellation, std::move(shot), std::move(engine),
-                                               std::move(group)))) {}
+                                 SolverParts parts, const Cancellation& cancellation)
+    : impl_(std::make_unique<Impl>(
+          SolverInput(std::move(scene), options, std::move(parts), cancellation))) {}
 RadiositySolver::~RadiositySolver() = default;
 RadiositySolver::RadiositySolver(RadiositySolver&&) noexcept = default;
 RadiositySolver& RadiositySolver::operator=(RadiositySolver&&) noexcept = default;

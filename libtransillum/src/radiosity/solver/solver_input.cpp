@@ -38,20 +38,17 @@ int expected_directions(const SolveOptions& options) {
 }
 
 SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
-                         const SolveOptions& solve_options,
-                         std::shared_ptr<const BspTree> ready_tree,
-                         const Cancellation& solve_cancellation,
-                         std::shared_ptr<const DirectLight> ready_shot, TransferEngine ready_engine,
-                         std::shared_ptr<SolverGroup> solver_group)
+                         const SolveOptions& solve_options, SolverParts parts,
+                         const Cancellation& solve_cancellation)
     : scene(std::move(solved_scene)),
       options(validated(solve_options)),
       requested(solve_cancellation),
-      cancellation(solver_group ? Cancellation() : solve_cancellation),
+      cancellation(parts.group ? Cancellation() : solve_cancellation),
       threads(thread_count(options.threads)),
-      shot(std::move(ready_shot)),
-      tree(std::move(ready_tree)),
-      engine(std::move(ready_engine)),
-      group(std::move(solver_group)) {
+      shot(std::move(parts.shot)),
+      tree(std::move(parts.tree)),
+      engine(std::move(parts.engine)),
+      group(std::move(parts.group)) {
   if (group) {
     group->agree([this] { prepare(); });
   } else {

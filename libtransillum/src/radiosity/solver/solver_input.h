@@ -32,10 +32,8 @@ struct SolverInput {
 
   /// Makes what is null: the light of the first shot, the tree, the engine.
   /// @throws InputError, Canceled
-  SolverInput(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-              std::shared_ptr<const BspTree> tree, const Cancellation& cancellation,
-              std::shared_ptr<const DirectLight> shot, TransferEngine engine,
-              std::shared_ptr<SolverGroup> group);
+  SolverInput(std::shared_ptr<const Scene> scene, const SolveOptions& options, SolverParts parts,
+              const Cancellation& cancellation);
 
   int directions_per_pass() const { return options.two_way ? 2 : 1; }
   PatchShare share() const { return {group.get(), scene->patch_count()}; }
