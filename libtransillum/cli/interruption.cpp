@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "interruption.h"
+#include "cli/interruption.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <atomic>
 #include <vector>
 
-#include "commands.h"
-#include "processes.h"
+#include "cli/commands/commands.h"
+#include "cli/processes.h"
 
 namespace transillum::cli {
 namespace {

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The program `transillum`.
-#include "messages.h"
-#include "program.h"
+#include "cli/messages.h"
+#include "cli/program.h"
 
 int main(int argc, char** argv) {
   using namespace transillum::cli;

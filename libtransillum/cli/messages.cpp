@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "messages.h"
+#include "cli/messages.h"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <new>
 
-#include "processes.h"
+#include "cli/processes.h"
 
 namespace transillum::cli {
 

@@ -1,9 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "output_files.h"
+#include "cli/output_files.h"
 
 #include <exception>
 
-#include "standard_output.h"
+#include "cli/standard_output.h"
 #include "transillum/files.h"
 
 namespace transillum::cli {

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "processes.h"
+#include "cli/processes.h"
 
 namespace transillum::cli {
 

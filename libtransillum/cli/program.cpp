@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Finds the command, runs it, reports errors as one line and gives the exit status.
-#include "program.h"
+#include "cli/program.h"
 
 #include <execinfo.h>
 #include <fcntl.h>
@@ -11,12 +11,12 @@
 #include <algorithm>
 #include <new>
 
-#include "commands.h"
-#include "help_format.h"
-#include "interruption.h"
-#include "messages.h"
-#include "processes.h"
-#include "standard_output.h"
+#include "cli/arguments/help_format.h"
+#include "cli/commands/commands.h"
+#include "cli/interruption.h"
+#include "cli/messages.h"
+#include "cli/processes.h"
+#include "cli/standard_output.h"
 #include "transillum/did_you_mean.h"
 #include "transillum/errors.h"
 #include "transillum/scene.h"

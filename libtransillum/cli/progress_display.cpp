@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "progress_display.h"
+#include "cli/progress_display.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -12,8 +12,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "messages.h"
-#include "report_text.h"
+#include "cli/messages.h"
+#include "cli/reports/report_text.h"
 
 namespace transillum::cli {
 namespace {

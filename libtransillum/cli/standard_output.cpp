@@ -1,12 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "standard_output.h"
+#include "cli/standard_output.h"
 
 #include <cerrno>
 #include <cstdio>
 #include <iostream>
 #include <system_error>
 
-#include "processes.h"
+#include "cli/processes.h"
 
 namespace transillum::cli {
 

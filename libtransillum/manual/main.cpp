@@ -10,10 +10,10 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "commands.h"
+#include "cli/commands/commands.h"
+#include "cli/program.h"
 #include "completions.h"
 #include "man_pages.h"
-#include "program.h"
 #ifdef TRANSILLUM_WITH_VIEWER
 #include "window/command_line.h"
 #endif

@@ -16,13 +16,13 @@
 #include <string_view>
 #include <vector>
 
-#include "commands.h"
+#include "cli/commands/commands.h"
+#include "cli/messages.h"
+#include "cli/processes.h"
+#include "cli/program.h"
 #include "leak_check.h"
-#include "messages.h"
 #include "mpi_group.h"
 #include "mpi_waiting.h"
-#include "processes.h"
-#include "program.h"
 
 namespace transillum::mpi {
 namespace {

@@ -12,7 +12,7 @@
 #include <random>
 
 #include "gltf_test_file.h"
-#include "scene/read/gltf_compression.h"
+#include "scene/read/gltf/gltf_compression.h"
 #include "scene_test_support.h"
 
 namespace transillum::gltf_compression_test {

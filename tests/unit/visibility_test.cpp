@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "radiosity/solver/exchange_sums.h"
+#include "radiosity/exchange/exchange_sums.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/bsp_tree.h"

@@ -13,7 +13,7 @@
 #include <random>
 #include <sstream>
 
-#include "cli/option_arguments.h"
+#include "cli/arguments/option_arguments.h"
 #include "model/command_text.h"
 #include "model/run_options.h"
 #include "registered.h"

@@ -9,8 +9,8 @@
 #include <set>
 #include <string>
 
-#include "cli/help_format.h"
-#include "cli/option_arguments.h"
+#include "cli/arguments/help_format.h"
+#include "cli/arguments/option_arguments.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "window/first_look.h"

@@ -12,11 +12,11 @@
 #include <optional>
 #include <utility>
 
+#include "radiosity/error/error_estimate.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
-#include "radiosity/solver/error_estimate.h"
 #include "radiosity/state_archive.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"

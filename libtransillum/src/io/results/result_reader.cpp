@@ -17,7 +17,7 @@
 #include "io/clean_text.h"
 #include "io/file_ending.h"
 #include "io/results/result_figures.h"
-#include "scene/read/vtp_file.h"
+#include "scene/read/vtk/vtp_file.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"

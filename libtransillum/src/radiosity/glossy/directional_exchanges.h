@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "radiosity/solver/exchange_sums.h"
+#include "radiosity/exchange/exchange_sums.h"
 #include "transillum/cancellation.h"
 #include "transillum/transfers.h"
 

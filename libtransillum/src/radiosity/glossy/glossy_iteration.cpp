@@ -17,10 +17,10 @@
 #include "base/free_memory.h"
 #include "base/memory_limit.h"
 #include "base/seconds_since.h"
+#include "radiosity/exchange/pass_plan.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
-#include "radiosity/solver/pass_plan.h"
 #include "transillum/at.h"
 #include "transillum/solve_errors.h"
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "base/seconds_since.h"
+#include "radiosity/exchange/pass_messages.h"
 #include "radiosity/ratio.h"
-#include "radiosity/solver/pass_messages.h"
 #include "radiosity/solver/solver_state.h"
 
 namespace transillum {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "radiosity/error/batch_means.h"
 #include "radiosity/reflected_light.h"
-#include "radiosity/solver/batch_means.h"
 #include "radiosity/solver/radiosity_iterate.h"
 #include "radiosity/solver/running_mean.h"
 #include "radiosity/solver/start_remainder.h"

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "radiosity/solver/exchange_sums.h"
+#include "radiosity/exchange/exchange_sums.h"
+#include "radiosity/exchange/visible_area_sums.h"
 #include "radiosity/solver/radiosity_iterate.h"
 #include "radiosity/solver/solver_input.h"
-#include "radiosity/solver/visible_area_sums.h"
 #include "transillum/form_factors.h"
 
 namespace transillum {

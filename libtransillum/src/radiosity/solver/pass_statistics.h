@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "radiosity/solver/light_directions.h"
-#include "radiosity/solver/pass_runner.h"
-#include "radiosity/solver/shot_check.h"
-#include "radiosity/solver/visible_area_sums.h"
+#include "radiosity/error/light_directions.h"
+#include "radiosity/error/shot_check.h"
+#include "radiosity/exchange/pass_runner.h"
+#include "radiosity/exchange/visible_area_sums.h"
 #include "transillum/first_shot.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"

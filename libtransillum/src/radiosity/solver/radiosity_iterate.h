@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "radiosity/solver/exchange_sums.h"
-#include "radiosity/solver/patch_share.h"
-#include "radiosity/solver/unknowns.h"
+#include "radiosity/exchange/exchange_sums.h"
+#include "radiosity/exchange/patch_share.h"
+#include "radiosity/exchange/unknowns.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "radiosity/solver/error_estimate.h"
+#include "radiosity/error/error_estimate.h"
 
 namespace transillum {
 

@@ -7,8 +7,8 @@
 #include <charconv>
 
 #include "base/worker_threads.h"
-#include "radiosity/solver/pass_plan.h"
-#include "radiosity/solver/pass_runner.h"
+#include "radiosity/exchange/pass_plan.h"
+#include "radiosity/exchange/pass_runner.h"
 #include "radiosity/solver/solver_input.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"

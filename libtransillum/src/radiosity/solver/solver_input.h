@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "radiosity/solver/patch_share.h"
-#include "radiosity/solver/unknowns.h"
+#include "radiosity/exchange/patch_share.h"
+#include "radiosity/exchange/unknowns.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {

@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "radiosity/channel_sums.h"
+#include "radiosity/error/error_estimate.h"
 #include "radiosity/linear_solution.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
-#include "radiosity/solver/error_estimate.h"
 #include "radiosity/solver/solver_state.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"

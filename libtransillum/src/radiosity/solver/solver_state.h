@@ -9,11 +9,11 @@
 #include <iosfwd>
 #include <memory>
 
+#include "radiosity/exchange/pass_plan.h"
+#include "radiosity/exchange/pass_runner.h"
 #include "radiosity/solver/iteration_history.h"
 #include "radiosity/solver/iteration_under_way.h"
 #include "radiosity/solver/kept_exchanges.h"
-#include "radiosity/solver/pass_plan.h"
-#include "radiosity/solver/pass_runner.h"
 #include "radiosity/solver/pass_statistics.h"
 #include "radiosity/solver/radiosity_iterate.h"
 #include "radiosity/solver/replicas.h"

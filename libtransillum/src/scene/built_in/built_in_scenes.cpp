@@ -10,7 +10,7 @@
 #include "scene/build/joining.h"
 #include "scene/build/precision.h"
 #include "scene/built_in/built_in_makers.h"
-#include "scene/read/scene_files.h"
+#include "scene/built_in/scene_files.h"
 #include "transillum/did_you_mean.h"
 #include "transillum/scene.h"
 
@@ -84,8 +84,8 @@ std::string endings_text() {
 /// Whether `spec` is a path rather than the name of a built-in.
 bool names_a_file(const std::string& spec) {
   std::error_code ignored;
-  return spec.find('/') != std::string::npos || !file_ending(spec).empty() ||
-         is_scene_file(spec) || std::filesystem::exists(spec, ignored);
+  return spec.find('/') != std::string::npos || !file_ending(spec).empty() || is_scene_file(spec) ||
+         std::filesystem::exists(spec, ignored);
 }
 
 SceneDescription read_file(const std::string& spec, const ReadOptions& read,

@@ -1,0 +1,68 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "cli/arguments/option_values.h"
+
+#include "transillum/engine.h"
+#include "transillum/errors.h"
+#include "transillum/option_table.h"
+#include "transillum/option_values.h"
+
+namespace transillum::cli {
+namespace {
+
+/// Calls `parse`, and puts the name of the option before its error.
+template <class Parse>
+auto named(const std::string& option, Parse parse) {
+  try {
+    return parse();
+  } catch (const InputError& error) {
+    throw InputError(option + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+std::int64_t parse_whole_number(const std::string& option, const std::string& text,
+                                std::int64_t low, std::int64_t high) {
+  return named(option, [&] { return whole_number_from_text(text, low, high); });
+}
+
+std::optional<double> parse_first_shot(const std::string& option, const std::string& text) {
+  RunOptions run;
+  named(option, [&] { transillum::option("first-shot").parse(run, text); });
+  return run.solve.first_shot;
+}
+
+double parse_number(const std::string& option, const std::string& text) {
+  return named(option, [&] { return number_from_text(text); });
+}
+
+Vec3 parse_point(const std::string& option, const std::string& text) {
+  return named(option, [&] { return point_from_text(text); });
+}
+
+int parse_resolution(const std::string& option, const std::string& text) {
+  return static_cast<int>(parse_whole_number(option, text, 1, EngineOptions::largest_resolution));
+}
+
+int parse_points(const std::string& option, const std::string& text) {
+  return static_cast<int>(parse_whole_number(option, text, 1, EngineOptions::largest_points));
+}
+
+void refuse_unless(bool used, const CLI::App& command, const std::string& option,
+                   const std::string& why) {
+  const CLI::Option* known = command.get_option_no_throw(option);
+  if (!used && known != nullptr && known->count() > 0) {
+    throw InputError(option + ": " + why);
+  }
+}
+
+void add_direction_option(CLI::App& command, Vec3& direction) {
+  add_parsed_option(command, "--direction", "X,Y,Z",
+                    "omega, pointing from the receivers to the sources; any length",
+                    [&direction](const std::string& text) {
+                      direction = named("--direction", [&] { return direction_from_text(text); });
+                    })
+      ->required();
+}
+
+}  // namespace transillum::cli

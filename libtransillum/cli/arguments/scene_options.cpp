@@ -1,0 +1,202 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The steps from the argument SCENE and its options to a Scene: reading, changes of materials, the
+// limit of patch areas, checks and warnings.
+#include "cli/arguments/scene_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/arguments/option_values.h"
+#include "cli/messages.h"
+#include "cli/progress_display.h"
+#include "cli/reports/report_text.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+#include "transillum/patch_count.h"
+
+namespace transillum::cli {
+namespace {
+
+/// "12345 patches of at most 0.01 m2; about 24 MB of memory", before they are made.
+std::string patches_text(std::int64_t count, double max_area, bool keeps_factors) {
+  return fmt::format("{} patches of at most {:.4g} m2; about {:.3g} MB of memory{}", count,
+                     max_area, 1e-6 * static_cast<double>(expected_memory(count)),
+                     keeps_factors ? " without form factors, which --memory limits" : "");
+}
+
+bool has_option(const CLI::App& command, const std::string& name) {
+  return command.get_option_no_throw(name) != nullptr;
+}
+
+bool is_quiet(const CLI::App& command) {
+  const CLI::Option* quiet = command.get_option_no_throw("--quiet");
+  return quiet != nullptr && quiet->count() > 0;
+}
+
+/// The group or material that most of the backs are of, for a message.
+std::string most_backs(const BackShare& backs) {
+  const bool by_group = !backs.groups.empty();
+  const std::vector<BackCount>& counts = by_group ? backs.groups : backs.materials;
+  return counts.empty() ? std::string()
+                        : fmt::format(" ({} of {} \"{}\")", share_text(counts.front().of_all),
+                                      by_group ? "group" : "material", counts.front().name);
+}
+
+/// Turns parts of the scene and prints what was done, and what is still seen from behind.
+void orient_input(const RunInput& input, SceneDescription& description,
+                  const Cancellation& cancellation) {
+  ProgressDisplay display(is_quiet(*input.command));
+  display.begin("turning faces");
+  const OrientationReport report =
+      orient(description, input.run.solve.threads, cancellation,
+             [&](double share) { display.show("turning faces", share); });
+  display.clear();
+  if (!is_quiet(*input.command)) {
+    for (const std::string& sentence : report.sentences) {
+      print_message("orientation: " + sentence);
+    }
+  }
+  if (input.run.scene.two_sided) {
+    return;
+  }
+  const BackShare backs =
+      back_share(Scene(description, {}, cancellation), input.run.solve.threads, cancellation);
+  if (backs.share > BackShare::worth_a_warning) {
+    print_message(
+        fmt::format("warning: {} of what light meets are backs of faces, which absorb it, also "
+                    "after turning faces{} (try --two-sided)",
+                    share_text(backs.share), most_backs(backs)));
+  }
+}
+
+/// One line that says that a sky lights nothing where all lit sides are shut in; else empty.
+std::string sky_advice(const RunInput& input, const Scene& scene, const BackShare& backs) {
+  // A room of two-sided faces is closed, but the sky lights it outside.
+  if (backs.open > 0 || has_two_sided_faces(scene)) {
+    return {};
+  }
+  return fmt::format(
+      "the sky lights no face: no ray from a lit side leaves the scene, and backs of faces absorb "
+      "its light (try --two-sided{})",
+      input.run.input.orient ? ", or --orient keep" : " or --orient auto");
+}
+
+/// The options of the scene with the limit of patch areas that --patches asks for. Prints what the
+/// division will make.
+SceneOptions division(const RunInput& input, const SceneDescription& description,
+                      const Cancellation& cancellation) {
+  SceneOptions options = input.run.scene;
+  if (input.run.refine.set() || (input.run.input.patches == 0 && options.max_patch_area == 0)) {
+    return options;
+  }
+  options.max_patch_area = 0;
+  const Scene whole(description, options, cancellation);
+  options.max_patch_area = input.run.input.patches > 0
+                               ? max_patch_area_for(whole, input.run.input.patches, cancellation)
+                               : input.run.scene.max_patch_area;
+  if (whole.patch_count() > input.run.input.patches && input.run.input.patches > 0) {
+    print_message(fmt::format("warning: --patches: the faces make {} patches already, more than {}",
+                              whole.patch_count(), input.run.input.patches));
+  } else if (options.max_patch_area > 0) {
+    const std::int64_t count = count_patches(whole, options.max_patch_area);
+    if (!is_quiet(*input.command)) {
+      print_message(
+          patches_text(count, options.max_patch_area, has_option(*input.command, "--memory")));
+    }
+    check_memory(whole.name(), count);
+  }
+  return options;
+}
+
+/// ".obj, .gltf, …", all formats of scenes.
+std::string scene_endings() {
+  std::vector<std::string> endings;
+  for (const SceneFormat& format : scene_formats()) {
+    endings.push_back(format.ending);
+  }
+  return fmt::format("{}", fmt::join(endings, ", "));
+}
+
+}  // namespace
+
+void add_scene_argument(CLI::App& command, RunInput& input) {
+  input.command = &command;
+  command
+      .add_option("SCENE", input.spec,
+                  fmt::format("a scene file ({}; OBJ: in its .mtl, Kd = reflectance, Ke = exitance "
+                              "in W/m2), or a built-in scene with parameters, such as "
+                              "sphere-flake:levels=1",
+                              scene_endings()))
+      ->required()
+      ->type_name("");
+}
+
+void add_scene_options(CLI::App& command, RunInput& input) {
+  add_groups(command, input, {"Scene", "Patches"});
+}
+
+void check_seed(const RunInput& input) {
+  refuse_unless(is_seeded(input.run.solve.used_sampling()), *input.command, "--seed",
+                "used only with sampling random, sobol or scrambled-hammersley");
+}
+
+SceneDescription describe_input(const RunInput& input, const Cancellation& cancellation) {
+  SceneDescription description = describe_scene(input.spec, input.run.input.read, cancellation);
+  change_materials(description, input.run.input.changes);
+  if (input.run.input.orient) {
+    orient_input(input, description, cancellation);
+  }
+  return description;
+}
+
+std::shared_ptr<const Scene> make_input_scene(const RunInput& input,
+                                              const SceneDescription& description,
+                                              const Cancellation& cancellation) {
+  return std::make_shared<const Scene>(description, division(input, description, cancellation),
+                                       cancellation);
+}
+
+bool has_two_sided_faces(const Scene& scene) {
+  const auto& patches = scene.patches();
+  return std::adjacent_find(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
+           return a.face == b.face && a.center == b.center;
+         }) != patches.end();
+}
+
+std::string orientation_advice(const RunInput& input, const BackShare& backs) {
+  if (backs.share <= BackShare::worth_a_warning || input.run.input.orient) {
+    return {};
+  }
+  return fmt::format(
+      "{} of what light meets are backs of faces, which absorb it (try --orient "
+      "auto)",
+      share_text(backs.share));
+}
+
+std::shared_ptr<const Scene> load_input_scene(const RunInput& input,
+                                              const std::vector<std::string>& outputs,
+                                              const Cancellation& cancellation, Light light) {
+  const SceneDescription description = describe_input(input, cancellation);
+  check_distinct(outputs, description.files);
+  check_memory(description.name, static_cast<std::int64_t>(description.face_count()));
+  auto scene = make_input_scene(input, description, cancellation);
+  print_warnings(*scene);
+  if (light == Light::required && !scene->has_light()) {
+    throw InputError(fmt::format(
+        "{}: nothing emits light, so B would be 0 everywhere; give a material, a group or a face "
+        "an exitance in W/m2, such as --emission '{}=10'",
+        scene->name(), suggested_light(description)));
+  }
+  if (light == Light::sky || (light == Light::required && !input.run.input.orient)) {
+    const BackShare backs = back_share(*scene, input.run.solve.threads, cancellation);
+    const std::string advice = light == Light::required ? orientation_advice(input, backs)
+                                                        : sky_advice(input, *scene, backs);
+    if (!advice.empty()) {
+      print_message("warning: " + advice);
+    }
+  }
+  return scene;
+}
+
+}  // namespace transillum::cli

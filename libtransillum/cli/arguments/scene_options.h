@@ -1,0 +1,61 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+// The argument SCENE, and the way from it and its options to a scene.
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/arguments/option_arguments.h"
+#include "transillum/cancellation.h"
+#include "transillum/orientation.h"
+#include "transillum/scene.h"
+
+namespace transillum::cli {
+
+/// A scene and the options of a run as a command line has them.
+struct RunInput : GivenOptions {
+  std::string spec;  ///< file or built-in scene
+  const CLI::App* command = nullptr;
+};
+
+/// SCENE, required.
+void add_scene_argument(CLI::App& command, RunInput& input);
+/// How it is read, changed and divided.
+void add_scene_options(CLI::App& command, RunInput& input);
+
+/// Refuses --seed where only the sampling could use it and does not.
+/// @throws InputError
+void check_seed(const RunInput& input);
+
+/// Which light a command needs: none, that of faces, or that of a sky.
+enum class Light { optional, required, sky };
+
+/// The scene's faces, read and changed as the options say.
+/// @throws InputError, Canceled
+SceneDescription describe_input(const RunInput& input, const Cancellation& cancellation);
+
+/// The scene of a description. Where faces are to be divided, prints how many patches that makes
+/// and their memory, before they are made.
+/// @throws InputError, Canceled
+std::shared_ptr<const Scene> make_input_scene(const RunInput& input,
+                                              const SceneDescription& description,
+                                              const Cancellation& cancellation);
+
+/// Whether any face has a patch on each side.
+bool has_two_sided_faces(const Scene& scene);
+
+/// One line that names --orient auto where more than a tenth of what is seen is a back; else empty.
+std::string orientation_advice(const RunInput& input, const BackShare& backs);
+
+/// describe_input(), then make_input_scene(). Checks that no output would overwrite one of the
+/// scene's files, and prints its warnings.
+/// @throws InputError, also where light is required and there is none; Canceled
+std::shared_ptr<const Scene> load_input_scene(const RunInput& input,
+                                              const std::vector<std::string>& outputs,
+                                              const Cancellation& cancellation,
+                                              Light light = Light::optional);
+
+}  // namespace transillum::cli

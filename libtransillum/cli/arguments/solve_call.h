@@ -1,0 +1,56 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+// The options of `solve`, which `merge` has in the shards that it reads.
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/arguments/checkpoint_options.h"
+#include "cli/arguments/color_outputs.h"
+#include "cli/arguments/scene_options.h"
+#include "transillum/power_table.h"
+#include "transillum/radiosity.h"
+#include "transillum/shares.h"
+
+namespace transillum::cli {
+
+struct SolveCall {
+  RunInput scene;
+  std::optional<Vec3> eye;  ///< --eye
+  std::vector<std::string> out;
+  std::string stats;
+  std::optional<PartsBy> by;  ///< --by
+  std::string factors;        ///< --factors
+  ColorOutputs colors;
+  CheckpointCall checkpoint;
+  double checkpoint_every = 60;     ///< --checkpoint-every, s
+  std::optional<Share> share;       ///< --shard
+  std::vector<std::string> shards;  ///< of `merge`: the passes are read from these
+  bool quiet = false;
+
+  /// The options of the solve: as given before complete(), checked and complete after it.
+  const SolveOptions& options() const { return scene.run.solve; }
+};
+
+/// All options of `solve`.
+void add_solve_options(CLI::App& command, SolveCall& call);
+/// Those that say what is written, and how much memory and how many threads are used: the only ones
+/// that `merge` has itself.
+void add_output_options(CLI::App& command, SolveCall& call);
+
+/// The output files, checked as far as that can be done before a long computation.
+/// @throws InputError
+std::vector<std::string> checked_outputs(const SolveCall& call);
+/// Sets the defaults that depend on other options, and checks all.
+/// @throws InputError
+void complete(SolveCall& call);
+
+/// Solves and writes the results; returns the exit status.
+int run_solve(SolveCall& call);
+/// Makes the passes of call.share and writes them; returns the exit status.
+int run_shard(SolveCall& call);
+
+}  // namespace transillum::cli

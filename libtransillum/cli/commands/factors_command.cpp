@@ -1,0 +1,257 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <memory>
+#include <ostream>
+
+#include "cli/arguments/option_values.h"
+#include "cli/arguments/scene_options.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/sensor_factors.h"
+#include "cli/interruption.h"
+#include "cli/messages.h"
+#include "cli/output_files.h"
+#include "cli/progress_display.h"
+#include "cli/standard_output.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+#include "transillum/form_factor_files.h"
+#include "transillum/hemicube.h"
+#include "transillum/pair_form_factors.h"
+#include "transillum/small_form_factors.h"
+
+namespace transillum::cli {
+namespace {
+
+struct FactorsCall {
+  RunInput scene;
+  GatherOptions rays;
+  SensorCall sensors;
+  double drop = 0;  ///< form factors below it are left out; 0: all are written
+  std::string out;
+
+  const SolveOptions& passes() const { return scene.run.solve; }
+};
+
+FormFactors gather_by_rays(const FactorsCall& call, const Scene& scene,
+                           const Cancellation& cancellation, ProgressDisplay& display) {
+  GatherOptions options = call.rays;
+  options.seed = call.passes().seed;
+  options.threads = call.passes().threads;
+  return gather_form_factors(scene, options, cancellation,
+                             [&](double share) { display.show("tracing rays", share); });
+}
+
+HemicubeOptions hemicube_options(const FactorsCall& call) {
+  HemicubeOptions options;
+  if (call.passes().engine_options.resolution > 0) {
+    options.resolution = call.passes().engine_options.resolution;
+  }
+  options.memory = call.passes().memory;
+  options.threads = call.passes().threads;
+  return options;
+}
+
+FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
+                           const Cancellation& cancellation, ProgressDisplay& display) {
+  HemicubeOptions options = hemicube_options(call);
+  return hemicube_form_factors(scene, options, cancellation,
+                               [&](double share) { display.show("drawing hemicubes", share); });
+}
+
+PairOptions pair_options(const FactorsCall& call) {
+  PairOptions options;
+  if (call.passes().engine_options.points > 0) {
+    options.points = call.passes().engine_options.points;
+  }
+  options.memory = call.passes().memory;
+  options.threads = call.passes().threads;
+  return options;
+}
+
+FormFactors compute_pairs(const FactorsCall& call, const Scene& scene,
+                          const Cancellation& cancellation, ProgressDisplay& display) {
+  display.begin("computing pairs");
+  return pair_form_factors(scene, pair_options(call), cancellation, [&](double share) {
+    const double patches = scene.patch_count();
+    display.show_rate("computing pairs", share, patches * (patches - 1) / 2, "pairs");
+  });
+}
+
+SolveOptions pass_options(const FactorsCall& call) {
+  SolveOptions options = call.passes();
+  options.iterations = 1;
+  return options;
+}
+
+FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
+                       const Cancellation& cancellation, ProgressDisplay& display) {
+  const auto tree = build_tree(*scene, cancellation, display, call.passes().threads);
+  RadiositySolver solver(scene, pass_options(call), {.tree = tree}, cancellation);
+  solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
+    display.show_passes("", watched.progress());
+    return true;
+  });
+  return solver.form_factors();
+}
+
+FormFactors compute_form_factors(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
+                                 const Cancellation& cancellation, ProgressDisplay& display) {
+  switch (call.passes().engine) {
+    case Engine::rays:
+      return gather_by_rays(call, *scene, cancellation, display);
+    case Engine::hemicube:
+      return draw_hemicubes(call, *scene, cancellation, display);
+    case Engine::pairs:
+      return compute_pairs(call, *scene, cancellation, display);
+    default:
+      return sum_passes(call, scene, cancellation, display);
+  }
+}
+
+void check_options(const FactorsCall& call) {
+  const Engine engine = call.passes().engine;
+  refuse_unless(engine == Engine::rays, *call.scene.command, "--rays",
+                "used only with engine rays");
+  if (engine == Engine::hemicube) {
+    hemicube_options(call).validate();
+  }
+  if (engine != Engine::rays) {
+    refuse_unused(call.scene, {call.scene.run});
+    return;
+  }
+  // Here its rays start at patches: there is no direction, no plane of pixels, no memory limit.
+  for (const char* option :
+       {"--directions", "--sampling", "--rotate", "--resolution", "--points", "--memory"}) {
+    refuse_unless(false, *call.scene.command, option, "not used with engine rays");
+  }
+}
+
+/// Leaves out what --drop says, and prints how much that is.
+FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactors form_factors,
+                         const Cancellation& cancellation) {
+  if (call.drop == 0) {
+    return form_factors;
+  }
+  DroppedFormFactors rest = drop_small_form_factors(scene, form_factors, call.drop, cancellation);
+  std::string text =
+      fmt::format("{} of {} form factors left out, {:.2g} of all light; the others are rebalanced",
+                  rest.dropped, form_factors.size(), rest.share);
+  if (rest.kept > 0) {
+    text += fmt::format("; {} below {} are kept, without which their rows cannot be rebalanced",
+                        rest.kept, call.drop);
+  }
+  if (rest.row_error > 1e-10) {
+    text += fmt::format("; row sums are off by up to {:.1e}", rest.row_error);
+  }
+  print_message(text);
+  return std::move(rest.form_factors);
+}
+
+int run(const FactorsCall& call) {
+  check_sensor_options(*call.scene.command, call.sensors);
+  if (!call.sensors.points.empty()) {
+    return run_sensors(call.sensors, call.scene, call.out, call.passes().memory,
+                       call.passes().threads);
+  }
+  const Cancellation& cancellation = cancel_on_signals();
+  check_options(call);
+  const std::vector<std::string> outputs = given_files({call.out});
+  for (const std::string& file : outputs) {
+    check_form_factor_path(file);
+  }
+  check_output_files(outputs);
+  const auto scene = load_input_scene(call.scene, outputs, cancellation);
+  ProgressDisplay display;
+  FormFactors computed = compute_form_factors(call, scene, cancellation, display);
+  display.clear();
+  const FormFactors form_factors = without_tiny(call, *scene, std::move(computed), cancellation);
+  if (call.out.empty() || is_standard_output(call.out)) {
+    print_results([&](std::ostream& out) { write_form_factors_csv(out, form_factors); });
+  } else {
+    write_form_factors(call.out, *scene, form_factors);
+  }
+  return success;
+}
+
+/// How form factors are computed.
+void add_methods(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
+  add_parsed_option(
+      command, "--engine", "NAME",
+      fmt::format("{} (default {}); rays: cosine-distributed rays from every patch instead of "
+                  "directions; hemicube: a hemicube on every patch; pairs: pair by pair",
+                  fmt::join(names_of<Engine>(), " | "), name_of(Engine::fast)),
+      [call](const std::string& text) { call->scene.run.solve.engine = from_name<Engine>(text); });
+  add_parsed_option(
+      command, "--points", "P|FILE",
+      option("points").help_text() +
+          "; or a file with points x,y,z,nx,ny,nz, one a line: form factors from them instead of "
+          "patches, exactly by the visible parts",
+      [call](const std::string& text) {
+        if (text.find_first_not_of("+-0123456789") == std::string::npos) {
+          call->scene.run.solve.engine_options.points = parse_points("--points", text);
+          call->scene.given.insert("points");
+        } else {
+          call->sensors.points = text;
+        }
+      });
+  add_sensor_options(command, call->sensors);
+  add_parsed_option(
+      command, "--rays", "N",
+      fmt::format("engine rays: rays per patch (default {})", call->rays.rays_per_patch),
+      [call](const std::string& text) {
+        call->rays.rays_per_patch =
+            static_cast<int>(parse_whole_number("--rays", text, 1, 1 << 24));
+      });
+  add_parsed_option(
+      command, "--resolution", "R",
+      fmt::format("hemicube: pixels along a side of the cube, even (default {}); zbuffer, painter: "
+                  "pixels along the longer side of the projected scene (default {})",
+                  HemicubeOptions().resolution, EngineOptions::default_resolution),
+      [call](const std::string& text) {
+        call->scene.run.solve.engine_options.resolution = parse_resolution("--resolution", text);
+        call->scene.given.insert("resolution");
+      });
+}
+
+/// What is written.
+void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
+  command
+      .add_option("-o,--out", call->out,
+                  "by its ending .csv: i,j,F for every F > 0, sorted by i, then j; .npz: sparse "
+                  "matrix of SciPy; .mtx: Matrix Market; .vf: View3D (default: CSV on standard "
+                  "output)")
+      ->type_name("FILE");
+  add_parsed_option(command, "--drop", "F",
+                    "leave out form factors below F, such as 1e-6, and scale the others so that "
+                    "row sums and reciprocity stay",
+                    [call](const std::string& text) {
+                      call->drop = parse_number("--drop", text);
+                      if (!(call->drop > 0 && call->drop < 1)) {
+                        throw InputError(fmt::format(
+                            "--drop: \"{}\" is not greater than 0 and less than 1", text));
+                      }
+                    });
+}
+
+}  // namespace
+
+Run add_factors_command(CLI::App& program) {
+  auto call = std::make_shared<FactorsCall>();
+  CLI::App& command =
+      *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
+  add_scene_argument(command, call->scene);
+  add_options(command, call->scene, {"directions", "sampling", "seed", "rotate"});
+  add_methods(command, call);
+  add_scene_options(command, call->scene);
+  add_groups(command, call->scene, {"Machine"});
+  command.get_option("--memory")
+      ->description("largest memory for form factors (default: a quarter of the machine's)");
+  add_outputs(command, call);
+  command.footer(
+      "F_ij is the fraction of the power leaving patch i that reaches patch j.\n"
+      "Example: transillum factors cornell-box -m 256 --out factors.csv");
+  return [call] { return run(*call); };
+}
+
+}  // namespace transillum::cli

@@ -1,0 +1,299 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "cli/commands/solve_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "cli/interruption.h"
+#include "cli/messages.h"
+#include "cli/reports/report_text.h"
+#include "transillum/errors.h"
+#include "transillum/form_factor_files.h"
+#include "transillum/form_factor_solve.h"
+#include "transillum/shard_files.h"
+#include "transillum/solve_errors.h"
+#include "transillum/solve_session.h"
+
+namespace transillum::cli {
+namespace {
+
+/// Where the display says an iteration is: in a round, with how many replicas.
+std::string place_of(const SolveSession& session) {
+  const std::string round =
+      session.in_rounds() ? fmt::format("round {}, ", session.rounds().size() + 1) : std::string();
+  const SolveOptions& options = session.options();
+  return options.goal.set() ? fmt::format("{}{} replicas, ", round, options.replicas) : round;
+}
+
+void show_progress(ProgressDisplay& display, const SolveSession& session) {
+  using Stage = SolveProgress::Stage;
+  const SolveProgress progress = session.progress();
+  const std::string iteration =
+      fmt::format("{}iteration {}", place_of(session), progress.iteration + 1);
+  if (progress.stage != Stage::passes) {
+    display.show(
+        progress.stage == Stage::scaling_lobes ? "scaling lobes" : iteration + ", reflecting",
+        progress.stage_share,
+        fmt::format("{:.3g} lobes/s, {} left", progress.lobes_per_second,
+                    time_text(progress.seconds_left)));
+  } else if (progress.direction > 0) {
+    display.show_passes(iteration + ", ", progress);
+  } else if (progress.iteration > 0) {
+    display.show(fmt::format("iteration {}", progress.iteration), -1,
+                 fmt::format("change {:.1e}", progress.change));
+  }
+}
+
+/// Adds the result so far to a series: after an iteration, or within one the estimate by its
+/// directions so far.
+void add_to_series(const SolveJob& job, const SolveSession& session) {
+  session.diffuse()->complete_estimate();
+  if (job.series == nullptr) {
+    return;
+  }
+  const SolveProgress progress = session.progress();
+  const double share =
+      progress.direction > 0 ? progress.direction / static_cast<double>(progress.passes) : 0.0;
+  job.series->add(session.solution(), progress.iteration + share);
+}
+
+/// The checkpoint of a solve, if one is asked for. An error of saving is a warning: the solve is
+/// worth more than its checkpoint.
+class Saver {
+ public:
+  Saver(const SolveJob& job, std::optional<Checkpoint>& checkpoint)
+      : job_(job), checkpoint_(checkpoint) {}
+
+  void save_if_due(const SolveSession& session) {
+    constexpr double between_stages = 1;
+    if (job_.group) {
+      save_in_group_if_due(session);
+      return;
+    }
+    const bool stage_ends = session.options().goal.set() && session.progress().finished;
+    attempt([&] {
+      checkpoint_->save_if_due(session, stage_ends ? std::min(between_stages, job_.checkpoint_every)
+                                                   : job_.checkpoint_every);
+    });
+  }
+  /// Where the solve pauses or ends. The state of an accuracy is that before its last stage is
+  /// judged.
+  void save(const SolveSession& session) {
+    const bool judged = session.options().goal.set() && session.progress().finished;
+    if (!judged) {
+      attempt([&] { checkpoint_->save(session); });
+    }
+  }
+
+ private:
+  /// The first process decides; asking it after each pass would take long.
+  void save_in_group_if_due(const SolveSession& session) {
+    constexpr int passes_between = 32;
+    const int direction = session.progress().direction;
+    if (!checkpoint_ || direction % (passes_between * job_.group->size()) != 0) {
+      return;
+    }
+    const bool due = checkpoint_->is_due(job_.checkpoint_every);
+    if (job_.group->from_first(due ? 1 : 0) > 0) {
+      attempt([&] { checkpoint_->save(session); });
+    }
+  }
+  template <class Save>
+  void attempt(Save save) {
+    if (!checkpoint_) {
+      return;
+    }
+    try {
+      save();
+    } catch (const std::runtime_error& error) {
+      job_.display.clear();
+      print_message(fmt::format("warning: the checkpoint could not be saved: {}", error.what()));
+    }
+  }
+
+  const SolveJob& job_;
+  std::optional<Checkpoint>& checkpoint_;
+};
+
+/// The rounds of refinement, with a line for each.
+void run_rounds(SolveSession& session, const SolveJob& job) {
+  while (session.in_rounds()) {
+    job.display.begin(fmt::format("round {}", session.rounds().size() + 1));
+    session.advance(SolveSession::Until::stage, [&](const SolveSession& watched) {
+      show_progress(job.display, watched);
+      return true;
+    });
+    job.display.clear();
+    const std::size_t number = session.rounds().size();
+    if (number == 0 || job.quiet) {
+      continue;
+    }
+    const RefinementRound& round = session.rounds().back();
+    print_message(fmt::format("round {}: {} patches, {} {:.3g} % of B, {:.2g} s", number,
+                              round.patches,
+                              job.refine->by == RefineBy::jump ? "RMS jump" : "L2 error",
+                              100 * round.figure, round.seconds));
+  }
+}
+
+/// Makes the checkpoint that the job asks for, and goes on with what is in it.
+void resume(SolveSession& session, const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
+  if (job.checkpoint.file.empty()) {
+    return;
+  }
+  checkpoint.emplace(job.checkpoint.file, *session.scene(), job.options);
+  if (!can_resume(job.checkpoint)) {
+    return;
+  }
+  checkpoint->resume(session);
+  const SolveProgress progress = session.progress();
+  job.display.clear();
+  print_message(fmt::format(
+      "{}: goes on after {} iterations{}, {:.3g} s done", job.checkpoint.file, progress.iteration,
+      progress.direction > 0
+          ? fmt::format(" and {} of {} passes", progress.direction, progress.passes)
+          : "",
+      session.seconds()));
+}
+
+void advance(SolveSession& session, const SolveJob& job, Saver& saver) {
+  using Until = SolveSession::Until;
+  bool unfinished = true;
+  while (unfinished) {
+    unfinished = session.advance(
+        job.has_series ? Until::iteration : Until::finished, [&](const SolveSession& watched) {
+          show_progress(job.display, watched);
+          const SolveProgress now = watched.progress();
+          const bool between = now.direction > 0 && now.direction < now.passes;
+          // Here, not after a pause: other threads may finish more passes before it.
+          if (job.series_every > 0 && between && now.direction % job.series_every == 0) {
+            add_to_series(job, watched);
+          }
+          saver.save_if_due(watched);
+          return true;
+        });
+    if (job.has_series) {
+      add_to_series(job, session);
+    }
+  }
+}
+
+/// The passes of shards; null without any.
+TransferEngine read_shards(const SolveJob& job) {
+  if (job.shards.empty()) {
+    return {};
+  }
+  job.display.begin("reading shards");
+  return engine_of_shards(job.shards, *job.scene, job.options, job.cancellation);
+}
+
+SolveRequest request_of(const SolveJob& job) {
+  return {.scene = job.scene,
+          .options = job.options,
+          .refine = job.refine,
+          .engine = read_shards(job),
+          .group = job.group,
+          .preparing = [&job](Preparation preparation, double share) {
+            job.display.show(preparation == Preparation::tree ? "building BSP tree" : "first shot",
+                             share);
+          }};
+}
+
+/// Engine pairs with as many points as an accuracy takes.
+Solution solve_by_pairs_to(const AccuracyGoal& goal, const SolveJob& job) {
+  check_form_factor_options(job.options);
+  PairSolution pairs = solve_by_pairs(
+      job.scene, job.options, goal.accuracy, job.cancellation, [&](int points, double share) {
+        job.display.show(fmt::format("computing pairs, {} points", points), share);
+      });
+  AccuracyReport report;
+  report.goal = goal;
+  report.stages.push_back({pairs.points, 1, pairs.error});
+  report.error = pairs.error;
+  report.reached = pairs.reached;
+  report.trusted = true;
+  pairs.solution.accuracy = report;
+  return std::move(pairs.solution);
+}
+
+}  // namespace
+
+Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
+  SolveSession session(request_of(job), job.cancellation);
+  run_rounds(session, job);
+  resume(session, job, checkpoint);
+  session.prepare();
+  const bool lobes = session.glossy() != nullptr;
+  if (lobes) {
+    job.display.begin("scaling lobes");
+  } else {
+    job.display.expect_passes("iteration 1, ", session.progress().passes);
+  }
+  Saver saver(job, checkpoint);
+  try {
+    advance(session, job, saver);
+  } catch (const Canceled&) {
+    if (lobes && session.progress().iteration == 0) {
+      throw NothingToSave("no iteration was finished: nothing is saved");
+    }
+    if (!session.has_result()) {
+      throw;
+    }
+  }
+  if (session.is_prepared()) {
+    saver.save(session);
+  }
+  Solution solution = session.solution();
+  if (job.form_factors && solution.complete && solution.statistics.kept_form_factors) {
+    solution.form_factors = std::make_shared<const FormFactors>(session.diffuse()->form_factors());
+  }
+  return solution;
+}
+
+Solution solve_with_stored(const std::string& file, const SolveJob& job) {
+  job.display.begin("reading form factors");
+  StoredFormFactors stored = read_form_factors(file, job.cancellation);
+  check_form_factors(*job.scene, stored);
+  if (stored.polygons.empty()) {
+    print_message(fmt::format(
+        "warning: {}: the file does not say of which polygons its form factors are; {} the same, "
+        "but an object that has moved is not noticed",
+        file, stored.areas.empty() ? "the number of patches is" : "the areas are"));
+  }
+  job.display.begin("iterating");
+  try {
+    return solve_with_form_factors(job.scene, std::move(stored.form_factors), job.options,
+                                   job.cancellation);
+  } catch (const SolveError& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
+  }
+}
+
+Solution solve_without_directions(const SolveJob& job) {
+  const SolveOptions& options = job.options;
+  if (options.goal.set() && options.engine == Engine::pairs) {
+    return solve_by_pairs_to(options.goal, job);
+  }
+  const bool hemicubes = options.engine == Engine::hemicube;
+  const char* task = hemicubes ? "drawing hemicubes" : "computing pairs";
+  const double patches = job.scene->patch_count();
+  double done = 0;
+  job.display.begin(task);
+  try {
+    return solve_by_form_factors(job.scene, options, job.cancellation, [&](double share) {
+      done = share;
+      job.display.show_rate(task, share, hemicubes ? patches : patches * (patches - 1) / 2,
+                            hemicubes ? "hemicubes" : "pairs");
+    });
+  } catch (const Canceled&) {
+    // Without all rows of F there is no useful estimate of B.
+    throw NothingToSave(fmt::format(
+        "{:.0f} % of the {}, but B requires all of them: nothing is saved", std::floor(100 * done),
+        hemicubes ? "hemicubes were drawn" : "pairs were computed"));
+  }
+}
+
+}  // namespace transillum::cli

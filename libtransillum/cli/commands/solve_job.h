@@ -1,0 +1,45 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/arguments/checkpoint_options.h"
+#include "cli/progress_display.h"
+#include "transillum/cancellation.h"
+#include "transillum/checkpoint.h"
+#include "transillum/files.h"
+#include "transillum/radiosity.h"
+#include "transillum/refinement.h"
+
+namespace transillum::cli {
+
+/// What all ways of solving need.
+struct SolveJob {
+  std::shared_ptr<const Scene> scene;
+  SolveOptions options;
+  std::optional<RefineOptions> refine;  ///< rounds that come first
+  const Cancellation& cancellation;
+  ProgressDisplay& display;
+  bool quiet = false;                            ///< no line for each round
+  bool form_factors = false;                     ///< wanted in the solution, if they are kept
+  bool has_series = false;                       ///< a series gets the result after every iteration
+  ResultSeries* series = nullptr;                ///< gets them in the first process
+  int series_every = 0;                          ///< and after so many directions; 0: not
+  CheckpointCall checkpoint = {};                ///< file and whether to resume
+  double checkpoint_every = 60;                  ///< s
+  std::vector<std::string> shards = {};          ///< the passes are read from these
+  std::shared_ptr<SolverGroup> group = nullptr;  ///< processes that share the passes
+};
+
+/// Solves by passes, until it has finished or is interrupted.
+/// @param checkpoint made here if the job has one.
+Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint);
+/// Solves with the form factors in a file.
+Solution solve_with_stored(const std::string& file, const SolveJob& job);
+/// Solves with an engine that makes no passes.
+Solution solve_without_directions(const SolveJob& job);
+
+}  // namespace transillum::cli

@@ -1,0 +1,271 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "cli/reports/solve_summary.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cli/arguments/scene_options.h"
+#include "cli/messages.h"
+#include "cli/reports/report_text.h"
+#include "transillum/at.h"
+
+namespace transillum::cli {
+namespace {
+
+/// Smallest, area-weighted mean and largest B over patches, per channel.
+struct RadiosityRange {
+  Rgb low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  Rgb mean;
+  Rgb high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+};
+
+RadiosityRange radiosity_range(const Solution& solution) {
+  RadiosityRange range;
+  double area = 0;
+  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+    const Rgb& b = at(solution.radiosity, i);
+    range.low = {std::min(range.low.r, b.r), std::min(range.low.g, b.g),
+                 std::min(range.low.b, b.b)};
+    range.high = {std::max(range.high.r, b.r), std::max(range.high.g, b.g),
+                  std::max(range.high.b, b.b)};
+    range.mean += solution.scene->patch(i).area * b;
+    area += solution.scene->patch(i).area;
+  }
+  if (area > 0) {
+    range.mean = (1 / area) * range.mean;
+  }
+  return range;
+}
+
+std::string radiosity_text(const Rgb& b) { return rgb_text(b, 5); }
+
+double peak_memory_mebibytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+/// Relative to reflected light.
+std::string remainder_text(const IterationRecord& last) {
+  if (!std::isfinite(std::max(last.remainder, last.remainder_dimmest))) {
+    return "not bounded";
+  }
+  return fmt::format(
+      "at most {:.2e} of the reflected light, {:.2e} in the dimmest tenth of the area",
+      last.remainder, last.remainder_dimmest);
+}
+
+std::string convergence_text(const SolveStatistics& statistics) {
+  if (statistics.iteration_records.empty()) {
+    return "none finished";
+  }
+  const IterationRecord& last = statistics.iteration_records.back();
+  const std::string result =
+      last.error ? fmt::format("{} in the mean, estimated error of the mean {:.2e}",
+                               statistics.iterations - statistics.burn_in, *last.error)
+                 : fmt::format("light not yet propagated {}", remainder_text(last));
+  return fmt::format("{}, {}{}", statistics.iterations, result,
+                     statistics.converged ? ", converged" : "");
+}
+
+std::string passes_text(const SolveStatistics& s) {
+  if (s.hemicubes > 0) {
+    return report_row("hemicubes", fmt::format("{} of {} pixels each, {} threads", s.hemicubes,
+                                               s.directions, s.threads));
+  }
+  if (s.pairs > 0) {
+    return report_row(
+        "pairs", fmt::format("{}, by {} points where something is between, {} threads", s.pairs,
+                             s.directions, s.threads));
+  }
+  if (s.directions == 0) {
+    return report_row("form factors",
+                      fmt::format("{} given, {} threads", s.form_factors, s.threads));
+  }
+  return report_row("passes", fmt::format("{} per iteration, {} directions, {} threads", s.passes,
+                                          s.directions, s.threads));
+}
+
+std::string error_text(const ErrorEstimate& error) {
+  const Rgb half = error.quantile * error.mean_standard_error;
+  return report_row("error of B",
+                    fmt::format("{:.2g} % RMS, at most {:.2g} % (95 % confidence), estimated from "
+                                "{} replicas",
+                                100 * error.rms, 100 * error.rms_limit, error.replicas)) +
+         report_row("B mean, error",
+                    fmt::format("+- {} W/m2 (95 % confidence)", radiosity_text(half)));
+}
+
+std::string accuracy_text(const AccuracyReport& report) {
+  const AccuracyGoal& goal = report.goal;
+  const std::string asked =
+      goal.accuracy > 0 ? fmt::format("{:.3g} % asked", 100 * goal.accuracy) : "as fits the time";
+  const std::string reached = report.reached      ? "reached"
+                              : goal.accuracy > 0 ? "not reached"
+                                                  : "time is up";
+  if (report.passes_made == 0) {  // engine pairs
+    return report_row("accuracy",
+                      fmt::format("{}, {}: estimated error {:.2g} %, {} points", asked, reached,
+                                  100 * report.error, report.stages.back().directions));
+  }
+  return report_row("accuracy",
+                    fmt::format("{}, {}: {} error at most {:.3g} %; {} passes in {} "
+                                "stages",
+                                asked, reached, name_of_accuracy(goal), 100 * report.error,
+                                report.passes_made, report.stages.size()));
+}
+
+std::string glossy_text(const GlossyFigures& figures) {
+  constexpr double mebibyte = 1 << 20;
+  return report_row(
+      "lobes",
+      fmt::format("of {} patches, {} orientations; sums over directions off by {:.1e} "
+                  "before scaling, {:.0e} after; {:.3g} MiB by direction, {:.3g} MiB of "
+                  "transfers kept",
+                  figures.patches, figures.lobes, figures.sum_error, figures.sum_defect,
+                  static_cast<double>(figures.radiance_bytes + figures.lobe_bytes) / mebibyte,
+                  static_cast<double>(figures.transfer_bytes) / mebibyte));
+}
+
+/// Patches on which the mean of B or H is below 0, as only linear functions can make it.
+std::int64_t patches_below_zero(const Solution& solution) {
+  const auto is_below = [](const Rgb& value) { return std::min({value.r, value.g, value.b}) < 0; };
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < solution.linear_parts.size(); ++i) {
+    count += is_below(solution.radiosity[i]) || is_below(solution.irradiance[i]) ? 1 : 0;
+  }
+  return count;
+}
+
+/// Where a scene is open, the largest defect is that of the patch that is most open, and says
+/// nothing about errors.
+std::string closure_text(const Scene& scene, const SolveStatistics& s) {
+  // Form factors without directions have errors, which row sums show too.
+  const double rounding = s.pairs > 0 || s.hemicubes > 0 ? 1e-3 : 1e-9;
+  const std::string open = share_text(s.escaped) + " of the projected area sees no patch";
+  if (s.escaped > rounding) {
+    return report_row("open", open + ": light escapes there");
+  }
+  if (has_two_sided_faces(scene)) {
+    return report_row("closed", open + ", outer sides of two-sided faces left out");
+  }
+  return report_row("closure defect", fmt::format("{:.1e}; {}", s.closure_defect_max, open));
+}
+
+}  // namespace
+
+std::string solve_summary(const Solution& solution) {
+  const SolveStatistics& s = solution.statistics;
+  const RadiosityRange b = radiosity_range(solution);
+  std::string text = report_row("scene", solution.scene->name());
+  text += report_row("patches", fmt::format("{}, {} fragments", s.patches, s.fragments));
+  text += passes_text(s);
+  if (s.pairs > 0) {
+    text += report_row("time per pair", fmt::format("{:.3g} us", 1e6 * s.seconds_transfers /
+                                                                     static_cast<double>(s.pairs)));
+  } else if (s.passes_made > 0) {
+    text += report_row(s.hemicubes > 0 ? "time per hemicube" : "time per pass",
+                       fmt::format("{:.3g} ms, {} in total",
+                                   1000 * s.seconds_transfers / static_cast<double>(s.passes_made),
+                                   s.passes_made));
+  }
+  if (s.shot_sources > 0) {
+    text += report_row(
+        "first shot", fmt::format("{} patches, {} of the emitted power, {}", s.shot_sources,
+                                  share_text(s.shot_power_share), time_text(s.seconds_first_shot)));
+  }
+  if (s.glossy.patches > 0) {
+    text += glossy_text(s.glossy);
+  }
+  text += report_row("iterations", convergence_text(s));
+  if (!s.iteration_records.empty() && s.iteration_records.back().unlit_area > 0) {
+    text +=
+        report_row("unlit", fmt::format("{} of the area: below 1e-6 of the largest reflected light",
+                                        share_text(s.iteration_records.back().unlit_area)));
+  }
+  text += closure_text(*solution.scene, s);
+  if (!s.iteration_records.empty()) {
+    text += report_row("energy defect", fmt::format("{:.1e}", s.energy_defect));
+  }
+  text += report_row("B min, W/m2", radiosity_text(b.low));
+  text += report_row("B mean, W/m2", radiosity_text(b.mean));
+  text += report_row("B max, W/m2", radiosity_text(b.high));
+  if (solution.error.replicas > 0) {
+    text += error_text(solution.error);
+  }
+  if (solution.accuracy && !solution.accuracy->stages.empty()) {
+    text += accuracy_text(*solution.accuracy);
+  }
+  text += report_row("time", fmt::format("{} (loading {}, BSP tree {}, passes {}, iteration {})",
+                                         time_text(s.seconds_total), time_text(s.seconds_load),
+                                         time_text(s.seconds_bsp), time_text(s.seconds_transfers),
+                                         time_text(s.seconds_iterate)));
+  text += report_row("peak memory", fmt::format("{:.0f} MiB", peak_memory_mebibytes()));
+  return text;
+}
+
+std::vector<std::string> solve_warnings(const Solution& solution) {
+  const SolveStatistics& s = solution.statistics;
+  std::vector<std::string> warnings;
+  if (s.iteration_records.empty()) {
+    return warnings;
+  }
+  const auto is_dark = [](const Rgb& value) { return max_abs(value) == 0; };
+  const bool emits = std::any_of(solution.radiosity.begin(), solution.radiosity.end(),
+                                 [&](const Rgb& b) { return !is_dark(b); });
+  if (emits && std::all_of(solution.irradiance.begin(), solution.irradiance.end(), is_dark)) {
+    warnings.push_back("no patch receives light from another: B = E" +
+                       remedy_hint(Remedy::directions));
+  }
+  // Halfway between rho_max (that of exact form factors of a closed scene) and 1.
+  const auto is_slow = [&](const IterationRecord& r) {
+    return r.change > 1e-12 && r.contraction > (1 + s.rho_max) / 2;
+  };
+  constexpr std::ptrdiff_t least = 8;
+  if (std::ssize(s.iteration_records) >= least &&
+      std::all_of(s.iteration_records.end() - least / 2, s.iteration_records.end(), is_slow)) {
+    warnings.push_back(
+        fmt::format("the changes decrease by a factor of only {:.6g} per iteration, although no "
+                    "reflectance exceeds {:.3g}: form factors and B are too large",
+                    s.iteration_records.back().contraction, s.rho_max) +
+        remedy_hint(Remedy::directions_or_row_normalization));
+  }
+  if (s.shot_disagreement > 1) {
+    warnings.push_back(fmt::format(
+        "the first shot and the passes disagree about the light of its sources{}, by {:.2g} times "
+        "what their errors explain: one of them is wrong. Compare with --first-shot none",
+        s.shot_disagreement_patch < 0 ? std::string()
+                                      : fmt::format(" on patch {}", s.shot_disagreement_patch),
+        s.shot_disagreement));
+  }
+  if (const std::int64_t below = patches_below_zero(solution); below > 0) {
+    warnings.push_back(
+        fmt::format("the mean of B or H is below 0 on {} patches, which receive from parts of "
+                    "others where linear functions fall below 0",
+                    below) +
+        remedy_hint(Remedy::directions));
+  }
+  const int replicas = std::max(solution.error.replicas, 1);
+  const double met = s.light_directions / replicas;
+  if (solution.error.replicas > 0 && met > 0 && met < least_light_directions) {
+    warnings.push_back(
+        fmt::format("the error estimate cannot be trusted: in a replica, a patch is lit directly "
+                    "along only {:.2g} directions, as an average by light; {} are needed. {}",
+                    met, least_light_directions,
+                    solution.linear_parts.empty()
+                        ? "--first-shot 0 treats the sources separately; or give more --directions"
+                        : "Give more --directions"));
+  } else if (const std::size_t count = uncertain_patches(solution).size(); count > 0) {
+    warnings.push_back(fmt::format(
+        "the standard errors of {} patches cannot be trusted: fewer than {} directions per replica "
+        "are expected to bring them light of small sources. --first-shot 0 treats these separately",
+        count, least_light_directions));
+  }
+  return warnings;
+}
+
+}  // namespace transillum::cli

@@ -1,0 +1,198 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "radiosity/error/error_estimate.h"
+
+#include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+#include "base/power_of_two.h"
+#include "radiosity/error_bounds.h"
+#include "radiosity/norms.h"
+#include "radiosity/reflected_light.h"
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+constexpr double confidence = 0.95;
+
+/// Standard error of the mean of independent values.
+/// @param scale brings the values near 1, so that their squares are in range
+template <class ValueOf>
+Rgb standard_error_of(std::size_t count, double scale, ValueOf value_of) {
+  const auto n = static_cast<double>(count);
+  Rgb mean;
+  for (std::size_t r = 0; r < count; ++r) {
+    mean += (1 / n) * value_of(r);
+  }
+  Rgb squares;
+  for (std::size_t r = 0; r < count; ++r) {
+    const Rgb off = scale * (value_of(r) - mean);
+    squares += off * off;
+  }
+  const double share = 1 / (n * (n - 1));
+  return (1 / scale) * Rgb{std::sqrt(share * squares.r), std::sqrt(share * squares.g),
+                           std::sqrt(share * squares.b)};
+}
+
+double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }
+
+/// Unknowns per patch in a list of their values.
+std::size_t unknowns_per_patch(const Scene& scene, const std::vector<Rgb>& b) {
+  return b.size() / scene.patches().size();
+}
+
+Rgb mean_over_area(const Scene& scene, const std::vector<Rgb>& b) {
+  const std::size_t per_patch = unknowns_per_patch(scene, b);
+  Rgb power;
+  double area = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    power += scene.patch(i).area * b[per_patch * static_cast<std::size_t>(i)];
+    area += scene.patch(i).area;
+  }
+  return (1 / area) * power;
+}
+
+using Matrix = std::vector<std::vector<double>>;
+
+/// Scalar products of the deviations of replicas from `b`, over patches and channels.
+/// @param measured of ReflectedLight
+Matrix scalar_products(const std::vector<Rgb>& b, const std::vector<char>& measured, double scale,
+                       const std::vector<std::vector<Rgb>>& replicas) {
+  const std::size_t count = replicas.size();
+  Matrix products(count, std::vector<double>(count));
+  std::vector<Rgb> off(count);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    for (std::size_t r = 0; measured[i] != 0 && r < count; ++r) {
+      off[r] = scale * (replicas[r][i] - b[i]);
+      for (std::size_t s = 0; s <= r; ++s) {
+        const Rgb product = off[r] * off[s];
+        products[r][s] += product.r + product.g + product.b;
+      }
+    }
+  }
+  for (std::size_t r = 0; r < count; ++r) {
+    for (std::size_t s = 0; s < r; ++s) {
+      products[s][r] = products[r][s];
+    }
+  }
+  return products;
+}
+
+/// (trace C)² / trace C², where C is the covariance of the replicas over patches and channels: the
+/// number of equal independent errors whose sum of squares varies as that of all. Both traces are
+/// estimated without bias from differences of disjoint pairs of replicas; 1 for fewer than 4. The
+/// ratio of so few is uncertain, so it is taken rather too small (decisions/0052-accuracy.md).
+/// @param products of the replicas
+double independent_errors(const Matrix& products) {
+  const auto product = [&](auto a, auto b, auto c, auto d) {  // of the differences a - b and c - d
+    return products[a][c] - products[a][d] - products[b][c] + products[b][d];
+  };
+  const std::size_t n = products.size();
+  double norms = 0, squares = 0;
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t c = a + 1; c < n; ++c) {
+      for (std::size_t b = a + 1; b < n; ++b) {
+        for (std::size_t d = c + 1; b != c && d < n; ++d) {
+          if (d != b) {
+            norms += product(a, b, a, b) * product(c, d, c, d);
+            squares += std::pow(product(a, b, c, d), 2);
+          }
+        }
+      }
+    }
+  }
+  constexpr double caution = 1.3, most = 30;
+  return norms > 0 ? std::max(1.0, 1 / (caution * squares / norms + 1 / most)) : 1.0;
+}
+
+}  // namespace
+
+ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
+                             const std::vector<std::vector<Rgb>>& replicas) {
+  ErrorEstimate error;
+  error.replicas = static_cast<int>(replicas.size());
+  const boost::math::students_t student(error.replicas - 1);
+  error.quantile = quantile(student, (1 + confidence) / 2);
+  error.standard_error.reserve(scene.patches().size());
+  const std::size_t per_patch = unknowns_per_patch(scene, b);
+  const ReflectedLight light(scene, per_patch);
+  const std::vector<char> measured = light.measured(b);
+  const double scale = scale_to_one(max_norm(light.of(b)));
+  double errors = 0, values = 0;
+  for (std::size_t u = 0; u < b.size(); ++u) {
+    const Rgb standard_error =
+        standard_error_of(replicas.size(), scale, [&](std::size_t r) { return replicas[r][u]; });
+    if (u % per_patch == 0) {
+      error.standard_error.push_back(standard_error);
+    }
+    if (measured[u] != 0) {
+      errors += sum_of_squares(scale * standard_error);
+      values += sum_of_squares(scale * light.of(u, b[u]));
+    }
+  }
+  error.rms = values > 0 ? std::sqrt(errors / values) : 0.0;
+  error.independent_errors = independent_errors(scalar_products(b, measured, scale, replicas));
+  // The sum of squared errors over its estimate, both as sums of so many squares.
+  const boost::math::fisher_f fisher(error.independent_errors,
+                                     (error.replicas - 1) * error.independent_errors);
+  error.rms_limit = error.rms * std::sqrt(quantile(fisher, confidence));
+  error.rms_lowest = error.rms * std::sqrt(quantile(fisher, 1 - confidence));
+  std::vector<Rgb> means;
+  for (const auto& replica : replicas) {
+    means.push_back(mean_over_area(scene, replica));
+  }
+  error.mean_radiosity = mean_over_area(scene, b);
+  error.mean_reflected = mean_over_area(scene, difference(b, light.exitance()));
+  error.mean_standard_error =
+      standard_error_of(means.size(), scale, [&](std::size_t r) { return means[r]; });
+  return error;
+}
+
+void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rgb>& b,
+                  const std::vector<Rgb>& bias) {
+  if (error.replicas == 0 || bias.empty()) {
+    return;
+  }
+  const std::size_t per_patch = unknowns_per_patch(scene, bias);
+  for (std::size_t i = 0; i < error.standard_error.size(); ++i) {
+    error.standard_error[i] = root_of_squares(error.standard_error[i], bias[per_patch * i]);
+  }
+  error.mean_standard_error =
+      root_of_squares(error.mean_standard_error, mean_over_area(scene, bias));
+  const ReflectedLight light(scene, per_patch);
+  const std::vector<Rgb> reflected = light.of(b);
+  if (const double unit = max_norm(reflected); unit > 0) {
+    const std::vector<char> measured = light.measured(b);
+    std::vector<Rgb> counted = bias;
+    for (std::size_t u = 0; u < bias.size(); ++u) {
+      counted[u] = measured[u * b.size() / bias.size()] != 0 ? bias[u] : Rgb{};
+    }
+    const double relative = root_of_squares(counted, unit) / root_of_squares(reflected, unit);
+    error.rms = std::hypot(error.rms, relative);
+    error.rms_limit = std::hypot(error.rms_limit, relative);
+    error.rms_lowest = std::hypot(error.rms_lowest, relative);
+  }
+}
+
+/// An error D of H makes B wrong by X = rho D + rho F X. F X is taken as the mean of X over the
+/// area, the mean of rho D over 1 - the mean of rho.
+std::vector<Rgb> bias_of_shot(const Scene& scene, const DirectLight& shot) {
+  std::vector<Rgb> bias(shot.irradiance_error.size()), rho(bias.size());
+  for (std::size_t i = 0; i < bias.size(); ++i) {
+    rho[i] = scene.reflectance(static_cast<PatchId>(i));
+    bias[i] = rho[i] * shot.irradiance_error[i];
+  }
+  if (bias.empty() || !(max_norm(bias) > 0)) {
+    return {};
+  }
+  const Rgb direct = mean_over_area(scene, bias), mean = mean_over_area(scene, rho);
+  const Rgb gathered{direct.r / (1 - mean.r), direct.g / (1 - mean.g), direct.b / (1 - mean.b)};
+  for (std::size_t i = 0; i < bias.size(); ++i) {
+    bias[i] += rho[i] * gathered;
+  }
+  return bias;
+}
+
+}  // namespace transillum

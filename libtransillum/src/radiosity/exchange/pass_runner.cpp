@@ -1,0 +1,129 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A TBB pipeline of three filters: number the passes, make them in parallel, add them in order.
+#include "radiosity/exchange/pass_runner.h"
+
+#include <oneapi/tbb/parallel_pipeline.h>
+
+#include <atomic>
+#include <utility>
+#include <vector>
+
+#include "base/tsan_scope.h"
+#include "base/worker_threads.h"
+
+namespace transillum {
+namespace {
+
+/// The passes under way. The pipeline admits at most as many as there are slots, and they leave in
+/// order, so pass k finds its slot free.
+class Slots {
+ public:
+  explicit Slots(std::size_t count) : passes_(count) {}
+  std::size_t count() const { return passes_.size(); }
+  Pass& of(int k) { return passes_[static_cast<std::size_t>(k) % passes_.size()]; }
+  const std::vector<Pass>& all() const { return passes_; }
+
+ private:
+  std::vector<Pass> passes_;
+};
+
+/// Tells ThreadSanitizer the order that TBB's pipeline guarantees: each filter body is wrapped in
+/// a function that acquires what was done before. Does nothing in other builds.
+class PipelineOrder {
+ public:
+  explicit PipelineOrder(Slots& slots) : slots_(slots) {}
+
+  /// Bodies of the source run one after the other, and a pass admitted takes over its slot.
+  template <class Body>
+  auto source(Body body, int last) {
+    return [this, body, last](tbb::flow_control& control) {
+      tsan_acquire(&start);
+      const TsanScope serial(&source_);
+      const int k = body(control);
+      if (k < last) {
+        const TsanScope slot(&slots_.of(k));
+      }
+      return k;
+    };
+  }
+  /// Bodies for different passes run at the same time.
+  template <class Body>
+  auto parallel(Body body) {
+    return [this, body](int k) {
+      tsan_acquire(&start);
+      const TsanScope slot(&slots_.of(k));
+      body(k);
+      return k;
+    };
+  }
+  /// Bodies of the sink run one after the other.
+  template <class Body>
+  auto sink(Body body) {
+    return [this, body](int k) {
+      tsan_acquire(&start);
+      const TsanScope serial(&sink_), slot(&slots_.of(k));
+      body(k);
+    };
+  }
+  /// Runs the pipeline; what its filters did has happened before this returns or throws.
+  template <class Run>
+  void around(Run run) {
+    struct AtEnd {
+      const PipelineOrder& order;
+      ~AtEnd() { order.acquire_all(); }
+    };
+    tsan_release(&start);
+    const AtEnd end{*this};
+    run();
+  }
+
+ private:
+  void acquire_all() const {
+    tsan_acquire(&source_);
+    tsan_acquire(&sink_);
+    for (const Pass& pass : slots_.all()) {
+      tsan_acquire(&pass);
+    }
+  }
+
+  /// Stands for what is done before the workers start. Static: a worker must be able to name it
+  /// before it has acquired anything.
+  static constexpr char start = 0;
+
+  Slots& slots_;
+  char source_ = 0, sink_ = 0;  ///< addresses that represent the serial filters
+};
+
+}  // namespace
+
+void PassRunner::run(int first, int last, const std::function<Pass(int)>& make,
+                     const std::function<bool(int, Pass)>& add) const {
+  Slots slots(static_cast<std::size_t>(2 * threads_));
+  PipelineOrder order(slots);
+  std::atomic<bool> going{true};
+  int next = first;
+  const auto next_pass = [&](tbb::flow_control& control) {
+    if (next < last && going) {
+      return next++;
+    }
+    control.stop();
+    return last;
+  };
+  const auto make_pass = [&](int k) { slots.of(k) = make(k); };
+  const auto add_pass = [&](int k) {
+    if (!add(k, std::move(slots.of(k)))) {
+      going = false;
+    }
+  };
+  using enum tbb::filter_mode;
+  const auto pipeline =
+      tbb::make_filter<void, int>(serial_in_order, order.source(next_pass, last)) &
+      tbb::make_filter<int, int>(parallel, order.parallel(make_pass)) &
+      tbb::make_filter<int, void>(serial_in_order, order.sink(add_pass));
+  WorkerThreads workers(threads_);
+  order.around(
+      [&] { workers.arena().execute([&] { tbb::parallel_pipeline(slots.count(), pipeline); }); });
+}
+
+}  // namespace transillum

@@ -1,0 +1,39 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "radiosity/exchange/unknowns.h"
+
+#include "transillum/at.h"
+
+namespace transillum {
+
+Unknowns::Unknowns(const Scene& scene, Basis basis, const DirectLight& shot)
+    : per_patch(basis == Basis::linear ? 3 : 1) {
+  const std::size_t all = per_patch * scene.patches().size();
+  area.reserve(all);
+  exitance.reserve(all);
+  reflectance.reserve(all);
+  shot_exitance.reserve(all);
+  shot_irradiance.reserve(all);
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    for (std::size_t a = 0; a < per_patch; ++a) {
+      area.push_back(scene.patch(i).area);
+      exitance.push_back(a == 0 ? scene.exitance(i) : Rgb{});
+      reflectance.push_back(scene.reflectance(i));
+      shot_exitance.push_back(a == 0 ? at(shot.exitance, i) : Rgb{});
+      shot_irradiance.push_back(a == 0 ? at(shot.irradiance, i) : Rgb{});
+    }
+  }
+}
+
+std::vector<Rgb> Unknowns::means(const std::vector<Rgb>& values) const {
+  if (per_patch == 1) {
+    return values;
+  }
+  std::vector<Rgb> means;
+  means.reserve(values.size() / per_patch);
+  for (std::size_t u = 0; u < values.size(); u += per_patch) {
+    means.push_back(values[u]);
+  }
+  return means;
+}
+
+}  // namespace transillum
