@@ -76,7 +76,7 @@ BoundsPrediction predict(double rho, const BoundsOptions& options, double size_r
 
 Sampling sampling_of(const std::string& name, const std::string& path) {
   try {
-    return sampling_from_name(name);
+    return from_name<Sampling>(name);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path, error.what()));
   }

@@ -180,8 +180,8 @@ void add_methods(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
       command, "--engine", "NAME",
       fmt::format("{} (default {}); rays: cosine-distributed rays from every patch instead of "
                   "directions; hemicube: a hemicube on every patch; pairs: pair by pair",
-                  fmt::join(engine_names(), " | "), name_of(Engine::fast)),
-      [call](const std::string& text) { call->scene.run.solve.engine = engine_from_name(text); });
+                  fmt::join(names_of<Engine>(), " | "), name_of(Engine::fast)),
+      [call](const std::string& text) { call->scene.run.solve.engine = from_name<Engine>(text); });
   add_parsed_option(
       command, "--points", "P|FILE",
       option("points").help_text() +

@@ -88,7 +88,7 @@ void add_pixel_options(CLI::App& command, MapCall& call) {
       command, "--engine", "NAME",
       "local (default): exact map; zbuffer | painter | rays: map from the pixels of this engine",
       [&call](const std::string& text) {
-        call.scene.run.solve.engine = engine_from_name(text);
+        call.scene.run.solve.engine = from_name<Engine>(text);
         if (!call.is_exact() && !has_pixels(call.engine())) {
           throw InputError(
               fmt::format("--engine: {} has no map that can be written; choose local, zbuffer, "

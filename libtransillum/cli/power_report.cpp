@@ -100,7 +100,7 @@ std::string exchange_text(const PowerTable& table, PartsBy by, bool gray) {
 std::string power_report(const PowerTable& table, PartsBy by) {
   const bool gray = is_gray(table);
   const bool sky = max_abs(table.total.from_sky) > 0;
-  std::vector<Row> rows{{parts_by_names().at(static_cast<std::size_t>(by)), "patches", "area, m2",
+  std::vector<Row> rows{{names_of<PartsBy>().at(static_cast<std::size_t>(by)), "patches", "area, m2",
                          "emitted, W", "received, W", "absorbed, W"}};
   if (sky) {
     rows.front().emplace_back("from the sky, W");

@@ -70,8 +70,8 @@ void add_outputs(CLI::App& command, SolveCall& call) {
   add_parsed_option(command, "--by", "NAME",
                     fmt::format("print area and power emitted, received, absorbed, escaped and "
                                 "exchanged, by {}",
-                                fmt::join(parts_by_names(), " or ")),
-                    [&call](const std::string& text) { call.by = parts_by_from_name(text); });
+                                fmt::join(names_of<PartsBy>(), " or ")),
+                    [&call](const std::string& text) { call.by = from_name<PartsBy>(text); });
   command.add_flag("-q,--quiet", call.quiet, "no progress and no summary on standard error");
   for (const char* option :
        {"--exposure", "--target", "--light-map", "--series", "--series-every", "--by"}) {

@@ -361,7 +361,7 @@ std::vector<int> parse_directions(const std::string& text) {
 /// `fast`, `zbuffer:256` or `pairs:16`.
 StudiedEngine parse_engine(const std::string& text) {
   const std::size_t colon = text.find(':');
-  StudiedEngine engine{engine_from_name(text.substr(0, colon)), 0};
+  StudiedEngine engine{from_name<Engine>(text.substr(0, colon)), 0};
   if (colon != std::string::npos) {
     const auto parse = traits_of(engine.engine).takes_points ? parse_points : parse_resolution;
     engine.resolution = parse("--engines", text.substr(colon + 1));
@@ -377,29 +377,29 @@ void add_series_options(CLI::App& command, StudyCall& call) {
   add_list_option(
       command, "--sampling", "NAME,...",
       fmt::format("{} (default random,hammersley,{}; --one-way alone: random,hammersley,{})",
-                  fmt::join(sampling_names(), " | "), name_of(default_sampling(true)),
+                  fmt::join(names_of<Sampling>(), " | "), name_of(default_sampling(true)),
                   name_of(default_sampling(false))),
       call.given_samplings,
-      [](const std::string& text) { return std::vector{sampling_from_name(text)}; });
+      [](const std::string& text) { return std::vector{from_name<Sampling>(text)}; });
   command.add_flag("--one-way", call.one_way, "use each pass for one direction, as in the paper");
   command.add_flag(
       "--two-way", call.two_way,
       "use each pass for a direction and its opposite (default); with --one-way: study "
       "both");
   add_list_option(command, "--normalize", "NAME,...",
-                  fmt::format("{} (default none)", fmt::join(normalization_names(), " | ")),
+                  fmt::format("{} (default none)", fmt::join(names_of<Normalization>(), " | ")),
                   call.normalizations, [](const std::string& text) {
-                    return std::vector{normalization_from_name(text)};
+                    return std::vector{from_name<Normalization>(text)};
                   });
   add_list_option(command, "--scheme", "NAME,...",
-                  fmt::format("{} (default fixed)", fmt::join(scheme_names(), " | ")), call.schemes,
-                  [](const std::string& text) { return std::vector{scheme_from_name(text)}; });
+                  fmt::format("{} (default fixed)", fmt::join(names_of<Scheme>(), " | ")), call.schemes,
+                  [](const std::string& text) { return std::vector{from_name<Scheme>(text)}; });
   add_list_option(command, "--basis", "NAME,...",
                   fmt::format("{} (default constant); with linear, errors are L2 norms of "
                               "functions, against a linear reference",
-                              fmt::join(basis_names(), " | ")),
+                              fmt::join(names_of<Basis>(), " | ")),
                   call.bases,
-                  [](const std::string& text) { return std::vector{basis_from_name(text)}; });
+                  [](const std::string& text) { return std::vector{from_name<Basis>(text)}; });
   add_list_option(command, "--first-shot", "RATIO,...",
                   "none | auto | a number: treat small bright sources separately, as in solve; the "
                   "reference does so if any series does (default none)",
@@ -419,7 +419,7 @@ void add_series_options(CLI::App& command, StudyCall& call) {
       fmt::format(
           "{}; R: its resolution (of pairs: its points), instead of --resolution and --points "
           "(default {})",
-          fmt::join(engine_names(), " | "), name_of(Engine::fast)),
+          fmt::join(names_of<Engine>(), " | "), name_of(Engine::fast)),
       call.engines, [](const std::string& text) { return std::vector{parse_engine(text)}; });
   add_options(command, call.scene, {"resolution", "points", "order"});
 }
@@ -431,8 +431,8 @@ void add_error_options(CLI::App& command, StudyCall& call) {
   add_parsed_option(
       command, "--error", "NAME",
       fmt::format("{}: error in the table and the plots (default rms); the CSV has both",
-                  fmt::join(error_measure_names(), " | ")),
-      [&call](const std::string& text) { call.error = error_measure_from_name(text); });
+                  fmt::join(names_of<ErrorMeasure>(), " | ")),
+      [&call](const std::string& text) { call.error = from_name<ErrorMeasure>(text); });
 }
 
 void add_reference_options(CLI::App& command, StudyCall& call) {
@@ -485,8 +485,8 @@ Run add_study_command(CLI::App& program) {
       command, "--against", "AXIS",
       fmt::format("{}: horizontal axis of the plots (default passes); hemicubes and pairs "
                   "appear in plots over seconds only",
-                  fmt::join(study_axis_names(), " | ")),
-      [call](const std::string& text) { call->against = study_axis_from_name(text); });
+                  fmt::join(names_of<StudyAxis>(), " | ")),
+      [call](const std::string& text) { call->against = from_name<StudyAxis>(text); });
   add_checkpoint_options(command, call->checkpoint,
                          "save the points so far in this file, so that --resume can go on");
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");

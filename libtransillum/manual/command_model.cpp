@@ -22,9 +22,9 @@ using Names = std::vector<std::string>;
 
 /// The engines that a command accepts.
 Names engines_of(const std::string& command) {
-  Names names = engine_names();
+  Names names = names_of<Engine>();
   std::erase_if(names, [&](const std::string& name) {
-    const Engine engine = engine_from_name(name);
+    const Engine engine = from_name<Engine>(name);
     return (command == "map" && engine != Engine::local && !has_pixels(engine)) ||
            (command == "transfers" && !takes_directions(engine));
   });
@@ -34,9 +34,9 @@ Names engines_of(const std::string& command) {
 /// The names that an option accepts; empty if it has no fixed names.
 Names choices_of(const std::string& command, const std::string& option) {
   static const std::map<std::string, Names> of_commands{
-      {"by", parts_by_names()},
-      {"error", error_measure_names()},
-      {"against", study_axis_names()},
+      {"by", names_of<PartsBy>()},
+      {"error", names_of<ErrorMeasure>()},
+      {"against", names_of<StudyAxis>()},
       {"series-every", {"iteration", "direction"}},
   };
   if (option == "engine" || option == "engines") {

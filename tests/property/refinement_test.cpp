@@ -209,7 +209,7 @@ TEST(Refinement, RefusesWhatItCannotDo) {
   EXPECT_THROW(refine(scene, options(), {.patches = 0}), InputError);
   EXPECT_THROW(refine(scene, options(), {.patches = 9, .until = 1}), InputError);
   EXPECT_THROW(refine(scene, {.engine = Engine::pairs}, {.patches = 9}), InputError);
-  EXPECT_THROW(refine_by_from_name("jumps"), InputError);
+  EXPECT_THROW(from_name<RefineBy>("jumps"), InputError);
   const Cancellation canceled;
   canceled.cancel();
   EXPECT_THROW(refine(scene, options(), {.patches = 99}, {}, canceled), Canceled);

@@ -80,9 +80,9 @@ void expect_units_do_not_matter(const SolveOptions& options) {
 }
 
 TEST(Units, EnginesGiveTheSameBits) {
-  for (const std::string& name : engine_names()) {
+  for (const std::string& name : names_of<Engine>()) {
     SCOPED_TRACE(name);
-    const Engine engine = engine_from_name(name);
+    const Engine engine = from_name<Engine>(name);
     const bool slow = engine == Engine::global || engine == Engine::exact;
     SolveOptions options{.directions = slow ? 2 : 16, .engine = engine};
     if (engine != Engine::rays) {

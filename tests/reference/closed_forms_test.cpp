@@ -53,8 +53,8 @@ TEST(ClosedForms, FormFactorsOfSquaresMatchTheFormulas) {
 }
 
 TEST(ClosedForms, EverySamplingOneWayAndTwoWayConvergesToTheSame) {
-  for (const std::string& name : sampling_names()) {
-    const Sampling sampling = sampling_from_name(name);
+  for (const std::string& name : names_of<Sampling>()) {
+    const Sampling sampling = from_name<Sampling>(name);
     for (const bool two_way : {false, true}) {
       SolveOptions options{.directions = 20000,
                            .sampling = sampling,
@@ -92,8 +92,8 @@ TEST(ClosedForms, RowSumsOfASphereInAnEnclosureAreOne) {
 }
 
 TEST(Furnace, IsExactlyTwoWithNormalizedRows) {
-  for (const std::string& name : sampling_names()) {
-    const Sampling sampling = sampling_from_name(name);
+  for (const std::string& name : names_of<Sampling>()) {
+    const Sampling sampling = from_name<Sampling>(name);
     for (const bool two_way : {false, true}) {
       const auto scene = load_scene("furnace");
       const Solution solution = solve(scene, {.directions = 64,

@@ -50,8 +50,8 @@ TEST(AntipodalSet, HasTheCosineErrorsOfAnIndependentImplementation) {
 TEST(AntipodalSet, IsMoreEvenThanAnyOtherSetWithItsOpposites) {
   for (const int count : {2, 3, 5, 8, 16, 50, 64, 100, 150, 333, 1024}) {
     const double error = two_way_error(axes(count));
-    for (const std::string& name : sampling_names()) {
-      const Sampling sampling = sampling_from_name(name);
+    for (const std::string& name : names_of<Sampling>()) {
+      const Sampling sampling = from_name<Sampling>(name);
       if (sampling != Sampling::antipodal) {
         EXPECT_LT(error, two_way_error(make_directions(sampling, count, 1))) << name << count;
       }
@@ -63,8 +63,8 @@ TEST(AntipodalSet, HasTheSmallestCapDiscrepancyWithItsOpposites) {
   for (const int count : {16, 32, 50, 64, 100}) {
     const CapDiscrepancy caps = cap_discrepancy(with_opposites(axes(count)));
     ASSERT_TRUE(caps.exact);
-    for (const std::string& name : sampling_names()) {
-      const Sampling sampling = sampling_from_name(name);
+    for (const std::string& name : names_of<Sampling>()) {
+      const Sampling sampling = from_name<Sampling>(name);
       if (sampling != Sampling::antipodal) {
         const auto others = with_opposites(make_directions(sampling, count, 1));
         EXPECT_LT(caps.value, cap_discrepancy(others).value) << name << count;

@@ -474,7 +474,7 @@ TEST(CliFactors, FailWithoutAFileIfTheMemoryIsTooSmall) {
 
 TEST(CliDirections, ArePointsOnTheUnitSphere) {
   const TemporaryFolder folder;
-  for (const std::string& sampling : sampling_names()) {
+  for (const std::string& sampling : names_of<Sampling>()) {
     ASSERT_EQ(
         run_program({"directions", "--sampling", sampling, "-m", "32", "--out", folder / "d.csv"})
             .status,

@@ -44,13 +44,13 @@ TEST(Directions, ErrorsMatchReferenceValues) {
 
 /// Scripts written for earlier versions use the British spelling.
 TEST(Directions, AcceptTheFormerSpellingOfCentered) {
-  EXPECT_EQ(sampling_from_name("centred-hammersley"), Sampling::centered_hammersley);
+  EXPECT_EQ(from_name<Sampling>("centred-hammersley"), Sampling::centered_hammersley);
   EXPECT_EQ(name_of(Sampling::centered_hammersley), "centered-hammersley");
 }
 
 TEST(Directions, AreUnitVectorsByEquation13) {
-  for (const auto& name : sampling_names()) {
-    for (const auto& d : make_directions(sampling_from_name(name), 777, 5)) {
+  for (const auto& name : names_of<Sampling>()) {
+    for (const auto& d : make_directions(from_name<Sampling>(name), 777, 5)) {
       EXPECT_NEAR(norm(d.direction), 1, 1e-15);
       EXPECT_NEAR(d.direction.z, 1 - 2 * d.v, 1e-15);  // eq. 13
       EXPECT_GE(d.u, 0);
@@ -80,8 +80,8 @@ TEST(Directions, HaltonIsBasesTwoAndThree) {
 }
 
 TEST(Directions, DependOnTheSeedIfSeeded) {
-  for (const auto& name : sampling_names()) {
-    const Sampling sampling = sampling_from_name(name);
+  for (const auto& name : names_of<Sampling>()) {
+    const Sampling sampling = from_name<Sampling>(name);
     const auto a = make_directions(sampling, 10, 1);
     const auto b = make_directions(sampling, 10, 1);
     const auto c = make_directions(sampling, 10, 2);
@@ -93,8 +93,8 @@ TEST(Directions, DependOnTheSeedIfSeeded) {
 }
 
 TEST(Directions, ExtensibleSequencesContinue) {
-  for (const auto& name : sampling_names()) {
-    const Sampling sampling = sampling_from_name(name);
+  for (const auto& name : names_of<Sampling>()) {
+    const Sampling sampling = from_name<Sampling>(name);
     const auto few = make_directions(sampling, 100, 4), many = make_directions(sampling, 300, 4);
     bool beginning = true;
     for (std::size_t k = 0; k < few.size(); ++k) {
@@ -201,8 +201,8 @@ TEST(Directions, RotationsAreUniform) {
 
 TEST(Directions, ProgressiveOrderIsAPermutationWithUniformPrefixes) {
   const auto normals = make_directions(Sampling::fibonacci, 50, 0);
-  for (const auto& name : sampling_names()) {
-    const Sampling sampling = sampling_from_name(name);
+  for (const auto& name : names_of<Sampling>()) {
+    const Sampling sampling = from_name<Sampling>(name);
     for (const int count : {1, 2, 7, 100, 1024}) {
       const auto order = progressive_order(sampling, count);
       const std::set<int> all(order.begin(), order.end());
@@ -259,8 +259,8 @@ double eq_46_defect(const std::vector<StepMeans>& steps) {
 
 TEST(DirectionsOfIteration, SatisfyEquation46UnlessPlainHammersley) {
   constexpr int count = 4, steps = 4096;
-  for (const auto& name : sampling_names()) {
-    const Sampling sampling = sampling_from_name(name);
+  for (const auto& name : names_of<Sampling>()) {
+    const Sampling sampling = from_name<Sampling>(name);
     std::vector<StepMeans> means;
     for (int step = 0; step < steps; ++step) {
       means.push_back(means_over(directions_of_iteration(sampling, count, 5, step)));
@@ -291,8 +291,8 @@ TEST(DirectionsOfIteration, ConsecutivePartsOfASequenceViolateEquation46) {
 }
 
 TEST(DirectionsOfIteration, DifferWhereTheySaySo) {
-  for (const std::string& name : sampling_names()) {
-    const Sampling sampling = sampling_from_name(name);
+  for (const std::string& name : names_of<Sampling>()) {
+    const Sampling sampling = from_name<Sampling>(name);
     const Vec3 first = directions_of_iteration(sampling, 16, 1, 0).front().direction;
     const Vec3 second = directions_of_iteration(sampling, 16, 1, 1).front().direction;
     EXPECT_EQ(differs_by_iteration(sampling), !(first == second)) << name;
@@ -316,15 +316,15 @@ TEST(DirectionsOfIteration, SetsOfOneSequenceUseEveryPointOnce) {
 }
 
 TEST(Directions, RejectsInvalidCountsAndNames) {
-  for (const auto& name : sampling_names()) {
-    const Sampling sampling = sampling_from_name(name);
+  for (const auto& name : names_of<Sampling>()) {
+    const Sampling sampling = from_name<Sampling>(name);
     for (const int count : {0, -3, max_directions + 1}) {
       EXPECT_THROW(make_directions(sampling, count, 1), InputError);
       EXPECT_THROW(directions_of_iteration(sampling, count, 1, 1), InputError);
     }
   }
   EXPECT_THROW(directions_of_iteration(Sampling::random, 4, 1, -1), InputError);
-  EXPECT_THROW(sampling_from_name("fibonaci"), InputError);
+  EXPECT_THROW(from_name<Sampling>("fibonaci"), InputError);
 }
 
 }  // namespace

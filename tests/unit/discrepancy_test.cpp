@@ -33,9 +33,9 @@ double star_by_exhaustive_search(const std::vector<DirectionSample>& points) {
 }
 
 TEST(StarDiscrepancy, EqualsExhaustiveSearch) {
-  for (const auto& name : sampling_names()) {
+  for (const auto& name : names_of<Sampling>()) {
     for (const int count : {1, 2, 3, 10, 33, 64, 120}) {
-      const auto points = make_directions(sampling_from_name(name), count, 7);
+      const auto points = make_directions(from_name<Sampling>(name), count, 7);
       EXPECT_NEAR(star_discrepancy(points), star_by_exhaustive_search(points), 1e-14)
           << name << count;
     }
@@ -97,9 +97,9 @@ double cap_by_exhaustive_search(const std::vector<DirectionSample>& set) {
 }
 
 TEST(CapDiscrepancy, OfFewDirectionsEqualsExhaustiveSearch) {
-  for (const auto& name : sampling_names()) {
+  for (const auto& name : names_of<Sampling>()) {
     for (const int count : {1, 2, 3, 5, 20}) {
-      const auto set = make_directions(sampling_from_name(name), count, 7);
+      const auto set = make_directions(from_name<Sampling>(name), count, 7);
       const CapDiscrepancy caps = cap_discrepancy(set);
       EXPECT_TRUE(caps.exact);
       EXPECT_NEAR(caps.value, cap_by_exhaustive_search(set), 1e-12) << name << count;

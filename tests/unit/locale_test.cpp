@@ -16,6 +16,7 @@
 #include "transillum/json_text.h"
 #include "transillum/line_chart.h"
 #include "transillum/map_files.h"
+#include "transillum/solve_session.h"
 #include "transillum/study_files.h"
 #include "transillum/visibility_map.h"
 

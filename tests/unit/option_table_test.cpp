@@ -103,16 +103,16 @@ TEST(EngineTraits, SayWhatMakeEngineDoes) {
   const auto scene = testing::box_in_cube(2, 1).scene();
   const auto tree = std::make_shared<const BspTree>(*scene);
   for (const EngineTraits& traits : engines()) {
-    EXPECT_EQ(engine_from_name(traits.name), traits.engine);
+    EXPECT_EQ(from_name<Engine>(traits.name), traits.value);
     if (!traits.takes_directions) {
-      EXPECT_THROW(make_engine(traits.engine, scene, tree), InputError) << traits.name;
+      EXPECT_THROW(make_engine(traits.value, scene, tree), InputError) << traits.name;
       continue;
     }
-    EXPECT_NO_THROW(make_engine(traits.engine, scene, tree)) << traits.name;
+    EXPECT_NO_THROW(make_engine(traits.value, scene, tree)) << traits.name;
     if (traits.has_moments) {
-      EXPECT_NO_THROW(make_engine(traits.engine, scene, tree, {.moments = true})) << traits.name;
+      EXPECT_NO_THROW(make_engine(traits.value, scene, tree, {.moments = true})) << traits.name;
     } else {
-      EXPECT_THROW(make_engine(traits.engine, scene, tree, {.moments = true}), InputError)
+      EXPECT_THROW(make_engine(traits.value, scene, tree, {.moments = true}), InputError)
           << traits.name;
     }
   }

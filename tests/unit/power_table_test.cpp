@@ -135,7 +135,7 @@ TEST(PowerTable, KnowsWhatIsNotKnown) {
                 power_table(s.solution, PartsBy::group, std::make_unique<FormFactors>().get());
               }),
               HasSubstr("number of patches differs"));
-  EXPECT_EQ(refusal([] { parts_by_from_name("face"); }),
+  EXPECT_EQ(refusal([] { from_name<PartsBy>("face"); }),
             "unknown kind of parts \"face\"; choose one of group, material");
 }
 

@@ -417,9 +417,9 @@ class CompareTest : public QObject {
       QCOMPARE(resolution->isVisible(), traits_of(chosen).takes_resolution);
       QCOMPARE(order->isVisible(), chosen == Engine::painter);
     };
-    for (const std::string& name : engine_names()) {
-      if (takes_directions(engine_from_name(name))) {
-        choose(engine_from_name(name));
+    for (const std::string& name : names_of<Engine>()) {
+      if (takes_directions(from_name<Engine>(name))) {
+        choose(from_name<Engine>(name));
       }
     }
     choose(Engine::painter);

@@ -49,7 +49,7 @@ QStringList texts_of(const KeptRun& run) {
   return {run.name,
           by_directions ? QString::number(options.directions) : none,
           by_directions ? QString::fromStdString(at(
-                              sampling_names(), static_cast<std::size_t>(options.used_sampling())))
+                              names_of<Sampling>(), static_cast<std::size_t>(options.used_sampling())))
                         : none,
           snapshot.of_file ? RunPanel::tr("a file") : engine_label(options.engine),
           QString::number(snapshot.progress.iteration),

@@ -103,7 +103,7 @@ void SettingsPanel::add_direction_rows(QFormLayout& form) {
   directions_->setToolTip(tip("directions"));
   sampling_ = new QComboBox;
   sampling_->setObjectName("sampling");
-  for (const std::string& name : sampling_names()) {
+  for (const std::string& name : names_of<Sampling>()) {
     sampling_->addItem(capitalized(QString::fromStdString(name)));
   }
   sampling_->setToolTip(tip("sampling"));
@@ -174,7 +174,7 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
       tr("Rows: divide each row by the patch's quadrature of the cosine\n"
          "Symmetric: scale rows and columns alike, which preserves reciprocity"));
   scheme_ = new QComboBox;
-  for (const std::string& name : scheme_names()) {
+  for (const std::string& name : names_of<Scheme>()) {
     scheme_->addItem(capitalized(QString::fromStdString(name)));
   }
   scheme_->setToolTip(

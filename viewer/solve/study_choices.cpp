@@ -46,7 +46,7 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
   layout->setSpacing(4);
 
   layout->addWidget(heading(tr("Samplings")));
-  for (std::size_t k = 0; k < sampling_names().size(); ++k) {
+  for (std::size_t k = 0; k < names_of<Sampling>().size(); ++k) {
     const auto sampling = static_cast<Sampling>(k);
     const bool on = sampling == Sampling::random || sampling == Sampling::hammersley ||
                     sampling == default_sampling(true);
@@ -64,7 +64,7 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
   layout->addWidget(heading(tr("Engines")));
   auto* engines = new QGridLayout;
   engines->setVerticalSpacing(4);
-  for (std::size_t k = 0; k < engine_names().size(); ++k) {
+  for (std::size_t k = 0; k < names_of<Engine>().size(); ++k) {
     const auto engine = static_cast<Engine>(k);
     if (!takes_directions(engine)) {
       continue;  // their error does not depend on M

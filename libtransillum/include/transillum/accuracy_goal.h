@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "transillum/choice.h"
 #include "transillum/export.h"
 #include "transillum/scene.h"
 
@@ -18,6 +19,10 @@ enum class AccuracyOf {
   patch,  ///< error of one patch over its B - E, as lengths of RGB vectors
   mean,   ///< error of the area-weighted mean of B over that of B - E, as lengths of RGB vectors
 };
+
+/// Their names (choice.h); that of a patch is followed by its number.
+template <>
+const Choices& choices_of<AccuracyOf>();
 
 /// When a solve is accurate enough.
 struct AccuracyGoal {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "transillum/choice.h"
 #include "transillum/export.h"
 #include "transillum/vec3.h"
 
@@ -32,13 +33,25 @@ struct DirectionSample {
   Vec3 direction;  ///< omega, unit
 };
 
-/// The names of the samplings as in options and files, in the order of the enumeration.
-const std::vector<std::string>& sampling_names();
-/// The sampling called `name`.
-/// @throws InputError listing the choices.
-Sampling sampling_from_name(const std::string& name);
-/// The name in sampling_names().
-const std::string& name_of(Sampling sampling);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<Sampling>();
+/// As for other enumerations; the former spelling `centred-hammersley` is read too.
+template <>
+Sampling from_name<Sampling>(const std::string& name);
+
+/// The properties of a sampling. Callers ask these instead of naming samplings.
+struct SamplingTraits {
+  Sampling value;                     ///< which one
+  const char* name;                   ///< in options and files
+  const char* label = nullptr;        ///< in a list of choices; null: the name with a capital
+  const char* sentence = "";          ///< on its points
+  bool is_seeded = false;             ///< is_seeded()
+  bool is_extensible = false;         ///< is_extensible()
+  bool differs_by_iteration = false;  ///< differs_by_iteration()
+};
+/// The traits of one sampling.
+const SamplingTraits& traits_of(Sampling sampling);
 
 /// The sampling that needs the fewest passes: antipodal where each pass also serves the opposite
 /// direction, fibonacci where it does not.

@@ -10,6 +10,7 @@
 
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
+#include "transillum/choice.h"
 #include "transillum/export.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
@@ -47,7 +48,7 @@ struct EngineTraits {
     none,       ///< not at all
   };
 
-  Engine engine;                        ///< which one
+  Engine value;                         ///< which one
   const char* name;                     ///< in options and files
   const char* label;                    ///< in a list of choices
   const char* sentence;                 ///< on its method
@@ -65,13 +66,9 @@ std::span<const EngineTraits> engines();
 /// The traits of one engine.
 const EngineTraits& traits_of(Engine engine);
 
-/// The names of the engines as in options and files, in the order of the enumeration.
-const std::vector<std::string>& engine_names();
-/// The engine called `name`.
-/// @throws InputError listing the choices.
-Engine engine_from_name(const std::string& name);
-/// The name in engine_names().
-const std::string& name_of(Engine engine);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<Engine>();
 /// Whether make_engine() accepts it: all but hemicube and pairs.
 bool takes_directions(Engine engine);
 /// Whether it computes Transfers::moments: fast, local and exact.
@@ -87,13 +84,9 @@ enum class PaintersOrder {
   bsp,     ///< by the BSP tree; always succeeds
   newell,  ///< by the tests of Newell, Newell and Sancha; fails where patches overlap cyclically
 };
-/// The names of the orders as in options and files, in the order of the enumeration.
-const std::vector<std::string>& painters_order_names();
-/// The order called `name`.
-/// @throws InputError listing the choices.
-PaintersOrder painters_order_from_name(const std::string& name);
-/// The name in painters_order_names().
-const std::string& name_of(PaintersOrder order);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<PaintersOrder>();
 
 /// Options that only some engines read.
 struct EngineOptions {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "transillum/choice.h"
 #include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/radiosity.h"
@@ -17,11 +18,9 @@ enum class PartsBy {
   group,     ///< groups of faces
   material,  ///< materials
 };
-/// The names as in options, in the order of the enumeration.
-const std::vector<std::string>& parts_by_names();
-/// The parts called `name`.
-/// @throws InputError listing the choices.
-PartsBy parts_by_from_name(const std::string& name);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<PartsBy>();
 
 /// Sums over the patches of a group, of a material or of all. Powers are in W, per channel.
 struct PartPower {

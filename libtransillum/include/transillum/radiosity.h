@@ -17,6 +17,7 @@
 #include "transillum/accuracy_goal.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
+#include "transillum/choice.h"
 #include "transillum/directions.h"
 #include "transillum/engine.h"
 #include "transillum/export.h"
@@ -38,13 +39,9 @@ enum class Normalization {
   symmetric,  ///< rows and columns scaled by the same factors to the same end: reciprocity,
               ///< A_i F_ij = A_j F_ji, is kept. Requires two_way and kept form factors
 };
-/// The names of the normalizations as in options and files, in the order of the enumeration.
-const std::vector<std::string>& normalization_names();
-/// The normalization called `name`.
-/// @throws InputError listing the choices.
-Normalization normalization_from_name(const std::string& name);
-/// The name in normalization_names().
-const std::string& name_of(Normalization normalization);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<Normalization>();
 
 /// Which directions an iteration uses, and how iterations are combined (section 6).
 enum class Scheme {
@@ -55,13 +52,21 @@ enum class Scheme {
                         ///< gradients to within the tolerance of the limit of the iteration, in
                         ///< the second iteration. Requires two_way; not with Normalization::rows
 };
-/// The names of the schemes as in options and files, in the order of the enumeration.
-const std::vector<std::string>& scheme_names();
-/// The scheme called `name`.
-/// @throws InputError listing the choices.
-Scheme scheme_from_name(const std::string& name);
-/// The name in scheme_names().
-const std::string& name_of(Scheme scheme);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<Scheme>();
+
+/// The properties of a scheme. Callers ask these instead of naming schemes.
+struct SchemeTraits {
+  Scheme value;                    ///< which one
+  const char* name;                ///< in options and files
+  const char* label;               ///< in a list of choices
+  const char* sentence;            ///< which directions an iteration has
+  bool renews_directions = false;  ///< each iteration has other directions; B is their mean
+  bool is_symmetric = false;       ///< solves the equations in symmetric form
+};
+/// The traits of one scheme.
+const SchemeTraits& traits_of(Scheme scheme);
 
 /// The functions that represent the radiosity of a patch.
 enum class Basis {
@@ -70,13 +75,9 @@ enum class Basis {
              ///< across edges. Requires an engine that has_moments(), or pairs; not with
              ///< Normalization::symmetric, Scheme::semi_iterative or a first shot
 };
-/// The names of the bases as in options and files, in the order of the enumeration.
-const std::vector<std::string>& basis_names();
-/// The basis called `name`.
-/// @throws InputError listing the choices.
-Basis basis_from_name(const std::string& name);
-/// The name in basis_names().
-const std::string& name_of(Basis basis);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<Basis>();
 
 /// Options of a solve run.
 struct SolveOptions {

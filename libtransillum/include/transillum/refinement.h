@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/choice.h"
 #include "transillum/export.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
@@ -24,13 +25,9 @@ enum class RefineBy {
   error,  ///< the part of the radiosity that the functions of the patch cannot represent, from a
           ///< solve in which every patch is divided
 };
-/// The names of the criteria as in options, in the order of the enumeration.
-const std::vector<std::string>& refine_by_names();
-/// The criterion called `name`.
-/// @throws InputError listing the choices.
-RefineBy refine_by_from_name(const std::string& name);
-/// The name in refine_by_names().
-const std::string& name_of(RefineBy by);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<RefineBy>();
 
 /// Per patch: root of the mean square, along its edges, of the jump of its radiosity to that of the
 /// patches beyond them, W/m², as the length of an RGB vector. Light alone is compared: beyond an

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "transillum/choice.h"
 #include "transillum/export.h"
 #include "transillum/vec3.h"
 
@@ -15,13 +16,9 @@ enum class SkyModel {
   cie_overcast,  ///< the overcast sky of the CIE: L = L_zenith (1 + 2 sin(elevation)) / 3 above the
                  ///< horizon, and nothing below
 };
-/// The names of the models as in options and files, in the order of the enumeration.
-const std::vector<std::string>& sky_model_names();
-/// The model called `name`.
-/// @throws InputError listing the choices.
-SkyModel sky_model_from_name(const std::string& name);
-/// The name in sky_model_names().
-const std::string& name_of(SkyModel model);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<SkyModel>();
 
 /// Light from outside of an open scene: where a line meets no patch, it meets the sky.
 struct Sky {

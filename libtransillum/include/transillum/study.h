@@ -16,6 +16,7 @@
 
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
+#include "transillum/choice.h"
 #include "transillum/export.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
@@ -48,11 +49,9 @@ enum class ErrorMeasure {
   rms,  ///< RadiosityError::rms
   max,  ///< RadiosityError::max
 };
-/// The names of the measures as in options and files, in the order of the enumeration.
-const std::vector<std::string>& error_measure_names();
-/// The measure called `name`.
-/// @throws InputError listing the choices.
-ErrorMeasure error_measure_from_name(const std::string& name);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<ErrorMeasure>();
 
 /// Options of the reference solve: `passes` two-way passes of the Fibonacci lattice under a
 /// rotation of its own, so that it shares no direction with the solves studied.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "transillum/choice.h"
 #include "transillum/export.h"
 #include "transillum/line_chart.h"
 #include "transillum/study.h"
@@ -27,11 +28,9 @@ enum class StudyAxis {
   passes,   ///< number of passes
   seconds,  ///< processor time
 };
-/// The names of the axes as in options and files, in the order of the enumeration.
-const std::vector<std::string>& study_axis_names();
-/// The axis called `name`.
-/// @throws InputError listing the choices.
-StudyAxis study_axis_from_name(const std::string& name);
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<StudyAxis>();
 
 /// A chart of the errors, both axes logarithmic. Against passes it shows the bound of eq. 37, has
 /// fitted slopes in the legend and omits hemicubes, which make no passes. Series differ in marker,

@@ -16,6 +16,7 @@ namespace transillum {}
 // Basics: vectors and colors, checked input, cancellation, errors.
 #include "transillum/at.h"
 #include "transillum/cancellation.h"
+#include "transillum/choice.h"
 #include "transillum/did_you_mean.h"
 #include "transillum/division.h"
 #include "transillum/errors.h"

@@ -15,8 +15,8 @@ bool is_linear(const RunOptions& r) { return r.solve.basis == Basis::linear; }
 bool is_glossy(const RunOptions& r) { return r.solve.glossy; }
 bool is_symmetric(const RunOptions& r) { return r.solve.normalize == Normalization::symmetric; }
 bool is_by_rows(const RunOptions& r) { return r.solve.normalize == Normalization::rows; }
-bool is_semi_iterative(const RunOptions& r) { return r.solve.scheme == Scheme::semi_iterative; }
-bool is_conjugate(const RunOptions& r) { return r.solve.scheme == Scheme::conjugate_gradients; }
+bool is_semi_iterative(const RunOptions& r) { return traits_of(r.solve.scheme).renews_directions; }
+bool is_conjugate(const RunOptions& r) { return traits_of(r.solve.scheme).is_symmetric; }
 bool is_not_fixed(const RunOptions& r) { return r.solve.scheme != Scheme::fixed; }
 bool chooses_directions(const RunOptions& r) { return is_not_fixed(r) && !is_conjugate(r); }
 bool has_goal(const RunOptions& r) { return r.solve.goal.set(); }
@@ -126,7 +126,7 @@ void SolveOptions::validate() const {
   if (averaged_iterations < 0) {
     throw InputError(fmt::format("iterations in the mean: {} is less than 0", averaged_iterations));
   }
-  if (scheme == Scheme::semi_iterative && iterations > 0 && burn_in.value_or(0) >= iterations) {
+  if (traits_of(scheme).renews_directions && iterations > 0 && burn_in.value_or(0) >= iterations) {
     throw InputError(
         fmt::format("burn-in: {} of {} iterations leave none for the mean", *burn_in, iterations));
   }

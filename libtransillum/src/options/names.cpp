@@ -1,46 +1,70 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Names of normalizations, bases and schemes.
+// Tables of normalizations, bases and schemes.
+#include <array>
+
 #include "base/choice.h"
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
+namespace {
 
-const std::vector<std::string>& normalization_names() {
-  static const std::vector<std::string> names{"none", "rows", "symmetric"};
-  return names;
+constexpr std::array normalizations{
+    Choice{Normalization::none, "none", "None (paper)", "the paper's estimator"},
+    Choice{Normalization::rows, "rows", nullptr,
+           "divide each row of form factors by the quadrature of its cosine"},
+    Choice{Normalization::symmetric, "symmetric", nullptr,
+           "scale rows and columns alike so that rows sum to 1"},
+};
+
+constexpr std::array bases{
+    Choice{Basis::constant, "constant", nullptr, "one value of B per patch"},
+    Choice{Basis::linear, "linear", nullptr,
+           "a linear function on each patch, from engines fast, local, exact and pairs"},
+};
+
+constexpr std::array schemes{
+    SchemeTraits{.value = Scheme::fixed,
+                 .name = "fixed",
+                 .label = "Fixed",
+                 .sentence = "the same directions in every iteration"},
+    SchemeTraits{.value = Scheme::growing,
+                 .name = "growing",
+                 .label = "Growing",
+                 .sentence = "twice as many in each iteration, up to M"},
+    SchemeTraits{.value = Scheme::semi_iterative,
+                 .name = "semi-iterative",
+                 .label = "Semi-iterative",
+                 .sentence = "new directions in each iteration, and the mean over iterations",
+                 .renews_directions = true},
+    SchemeTraits{.value = Scheme::conjugate_gradients,
+                 .name = "conjugate-gradients",
+                 .label = "Conjugate gradients",
+                 .sentence = "as fixed, solved in symmetric form",
+                 .is_symmetric = true},
+};
+
+}  // namespace
+
+template <>
+const Choices& choices_of<Normalization>() {
+  static const Choices choices = texts_of<normalizations>("normalization");
+  return choices;
 }
 
-Normalization normalization_from_name(const std::string& name) {
-  return choice_from_name<Normalization>(normalization_names(), "normalization", name);
+template <>
+const Choices& choices_of<Basis>() {
+  static const Choices choices = texts_of<bases>("basis");
+  return choices;
 }
 
-const std::string& name_of(Normalization normalization) {
-  return at(normalization_names(), normalization);
+template <>
+const Choices& choices_of<Scheme>() {
+  static const Choices choices = texts_of<schemes>("scheme");
+  return choices;
 }
 
-const std::vector<std::string>& basis_names() {
-  static const std::vector<std::string> names{"constant", "linear"};
-  return names;
-}
-
-Basis basis_from_name(const std::string& name) {
-  return choice_from_name<Basis>(basis_names(), "basis", name);
-}
-
-const std::string& name_of(Basis basis) { return at(basis_names(), basis); }
-
-const std::vector<std::string>& scheme_names() {
-  static const std::vector<std::string> names{"fixed", "growing", "semi-iterative",
-                                              "conjugate-gradients"};
-  return names;
-}
-
-Scheme scheme_from_name(const std::string& name) {
-  return choice_from_name<Scheme>(scheme_names(), "scheme", name);
-}
-
-const std::string& name_of(Scheme scheme) { return at(scheme_names(), scheme); }
+const SchemeTraits& traits_of(Scheme scheme) { return at(schemes, scheme); }
 
 }  // namespace transillum

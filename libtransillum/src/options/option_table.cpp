@@ -97,11 +97,25 @@ void percentage(Option& o, Get get) {
   };
 }
 
+/// "fixed: the same directions in every iteration; growing: …"
+template <class Value>
+std::string meanings() {
+  const Choices& choices = choices_of<Value>();
+  std::string text;
+  for (std::size_t k = 0; k < choices.names.size(); ++k) {
+    text += fmt::format("{}{}: {}", k > 0 ? "; " : "", choices.names[k], choices.sentences[k]);
+  }
+  return text;
+}
+
 /// One of the names of an enumeration.
-template <class Get, class FromName>
-void choice(Option& o, Get get, const std::vector<std::string>& names, FromName from_name) {
-  o.choices = names;
-  o.parse = [=](RunOptions& options, const std::string& text) { get(options) = from_name(text); };
+template <class Get>
+void choice(Option& o, Get get) {
+  using Value = std::remove_cvref_t<decltype(get(std::declval<RunOptions&>()))>;
+  o.choices = names_of<Value>();
+  o.parse = [=](RunOptions& options, const std::string& text) {
+    get(options) = from_name<Value>(text);
+  };
   o.print = [=](const RunOptions& options) { return name_of(get(options)); };
 }
 
@@ -172,10 +186,10 @@ void add_directions(Table& t) {
   Option& sampling = t.common(
       "sampling", "NAME", "a name",
       "set of directions (section 4 of the paper); of one-way passes fibonacci by default");
-  sampling.choices = sampling_names();
+  sampling.choices = names_of<Sampling>();
   sampling.lists_choices = true;
   sampling.parse = [](RunOptions& o, const std::string& text) {
-    o.solve.sampling = sampling_from_name(text);
+    o.solve.sampling = from_name<Sampling>(text);
   };
   sampling.print = [](const RunOptions& o) { return name_of(o.solve.used_sampling()); };
   Option& seed =
@@ -209,7 +223,7 @@ void add_engine(Table& t) {
   const auto engine = [](auto m) { return solve(&SolveOptions::engine_options, m); };
   Option& name =
       t.common("engine", "NAME", "a name", "algorithm that computes visibility along a direction");
-  choice(name, solve(&SolveOptions::engine), engine_names(), engine_from_name);
+  choice(name, solve(&SolveOptions::engine));
   name.lists_choices = true;
   Option& resolution =
       t.add("resolution", "R", "a number, or auto",
@@ -228,26 +242,16 @@ void add_engine(Table& t) {
   Option& order =
       t.add("order", "NAME", "a name",
             "engine painter: order of the patches (newell fails if patches overlap in a cycle)");
-  choice(order, engine(&EngineOptions::order), painters_order_names(), painters_order_from_name);
+  choice(order, engine(&EngineOptions::order));
   order.lists_choices = true;
 }
 
 void add_equations(Table& t) {
   t.group = "Iteration";
-  choice(t.add("normalize", "NAME", "a name",
-               "none: the paper's estimator; rows: divide each row of form factors by the "
-               "quadrature of its cosine; symmetric: scale rows and columns alike so that rows sum "
-               "to 1"),
-         solve(&SolveOptions::normalize), normalization_names(), normalization_from_name);
-  choice(t.add("scheme", "NAME", "a name",
-               "fixed: the same directions in every iteration; growing: twice as many in each "
-               "iteration, up to M; semi-iterative: new directions in each iteration, and the mean "
-               "over iterations; conjugate-gradients: as fixed, solved in symmetric form"),
-         solve(&SolveOptions::scheme), scheme_names(), scheme_from_name);
-  choice(t.common("basis", "NAME", "a name",
-                  "constant: one value of B per patch; linear: a linear function on each patch, "
-                  "from engines fast, local, exact and pairs"),
-         solve(&SolveOptions::basis), basis_names(), basis_from_name);
+  choice(t.add("normalize", "NAME", "a name", meanings<Normalization>()),
+         solve(&SolveOptions::normalize));
+  choice(t.add("scheme", "NAME", "a name", meanings<Scheme>()), solve(&SolveOptions::scheme));
+  choice(t.common("basis", "NAME", "a name", meanings<Basis>()), solve(&SolveOptions::basis));
   flag(t.add("glossy", "", "yes or no",
              "lobes of materials (MTL: Ks with Ns or Pr; glTF: metallic and rough) reflect too"),
        solve(&SolveOptions::glossy));
@@ -349,7 +353,7 @@ void add_sky(Table& t) {
       t.add("sky-model", "NAME", "a name",
             "uniform: the same from everywhere, also from below; cie-overcast: three times as "
             "bright at the zenith as at the horizon, nothing from below");
-  choice(model, solve(&SolveOptions::sky, &Sky::model), sky_model_names(), sky_model_from_name);
+  choice(model, solve(&SolveOptions::sky, &Sky::model));
   model.lists_choices = true;
   Option& up = t.add("up", "X,Y,Z", "a direction x,y,z", "the zenith of the sky cie-overcast");
   up.json = Option::Json::numbers;
@@ -396,12 +400,12 @@ void add_patches(Table& t) {
                      "divide faces in rounds, worst patches first, until there are as many patches "
                      "as asked for; jump: where B jumps across edges; error: where a solve with "
                      "every patch divided differs most");
-  by.choices = refine_by_names();
+  by.choices = names_of<RefineBy>();
   by.unset = "none";
   by.parse = [](RunOptions& o, const std::string& text) {
     o.refine.by.reset();
     if (text != "none") {
-      o.refine.by = refine_by_from_name(text);
+      o.refine.by = from_name<RefineBy>(text);
     }
   };
   by.print = [](const RunOptions& o) {
@@ -576,7 +580,7 @@ void set_dependent_defaults(RunOptions& options, const std::set<std::string>& gi
   // Its error decreases as 1 / sqrt(iterations): the default tolerance would take days.
   const bool stops = solve.iterations > 0 || solve.tolerance != SolveOptions{}.tolerance;
   solve.averaged_iterations =
-      solve.scheme == Scheme::semi_iterative && !stops ? default_averaged_iterations : 0;
+      traits_of(solve.scheme).renews_directions && !stops ? default_averaged_iterations : 0;
   if (solve.sampling == default_sampling(solve.two_way)) {
     solve.sampling.reset();
   }

@@ -23,13 +23,16 @@ bool draws_random_numbers(const RunOptions& run) {
   return has_directions(run) &&
          (is_seeded(solve.used_sampling()) ||
           traits_of(solve.engine).error == EngineTraits::Error::statistical || seeded_rotations ||
-          (solve.scheme == Scheme::semi_iterative && differs_by_iteration(solve.used_sampling())));
+          (traits_of(solve.scheme).renews_directions &&
+           differs_by_iteration(solve.used_sampling())));
 }
 
 bool has_goal(const RunOptions& run) { return run.solve.goal.set(); }
 bool has_no_goal(const RunOptions& run) { return !has_goal(run); }
 bool has_sky(const RunOptions& run) { return run.solve.sky.set(); }
-bool is_semi_iterative(const RunOptions& run) { return run.solve.scheme == Scheme::semi_iterative; }
+bool is_semi_iterative(const RunOptions& run) {
+  return traits_of(run.solve.scheme).renews_directions;
+}
 bool stops_by_tolerance(const RunOptions& run) {
   return run.solve.iterations == 0 && run.solve.averaged_iterations == 0;
 }

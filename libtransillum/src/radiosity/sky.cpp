@@ -11,16 +11,20 @@
 
 namespace transillum {
 
-const std::vector<std::string>& sky_model_names() {
-  static const std::vector<std::string> names{"uniform", "cie-overcast"};
-  return names;
-}
+namespace {
 
-SkyModel sky_model_from_name(const std::string& name) {
-  return choice_from_name<SkyModel>(sky_model_names(), "model of the sky", name);
-}
+constexpr std::array sky_models{
+    Choice{SkyModel::uniform, "uniform"},
+    Choice{SkyModel::cie_overcast, "cie-overcast", "CIE overcast"},
+};
 
-const std::string& name_of(SkyModel model) { return at(sky_model_names(), model); }
+}  // namespace
+
+template <>
+const Choices& choices_of<SkyModel>() {
+  static const Choices choices = texts_of<sky_models>("model of the sky");
+  return choices;
+}
 
 double Sky::relative_radiance(const Vec3& omega) const {
   if (model == SkyModel::uniform) {

@@ -12,35 +12,59 @@
 
 namespace transillum {
 
-const std::vector<std::string>& sampling_names() {
-  static const std::vector<std::string> names{"hammersley",
-                                              "centered-hammersley",
-                                              "scrambled-hammersley",
-                                              "halton",
-                                              "sobol",
-                                              "fibonacci",
-                                              "antipodal",
-                                              "random"};
-  return names;
+namespace {
+
+constexpr std::array samplings{
+    SamplingTraits{.value = Sampling::hammersley, .name = "hammersley"},
+    SamplingTraits{.value = Sampling::centered_hammersley,
+                   .name = "centered-hammersley",
+                   .label = "Centered Hammersley"},
+    SamplingTraits{.value = Sampling::scrambled_hammersley,
+                   .name = "scrambled-hammersley",
+                   .label = "Scrambled Hammersley",
+                   .is_seeded = true,
+                   .differs_by_iteration = true},
+    SamplingTraits{.value = Sampling::halton,
+                   .name = "halton",
+                   .is_extensible = true,
+                   .differs_by_iteration = true},
+    SamplingTraits{.value = Sampling::sobol,
+                   .name = "sobol",
+                   .is_seeded = true,
+                   .is_extensible = true,
+                   .differs_by_iteration = true},
+    SamplingTraits{.value = Sampling::fibonacci, .name = "fibonacci", .differs_by_iteration = true},
+    SamplingTraits{.value = Sampling::antipodal, .name = "antipodal", .differs_by_iteration = true},
+    SamplingTraits{.value = Sampling::random,
+                   .name = "random",
+                   .is_seeded = true,
+                   .is_extensible = true,
+                   .differs_by_iteration = true},
+};
+
+}  // namespace
+
+template <>
+const Choices& choices_of<Sampling>() {
+  static const Choices choices = texts_of<samplings>("sampling");
+  return choices;
 }
 
-Sampling sampling_from_name(const std::string& name) {
+template <>
+Sampling from_name<Sampling>(const std::string& name) {
   // The former, British spelling: scripts still use it.
-  const std::string& current = name == "centred-hammersley" ? sampling_names()[1] : name;
-  return choice_from_name<Sampling>(sampling_names(), "sampling", current);
+  const std::string& current =
+      name == "centred-hammersley" ? name_of(Sampling::centered_hammersley) : name;
+  return static_cast<Sampling>(choices_of<Sampling>().index_of(current));
 }
 
-const std::string& name_of(Sampling sampling) { return at(sampling_names(), sampling); }
+const SamplingTraits& traits_of(Sampling sampling) { return at(samplings, sampling); }
 
-bool is_seeded(Sampling sampling) {
-  return sampling == Sampling::scrambled_hammersley || sampling == Sampling::sobol ||
-         sampling == Sampling::random;
-}
+bool is_seeded(Sampling sampling) { return traits_of(sampling).is_seeded; }
 
-bool is_extensible(Sampling sampling) {
-  return sampling == Sampling::halton || sampling == Sampling::sobol ||
-         sampling == Sampling::random;
-}
+bool is_extensible(Sampling sampling) { return traits_of(sampling).is_extensible; }
+
+bool differs_by_iteration(Sampling sampling) { return traits_of(sampling).differs_by_iteration; }
 
 bool is_spiral(Sampling sampling) {
   return sampling == Sampling::fibonacci || sampling == Sampling::antipodal;

@@ -59,8 +59,4 @@ std::vector<DirectionSample> directions_of_iteration(Sampling sampling, int coun
   return make_directions(sampling, count, seed);
 }
 
-bool differs_by_iteration(Sampling sampling) {
-  return sampling != Sampling::hammersley && sampling != Sampling::centered_hammersley;
-}
-
 }  // namespace transillum

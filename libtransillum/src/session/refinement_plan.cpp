@@ -170,16 +170,20 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-const std::vector<std::string>& refine_by_names() {
-  static const std::vector<std::string> names{"jump", "error"};
-  return names;
-}
+namespace {
 
-RefineBy refine_by_from_name(const std::string& name) {
-  return choice_from_name<RefineBy>(refine_by_names(), "criterion of refinement", name);
-}
+constexpr std::array criteria{
+    Choice{RefineBy::jump, "jump"},
+    Choice{RefineBy::error, "error"},
+};
 
-const std::string& name_of(RefineBy by) { return at(refine_by_names(), by); }
+}  // namespace
+
+template <>
+const Choices& choices_of<RefineBy>() {
+  static const Choices choices = texts_of<criteria>("criterion of refinement");
+  return choices;
+}
 
 void RefineOptions::validate() const {
   if (patches < 1) {

@@ -14,16 +14,22 @@
 
 namespace transillum {
 
-const std::vector<std::string>& painters_order_names() {
-  static const std::vector<std::string> names{"bsp", "newell"};
-  return names;
-}
+namespace {
 
-PaintersOrder painters_order_from_name(const std::string& name) {
-  return choice_from_name<PaintersOrder>(painters_order_names(), "painter's order", name);
-}
+constexpr std::array orders{
+    Choice{PaintersOrder::bsp, "bsp", "BSP tree",
+           "splits polygons that overlap in a cycle, so that an order always exists"},
+    Choice{PaintersOrder::newell, "newell", "Newell's tests",
+           "splits nothing, and fails where polygons overlap in a cycle"},
+};
 
-const std::string& name_of(PaintersOrder order) { return at(painters_order_names(), order); }
+}  // namespace
+
+template <>
+const Choices& choices_of<PaintersOrder>() {
+  static const Choices choices = texts_of<orders>("painter's order");
+  return choices;
+}
 
 namespace {
 

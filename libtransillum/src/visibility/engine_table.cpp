@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The table of engines: a line here and one in make_engine() for each.
-#include <algorithm>
 #include <array>
 
 #include "base/choice.h"
@@ -14,34 +13,34 @@ namespace {
 using Error = EngineTraits::Error;
 using Picture = EngineTraits::Picture;
 
-constexpr std::array table{
+constexpr std::array all_engines{
     EngineTraits{
-        .engine = Engine::fast,
+        .value = Engine::fast,
         .name = "fast",
         .label = "Fast",
         .sentence = "Exact: subtracts the candidates from each receiver's region, nearest first",
         .has_moments = true,
         .has_linear_basis = true},
-    EngineTraits{.engine = Engine::local,
+    EngineTraits{.value = Engine::local,
                  .name = "local",
                  .label = "Local map",
                  .sentence = "Exact: the local visibility map of section 3.2, which can be stepped "
                              "through",
                  .has_moments = true,
                  .has_linear_basis = true},
-    EngineTraits{.engine = Engine::global,
+    EngineTraits{.value = Engine::global,
                  .name = "global",
                  .label = "Global map",
                  .sentence = "Exact, slow: the global visibility map of section 3.1, an "
                              "arrangement in rational numbers"},
-    EngineTraits{.engine = Engine::exact,
+    EngineTraits{.value = Engine::exact,
                  .name = "exact",
                  .label = "Exact numbers",
                  .sentence = "Exact, slow: the local map in rational numbers, without rounding; "
                              "for small scenes",
                  .has_moments = true,
                  .has_linear_basis = true},
-    EngineTraits{.engine = Engine::zbuffer,
+    EngineTraits{.value = Engine::zbuffer,
                  .name = "zbuffer",
                  .label = "Z-buffer",
                  .sentence = "Each pixel of the plane has a list of patches, sorted by height "
@@ -49,7 +48,7 @@ constexpr std::array table{
                  .error = Error::own,
                  .picture = Picture::pixels,
                  .takes_resolution = true},
-    EngineTraits{.engine = Engine::painter,
+    EngineTraits{.value = Engine::painter,
                  .name = "painter",
                  .label = "Painter's algorithm",
                  .sentence = "Patches are painted into one pixel buffer, the farthest first "
@@ -58,7 +57,7 @@ constexpr std::array table{
                  .picture = Picture::pixels,
                  .takes_resolution = true,
                  .takes_order = true},
-    EngineTraits{.engine = Engine::rays,
+    EngineTraits{.value = Engine::rays,
                  .name = "rays",
                  .label = "Parallel rays",
                  .sentence = "Parallel rays through the scene; each represents an equal area of "
@@ -66,14 +65,14 @@ constexpr std::array table{
                  .error = Error::statistical,
                  .picture = Picture::pixels,
                  .takes_resolution = true},
-    EngineTraits{.engine = Engine::corrected,
+    EngineTraits{.value = Engine::corrected,
                  .name = "corrected",
                  .label = "No cutting, corrected",
                  .sentence = "Approximate: partly hidden polygons are not cut, and their light is "
                              "corrected (section 8)",
                  .error = Error::own,
                  .picture = Picture::corrected},
-    EngineTraits{.engine = Engine::hemicube,
+    EngineTraits{.value = Engine::hemicube,
                  .name = "hemicube",
                  .label = "Hemicube",
                  .sentence = "Form factors from the center of each patch through the pixels of "
@@ -82,7 +81,7 @@ constexpr std::array table{
                  .picture = Picture::hemicube,
                  .takes_directions = false,
                  .takes_resolution = true},
-    EngineTraits{.engine = Engine::pairs,
+    EngineTraits{.value = Engine::pairs,
                  .name = "pairs",
                  .label = "Pairs of patches",
                  .sentence = "Form factors pair by pair: exact where nothing is between, otherwise "
@@ -93,38 +92,17 @@ constexpr std::array table{
                  .takes_points = true},
 };
 
-/// Whether the rows are in the order of the enumeration, so that traits_of() finds them.
-constexpr bool is_in_order() {
-  for (std::size_t k = 0; k < table.size(); ++k) {
-    if (static_cast<std::size_t>(table[k].engine) != k) {
-      return false;
-    }
-  }
-  return true;
-}
-static_assert(is_in_order());
-
 }  // namespace
 
-std::span<const EngineTraits> engines() { return table; }
+std::span<const EngineTraits> engines() { return all_engines; }
 
-const EngineTraits& traits_of(Engine engine) { return at(table, engine); }
+const EngineTraits& traits_of(Engine engine) { return at(all_engines, engine); }
 
-const std::vector<std::string>& engine_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    std::transform(table.begin(), table.end(), std::back_inserter(all),
-                   [](const EngineTraits& traits) { return traits.name; });
-    return all;
-  }();
-  return names;
+template <>
+const Choices& choices_of<Engine>() {
+  static const Choices choices = texts_of<all_engines>("engine");
+  return choices;
 }
-
-Engine engine_from_name(const std::string& name) {
-  return choice_from_name<Engine>(engine_names(), "engine", name);
-}
-
-const std::string& name_of(Engine engine) { return at(engine_names(), engine); }
 
 bool takes_directions(Engine engine) { return traits_of(engine).takes_directions; }
 

@@ -91,7 +91,7 @@ class ResultReader {
     sky.exitance = {e[0], e[1], e[2]};
     sky.up = {up[0], up[1], up[2]};
     try {
-      sky.model = sky_model_from_name(model.empty() ? "" : model.front());
+      sky.model = from_name<SkyModel>(model.empty() ? "" : model.front());
       sky.validate();
     } catch (const InputError& error) {
       file_.fail(error.what());

@@ -282,13 +282,19 @@ std::vector<std::size_t> StudyPlot::worst_first() const {
 
 }  // namespace
 
-const std::vector<std::string>& study_axis_names() {
-  static const std::vector<std::string> names{"passes", "seconds"};
-  return names;
-}
+namespace {
 
-StudyAxis study_axis_from_name(const std::string& name) {
-  return choice_from_name<StudyAxis>(study_axis_names(), "axis", name);
+constexpr std::array axes{
+    Choice{StudyAxis::passes, "passes"},
+    Choice{StudyAxis::seconds, "seconds"},
+};
+
+}  // namespace
+
+template <>
+const Choices& choices_of<StudyAxis>() {
+  static const Choices choices = texts_of<axes>("axis");
+  return choices;
 }
 
 LineChart study_chart(const std::string& scene, const std::vector<StudySeries>& series,

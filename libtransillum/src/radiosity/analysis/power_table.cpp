@@ -96,13 +96,19 @@ void add_exchanges(const Solution& solution, const Division& division,
 
 }  // namespace
 
-const std::vector<std::string>& parts_by_names() {
-  static const std::vector<std::string> names{"group", "material"};
-  return names;
-}
+namespace {
 
-PartsBy parts_by_from_name(const std::string& name) {
-  return choice_from_name<PartsBy>(parts_by_names(), "kind of parts", name);
+constexpr std::array kinds_of_parts{
+    Choice{PartsBy::group, "group"},
+    Choice{PartsBy::material, "material"},
+};
+
+}  // namespace
+
+template <>
+const Choices& choices_of<PartsBy>() {
+  static const Choices choices = texts_of<kinds_of_parts>("kind of parts");
+  return choices;
 }
 
 PowerTable power_table(const Solution& solution, PartsBy by, const FormFactors* form_factors,

@@ -207,7 +207,7 @@ class StudyRun {
     point.max_error = std::max(point.max_error, error.max);
     point.seconds += share * (processor_seconds() - start);
     const double iterations =
-        options.scheme == Scheme::semi_iterative ? solver.progress().iteration : 1;
+        traits_of(options.scheme).renews_directions ? solver.progress().iteration : 1;
     return m * iterations;
   }
 
@@ -215,7 +215,7 @@ class StudyRun {
               const RadiositySolver& solver) {
     const SolveProgress progress = solver.progress();
     const int m = solver.options().directions;
-    const bool renews = solver.options().scheme == Scheme::semi_iterative;
+    const bool renews = traits_of(solver.options().scheme).renews_directions;
     const double in_solve = progress.direction + (renews ? double(progress.iteration) * m : 0.0);
     done_passes_ = std::max(done_passes_, before + std::min(in_solve, expected));
     report(point.series, m);
@@ -284,13 +284,19 @@ RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
   return {relative_error(off, reflected).rms, largest};
 }
 
-const std::vector<std::string>& error_measure_names() {
-  static const std::vector<std::string> names{"rms", "max"};
-  return names;
-}
+namespace {
 
-ErrorMeasure error_measure_from_name(const std::string& name) {
-  return choice_from_name<ErrorMeasure>(error_measure_names(), "error", name);
+constexpr std::array error_measures{
+    Choice{ErrorMeasure::rms, "rms", "RMS"},
+    Choice{ErrorMeasure::max, "max", "Largest"},
+};
+
+}  // namespace
+
+template <>
+const Choices& choices_of<ErrorMeasure>() {
+  static const Choices choices = texts_of<error_measures>("error");
+  return choices;
 }
 
 SolveOptions reference_options(int passes) {
@@ -354,9 +360,9 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
   options.first_shot = of.first_shot;
   options.engine = of.engine;
   options.basis = of.basis;
-  (traits_of(of.engine).takes_points ? options.engine_options.points : options.engine_options.resolution) =
-      of.resolution;
-  if (of.scheme == Scheme::semi_iterative && options.averaged_iterations == 0) {
+  (traits_of(of.engine).takes_points ? options.engine_options.points
+                                     : options.engine_options.resolution) = of.resolution;
+  if (traits_of(of.scheme).renews_directions && options.averaged_iterations == 0) {
     options.averaged_iterations = default_averaged_iterations;
   }
   if (rotations > 1) {
@@ -367,7 +373,7 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
 }
 
 double expected_iterations_with_passes(const SolveOptions& options, double rho_max) {
-  if (options.scheme != Scheme::semi_iterative) {
+  if (!traits_of(options.scheme).renews_directions) {
     return 1;
   }
   if (options.iterations > 0) {

@@ -13,10 +13,12 @@
 namespace transillum {
 namespace {
 
-const std::vector<std::string>& accuracy_of_names() {
-  static const std::vector<std::string> names{"rms", "max", "patch:I", "mean"};
-  return names;
-}
+constexpr std::array accuracies{
+    Choice{AccuracyOf::rms, "rms", "RMS"},
+    Choice{AccuracyOf::max, "max", "Largest"},
+    Choice{AccuracyOf::patch, "patch:I", "Patch"},
+    Choice{AccuracyOf::mean, "mean"},
+};
 
 /// Reads all of `text`; nothing else may follow.
 template <class Number>
@@ -27,6 +29,12 @@ bool read_number(const std::string& text, Number& value) {
 }
 
 }  // namespace
+
+template <>
+const Choices& choices_of<AccuracyOf>() {
+  static const Choices choices = texts_of<accuracies>("accuracy");
+  return choices;
+}
 
 void AccuracyGoal::validate() const {
   if (!(accuracy >= 0 && accuracy < 1)) {
@@ -62,7 +70,7 @@ AccuracyGoal accuracy_of_from_name(const std::string& name) {
     }
     return goal;
   }
-  goal.of = choice_from_name<AccuracyOf>(accuracy_of_names(), "accuracy", name);
+  goal.of = from_name<AccuracyOf>(name);
   if (goal.of == AccuracyOf::patch) {
     throw InputError("accuracy of: patch:I needs the number of a patch, as in patch:0");
   }
@@ -70,8 +78,7 @@ AccuracyGoal accuracy_of_from_name(const std::string& name) {
 }
 
 std::string name_of_accuracy(const AccuracyGoal& goal) {
-  return goal.of == AccuracyOf::patch ? fmt::format("patch:{}", goal.patch)
-                                      : at(accuracy_of_names(), goal.of);
+  return goal.of == AccuracyOf::patch ? fmt::format("patch:{}", goal.patch) : name_of(goal.of);
 }
 
 }  // namespace transillum

@@ -125,7 +125,7 @@ bool IterationHistory::reached_tolerance() const {
     return left_to_do_ && *left_to_do_ <= options_.tolerance;
   }
   // Conjugate gradients solve in the second iteration.
-  if (options_.scheme == Scheme::conjugate_gradients && size_since_reopening() < 2) {
+  if (traits_of(options_.scheme).is_symmetric && size_since_reopening() < 2) {
     return false;
   }
   const IterationRecord& last = records_.back();

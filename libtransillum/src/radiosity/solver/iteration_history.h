@@ -86,7 +86,7 @@ class IterationHistory {
  private:
   static constexpr std::uint64_t most_records = 1'000'000;  ///< SolveOptions::iterations
   void set_means();
-  bool semi_iterative() const { return options_.scheme == Scheme::semi_iterative; }
+  bool semi_iterative() const { return traits_of(options_.scheme).renews_directions; }
   /// Bound on the factor by which an iteration reduces the distance of B to its limit.
   double contraction() const;
   bool reached_tolerance() const;

@@ -98,7 +98,7 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
   const SolveOptions& options = input.options;
   if (options.normalize == Normalization::symmetric) {
     required_by_ = "the symmetric normalization";
-  } else if (options.scheme == Scheme::conjugate_gradients) {
+  } else if (traits_of(options.scheme).is_symmetric) {
     required_by_ = "the scheme conjugate-gradients";
   }
   for (int r = 0; r < options.replicas; ++r) {

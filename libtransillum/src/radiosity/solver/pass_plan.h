@@ -28,7 +28,7 @@ class PassPlan {
   /// Number of passes of an iteration, including those taken from kept sums.
   int passes(int iteration) const;
   /// Whether each iteration has its own directions.
-  bool renews() const { return options_.scheme == Scheme::semi_iterative; }
+  bool renews() const { return traits_of(options_.scheme).renews_directions; }
   /// The M directions of an iteration; one of fewer passes uses the first of them.
   std::vector<Vec3> directions(int iteration) const;
 

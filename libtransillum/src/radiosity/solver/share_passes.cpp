@@ -43,7 +43,7 @@ void check_can_be_shared(const SolveOptions& options, const Share& share) {
         "accuracy: it chooses the passes by the results of others, so they cannot be "
         "shared out");
   }
-  if (options.scheme == Scheme::semi_iterative) {
+  if (traits_of(options.scheme).renews_directions) {
     throw InputError(
         "scheme semi-iterative: the number of its passes depends on results, so they "
         "cannot be shared out");

@@ -40,7 +40,7 @@ void RadiositySolver::Impl::begin_iteration() {
     statistics.begin_set();
   }
   const bool from_sums = kept.available() && statistics.areas().passes > 0;
-  if (from_sums && input.options.scheme == Scheme::conjugate_gradients &&
+  if (from_sums && traits_of(input.options.scheme).is_symmetric &&
       history.size_since_reopening() == 1) {
     // The error is up to 1 / (1 - rho_max) times the residual. One above 1e-6 could make B
     // negative.
@@ -206,7 +206,7 @@ void RadiositySolver::Impl::finish_iteration() {
 void RadiositySolver::Impl::add_replica() {
   const Scheme scheme = input.options.scheme;
   if (!history.finished() || input.options.replicas < 2 ||
-      (scheme != Scheme::fixed && scheme != Scheme::conjugate_gradients)) {
+      (scheme != Scheme::fixed && !traits_of(scheme).is_symmetric)) {
     throw std::logic_error("add_replica: the solve is unfinished or has no replicas of one set");
   }
   append_replica();
