@@ -239,7 +239,7 @@ class RefinementTest : public QObject {
     std::vector<Rgb> radiosity;
     {
       WatchedRounds watched;
-      watched.runner.keep_in(mine, 0);
+      watched.runner.save_to(mine, 0);
       watched.open(few, choice, {Goal::Kind::passes, 25});
       QVERIFY(watched.reaches([](const SolverSnapshot& s) {
         return !s.refinement.left && s.progress.direction == 25;
@@ -250,7 +250,7 @@ class RefinementTest : public QObject {
       radiosity = watched.snapshot->radiosity;
     }
     WatchedRounds watched;
-    watched.runner.go_on_with(left.toStdString());
+    watched.runner.resume_from(left.toStdString());
     watched.open(few, choice, {Goal::Kind::passes, 1});
     // It has more than the one pass that was asked for.
     QVERIFY(watched.reaches(

@@ -88,7 +88,7 @@ class SolveRunnerTest : public QObject {
     std::vector<Rgb> radiosity;
     {
       Watched watched;
-      watched.runner.keep_in(mine, 0);
+      watched.runner.save_to(mine, 0);
       watched.open("cornell-box", 60, {Goal::Kind::passes, 25});
       QVERIFY(watched.advances([](const SolveProgress& p) { return p.direction == 25; }));
       QVERIFY(QFile::copy(QString::fromStdString(mine), QString::fromStdString(left)));
@@ -99,7 +99,7 @@ class SolveRunnerTest : public QObject {
     QVERIFY(!QFile::exists(QString::fromStdString(mine)));
 
     Watched watched;
-    watched.runner.go_on_with(left);
+    watched.runner.resume_from(left);
     watched.open("cornell-box", 60);
     QVERIFY(watched.pauses_after_opening());
     QVERIFY(QTest::qWaitFor([&] { return watched.snapshot != nullptr; }));
@@ -119,7 +119,7 @@ class SolveRunnerTest : public QObject {
     file.write("transillum checkpoint 1\n{}\n00000000");
     file.close();
     Watched watched;
-    watched.runner.go_on_with(left.toStdString());
+    watched.runner.resume_from(left.toStdString());
     watched.open("cornell-box", 60);
     QVERIFY(watched.pauses_after_opening());
     QCOMPARE(watched.failure, QString());
@@ -279,7 +279,7 @@ class SolveRunnerTest : public QObject {
     QVERIFY(w.advances([&](const SolveProgress& p) {
       return p.iteration == iteration && p.direction == direction;
     }));
-    QCOMPARE(passes_done(w.snapshot->progress, w.snapshot->kept_passes), std::int64_t{passes});
+    QCOMPARE(w.snapshot->passes_done, std::int64_t{passes});
     // It stays paused: the goal is already reached.
     w.runner.set_goal({Goal::Kind::passes, passes});
     QTest::qWait(50);

@@ -18,6 +18,7 @@
 #include "transillum/material_changes.h"
 #include "transillum/patch_count.h"
 #include "transillum/refinement.h"
+#include "transillum/solve_session.h"
 #include "transillum/study.h"
 
 namespace transillum::viewer {

@@ -1,8 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "model/checkpoint_keeper.h"
 
-#include <chrono>
+#include <filesystem>
 #include <utility>
+
+#include "transillum/errors.h"
 
 namespace transillum::viewer {
 
@@ -11,19 +13,47 @@ namespace {
 constexpr double soon_share = 1.0 / 12;
 
 void remove(const std::string& file) {
-  if (!file.empty()) {
-    const RemovedAtEnd removed(file);
-  }
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
 }
 
 }  // namespace
 
-void CheckpointKeeper::set_file(std::string file, double interval) {
+void CheckpointKeeper::save_to(std::string file, double interval) {
   const std::lock_guard lock(mutex_);
   remove(file_);
   file_ = std::move(file);
   interval_ = interval;
   checkpoint_.reset();
+}
+
+void CheckpointKeeper::resume_from(std::string file) {
+  const std::lock_guard lock(mutex_);
+  resume_from_ = std::move(file);
+}
+
+void CheckpointKeeper::resume(SolveSession& session, const SolveOptions& options) {
+  std::string file;
+  {
+    const std::lock_guard lock(mutex_);
+    file = std::exchange(resume_from_, {});
+  }
+  if (file.empty() || options.glossy) {
+    return;
+  }
+  try {
+    Checkpoint(file, *session.scene(), options).resume(session);
+  } catch (const InputError&) {
+    const std::lock_guard lock(mutex_);
+    if (session.in_rounds() && resume_from_.empty()) {
+      resume_from_ = file;
+      return;
+    }
+  } catch (...) {
+    remove(file);
+    throw;
+  }
+  remove(file);
 }
 
 void CheckpointKeeper::begin(std::shared_ptr<const Scene> scene, const SolveOptions& options) {
@@ -35,27 +65,20 @@ void CheckpointKeeper::begin(std::shared_ptr<const Scene> scene, const SolveOpti
   checkpoint_.reset();
 }
 
-void CheckpointKeeper::save_if_due(const RadiositySolver& solver, const AccuracyPlan* plan) {
-  save(solver, plan, solver.progress().direction == 0);
-}
-
-void CheckpointKeeper::save_soon(const RadiositySolver& solver, const AccuracyPlan* plan) {
-  save(solver, plan, true);
-}
-
-void CheckpointKeeper::save(const RadiositySolver& solver, const AccuracyPlan* plan, bool soon) {
+void CheckpointKeeper::save_if_due(const SolveSession& session, bool in_pause) {
   const std::lock_guard lock(mutex_);
+  const bool soon = in_pause || session.progress().direction == 0;
   const double interval = soon ? soon_share * interval_ : interval_;
   const std::chrono::duration<double> age = std::chrono::steady_clock::now() - since_;
-  if (file_.empty() || !scene_ || age.count() < interval) {
+  if (file_.empty() || !scene_ || session.diffuse() == nullptr || age.count() < interval) {
     return;
   }
   try {
     if (!checkpoint_) {
       checkpoint_.emplace(file_, *scene_, options_);
-      checkpoint_->save(solver, plan);
+      checkpoint_->save(session);
     } else {
-      checkpoint_->save_if_due(solver, plan, interval);
+      checkpoint_->save_if_due(session, interval);
     }
   } catch (const std::exception&) {
   }

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <filesystem>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,47 +11,38 @@
 
 namespace transillum::viewer {
 
-/// Removes a file at the end of its life.
-class RemovedAtEnd {
- public:
-  explicit RemovedAtEnd(std::string file) : file_(std::move(file)) {}
-  ~RemovedAtEnd() {
-    std::error_code ignored;
-    std::filesystem::remove(file_, ignored);
-  }
-  RemovedAtEnd(const RemovedAtEnd&) = delete;
-  RemovedAtEnd& operator=(const RemovedAtEnd&) = delete;
-  /// It is not removed.
-  void keep() { file_.clear(); }
-
- private:
-  std::string file_;
-};
-
-/// Keeps the solve that runs in a file, so that another program can go on with it after a crash.
-/// Errors are ignored: a full disk must not interrupt the user every minute.
+/// Saves the solve that runs, so that another program can continue it after a crash. Errors are
+/// ignored: a full disk must not interrupt the user every minute.
 ///
-/// Threads: set_file() may be called by any thread; the others belong to the solver's.
+/// Threads: save_to() and resume_from() may be called by any thread; the others belong to the
+/// worker's.
 class CheckpointKeeper {
  public:
-  ~CheckpointKeeper() { set_file({}); }
+  ~CheckpointKeeper() { save_to({}); }
 
-  /// Where the solve is kept from now on; empty: nowhere. The file before is removed.
+  /// Saves the solve in `file` from now on; empty: nowhere. The file before is removed.
   /// @param interval s
-  void set_file(std::string file, double interval = 60);
+  void save_to(std::string file, double interval = 60);
+  /// The next solve continues the checkpoint in `file`, if that is of the same scene and options.
+  void resume_from(std::string file);
+
+  /// Continues the solve in the file of resume_from(), if there is one, and removes it. Where it is
+  /// of another solve, the session begins at its beginning; the file then stays for a later round,
+  /// if there is one.
+  /// @param session has made no pass
+  /// @param options of its solves
+  /// @throws Canceled; as SolveSession::prepare()
+  void resume(SolveSession& session, const SolveOptions& options);
   /// Another solve begins; the one before is no longer kept.
   /// @param options of the solve
   void begin(std::shared_ptr<const Scene> scene, const SolveOptions& options);
-  /// To be called after each pass and iteration: saves when the interval has passed, after an
-  /// iteration a twelfth of it.
-  void save_if_due(const RadiositySolver& solver, const AccuracyPlan* plan);
-  /// To be called when the solver pauses.
-  void save_soon(const RadiositySolver& solver, const AccuracyPlan* plan);
+  /// To be called after each pass and iteration, and in pauses: saves when the interval has passed;
+  /// after an iteration and in a pause, a twelfth of it.
+  void save_if_due(const SolveSession& session, bool in_pause = false);
 
  private:
-  void save(const RadiositySolver& solver, const AccuracyPlan* plan, bool soon);
-
-  std::mutex mutex_;  ///< guards all below
+  std::mutex mutex_;         ///< guards all below
+  std::string resume_from_;  ///< checkpoint of another program; empty: none
   std::string file_;
   double interval_ = 60;
   std::shared_ptr<const Scene> scene_;

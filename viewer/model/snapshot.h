@@ -1,11 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +10,7 @@
 #include "model/patch_materials.h"
 #include "model/run_options.h"
 #include "support/has_index.h"
-#include "transillum/accuracy_plan.h"
+#include "transillum/accuracy_goal.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/bsp_tree.h"
@@ -53,16 +50,6 @@ struct RefinementState {
   bool left = false;    ///< the solve is that of a round, not yet that of the refined scene
 };
 
-/// The sum of the passes of all iterations so far. A pass that several iterations use (in the
-/// growing scheme, or from stored sums) counts in each.
-/// @param kept_passes  as in SolverSnapshot
-inline std::int64_t passes_done(const SolveProgress& progress,
-                                const std::vector<int>& kept_passes) {
-  const auto finished = std::min<std::ptrdiff_t>(progress.iteration, std::ssize(kept_passes));
-  return std::accumulate(kept_passes.begin(), kept_passes.begin() + finished,
-                         std::int64_t{progress.direction});
-}
-
 /// The RMS error of B over RMS of B, estimated from replicas, and the limits that it is between in
 /// 90 % of all runs.
 struct ErrorBand {
@@ -76,6 +63,9 @@ struct SolverSnapshot {
   RefineChoice refine;
   RefinementState refinement;  ///< if `refine` is set
   SolveProgress progress;
+  /// Of all iterations so far. A pass that several iterations use (in the growing scheme, or from
+  /// stored sums) counts in each.
+  std::int64_t passes_done = 0;
   std::shared_ptr<const std::vector<Vec3>>
       directions;  ///< omega of each pass of the newest iteration
   /// The directions of each iteration that has begun, and always of the first: one shared list,

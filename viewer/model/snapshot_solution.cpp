@@ -14,7 +14,7 @@ Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
   solution.complete = snapshot.of_file ? snapshot.loaded->stored->complete : complete;
   solution.accuracy = snapshot.accuracy;
   solution.glossy = snapshot.glossy;
-  const bool any_pass = passes_done(snapshot.progress, snapshot.kept_passes) > 0;
+  const bool any_pass = snapshot.passes_done > 0;
   if (any_pass) {
     solution.form_factor_sums = snapshot.form_factor_sums;
     solution.sky_shares = snapshot.sky_shares;

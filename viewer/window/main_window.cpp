@@ -87,7 +87,7 @@ constexpr QSize room_for_frame(16, 48);
 
 /// The share of light that escapes; unset before the first pass.
 std::optional<double> escape_of(const SolverSnapshot& snapshot) {
-  const bool any_pass = passes_done(snapshot.progress, snapshot.kept_passes) > 0;
+  const bool any_pass = snapshot.passes_done > 0;
   return any_pass ? std::optional(snapshot.statistics.escaped) : std::nullopt;
 }
 

@@ -58,7 +58,7 @@ Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QStri
   connect(&parts_.scene, &OpenScene::snapshot_shown, this, &Recovery::on_snapshot);
   connect(&parts_.scene, &OpenScene::scene_shown, this, [this] { kept_iteration_ = -1; });
   every_.start();
-  parts_.runner.keep_in(checkpoint_of(session_file(name_)).toStdString());
+  parts_.runner.save_to(checkpoint_of(session_file(name_)).toStdString());
   Banner* bar = parts_.page.recovery_bar();
   QPushButton* restore = bar->add_button("restore_session", tr("Go on"));
   restore->setToolTip(tr("Open the scene as it was, with its solve, position, views and notes"));
@@ -73,7 +73,7 @@ Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QStri
 
 Recovery::~Recovery() {
   QFile::remove(session_file(name_));
-  parts_.runner.keep_in({});
+  parts_.runner.save_to({});
 }
 
 QString Recovery::usual_folder() {
@@ -144,7 +144,7 @@ void Recovery::restore() {
     return;
   }
   parts_.page.recovery_bar()->dismiss();
-  parts_.runner.go_on_with(taken_over(checkpoint_of(offered_)).toStdString());
+  parts_.runner.resume_from(taken_over(checkpoint_of(offered_)).toStdString());
   try {
     const std::string name = offered_.toStdString();
     session_.restore(session_from_text(read_json_file(name), name, folder_.toStdString()));

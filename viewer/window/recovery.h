@@ -13,7 +13,7 @@ namespace transillum::viewer {
 class WindowSession;
 
 /// Keeps the session of the window in a file while the program runs: every minute, and soon after
-/// each iteration; the solve in a checkpoint beside it (SolveRunner::keep_in()). If the program is
+/// each iteration; the solve in a checkpoint beside it (SolveRunner::save_to()). If the program is
 /// killed, the next one offers to go on from there. A solve without a checkpoint is made again;
 /// either way it ends with the bits of the unbroken one.
 ///

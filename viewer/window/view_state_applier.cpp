@@ -195,10 +195,9 @@ void ViewStateApplier::start_run() {
     return;
   }
   awaits_ = Awaits::run;
-  const bool beyond =
-      requested_.solve.kind != Goal::Kind::finished &&
-      (passes_done(snapshot->progress, snapshot->kept_passes) > requested_.solve.passes ||
-       (requested_.solve.passes == 0 && !snapshot->statistics.refinement.empty()));
+  const bool beyond = requested_.solve.kind != Goal::Kind::finished &&
+                      (snapshot->passes_done > requested_.solve.passes ||
+                       (requested_.solve.passes == 0 && !snapshot->statistics.refinement.empty()));
   if (beyond || !is_requested(*snapshot)) {
     run_before_ = snapshot->kept_directions.front();
     parts_.runner.restart(solve, requested_.solve, requested_.options.refine);
@@ -264,7 +263,7 @@ bool ViewStateApplier::run_is_over() const {
     return parts_.runner.state() != RunState::running && parts_.runner.state() != RunState::loading;
   }
   return requested_.solve.kind != Goal::Kind::finished &&
-         passes_done(snapshot.progress, snapshot.kept_passes) >= requested_.solve.passes;
+         snapshot.passes_done >= requested_.solve.passes;
 }
 
 void ViewStateApplier::fail(const QString& message) {
@@ -406,7 +405,7 @@ ViewState ViewStateApplier::state() const {
       (snapshot && snapshot->refinement.left && run != RunState::running)) {
     state.solve = {};  // a place within the rounds cannot be named
   } else if (snapshot && run != RunState::finished && run != RunState::running) {
-    const std::int64_t passes = passes_done(snapshot->progress, snapshot->kept_passes);
+    const std::int64_t passes = snapshot->passes_done;
     state.solve = passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{};
   }
   const Focus& focus = parts_.focus;

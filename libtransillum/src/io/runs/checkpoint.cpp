@@ -180,6 +180,9 @@ void Checkpoint::resume(SolveSession& session) {
     s.plan.swap(plan);
     throw;
   }
+  if (s.request.keep_form_factors) {
+    s.solver->diffuse()->keep_form_factors();  // the file may be of a solve without
+  }
   s.solver->diffuse()->complete_estimate();
   s.seconds_before += file->head().at("seconds").get<double>();
 }

@@ -1,0 +1,39 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// From the name of a scene to what the window needs of it.
+#pragma once
+
+#include <QString>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "model/snapshot.h"
+#include "transillum/cancellation.h"
+#include "transillum/option_table.h"
+#include "transillum/solve_session.h"
+
+namespace transillum::viewer {
+
+/// Called on any thread, one at a time, with what is done and its finished share, 0 to 1; negative:
+/// unknown.
+using LoadProgress = std::function<void(const QString& phase, double share)>;
+
+/// Passes preparations of a solve on to `progress`, not too often.
+std::function<void(Preparation, double)> phase_reporter(LoadProgress progress);
+
+/// Reads a scene and builds its tree.
+/// @param spec file or built-in
+/// @throws InputError, Canceled
+std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, const RunOptions& options,
+                                                const LoadProgress& progress,
+                                                const Cancellation& cancellation);
+
+/// The scene of a session with its tree, which must be prepared.
+/// @param whole  the scene before patches were divided; it is returned if none were
+/// @throws Canceled
+std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
+                                                   const std::shared_ptr<const LoadedScene>& whole,
+                                                   const Cancellation& cancellation);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,59 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "model/snapshot.h"
+
+namespace transillum::viewer {
+
+/// What a solve tells the window.
+///
+/// Threads: signals and state() belong to the thread that created the object. The other functions
+/// may be called by any thread; the signals follow in the order of the calls. A snapshot that has
+/// not been delivered yet is replaced by its successor.
+class SolveMessages : public QObject {
+  Q_OBJECT
+
+ public:
+  using QObject::QObject;
+
+  RunState state() const { return state_; }
+
+  void post_state(RunState state);
+  /// Posts the open scene, or its new patches. Snapshots of what it replaces are dropped.
+  void post_scene(std::shared_ptr<const LoadedScene> loaded);
+  void post_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+  void post_load_progress(const QString& phase, double share);
+  /// Posts the exception that is being handled, unless it is Canceled; to be called in a catch
+  /// block.
+  /// @param no_memory message for std::bad_alloc; empty: that of failure_text()
+  void post_current_failure(const QString& no_memory = {});
+
+ signals:
+  void state_changed(transillum::viewer::RunState state);
+  void scene_loaded(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
+  /// The open scene has other patches, of a round of refinement or of a new run.
+  void patches_changed(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
+  void snapshot_ready(std::shared_ptr<const transillum::viewer::SolverSnapshot> snapshot);
+  /// @param share  done, 0 to 1; negative: unknown
+  void load_progressed(const QString& phase, double share);
+  /// @param bad_input  the user can correct it (exit status 2)
+  void failed(const QString& message, bool bad_input);
+
+ private:
+  void deliver_snapshot();
+  void post(std::function<void()> message);
+
+  RunState state_ = RunState::empty;              // as last reported to the window
+  std::shared_ptr<const LoadedScene> announced_;  // of the last signal
+
+  std::mutex mutex_;  // guards pending_snapshot_
+  std::shared_ptr<const SolverSnapshot> pending_snapshot_;
+};
+
+}  // namespace transillum::viewer
