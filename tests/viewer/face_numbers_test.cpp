@@ -42,17 +42,19 @@ class FaceNumbersTest : public QObject {
 
  private slots:
   void a_change_is_of_the_patches_with_the_number() {
-    MaterialEdits edits;
+    QUndoStack undo;
+    MaterialEdits edits(undo);
     edits.start_with(joined_scene());
     edits.set_exitance("face:2", {7, 7, 7});
     QVERIFY((exitances(edits) == std::vector<double>{0, 0, 7, 7, 0, 0}));
     QCOMPARE(edits.extent_of("face:2").patches, 2);
-    edits.undo_stack().undo();
+    undo.undo();
     QVERIFY(!edits.any());
   }
 
   void a_joined_face_is_refused_with_what_it_became() {
-    MaterialEdits edits;
+    QUndoStack undo;
+    MaterialEdits edits(undo);
     edits.start_with(joined_scene());
     const auto misfits =
         edits.start_over({{"face:3", {}, Rgb{7, 7, 7}}, {"face:4", {}, Rgb{1, 1, 1}}});

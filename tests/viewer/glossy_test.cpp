@@ -268,7 +268,7 @@ class GlossyTest : public QObject {
     nlohmann::json json{{"materials", to_json(changes)}};
     JsonObject object(json, "x");
     QVERIFY(material_changes_from_json(object, "materials") == changes);
-    w.window->relighting.edits().undo_stack().undo();
+    w.window->undo.undo();
     QVERIFY(wait_for([&] {
       return !w.snapshot().materials && w.snapshot().progress.finished && w.window->settled();
     }));

@@ -678,7 +678,7 @@ class InspectTest : public QObject {
     QVERIFY(wait_for([&] { return slider->isEnabled() && slider->isVisible(); }));
     slider->setPageStep(slider->maximum() / 50);
     slider->setValue(slider->maximum());
-    QUndoStack& undo_stack = shown.window->relighting.edits().undo_stack();
+    QUndoStack& undo_stack = shown.window->undo;
     undo_stack.clear();
     int steps = 0;
     connect(slider, &QSlider::valueChanged, slider, [&] { ++steps; });
@@ -691,7 +691,8 @@ class InspectTest : public QObject {
   }
 
   void a_drag_is_one_undo_step() {
-    MaterialEdits edits;
+    QUndoStack undo;
+    MaterialEdits edits(undo);
     const auto scene = load_scene("cornell-box");
     edits.start_with(scene);
     const std::string target = MaterialEdits::target_of(*scene, TargetKind::material, 0);
@@ -702,15 +703,15 @@ class InspectTest : public QObject {
     }
     edits.begin_drag();
     edits.set_reflectance(target, {0.5, 0.5, 0.5});
-    QCOMPARE(edits.undo_stack().count(), 2);
-    edits.undo_stack().undo();
+    QCOMPARE(undo.count(), 2);
+    undo.undo();
     QCOMPARE(rho().r, 0.3);
-    edits.undo_stack().undo();
+    undo.undo();
     QVERIFY(rho() == scene->reflectance(0) && !edits.any());
-    edits.undo_stack().redo();
+    undo.redo();
     edits.restore();
     QVERIFY(!edits.any());
-    edits.undo_stack().undo();
+    undo.undo();
     QCOMPARE(rho().r, 0.3);
   }
 

@@ -329,7 +329,8 @@ class LessonsTest : public QObject {
   void turning_past_the_last_page_opens_the_next_lesson() {
     Selection selection;
     Focus focus;
-    MaterialEdits edits;
+    QUndoStack undo;
+    MaterialEdits edits(undo);
     LessonPanel panel(built_in_lessons(), selection, focus, edits);
     panel.show();
     const auto at = [&panel] { return std::pair(panel.lesson(), panel.page()); };

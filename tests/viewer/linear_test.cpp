@@ -154,7 +154,7 @@ class LinearTest : public QObject {
     const auto open_card = [&](const char* name) {
       window->findChild<QPushButton*>(QStringLiteral("built_in_%1").arg(name))->click();
       return wait_for([&] {
-        return window->snapshot() && window->parts().scene.spec() == name &&
+        return window->snapshot() && window->scene.spec() == name &&
                window->snapshot()->progress.finished && window->settled();
       });
     };
@@ -450,7 +450,7 @@ class LinearTest : public QObject {
     QVERIFY(!note->isHidden());
     QVERIFY2(note->text().startsWith("Changed light is constant on each patch"),
              qPrintable(note->text()));
-    edits.undo_stack().undo();
+    shown.window->undo.undo();
     QVERIFY(wait_for([&] { return shown.window->colors.linear(); }));
   }
 

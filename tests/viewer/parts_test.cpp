@@ -192,10 +192,10 @@ class PartsTest : public QObject {
   void a_group_is_made_to_emit_in_one_step() {
     const Shown shown;
     QVERIFY(shown.listed());
-    const int steps = shown.window().relighting.edits().undo_stack().count();
+    const int steps = shown.window().undo.count();
     shown.click("group_table", "wall");
     QTest::keyClick(&shown.view("group_table"), Qt::Key_E);
-    QCOMPARE(shown.window().relighting.edits().undo_stack().count(), steps + 1);
+    QCOMPARE(shown.window().undo.count(), steps + 1);
     QVERIFY(wait_for([&] { return shown.window().snapshot()->materials != nullptr; }));
     QVERIFY(wait_for([&] {
       return shown.window().settled() && part_of(shown.table(), "wall").emitted == Rgb{80, 80, 80};
@@ -312,8 +312,7 @@ class PartsTest : public QObject {
 
     shown.solved.trigger("copy_solve");
     const QString command = QApplication::clipboard()->text();
-    QVERIFY2(command.contains("--sky 100 --sky-model cie-overcast"),
-             qPrintable(command));
+    QVERIFY2(command.contains("--sky 100 --sky-model cie-overcast"), qPrintable(command));
     const Session session{shown.window().applier().state(), {}, {}, {}, {}};
     const std::string text = to_text(session, "/");
     QVERIFY(session_from_text(text, "s", "/").state.options.solve.sky == expected);

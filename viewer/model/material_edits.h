@@ -30,7 +30,9 @@ class MaterialEdits : public QObject {
   Q_OBJECT
 
  public:
-  using QObject::QObject;
+  /// @param undo gets each change; outlives this object
+  explicit MaterialEdits(QUndoStack& undo, QObject* parent = nullptr)
+      : QObject(parent), undo_(undo) {}
 
   /// The target of a kind that patch i belongs to; empty for a group if the patch has none.
   static std::string target_of(const Scene& scene, TargetKind kind, PatchId i);
@@ -73,7 +75,9 @@ class MaterialEdits : public QObject {
   /// @returns a sentence about each change that does not fit the scene, which is left out
   std::vector<std::string> start_over(const std::vector<MaterialChange>& changes);
 
-  QUndoStack& undo_stack() { return undo_; }
+  /// The changes between begin_macro() and end_macro() are undone together.
+  void begin_macro(const QString& text) { undo_.beginMacro(text); }
+  void end_macro() { undo_.endMacro(); }
 
  signals:
   void changed();
@@ -92,7 +96,7 @@ class MaterialEdits : public QObject {
   std::shared_ptr<const PatchMaterials> materials_;
   bool any_ = false, has_light_ = false;
   int drag_ = 0;
-  QUndoStack undo_;
+  QUndoStack& undo_;
 };
 
 /// A target for the user: `Face 12`, `Material "white"`. Long names are shortened.

@@ -7,7 +7,7 @@
 
 namespace transillum::viewer {
 
-Relighting::Relighting(QObject* parent) : QObject(parent) {
+Relighting::Relighting(QUndoStack& undo, QObject* parent) : QObject(parent), edits_(undo) {
   connect(&edits_, &MaterialEdits::changed, this, &Relighting::request_light);
   connect(&relighter_, &Relighter::failed, this, &Relighting::failed);
   connect(&relighter_, &Relighter::relit, this,

@@ -17,7 +17,8 @@ class Relighting : public QObject {
   Q_OBJECT
 
  public:
-  explicit Relighting(QObject* parent = nullptr);
+  /// @param undo gets the changes of materials; outlives this object
+  explicit Relighting(QUndoStack& undo, QObject* parent = nullptr);
 
   MaterialEdits& edits() { return edits_; }
   /// Starts with the unedited materials of a new scene.

@@ -332,12 +332,12 @@ void PartsPanel::make_reflect() {
   const bool black = max_abs(relighting_.edits().values_of(target).reflectance) == 0;
   MaterialEdits& edits = relighting_.edits();
   edits.begin_drag();
-  edits.undo_stack().beginMacro(tr("make %1 reflect").arg(target_text(target)));
+  edits.begin_macro(tr("make %1 reflect").arg(target_text(target)));
   edits.set_exitance(target, {});
   if (black) {
     edits.set_reflectance(target, first_reflectance);
   }
-  edits.undo_stack().endMacro();
+  edits.end_macro();
   emit target_changed(target);
 }
 

@@ -12,7 +12,7 @@
 
 namespace transillum::viewer {
 
-CommandActions::CommandActions(const WindowParts& parts) : QObject(&parts.window), parts_(parts) {
+CommandActions::CommandActions(const WindowFrame& frame) : QObject(&frame.window), frame_(frame) {
   const auto add = [this](const char* name, const QString& text, const char* key,
                           const QString& tip) {
     auto* action = new QAction(text, this);
@@ -31,12 +31,12 @@ CommandActions::CommandActions(const WindowParts& parts) : QObject(&parts.window
   connect(step_, &QAction::triggered, this, &CommandActions::copy_step);
   connect(solve_, &QAction::triggered, this, &CommandActions::copy_solve);
   connect(map_, &QAction::triggered, this, [this] { copy_map({}); });
-  connect(&parts_.scene, &OpenScene::snapshot_shown, this, [this] {
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] {
     // The commands read scenes, not results.
-    solve_->setEnabled(parts_.scene.loaded()->description != nullptr);
+    solve_->setEnabled(frame_.state.scene.loaded()->description != nullptr);
   });
-  connect(&parts_.focus, &Focus::moved, this, [this] {
-    const bool any = solve_->isEnabled() && parts_.focus.map();
+  connect(&frame_.state.focus, &Focus::moved, this, [this] {
+    const bool any = solve_->isEnabled() && frame_.state.focus.map();
     map_->setEnabled(any);
     step_->setEnabled(any);
   });
@@ -49,23 +49,24 @@ void CommandActions::add_to(QMenu& menu) const {
 }
 
 RunOptions CommandActions::options() const {
-  const SolverSnapshot& snapshot = *parts_.scene.snapshot();
-  return {snapshot.options, parts_.scene.options(), parts_.scene.input(), snapshot.refine};
+  const SolverSnapshot& snapshot = *frame_.state.scene.snapshot();
+  return {snapshot.options, frame_.state.scene.options(), frame_.state.scene.input(),
+          snapshot.refine};
 }
 
 void CommandActions::copy_solve() {
-  QApplication::clipboard()->setText(QString::fromStdString(
-      solve_command(parts_.scene.spec(), options(), parts_.relighting.edits().changes())));
+  QApplication::clipboard()->setText(QString::fromStdString(solve_command(
+      frame_.state.scene.spec(), options(), frame_.state.relighting.edits().changes())));
 }
 
 void CommandActions::copy_map(std::optional<std::int32_t> steps) {
   QApplication::clipboard()->setText(QString::fromStdString(
-      map_command(parts_.scene.spec(), options(), parts_.relighting.edits().changes(),
-                  parts_.focus.map()->record().frame.omega, steps)));
+      map_command(frame_.state.scene.spec(), options(), frame_.state.relighting.edits().changes(),
+                  frame_.state.focus.map()->record().frame.omega, steps)));
 }
 
 void CommandActions::copy_step() {
-  const Focus& focus = parts_.focus;
+  const Focus& focus = frame_.state.focus;
   const bool before = focus.phase() == Phase::before && focus.position().step >= 0;
   copy_map(focus.position().step + (before ? 0 : 1));
 }

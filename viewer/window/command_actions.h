@@ -16,7 +16,7 @@ class CommandActions : public QObject {
 
  public:
   /// What `parts` refers to must outlive this object.
-  explicit CommandActions(const WindowParts& parts);
+  explicit CommandActions(const WindowFrame& frame);
 
   void add_to(QMenu& menu) const;
 
@@ -26,7 +26,7 @@ class CommandActions : public QObject {
   void copy_step();
   RunOptions options() const;
 
-  WindowParts parts_;
+  WindowFrame frame_;
   QAction *solve_, *map_, *step_;
 };
 

@@ -79,9 +79,11 @@ void write_png(const QString& path, const QImage& image) {
   write_whole(path, bytes);
 }
 
-ExportActions::ExportActions(const WindowParts& parts)
-    : QObject(&parts.window),
-      parts_(parts),
+ExportActions::ExportActions(const WindowFrame& frame, MapView& map, ConvergenceView& charts)
+    : QObject(&frame.window),
+      frame_(frame),
+      map_(map),
+      charts_(charts),
       writer_(
           [this](const FileToWrite& file, const Cancellation&) {
             file.write();
@@ -111,13 +113,13 @@ ExportActions::ExportActions(const WindowParts& parts)
       tr("Write the colors shown, without lighting, as glTF or PLY; with a preview"));
   connect(export_colors_, &QAction::triggered, this, &ExportActions::choose_colors);
   const auto enable = [this] {
-    export_colors_->setEnabled(parts_.scene.snapshot() != nullptr);
-    save_scene_->setEnabled(parts_.scene.snapshot() != nullptr);
+    export_colors_->setEnabled(frame_.state.scene.snapshot() != nullptr);
+    save_scene_->setEnabled(frame_.state.scene.snapshot() != nullptr);
     for (QAction* action : actions_) {
-      action->setEnabled(parts_.scene.snapshot() != nullptr);
+      action->setEnabled(frame_.state.scene.snapshot() != nullptr);
     }
   };
-  connect(&parts_.scene, &OpenScene::snapshot_shown, this, enable);
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, enable);
   enable();
 }
 
@@ -137,11 +139,11 @@ void ExportActions::add_to(QMenu& menu) const {
 }
 
 void ExportActions::write_scene(const QString& path, int scale) const {
-  write_png(path, parts_.page.scene_view()->picture(scale));
+  write_png(path, frame_.page.scene_view()->picture(scale));
 }
 
 void ExportActions::write_result(const QString& path) {
-  const auto snapshot = parts_.scene.snapshot();
+  const auto snapshot = frame_.state.scene.snapshot();
   if (!snapshot) {
     throw InputError("there is no result yet");
   }
@@ -152,14 +154,14 @@ void ExportActions::write_result(const QString& path) {
         "with them and solve that");
   }
   check_result_path(path.toStdString());
-  const bool complete = parts_.runner.state() == RunState::finished;
+  const bool complete = frame_.state.runner.state() == RunState::finished;
   write({path, [path, snapshot, complete] {
            transillum::write_result(path.toStdString(), solution_of(*snapshot, complete));
          }});
 }
 
 void ExportActions::write_colors(const QString& path, const DisplayOptions& display) {
-  const auto snapshot = parts_.scene.snapshot();
+  const auto snapshot = frame_.state.scene.snapshot();
   if (!snapshot) {
     throw InputError("there is no result yet");
   }
@@ -173,14 +175,14 @@ void ExportActions::write_colors(const QString& path, const DisplayOptions& disp
 }
 
 void ExportActions::write_scene_file(const QString& path) {
-  const auto loaded = parts_.scene.loaded();
+  const auto loaded = frame_.state.scene.loaded();
   if (!loaded) {
     throw InputError("there is no scene yet");
   }
   const std::string file = path.toStdString();
   check_writable(file);
   check_distinct({file, materials_file_of(file).string()}, loaded->scene->files());
-  const MaterialEdits& edits = parts_.relighting.edits();
+  const MaterialEdits& edits = frame_.state.relighting.edits();
   write({path, [file, loaded, changes = edits.changes(), materials = edits.materials()] {
            if (!loaded->description) {
              write_obj(file, description_of(*loaded->scene, *materials));
@@ -204,25 +206,25 @@ void ExportActions::report_written(const QString& path, const QString& failure) 
       [this, failure, path] {
         writing_ = false;
         if (failure.isEmpty()) {
-          parts_.notifier.show_written(path);
+          frame_.notifier.show_written(path);
         } else {
-          parts_.notifier.show_failure(failure);
+          frame_.notifier.show_failure(failure);
         }
       },
       Qt::QueuedConnection);
 }
 
 void ExportActions::write_map_picture(const QString& path) const {
-  const Focus& focus = parts_.focus;
+  const Focus& focus = frame_.state.focus;
   if (!focus.map()) {
     throw std::runtime_error("there is no visibility map yet");
   }
   const std::int32_t step = focus.position().step - (focus.phase() == Phase::before ? 1 : 0);
   check_map_path(path.toStdString());
   MapPictureOptions options;
-  options.patch_colors = parts_.colors.patch_colors();
+  options.patch_colors = frame_.state.colors.patch_colors();
   const std::vector<std::int32_t> rows = focus.map()->record().map_after(step);
-  for (const Callout& callout : parts_.map.canvas()->callouts()) {
+  for (const Callout& callout : map_.canvas()->callouts()) {
     if (const auto place = place_in_map(callout, *focus.map(), rows, focus.position().step)) {
       options.labels.push_back({callout.text, *place});
     }
@@ -232,12 +234,12 @@ void ExportActions::write_map_picture(const QString& path) const {
 
 void ExportActions::write_charts(const QString& path) const {
   check_chart_path(path.toStdString());
-  transillum::write_charts(path.toStdString(), parts_.charts.charts(),
-                           {1.0 * parts_.charts.width(), 1.0 * parts_.charts.height()});
+  transillum::write_charts(path.toStdString(), charts_.charts(),
+                           {1.0 * charts_.width(), 1.0 * charts_.height()});
 }
 
 void ExportActions::write_chart_figures(const QString& path) const {
-  const auto snapshot = parts_.scene.snapshot();
+  const auto snapshot = frame_.state.scene.snapshot();
   if (!snapshot) {
     throw std::runtime_error("there is nothing to write yet");
   }
@@ -260,31 +262,32 @@ void ExportActions::write_chart_figures(const QString& path) const {
 }
 
 QString ExportActions::name_with(const char* ending) const {
-  const QString scene = QString::fromStdString(parts_.scene.snapshot()->loaded->scene->name());
+  const QString scene =
+      QString::fromStdString(frame_.state.scene.snapshot()->loaded->scene->name());
   return QFileInfo(scene).completeBaseName() + QString::fromLatin1(ending);
 }
 
 template <class Write>
 void ExportActions::write_chosen(const QString& title, const QString& filter,
                                  const QString& proposed, Write write) {
-  const QString path = ask_where_to_write(&parts_.window, title, filter, proposed);
+  const QString path = ask_where_to_write(&frame_.window, title, filter, proposed);
   if (path.isEmpty()) {
     return;
   }
   try {
     write(path);
     if (!writing_) {
-      parts_.notifier.show_written(path);
+      frame_.notifier.show_written(path);
     }
   } catch (const std::exception& error) {
-    parts_.notifier.show_failure(QString::fromStdString(error.what()));
+    frame_.notifier.show_failure(QString::fromStdString(error.what()));
   }
 }
 
 void ExportActions::choose_scene() {
   bool go_on = false;
   const int scale =
-      QInputDialog::getInt(&parts_.window, tr("Picture of the scene"),
+      QInputDialog::getInt(&frame_.window, tr("Picture of the scene"),
                            tr("Scale (pixels per screen pixel):"), 2, 1, 8, 1, &go_on);
   if (go_on) {
     write_chosen(tr("Picture of the scene"), tr("Pictures (*.png)"), name_with(".png"),
@@ -298,9 +301,9 @@ void ExportActions::choose_result() {
 }
 
 void ExportActions::choose_colors() {
-  const auto snapshot = parts_.scene.snapshot();
-  ColorExportDialog dialog(snapshot, parts_.page.scene_view()->view_point(),
-                           initial_view(*snapshot->loaded->scene, 1).up, &parts_.window);
+  const auto snapshot = frame_.state.scene.snapshot();
+  ColorExportDialog dialog(snapshot, frame_.page.scene_view()->view_point(),
+                           initial_view(*snapshot->loaded->scene, 1).up, &frame_.window);
   if (dialog.exec() == QDialog::Accepted) {
     const QString ending = dialog.ending();
     write_chosen(tr("Export for Blender or the web"), tr("Colors (*%1)").arg(ending),

@@ -17,6 +17,8 @@ class QWidget;
 
 namespace transillum::viewer {
 
+class ConvergenceView;
+
 /// Writes a picture whole or not at all. @throws std::runtime_error
 void write_png(const QString& path, const QImage& image);
 
@@ -26,7 +28,7 @@ class ExportActions : public QObject {
   Q_OBJECT
 
  public:
-  explicit ExportActions(const WindowParts& parts);
+  ExportActions(const WindowFrame& frame, MapView& map, ConvergenceView& charts);
 
   void add_to(QMenu& menu) const;
   /// The scene as it is drawn, `scale` times as many pixels a side (1 … 8).
@@ -72,7 +74,9 @@ class ExportActions : public QObject {
   void write_chosen(const QString& title, const QString& filter, const QString& proposed,
                     Write write);
 
-  WindowParts parts_;
+  WindowFrame frame_;
+  MapView& map_;
+  ConvergenceView& charts_;
   QList<QAction*> actions_;
   QAction *save_scene_, *export_colors_;
   bool writing_ = false;

@@ -53,19 +53,25 @@ QAction* make_action(QObject* parent, const char* name, const QString& text,
 
 }  // namespace
 
-FileActions::FileActions(const WindowParts& parts, ViewStateApplier& applier,
-                         WindowSession& session)
-    : QObject(&parts.window), parts_(parts), applier_(applier), session_(session) {
+FileActions::FileActions(const WindowFrame& frame, DockLayouts& docks, SettingsPanel& settings,
+                         LessonPanel& lessons, ViewStateApplier& applier, WindowSession& session)
+    : QObject(&frame.window),
+      frame_(frame),
+      docks_(docks),
+      settings_(settings),
+      lessons_(lessons),
+      applier_(applier),
+      session_(session) {
   make_actions();
   make_reading_bar();
-  recent_menu_ = new QMenu(tr("Open recent"), &parts_.window);
+  recent_menu_ = new QMenu(tr("Open recent"), &frame_.window);
   settle_.setSingleShot(true);
   settle_.setInterval(settle_ms);
 
   connect(open_, &QAction::triggered, this, &FileActions::choose);
   connect(save_session_, &QAction::triggered, this, &FileActions::choose_session);
   connect(reload_, &QAction::triggered, this, [this] {
-    if (parts_.guard.may_lose(&parts_.window, tr("Reload"))) {
+    if (frame_.guard.may_lose(&frame_.window, tr("Reload"))) {
       applier_.reload();
     }
   });
@@ -76,7 +82,7 @@ FileActions::FileActions(const WindowParts& parts, ViewStateApplier& applier,
     settle_.start();
   });
   connect(&settle_, &QTimer::timeout, this, &FileActions::reload_if_written);
-  connect(&parts_.scene, &OpenScene::scene_shown, this, &FileActions::on_scene_shown);
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, &FileActions::on_scene_shown);
   save_session_->setEnabled(false);
   reload_->setEnabled(false);
 }
@@ -102,53 +108,54 @@ void FileActions::make_actions() {
 }
 
 void FileActions::make_reading_bar() {
-  Banner* bar = parts_.page.reading_bar();
+  Banner* bar = frame_.page.reading_bar();
   QPushButton* change = bar->add_button("change_reading", tr("Change…"));
   QPushButton* usual = bar->add_button("usual_reading", tr("Read as usual"));
   usual->setToolTip(tr("In meters, with faces as in the file; forgets what was chosen before"));
   connect(change, &QPushButton::clicked, this, &FileActions::choose_reading);
   connect(usual, &QPushButton::clicked, this, [this] {
     SceneInput input;
-    input.changes = parts_.scene.input().changes;
+    input.changes = frame_.state.scene.input().changes;
     read_again(input);
   });
 }
 
 void FileActions::choose_reading() {
-  ReadingDialog dialog(QString::fromStdString(parts_.scene.spec()), parts_.scene.input(),
-                       &parts_.window);
-  if (dialog.exec() == QDialog::Accepted && !(dialog.input() == parts_.scene.input())) {
+  ReadingDialog dialog(QString::fromStdString(frame_.state.scene.spec()),
+                       frame_.state.scene.input(), &frame_.window);
+  if (dialog.exec() == QDialog::Accepted && !(dialog.input() == frame_.state.scene.input())) {
     read_again(dialog.input());
   }
 }
 
 void FileActions::read_again(const SceneInput& input) {
-  if (parts_.guard.may_lose(&parts_.window, tr("Reload"))) {
-    applier_.open_again({parts_.settings.solve_options(), parts_.scene.options(), input});
+  if (frame_.guard.may_lose(&frame_.window, tr("Reload"))) {
+    applier_.open_again({settings_.solve_options(), frame_.state.scene.options(), input});
   }
 }
 
 /// Says how the file was read where that was recalled, and remembers it for the next time.
 void FileActions::show_reading() {
-  const QString path = QFileInfo(QString::fromStdString(parts_.scene.spec())).absoluteFilePath();
-  const auto loaded = parts_.scene.loaded();
+  const QString path =
+      QFileInfo(QString::fromStdString(frame_.state.scene.spec())).absoluteFilePath();
+  const auto loaded = frame_.state.scene.loaded();
   const bool from_file = loaded->description && !loaded->description->files.empty();
   reading_->setEnabled(from_file);
-  const QString text = ReadingMemory::text_of(parts_.scene.input());
+  const QString text = ReadingMemory::text_of(frame_.state.scene.input());
   if (from_file && recalled_ == path && !text.isEmpty()) {
-    parts_.page.reading_bar()->show_message(
+    frame_.page.reading_bar()->show_message(
         Banner::Kind::offer, tr("Read as chosen before for this file: %1.").arg(text));
   } else {
-    parts_.page.reading_bar()->dismiss();
+    frame_.page.reading_bar()->dismiss();
   }
   recalled_.clear();
   if (from_file && !applier_.in_lesson()) {
-    reading_memory_.remember(path, parts_.scene.input());
+    reading_memory_.remember(path, frame_.state.scene.input());
   }
 }
 
 void FileActions::on_scene_shown() {
-  const QString spec = QString::fromStdString(parts_.scene.spec());
+  const QString spec = QString::fromStdString(frame_.state.scene.spec());
   if (QFileInfo::exists(spec)) {
     remember(spec);
   }
@@ -174,7 +181,7 @@ void FileActions::choose() {
     formats += QString("%1 (%2)").arg(QString::fromStdString(format.name), pattern);
   }
   const QString path = QFileDialog::getOpenFileName(
-      &parts_.window, tr("Open"), {},
+      &frame_.window, tr("Open"), {},
       tr("Scenes, results, sessions, lessons (%1 *.vtp *.json)").arg(endings.join(' ')) + ";;" +
           formats.join(";;") +
           tr(";;Results (*.vtp);;Sessions and lessons (*.json);;All files (*)"));
@@ -187,7 +194,7 @@ void FileActions::try_open(const QString& path) {
   try {
     open(path);
   } catch (const std::exception& error) {
-    parts_.notifier.show_failure(failure_text(error));
+    frame_.notifier.show_failure(failure_text(error));
   }
 }
 
@@ -209,22 +216,22 @@ void FileActions::open(const QString& path, std::optional<Goal> goal, const Scen
 
 void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& input,
                              bool as_given) {
-  if (parts_.guard.may_lose(&parts_.window, tr("Open"))) {
+  if (frame_.guard.may_lose(&frame_.window, tr("Open"))) {
     leave_scene(spec);
     load_scene(spec, goal, input, as_given);
   }
 }
 
 void FileActions::open_built_in(const QString& name) {
-  if (!parts_.guard.may_lose(&parts_.window, tr("Open"))) {
+  if (!frame_.guard.may_lose(&frame_.window, tr("Open"))) {
     return;
   }
   leave_scene(name);
   SceneInput input;
-  if (name.toStdString() != parts_.scene.spec()) {
+  if (name.toStdString() != frame_.state.scene.spec()) {
     input.patches = soft_patches(name.toStdString());
   }
-  if (input.patches > 0 && parts_.settings.solve_options().basis == Basis::constant) {
+  if (input.patches > 0 && settings_.solve_options().basis == Basis::constant) {
     basis_is_of_card_ = choose_basis(Basis::linear);
   }
   load_scene(name, {Goal::Kind::finished}, input, false);
@@ -234,14 +241,14 @@ void FileActions::open_built_in(const QString& name) {
 /// @param next what is opened instead
 void FileActions::leave_scene(const QString& next) {
   applier_.leave_lesson();
-  if (next.toStdString() != parts_.scene.spec() && std::exchange(basis_is_of_card_, false)) {
+  if (next.toStdString() != frame_.state.scene.spec() && std::exchange(basis_is_of_card_, false)) {
     choose_basis(Basis::constant);
   }
 }
 
 void FileActions::load_scene(const QString& spec, Goal goal, const SceneInput& input,
                              bool as_given) {
-  RunOptions options = parts_.settings.options();
+  RunOptions options = settings_.options();
   options.input = input;
   const QString path = QFileInfo(spec).absoluteFilePath();
   recalled_.clear();
@@ -253,26 +260,26 @@ void FileActions::load_scene(const QString& spec, Goal goal, const SceneInput& i
     options.input.patches = input.patches;
     recalled_ = path;
   }
-  if (spec.toStdString() != parts_.scene.spec()) {
+  if (spec.toStdString() != frame_.state.scene.spec()) {
     choose_lobes(spec, options.solve);
   }
-  if (parts_.scene.loaded() && spec.toStdString() != parts_.scene.spec()) {
+  if (frame_.state.scene.loaded() && spec.toStdString() != frame_.state.scene.spec()) {
     options.scene = {};  // those of the open scene
     options.refine = {};
   }
-  parts_.scene.open(spec.toStdString(), options, goal);
+  frame_.state.scene.open(spec.toStdString(), options, goal);
 }
 
 /// @returns whether the other settings allow it
 bool FileActions::choose_basis(Basis basis) {
-  SolveOptions solve = parts_.settings.solve_options();
+  SolveOptions solve = settings_.solve_options();
   solve.basis = basis;
   try {
     solve.validate();
   } catch (const InputError&) {
     return false;
   }
-  parts_.settings.set_options(solve, parts_.settings.scene_options());
+  settings_.set_options(solve, settings_.scene_options());
   return true;
 }
 
@@ -280,7 +287,7 @@ bool FileActions::choose_basis(Basis basis) {
 /// other scenes only where they are asked for.
 void FileActions::choose_lobes(const QString& spec, SolveOptions& solve) {
   const bool has_lobes = spec.section(QLatin1Char(':'), 0, 0) == QLatin1String("gallery");
-  if (!has_lobes && !parts_.scene.loaded()) {
+  if (!has_lobes && !frame_.state.scene.loaded()) {
     return;  // what the command line says
   }
   solve.glossy = has_lobes;
@@ -289,8 +296,8 @@ void FileActions::choose_lobes(const QString& spec, SolveOptions& solve) {
   } catch (const InputError&) {
     solve.glossy = false;
   }
-  parts_.settings.set_options(solve, parts_.settings.scene_options());
-  parts_.colors.show_lobes(solve.glossy);
+  settings_.set_options(solve, settings_.scene_options());
+  frame_.state.colors.show_lobes(solve.glossy);
 }
 
 QString FileActions::save_unasked() {
@@ -303,7 +310,7 @@ QString FileActions::save_unasked() {
 }
 
 void FileActions::choose_lesson() {
-  const QString path = QFileDialog::getOpenFileName(&parts_.window, tr("Open a lesson"), {},
+  const QString path = QFileDialog::getOpenFileName(&frame_.window, tr("Open a lesson"), {},
                                                     tr("Lessons (*.json);;All files (*)"));
   if (path.isEmpty()) {
     return;
@@ -311,7 +318,7 @@ void FileActions::choose_lesson() {
   try {
     open_lesson(path.toStdString());
   } catch (const std::exception& error) {
-    parts_.notifier.show_failure(failure_text(error));
+    frame_.notifier.show_failure(failure_text(error));
   }
 }
 
@@ -320,11 +327,11 @@ void FileActions::open_lesson(const std::string& which, int page) {
   int lesson = QString::fromStdString(which).toInt(&is_number) - 1;
   if (!is_number) {
     Lesson read = read_lesson(which);
-    check_panels(read, which, parts_.docks.panels());
-    parts_.lessons.add(std::move(read));
+    check_panels(read, which, docks_.panels());
+    lessons_.add(std::move(read));
     lesson = 0;
   }
-  const auto& lessons = parts_.lessons.lessons();
+  const auto& lessons = lessons_.lessons();
   if (lesson < 0 || lesson >= std::ssize(lessons)) {
     throw InputError("there are lessons 1 to " + std::to_string(lessons.size()));
   }
@@ -332,22 +339,22 @@ void FileActions::open_lesson(const std::string& which, int page) {
   if (page < 1 || page > std::ssize(pages)) {
     throw InputError("the lesson has pages 1 to " + std::to_string(pages.size()));
   }
-  parts_.notifier.dismiss();
-  parts_.lessons.show_page(lesson, page - 1);
+  frame_.notifier.dismiss();
+  lessons_.show_page(lesson, page - 1);
 }
 
 void FileActions::open_session(const QString& path) {
   const std::string name = path.toStdString();
   const Session session =
       session_from_text(read_json_file(name), name, QFileInfo(path).path().toStdString());
-  if (parts_.guard.may_lose(&parts_.window, tr("Open"))) {
+  if (frame_.guard.may_lose(&frame_.window, tr("Open"))) {
     session_.restore(session);
   }
 }
 
 void FileActions::choose_session() {
   const QString path = ask_where_to_write(
-      &parts_.window, tr("Save session"), tr("Sessions (*.json)"),
+      &frame_.window, tr("Save session"), tr("Sessions (*.json)"),
       QStringLiteral("session.transillum.json"), QStringLiteral("transillum.json"));
   if (path.isEmpty()) {
     return;
@@ -355,9 +362,9 @@ void FileActions::choose_session() {
   try {
     save_session(path);
     remember(path);
-    parts_.notifier.show_written(path);
+    frame_.notifier.show_written(path);
   } catch (const std::exception& error) {
-    parts_.notifier.show_failure(failure_text(error));
+    frame_.notifier.show_failure(failure_text(error));
   }
 }
 
@@ -401,7 +408,7 @@ void FileActions::watch_scene() {
   if (!watch_->isChecked()) {
     return;
   }
-  const QFileInfo scene(QString::fromStdString(parts_.scene.spec()));
+  const QFileInfo scene(QString::fromStdString(frame_.state.scene.spec()));
   const QString materials = scene.path() + '/' + scene.completeBaseName() + ".mtl";
   for (const QString& path : {scene.filePath(), materials}) {
     if (QFileInfo::exists(path)) {
@@ -411,7 +418,7 @@ void FileActions::watch_scene() {
 }
 
 void FileActions::reload_if_written() {
-  const QFileInfo scene(QString::fromStdString(parts_.scene.spec()));
+  const QFileInfo scene(QString::fromStdString(frame_.state.scene.spec()));
   // Programs that write a temporary file and rename it leave no file for a moment.
   if (!scene.exists() || scene.size() == 0) {
     if (++checks_ < most_checks) {

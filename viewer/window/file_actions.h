@@ -29,7 +29,8 @@ class FileActions : public QObject {
 
  public:
   /// The references must outlive this object.
-  FileActions(const WindowParts& parts, ViewStateApplier& applier, WindowSession& session);
+  FileActions(const WindowFrame& frame, DockLayouts& docks, SettingsPanel& settings,
+              LessonPanel& lessons, ViewStateApplier& applier, WindowSession& session);
 
   void add_to(QMenu& menu) const;
   QAction* open_action() const { return open_; }
@@ -98,7 +99,10 @@ class FileActions : public QObject {
   void watch_scene();
   void reload_if_written();
 
-  WindowParts parts_;
+  WindowFrame frame_;
+  DockLayouts& docks_;
+  SettingsPanel& settings_;
+  LessonPanel& lessons_;
   ViewStateApplier& applier_;
   WindowSession& session_;
   QAction *open_, *save_session_, *reload_, *watch_, *reading_;

@@ -43,9 +43,9 @@ int last_frame_in(const QString& folder) {
 
 }  // namespace
 
-FrameRecorder::FrameRecorder(const WindowParts& parts, PlayControl& play)
-    : QObject(&parts.window),
-      parts_(parts),
+FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play)
+    : QObject(&frame.window),
+      frame_(frame),
       play_(play),
       worker_([this](const AnimationRequest& animation,
                      const Cancellation& cancellation) { write_waiting(animation, cancellation); },
@@ -68,22 +68,22 @@ FrameRecorder::FrameRecorder(const WindowParts& parts, PlayControl& play)
   animation_action_->setShortcut(QKeySequence(QStringLiteral("Shift+L")));
   connect(frames_action_, &QAction::triggered, this, &FrameRecorder::choose_folder);
   connect(animation_action_, &QAction::triggered, this, &FrameRecorder::choose_animation);
-  add_status(parts);
+  add_status(frame);
   play_.set_gate([this] { return has_room(); });
-  connect(&parts_.scene, &OpenScene::snapshot_shown, this, [this] { record(); });
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] { record(); });
   // While the newest direction is followed, snapshots already are recorded.
-  connect(&parts_.focus, &Focus::moved, this, [this] {
-    if (!parts_.focus.following()) {
+  connect(&frame_.state.focus, &Focus::moved, this, [this] {
+    if (!frame_.state.focus.following()) {
       record();
     }
   });
-  connect(&parts_.scene, &OpenScene::snapshot_shown, this, &FrameRecorder::show_state);
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &FrameRecorder::show_state);
   show_state();
 }
 
 FrameRecorder::~FrameRecorder() { worker_.clear(); }
 
-void FrameRecorder::add_status(const WindowParts& parts) {
+void FrameRecorder::add_status(const WindowFrame& frame) {
   status_ = new QWidget;
   status_->setObjectName("recording");
   status_text_ = new QLabel;
@@ -100,7 +100,7 @@ void FrameRecorder::add_status(const WindowParts& parts) {
   row->addWidget(status_text_);
   row->addWidget(finish_);
   row->addWidget(discard);
-  parts.window.statusBar()->addPermanentWidget(status_);
+  frame.window.statusBar()->addPermanentWidget(status_);
   connect(finish_, &QToolButton::clicked, this, &FrameRecorder::end);
   connect(discard, &QToolButton::clicked, this, &FrameRecorder::cancel);
 }
@@ -116,7 +116,7 @@ void FrameRecorder::choose_folder() {
     return;
   }
   const QString folder =
-      QFileDialog::getExistingDirectory(&parts_.window, tr("Folder for the frames"));
+      QFileDialog::getExistingDirectory(&frame_.window, tr("Folder for the frames"));
   if (folder.isEmpty()) {
     show_state();
   } else {
@@ -129,9 +129,10 @@ void FrameRecorder::choose_animation() {
     end();
     return;
   }
-  const QString scene = QString::fromStdString(parts_.scene.snapshot()->loaded->scene->name());
+  const QString scene =
+      QString::fromStdString(frame_.state.scene.snapshot()->loaded->scene->name());
   const QString path =
-      ask_where_to_write(&parts_.window, tr("Animation"), tr("Animations (*.gif)"),
+      ask_where_to_write(&frame_.window, tr("Animation"), tr("Animations (*.gif)"),
                          QFileInfo(scene).completeBaseName() + QStringLiteral(".gif"));
   if (path.isEmpty()) {
     show_state();
@@ -208,16 +209,16 @@ void FrameRecorder::on_written() {
 void FrameRecorder::record_file() {
   try {
     const QString name = QStringLiteral("frame_%1.png").arg(frames_ + 1, 5, 10, QLatin1Char('0'));
-    write_png(QDir(folder_).filePath(name), parts_.page.scene_view()->picture(1));
+    write_png(QDir(folder_).filePath(name), frame_.page.scene_view()->picture(1));
     ++frames_;
   } catch (const std::exception& error) {
     end();
-    parts_.notifier.show_failure(QString::fromStdString(error.what()));
+    frame_.notifier.show_failure(QString::fromStdString(error.what()));
   }
 }
 
 void FrameRecorder::record_animated() {
-  QImage picture = parts_.page.scene_view()->picture(1);
+  QImage picture = frame_.page.scene_view()->picture(1);
   if (picture.isNull()) {
     return;
   }
@@ -271,16 +272,16 @@ void FrameRecorder::report(const AnimationRequest& animation, const QString& fai
         }
         cancel();
         if (failure.isEmpty()) {
-          parts_.notifier.show_written(animation->path);
+          frame_.notifier.show_written(animation->path);
         } else {
-          parts_.notifier.show_failure(failure);
+          frame_.notifier.show_failure(failure);
         }
       },
       Qt::QueuedConnection);
 }
 
 void FrameRecorder::show_state() {
-  const bool any = parts_.scene.snapshot() != nullptr;
+  const bool any = frame_.state.scene.snapshot() != nullptr;
   frames_action_->setEnabled(any);
   animation_action_->setEnabled(any);
   frames_action_->setChecked(!folder_.isEmpty());

@@ -29,7 +29,7 @@ class FrameRecorder : public QObject {
 
  public:
   /// @param play  its pictures wait until the recording has room for them; must outlive this object
-  FrameRecorder(const WindowParts& parts, PlayControl& play);
+  FrameRecorder(const WindowFrame& frame, PlayControl& play);
   ~FrameRecorder() override;
 
   /// Adds both ways to record.
@@ -61,7 +61,7 @@ class FrameRecorder : public QObject {
   };
   using AnimationRequest = std::shared_ptr<Animation>;
 
-  void add_status(const WindowParts& parts);
+  void add_status(const WindowFrame& frame);
   void choose_folder();
   void choose_animation();
   void record();
@@ -73,7 +73,7 @@ class FrameRecorder : public QObject {
   void report(const AnimationRequest& animation, const QString& failure);
   void show_state();
 
-  WindowParts parts_;
+  WindowFrame frame_;
   PlayControl& play_;
   QAction *frames_action_, *animation_action_;
   QWidget* status_;

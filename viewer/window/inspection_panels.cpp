@@ -18,41 +18,42 @@
 #include "patches/warning_list.h"
 #include "widgets/scrolling.h"
 #include "window/dock_layouts.h"
+#include "window/window_parts.h"
 
 namespace transillum::viewer {
 
-InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
-                                   HiddenPatches& hidden, ColorChoice& colors, SolveRunner& runner,
-                                   QWidget* window)
-    : QObject(window), relighting_(relighting) {
-  materials_ = new MaterialPanel(relighting_, selection, colors);
-  tables_ = new PatchTablePanel(selection);
+InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QWidget* window)
+    : QObject(window), undo_(state.undo), relighting_(state.relighting) {
+  materials_ = new MaterialPanel(relighting_, state.selection, state.colors);
+  tables_ = new PatchTablePanel(state.selection);
   tables_->setObjectName("table_panel");
-  parts_ = new PartsPanel(relighting_, selection, hidden);
+  parts_ = new PartsPanel(relighting_, state.selection, hidden);
   parts_->setObjectName("parts_panel");
-  paths_ = new PathPanel(selection);
+  paths_ = new PathPanel(state.selection);
   paths_->setObjectName("path_panel");
-  warnings_ = new WarningList(selection);
+  warnings_ = new WarningList(state.selection);
   connect(warnings_, &WarningList::face_chosen, this, &InspectionPanels::face_chosen);
-  selecting_ = new SelectionActions(selection, hidden, this);
-  hidden.set_undo_stack(&relighting_.edits().undo_stack());
-  compare_ = new CompareActions(colors, window, this);
+  selecting_ = new SelectionActions(state.selection, hidden, this);
+  hidden.set_undo_stack(&undo_);
+  compare_ = new CompareActions(state.colors, window, this);
   connect(compare_, &CompareActions::failed, this, &InspectionPanels::failed);
-  runs_ = new RunPanel(colors, selection, *compare_->keep(), *compare_->difference());
+  runs_ = new RunPanel(state.colors, state.selection, *compare_->keep(), *compare_->difference());
   connect(runs_, &RunPanel::patch_chosen, this, &InspectionPanels::face_chosen);
-  colors.kept_runs().set_undo_stack(&relighting_.edits().undo_stack());
-  connect(&colors, &ColorChoice::form_factors_requested, &runner,
+  state.colors.kept_runs().set_undo_stack(&undo_);
+  connect(&state.colors, &ColorChoice::form_factors_requested, &state.runner,
           &SolveRunner::include_form_factors);
-  connect(&relighting_, &Relighting::form_factors_requested, &runner,
+  connect(&relighting_, &Relighting::form_factors_requested, &state.runner,
           &SolveRunner::include_form_factors);
-  connect(&relighting_, &Relighting::solver_light_requested, &runner, &SolveRunner::relight);
-  connect(tables_, &PatchTablePanel::form_factors_requested, &runner,
+  connect(&relighting_, &Relighting::solver_light_requested, &state.runner, &SolveRunner::relight);
+  connect(tables_, &PatchTablePanel::form_factors_requested, &state.runner,
           &SolveRunner::include_form_factors);
-  connect(paths_, &PathPanel::form_factors_requested, &runner, &SolveRunner::include_form_factors);
+  connect(paths_, &PathPanel::form_factors_requested, &state.runner,
+          &SolveRunner::include_form_factors);
   connect(paths_, &PathPanel::paths_shown, this, &InspectionPanels::paths_shown);
   connect(paths_, &PathPanel::failed, this, &InspectionPanels::failed);
   connect(tables_, &PatchTablePanel::failed, this, &InspectionPanels::failed);
-  connect(parts_, &PartsPanel::form_factors_requested, &runner, &SolveRunner::include_form_factors);
+  connect(parts_, &PartsPanel::form_factors_requested, &state.runner,
+          &SolveRunner::include_form_factors);
   connect(parts_, &PartsPanel::failed, this, &InspectionPanels::failed);
   connect(parts_, &PartsPanel::target_changed, this, [this](const std::string& target) {
     materials_->show_target(target);
@@ -97,10 +98,10 @@ void InspectionPanels::add_warnings_to(DockLayouts& docks) {
 
 void InspectionPanels::add_to(QMenuBar& bar) {
   QMenu* edit = bar.addMenu(tr("&Edit"));
-  QAction* undo = relighting_.edits().undo_stack().createUndoAction(this, tr("Undo"));
+  QAction* undo = undo_.createUndoAction(this, tr("Undo"));
   undo->setObjectName("undo");
   undo->setShortcut(QKeySequence(QStringLiteral("Ctrl+Z")));
-  QAction* redo = relighting_.edits().undo_stack().createRedoAction(this, tr("Redo"));
+  QAction* redo = undo_.createRedoAction(this, tr("Redo"));
   redo->setObjectName("redo");
   redo->setShortcuts(
       {QKeySequence(QStringLiteral("Ctrl+Y")), QKeySequence(QStringLiteral("Ctrl+Shift+Z"))});

@@ -13,6 +13,7 @@
 
 class QDockWidget;
 class QMenuBar;
+class QUndoStack;
 
 namespace transillum::viewer {
 
@@ -25,7 +26,7 @@ class PathPanel;
 class RunPanel;
 class SelectionActions;
 class WarningList;
-class SolveRunner;
+struct SharedState;
 
 /// The panels that inspect a scene: tables of patches, materials to change, kept runs to compare
 /// with; with their docks and menus.
@@ -33,8 +34,7 @@ class InspectionPanels : public QObject {
   Q_OBJECT
 
  public:
-  InspectionPanels(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
-                   ColorChoice& colors, SolveRunner& runner, QWidget* window);
+  InspectionPanels(SharedState& state, HiddenPatches& hidden, QWidget* window);
 
   void add_materials_to(DockLayouts& docks);
   void add_tables_to(DockLayouts& docks);
@@ -58,6 +58,7 @@ class InspectionPanels : public QObject {
   void paths_shown(std::shared_ptr<const transillum::LightPaths> paths, int emphasized);
 
  private:
+  QUndoStack& undo_;
   Relighting& relighting_;
   MaterialPanel* materials_;
   PatchTablePanel* tables_;

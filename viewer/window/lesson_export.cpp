@@ -29,9 +29,11 @@ constexpr int widest_picture = 900;
 
 }  // namespace
 
-LessonExport::LessonExport(const WindowParts& parts, std::function<bool()> settled)
-    : QObject(&parts.window),
-      parts_(parts),
+LessonExport::LessonExport(const WindowFrame& frame, LessonPanel& lessons,
+                           std::function<bool()> settled)
+    : QObject(&frame.window),
+      frame_(frame),
+      lessons_(lessons),
       settled_(std::move(settled)),
       action_(new QAction(tr("Export the lesson…"), this)),
       solver_(*this, [this](const QuestionRequest&, const std::shared_ptr<const Solved>& solved,
@@ -52,11 +54,11 @@ LessonExport::LessonExport(const WindowParts& parts, std::function<bool()> settl
 }
 
 void LessonExport::choose() {
-  if (busy() || parts_.lessons.lesson() < 0) {
-    parts_.notifier.show_failure(tr("Choose the lesson to export first."));
+  if (busy() || lessons_.lesson() < 0) {
+    frame_.notifier.show_failure(tr("Choose the lesson to export first."));
     return;
   }
-  const QString path = ask_where_to_write(&parts_.window, tr("Export the lesson"),
+  const QString path = ask_where_to_write(&frame_.window, tr("Export the lesson"),
                                           tr("Web pages (*.html)"), QStringLiteral("lesson.html"));
   if (!path.isEmpty()) {
     export_to(path);
@@ -65,12 +67,12 @@ void LessonExport::choose() {
 
 void LessonExport::export_to(const QString& path) {
   path_ = path;
-  lesson_ = parts_.lessons.lesson();
-  page_before_ = parts_.lessons.page();
+  lesson_ = lessons_.lesson();
+  page_before_ = lessons_.page();
   pages_.clear();
-  const auto count = static_cast<int>(at(parts_.lessons.lessons(), lesson_).pages.size());
+  const auto count = static_cast<int>(at(lessons_.lessons(), lesson_).pages.size());
   progress_ = new QProgressDialog(tr("Showing and taking the pages…"), tr("Cancel"), 0, count,
-                                  &parts_.window);
+                                  &frame_.window);
   progress_->setObjectName("lesson_export_progress");
   progress_->setWindowTitle(tr("Export the lesson"));
   progress_->setMinimumDuration(0);
@@ -83,14 +85,14 @@ void LessonExport::export_to(const QString& path) {
 }
 
 void LessonExport::show_next() {
-  const auto& pages = at(parts_.lessons.lessons(), lesson_).pages;
+  const auto& pages = at(lessons_.lessons(), lesson_).pages;
   if (pages_.size() == pages.size()) {
     finish();
     return;
   }
   progress_->setValue(static_cast<int>(pages_.size()));
   quiet_ = 0;
-  parts_.lessons.show_page(lesson_, static_cast<int>(pages_.size()));
+  lessons_.show_page(lesson_, static_cast<int>(pages_.size()));
   poll_.start();
 }
 
@@ -104,31 +106,31 @@ void LessonExport::take_when_settled() {
 
 void LessonExport::take_page() {
   ShownPage shown;
-  shown.page = at(parts_.lessons.lessons(), lesson_).pages[pages_.size()];
-  QImage picture = parts_.page.scene_view()->grab().toImage();
+  shown.page = at(lessons_.lessons(), lesson_).pages[pages_.size()];
+  QImage picture = frame_.page.scene_view()->grab().toImage();
   if (picture.width() > widest_picture) {
     picture = picture.scaledToWidth(widest_picture, Qt::SmoothTransformation);
   }
   QBuffer buffer(&shown.picture);
   buffer.open(QIODevice::WriteOnly);
   picture.save(&buffer, "PNG");
-  if (shown.page.state.focus && parts_.focus.map()) {
-    shown.map = parts_.focus.map();
-    shown.step = parts_.focus.position().step;
-    shown.patch_colors = parts_.colors.patch_colors();
+  if (shown.page.state.focus && frame_.state.focus.map()) {
+    shown.map = frame_.state.focus.map();
+    shown.step = frame_.state.focus.position().step;
+    shown.patch_colors = frame_.state.colors.patch_colors();
   }
   pages_.push_back(std::move(shown));
   const auto& question = pages_.back().page.question;
-  if (!question || !parts_.scene.loaded()) {
+  if (!question || !frame_.state.scene.loaded()) {
     show_next();
     return;
   }
-  solver_.request({parts_.scene.loaded(), *question});
+  solver_.request({frame_.state.scene.loaded(), *question});
 }
 
 void LessonExport::finish() {
   const QString path = path_;
-  const QString title = QString::fromStdString(at(parts_.lessons.lessons(), lesson_).title);
+  const QString title = QString::fromStdString(at(lessons_.lessons(), lesson_).title);
   const QByteArray html = lesson_html(title, pages_);
   end();
   QSaveFile file(path);
@@ -136,12 +138,12 @@ void LessonExport::finish() {
     fail(path + ": " + file.errorString());
     return;
   }
-  parts_.notifier.show_written(path);
+  frame_.notifier.show_written(path);
   emit written(path);
 }
 
 void LessonExport::fail(const QString& message) {
-  parts_.notifier.show_failure(message);
+  frame_.notifier.show_failure(message);
   emit failed(message);
 }
 
@@ -154,7 +156,7 @@ void LessonExport::end() {
   progress_->close();
   progress_->deleteLater();
   progress_ = nullptr;
-  parts_.lessons.show_page(lesson_, page_before_);
+  lessons_.show_page(lesson_, page_before_);
 }
 
 }  // namespace transillum::viewer

@@ -23,7 +23,7 @@ class LessonExport : public QObject {
 
  public:
   /// @param settled  whether the window shows all of the newest page
-  LessonExport(const WindowParts& parts, std::function<bool()> settled);
+  LessonExport(const WindowFrame& frame, LessonPanel& lessons, std::function<bool()> settled);
 
   QAction* action() const { return action_; }
   /// Writes the file whole, or not at all; errors are also shown in the window.
@@ -44,7 +44,8 @@ class LessonExport : public QObject {
   void fail(const QString& message);
   void end();
 
-  WindowParts parts_;
+  WindowFrame frame_;
+  LessonPanel& lessons_;
   std::function<bool()> settled_;
   QAction* action_;
   QTimer poll_;

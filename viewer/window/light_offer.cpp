@@ -24,46 +24,52 @@ constexpr double first_exitance = 10;  // W/m²; the exposure follows it
 
 }  // namespace
 
-LightOffer::LightOffer(const WindowParts& parts, MaterialPanel& materials,
-                       ViewStateApplier& applier)
-    : QObject(&parts.window), parts_(parts), materials_(materials), applier_(applier) {
-  Banner* bar = parts_.page.light_bar();
+LightOffer::LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPanel& settings,
+                       MaterialPanel& materials, ViewStateApplier& applier)
+    : QObject(&frame.window),
+      frame_(frame),
+      docks_(docks),
+      settings_(settings),
+      materials_(materials),
+      applier_(applier) {
+  Banner* bar = frame_.page.light_bar();
   QPushButton* button = bar->add_button("make_emit", tr("Make it emit"));
   menu_ = new QMenu(button);
   button->setMenu(menu_);
   connect(menu_, &QMenu::aboutToShow, this, &LightOffer::fill_menu);
   connect(bar, &Banner::closed, this, [this] { closed_ = true; });
-  connect(&parts_.scene, &OpenScene::scene_shown, this, [this] {
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] {
     closed_ = false;
     update();
-    if (!parts_.relighting.edits().has_light()) {
-      emit parts_.relighting.form_factors_requested();  // so that a light appears at once
+    if (!frame_.state.relighting.edits().has_light()) {
+      emit frame_.state.relighting.form_factors_requested();  // so that a light appears at once
     }
   });
-  connect(&parts_.relighting.edits(), &MaterialEdits::changed, this, &LightOffer::update);
-  connect(&parts_.scene, &OpenScene::snapshot_shown, this, &LightOffer::update);
-  connect(&parts_.selection, &Selection::changed, this, &LightOffer::update);
+  connect(&frame_.state.relighting.edits(), &MaterialEdits::changed, this, &LightOffer::update);
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &LightOffer::update);
+  connect(&frame_.state.selection, &Selection::changed, this, &LightOffer::update);
 }
 
 void LightOffer::update() {
-  Banner& bar = *parts_.page.light_bar();
-  const auto snapshot = parts_.scene.snapshot();
+  Banner& bar = *frame_.page.light_bar();
+  const auto snapshot = frame_.state.scene.snapshot();
   const bool sky = snapshot && snapshot->options.sky.set();
-  if (closed_ || sky || !parts_.scene.loaded() || parts_.relighting.edits().has_light()) {
+  if (closed_ || sky || !frame_.state.scene.loaded() ||
+      frame_.state.relighting.edits().has_light()) {
     bar.dismiss();
     return;
   }
   bar.show_message(
       Banner::Kind::offer,
-      parts_.selection.patch() == no_patch
+      frame_.state.selection.patch() == no_patch
           ? tr("No light: the scene is shown in a neutral one. Click a face to make it emit.")
           : tr("No light: make the selected face, material or group emit."));
 }
 
 void LightOffer::fill_menu() {
   menu_->clear();
-  const auto loaded = parts_.scene.loaded();
-  const PatchId patch = parts_.selection.patch();
+  const auto loaded = frame_.state.scene.loaded();
+  const PatchId patch = frame_.state.selection.patch();
   std::vector<std::string> targets;
   for (const TargetKind kind : {TargetKind::face, TargetKind::material, TargetKind::group}) {
     if (patch != no_patch) {
@@ -82,7 +88,7 @@ void LightOffer::fill_menu() {
     return;
   }
   const std::string suggested =
-      parts_.relighting.edits().with_kind(suggested_light(*loaded->description));
+      frame_.state.relighting.edits().with_kind(suggested_light(*loaded->description));
   if (std::find(targets.begin(), targets.end(), suggested) == targets.end()) {
     menu_->addSeparator();
     add_target(tr("%1 (suggested)").arg(target_text(suggested)), suggested);
@@ -95,23 +101,23 @@ void LightOffer::add_target(const QString& text, const std::string& target) {
 
 void LightOffer::make_emit(const std::string& target) {
   constexpr Rgb white{first_exitance, first_exitance, first_exitance};
-  const auto snapshot = parts_.scene.snapshot();
-  if (snapshot && !snapshot->form_factors_fit && parts_.scene.loaded()->description) {
+  const auto snapshot = frame_.state.scene.snapshot();
+  if (snapshot && !snapshot->form_factors_fit && frame_.state.scene.loaded()->description) {
     // Form factors that exceed the memory limit light nothing: a new solve does.
-    if (!parts_.guard.may_lose(&parts_.window, tr("Make it emit"))) {
+    if (!frame_.guard.may_lose(&frame_.window, tr("Make it emit"))) {
       return;
     }
-    RunOptions options{parts_.settings.solve_options(), parts_.scene.options(),
-                       parts_.scene.input(), parts_.settings.refinement()};
+    RunOptions options{settings_.solve_options(), frame_.state.scene.options(),
+                       frame_.state.scene.input(), settings_.refinement()};
     options.input.changes.push_back({target, {}, white});
     applier_.open_again(options);
     return;
   }
-  MaterialEdits& edits = parts_.relighting.edits();
+  MaterialEdits& edits = frame_.state.relighting.edits();
   edits.begin_drag();
   edits.set_exitance(target, white);
   materials_.show_target(target);
-  parts_.docks.bring_to_front("material");
+  docks_.bring_to_front("material");
 }
 
 }  // namespace transillum::viewer

@@ -20,7 +20,8 @@ class LightOffer : public QObject {
 
  public:
   /// The references must outlive this object.
-  LightOffer(const WindowParts& parts, MaterialPanel& materials, ViewStateApplier& applier);
+  LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPanel& settings,
+             MaterialPanel& materials, ViewStateApplier& applier);
 
  private:
   void update();
@@ -29,7 +30,9 @@ class LightOffer : public QObject {
   /// Gives a target an exitance, and shows its sliders.
   void make_emit(const std::string& target);
 
-  WindowParts parts_;
+  WindowFrame frame_;
+  DockLayouts& docks_;
+  SettingsPanel& settings_;
   MaterialPanel& materials_;
   ViewStateApplier& applier_;
   QMenu* menu_;

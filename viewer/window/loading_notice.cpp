@@ -16,16 +16,16 @@ constexpr int delay_ms = 200;
 
 }  // namespace
 
-LoadingNotice::LoadingNotice(const WindowParts& parts) : QObject(&parts.window), parts_(parts) {
+LoadingNotice::LoadingNotice(const WindowFrame& frame) : QObject(&frame.window), frame_(frame) {
   delay_.setSingleShot(true);
   delay_.setInterval(delay_ms);
-  QPushButton* cancel = parts_.page.loading_bar()->add_button("cancel_loading", tr("Cancel"));
+  QPushButton* cancel = frame_.page.loading_bar()->add_button("cancel_loading", tr("Cancel"));
   cancel->setToolTip(tr("Stop loading and keep the open scene (Esc)"));
-  connect(cancel, &QPushButton::clicked, &parts_.runner, &SolveRunner::stop);
-  connect(parts_.page.loading_bar(), &Banner::closed, &parts_.runner, &SolveRunner::stop);
+  connect(cancel, &QPushButton::clicked, &frame_.state.runner, &SolveRunner::stop);
+  connect(frame_.page.loading_bar(), &Banner::closed, &frame_.state.runner, &SolveRunner::stop);
   connect(&delay_, &QTimer::timeout, this, &LoadingNotice::show);
-  connect(&parts_.runner, &SolveRunner::state_changed, this, &LoadingNotice::show_state);
-  connect(&parts_.runner, &SolveRunner::load_progressed, this,
+  connect(&frame_.state.runner, &SolveRunner::state_changed, this, &LoadingNotice::show_state);
+  connect(&frame_.state.runner, &SolveRunner::load_progressed, this,
           [this](const QString& phase, double share) {
             phase_ = phase;
             share_ = share;
@@ -41,27 +41,28 @@ void LoadingNotice::show_state(RunState state) {
     return;
   }
   delay_.stop();
-  parts_.page.loading_bar()->dismiss();
-  parts_.page.set_loading({});
+  frame_.page.loading_bar()->dismiss();
+  frame_.page.set_loading({});
   // Otherwise the new scene has set it.
-  if (!title_before_.isEmpty() && parts_.window.windowTitle() == loading_title_) {
-    parts_.window.setWindowTitle(title_before_);
+  if (!title_before_.isEmpty() && frame_.window.windowTitle() == loading_title_) {
+    frame_.window.setWindowTitle(title_before_);
   }
   title_before_.clear();
 }
 
 void LoadingNotice::show() {
-  const QString name = QFileInfo(QString::fromStdString(parts_.scene.requested_spec())).fileName();
+  const QString name =
+      QFileInfo(QString::fromStdString(frame_.state.scene.requested_spec())).fileName();
   if (title_before_.isEmpty()) {
-    title_before_ = parts_.window.windowTitle();
+    title_before_ = frame_.window.windowTitle();
     loading_title_ = tr("Loading %1 – transillum").arg(name);
-    parts_.window.setWindowTitle(loading_title_);
-    parts_.page.set_loading(name);
+    frame_.window.setWindowTitle(loading_title_);
+    frame_.page.set_loading(name);
   }
   const QString text =
       share_ < 0 ? phase_
                  : tr("%1: %2 %").arg(phase_, QString::number(static_cast<int>(100 * share_)));
-  parts_.page.loading_bar()->show_message(Banner::Kind::offer, text);
+  frame_.page.loading_bar()->show_message(Banner::Kind::offer, text);
 }
 
 }  // namespace transillum::viewer

@@ -15,13 +15,13 @@ class LoadingNotice : public QObject {
 
  public:
   /// What `parts` refers to must outlive this object.
-  explicit LoadingNotice(const WindowParts& parts);
+  explicit LoadingNotice(const WindowFrame& frame);
 
  private:
   void show_state(RunState state);
   void show();
 
-  WindowParts parts_;
+  WindowFrame frame_;
   QString phase_, title_before_, loading_title_;
   double share_ = -1;  ///< as by SolveRunner::load_progressed()
   QTimer delay_;       ///< a scene that loads at once needs no bar

@@ -118,18 +118,11 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
 
 MainWindow::~MainWindow() = default;
 
-WindowParts MainWindow::parts() {
-  return {*this,          state_.runner,
-          state_.scene,   state_.relighting,
-          state_.focus,   state_.selection,
-          state_.colors,  state_.breakpoints,
-          state_.watches, docks_,
-          *page_,         *map_view_,
-          *algorithm_,    *convergence_view_,
-          *settings_,     *lesson_panel_,
-          *notes_,        *notifier_,
-          work_guard_};
+WindowViews MainWindow::parts() {
+  return {*page_, docks_, *map_view_, *algorithm_, *settings_, *lesson_panel_};
 }
+
+WindowFrame MainWindow::frame() { return {*this, state_, *page_, *notifier_, work_guard_}; }
 
 void MainWindow::make_views() {
   page_ = new ScenePage(state_.focus, state_.selection, state_.colors);
@@ -168,8 +161,7 @@ void MainWindow::make_views() {
   timeline_ = new TimelineBar(state_.focus, state_.selection, state_.watches, *step_actions_);
   timeline_->lanes()->set_marks(
       [this](const MapHistory& history) { return state_.breakpoints.steps_in(history); });
-  inspection_ = new InspectionPanels(state_.relighting, state_.selection, page_->hidden(),
-                                     state_.colors, state_.runner, this);
+  inspection_ = new InspectionPanels(state_, page_->hidden(), this);
   study_ =
       new StudyDialog(remember_ ? ReferenceCache::default_folder() : std::filesystem::path(), this);
   progress_ = new ProgressLine;
@@ -178,23 +170,23 @@ void MainWindow::make_views() {
 }
 
 void MainWindow::make_whole_window_actions() {
-  const WindowParts parts = this->parts();
+  const WindowFrame frame = this->frame();
   solve_actions_ = new SolveActions(this);
-  applier_ = new ViewStateApplier(parts);
-  new SolveControl(parts, *solve_actions_, *applier_);
-  session_ = new WindowSession(parts, *applier_);
-  files_ = new FileActions(parts, *applier_, *session_);
-  exports_ = new ExportActions(parts);
-  recorder_ = new FrameRecorder(parts, *timeline_->play());
+  applier_ = new ViewStateApplier(frame, docks_, *map_view_, *algorithm_, *settings_);
+  new SolveControl(frame, *settings_, *solve_actions_, *applier_);
+  session_ = new WindowSession(frame, docks_, *notes_, *applier_);
+  files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
+  exports_ = new ExportActions(frame, *map_view_, *convergence_view_);
+  recorder_ = new FrameRecorder(frame, *timeline_->play());
   timeline_->play()->menu()->addSeparator();
   timeline_->play()->menu()->addAction(recorder_->animation_action());
-  new LoadingNotice(parts);
+  new LoadingNotice(frame);
   if (remember_) {
-    recovery_ = new Recovery(parts, *session_, Recovery::usual_folder());
+    recovery_ = new Recovery(frame, *session_, Recovery::usual_folder());
   }
-  lesson_export_ = new LessonExport(parts, [this] { return settled(); });
-  new LightOffer(parts, inspection_->materials(), *applier_);
-  new OrientationOffer(parts, *applier_);
+  lesson_export_ = new LessonExport(frame, *lesson_panel_, [this] { return settled(); });
+  new LightOffer(frame, docks_, *settings_, inspection_->materials(), *applier_);
+  new OrientationOffer(frame, *settings_, *applier_);
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
   connect(lesson_panel_, &LessonPanel::option_chosen, applier_, &ViewStateApplier::set_option);
   connect(lesson_panel_, &LessonPanel::open_clicked, files_, &FileActions::choose_lesson);
@@ -204,11 +196,10 @@ void MainWindow::make_whole_window_actions() {
   connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
   connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
   connect(page_, &ScenePage::built_in_clicked, files_, &FileActions::open_built_in);
-  QUndoStack& undo_stack = state_.relighting.edits().undo_stack();
-  state_.breakpoints.set_undo_stack(&undo_stack);
-  state_.watches.set_undo_stack(&undo_stack);
-  page_->bookmarks().set_undo_stack(&undo_stack);
-  lesson_panel_->question().set_undo_stack(&undo_stack);
+  state_.breakpoints.set_undo_stack(&state_.undo);
+  state_.watches.set_undo_stack(&state_.undo);
+  page_->bookmarks().set_undo_stack(&state_.undo);
+  lesson_panel_->question().set_undo_stack(&state_.undo);
 }
 
 void MainWindow::make_docks() {
@@ -283,7 +274,8 @@ void MainWindow::connect_views() {
           &TimelineLanes::count_columns);
   connect(&state_.runner, &SolveRunner::load_progressed, progress_, &ProgressLine::show_loading);
   connect(&state_.runner, &SolveRunner::state_changed, progress_, &ProgressLine::show_state);
-  projector_ = new ProjectorMode(parts(), full_screen_, appearance_, *timeline_);
+  projector_ =
+      new ProjectorMode(frame(), docks_, *lesson_panel_, full_screen_, appearance_, *timeline_);
   connect(&appearance_, &AppearanceActions::changed, this, [this] {
     state_.scene.show_again();
     map_view_->update();
@@ -462,7 +454,7 @@ void MainWindow::make_file_menu() {
   QMenu* exporting = file->addMenu(tr("Export"));
   exports_->add_to(*exporting);
   recorder_->add_to(*exporting);
-  (new CommandActions(parts()))->add_to(*file);
+  (new CommandActions(frame()))->add_to(*file);
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
 }

@@ -11,11 +11,13 @@
 
 class QDockWidget;
 class QMenu;
+class QPlainTextEdit;
 
 namespace transillum::viewer {
 
 class BreakpointPanel;
 class CompareView;
+class ConvergenceView;
 class DirectionView;
 class ErrorView;
 class ExportActions;
@@ -49,7 +51,7 @@ class MainWindow : public QMainWindow {
   MainWindow(SharedState& state, bool remember, QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  WindowParts parts();
+  WindowViews parts();
   FileActions& files() { return *files_; }
   ViewStateApplier& applier() { return *applier_; }
   WorkGuard& work_guard() { return work_guard_; }
@@ -67,6 +69,7 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
 
  private:
+  WindowFrame frame();
   void make_views();
   void make_whole_window_actions();
   void make_docks();

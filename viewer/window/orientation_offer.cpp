@@ -45,9 +45,11 @@ QString sentences_of(const OrientationReport& report) {
 
 }  // namespace
 
-OrientationOffer::OrientationOffer(const WindowParts& parts, ViewStateApplier& applier)
-    : QObject(&parts.window),
-      parts_(parts),
+OrientationOffer::OrientationOffer(const WindowFrame& frame, SettingsPanel& settings,
+                                   ViewStateApplier& applier)
+    : QObject(&frame.window),
+      frame_(frame),
+      settings_(settings),
       applier_(applier),
       planner_(
           [this](const PlanRequest& request, const Cancellation& cancellation) {
@@ -60,14 +62,14 @@ OrientationOffer::OrientationOffer(const WindowParts& parts, ViewStateApplier& a
             QMetaObject::invokeMethod(
                 this,
                 [this, request, message] {
-                  if (request.loaded == parts_.scene.loaded()) {
+                  if (request.loaded == frame_.state.scene.loaded()) {
                     offer();
-                    parts_.notifier.show_failure(message);
+                    frame_.notifier.show_failure(message);
                   }
                 },
                 Qt::QueuedConnection);
           }) {
-  Banner* bar = parts_.page.orientation_bar();
+  Banner* bar = frame_.page.orientation_bar();
   preview_ = bar->add_button("preview_turn", tr("Show what to turn"));
   turn_ = bar->add_button("turn_faces", tr("Turn them"));
   cancel_ = bar->add_button("cancel_turn", tr("Cancel"));
@@ -76,24 +78,24 @@ OrientationOffer::OrientationOffer(const WindowParts& parts, ViewStateApplier& a
   connect(cancel_, &QPushButton::clicked, this, &OrientationOffer::cancel);
   connect(bar, &Banner::closed, this, [this] {
     planner_.clear();
-    parts_.page.scene_view()->hide_turn();
+    frame_.page.scene_view()->hide_turn();
     state_ = State::none;
   });
-  connect(&parts_.scene, &OpenScene::scene_shown, this, &OrientationOffer::offer);
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, &OrientationOffer::offer);
 }
 
 void OrientationOffer::offer() {
   planner_.clear();
-  const auto loaded = parts_.scene.loaded();
+  const auto loaded = frame_.state.scene.loaded();
   // Built-in scenes are as they are meant to be.
   const bool from_file = loaded->description && !loaded->description->files.empty();
   if (!from_file || loaded->back_share <= BackShare::worth_a_warning) {
     state_ = State::none;
-    parts_.page.orientation_bar()->dismiss();
+    frame_.page.orientation_bar()->dismiss();
     return;
   }
   const QString percent = QString::number(std::lround(100 * loaded->back_share));
-  if (parts_.scene.input().orient) {
+  if (frame_.state.scene.input().orient) {
     show(State::nothing_to_turn,
          tr("%1 % of what is seen is the back of a face, also after turning faces. "
             "Two-sided faces, in the settings, light and receive on both sides.")
@@ -107,11 +109,11 @@ void OrientationOffer::offer() {
 
 void OrientationOffer::plan() {
   show(State::planning, tr("Finding the faces to turn…"));
-  planner_.request({parts_.scene.loaded()});
+  planner_.request({frame_.state.scene.loaded()});
 }
 
 void OrientationOffer::preview(const PlanRequest& request, const OrientationPlan& plan) {
-  if (request.loaded != parts_.scene.loaded() || state_ != State::planning) {
+  if (request.loaded != frame_.state.scene.loaded() || state_ != State::planning) {
     return;  // canceled, or another scene has been opened since
   }
   if (!plan.changes()) {
@@ -121,23 +123,23 @@ void OrientationOffer::preview(const PlanRequest& request, const OrientationPlan
          sentences_of(plan.report));
     return;
   }
-  parts_.page.scene_view()->preview_turn(plan);
+  frame_.page.scene_view()->preview_turn(plan);
   show(State::previewed, changes_text(plan.report), sentences_of(plan.report));
 }
 
 void OrientationOffer::turn() {
-  if (!parts_.guard.may_lose(&parts_.window, tr("Turn them"))) {
+  if (!frame_.guard.may_lose(&frame_.window, tr("Turn them"))) {
     return;
   }
-  RunOptions options{parts_.settings.solve_options(), parts_.scene.options(), parts_.scene.input(),
-                     parts_.settings.refinement()};
+  RunOptions options{settings_.solve_options(), frame_.state.scene.options(),
+                     frame_.state.scene.input(), settings_.refinement()};
   options.input.orient = true;
   applier_.open_again(options);
 }
 
 void OrientationOffer::cancel() {
   planner_.clear();
-  parts_.page.scene_view()->hide_turn();
+  frame_.page.scene_view()->hide_turn();
   offer();
 }
 
@@ -146,7 +148,7 @@ void OrientationOffer::show(State state, const QString& text, const QString& det
   preview_->setVisible(state == State::offered);
   turn_->setVisible(state == State::previewed);
   cancel_->setVisible(state == State::previewed || state == State::planning);
-  parts_.page.orientation_bar()->show_message(Banner::Kind::offer, text, details);
+  frame_.page.orientation_bar()->show_message(Banner::Kind::offer, text, details);
 }
 
 }  // namespace transillum::viewer

@@ -24,7 +24,7 @@ class OrientationOffer : public QObject {
 
  public:
   /// The references must outlive this object.
-  OrientationOffer(const WindowParts& parts, ViewStateApplier& applier);
+  OrientationOffer(const WindowFrame& frame, SettingsPanel& settings, ViewStateApplier& applier);
 
  private:
   enum class State { none, offered, planning, previewed, nothing_to_turn };
@@ -39,7 +39,8 @@ class OrientationOffer : public QObject {
   void cancel();
   void show(State state, const QString& text, const QString& details = {});
 
-  WindowParts parts_;
+  WindowFrame frame_;
+  SettingsPanel& settings_;
   ViewStateApplier& applier_;
   QPushButton *preview_, *turn_, *cancel_;
   State state_ = State::none;

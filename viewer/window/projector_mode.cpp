@@ -15,18 +15,21 @@
 
 namespace transillum::viewer {
 
-ProjectorMode::ProjectorMode(const WindowParts& parts, FullScreen& full_screen,
-                             AppearanceActions& appearance, TimelineBar& timeline)
-    : QObject(&parts.window),
-      parts_(parts),
+ProjectorMode::ProjectorMode(const WindowFrame& frame, DockLayouts& docks, LessonPanel& lessons,
+                             FullScreen& full_screen, AppearanceActions& appearance,
+                             TimelineBar& timeline)
+    : QObject(&frame.window),
+      frame_(frame),
+      docks_(docks),
+      lessons_(lessons),
       full_screen_(full_screen),
       appearance_(appearance),
       timeline_(timeline) {
   // Panels that are hidden for the time being are no part of a layout.
-  connect(&full_screen_, &FullScreen::beginning, this, [this] { parts_.docks.hold(true); });
-  connect(&full_screen_, &FullScreen::ended, this, [this] { parts_.docks.hold(false); });
+  connect(&full_screen_, &FullScreen::beginning, this, [this] { docks_.hold(true); });
+  connect(&full_screen_, &FullScreen::ended, this, [this] { docks_.hold(false); });
   connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
-  connect(&parts_.lessons, &LessonPanel::page_shown, this, &ProjectorMode::follow_page);
+  connect(&lessons_, &LessonPanel::page_shown, this, &ProjectorMode::follow_page);
 }
 
 void ProjectorMode::follow_appearance() {
@@ -48,17 +51,17 @@ void ProjectorMode::follow_timeline() {
 }
 
 QDockWidget* ProjectorMode::dock(const std::string& panel) const {
-  return parts_.window.findChild<QDockWidget*>(QString::fromStdString(panel + "_dock"));
+  return frame_.window.findChild<QDockWidget*>(QString::fromStdString(panel + "_dock"));
 }
 
 QList<QWidget*> ProjectorMode::views() const {
   QList<QWidget*> views{dock("timeline")};
-  if (parts_.lessons.lesson() < 0) {
-    return views << parts_.window.centralWidget();
+  if (lessons_.lesson() < 0) {
+    return views << frame_.window.centralWidget();
   }
-  const auto& pages = at(parts_.lessons.lessons(), parts_.lessons.lesson()).pages;
-  QWidget* large = dock(at(pages, parts_.lessons.page()).large);
-  return views << dock("lesson") << (large ? large : parts_.window.centralWidget());
+  const auto& pages = at(lessons_.lessons(), lessons_.lesson()).pages;
+  QWidget* large = dock(at(pages, lessons_.page()).large);
+  return views << dock("lesson") << (large ? large : frame_.window.centralWidget());
 }
 
 void ProjectorMode::project(bool on) {
@@ -84,7 +87,7 @@ void ProjectorMode::arrange() {
     return;
   }
   constexpr double page_share = 0.4;
-  const int width = parts_.window.width();
+  const int width = frame_.window.width();
   const int page_width = static_cast<int>(page_share * width);
   QList<QDockWidget*> docks{dock("lesson")};
   QList<int> widths{page_width};
@@ -92,10 +95,10 @@ void ProjectorMode::arrange() {
     docks << large;
     widths << width - page_width;
   }
-  parts_.window.resizeDocks(docks, widths, Qt::Horizontal);
+  frame_.window.resizeDocks(docks, widths, Qt::Horizontal);
   const int height = timeline_.minimumSizeHint().height();
   timeline_.setMaximumHeight(height);
-  parts_.window.resizeDocks({dock("timeline")}, {height}, Qt::Vertical);
+  frame_.window.resizeDocks({dock("timeline")}, {height}, Qt::Vertical);
 }
 
 }  // namespace transillum::viewer

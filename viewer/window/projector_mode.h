@@ -23,8 +23,8 @@ class ProjectorMode : public QObject {
 
  public:
   /// The references must outlive this object.
-  ProjectorMode(const WindowParts& parts, FullScreen& full_screen, AppearanceActions& appearance,
-                TimelineBar& timeline);
+  ProjectorMode(const WindowFrame& frame, DockLayouts& docks, LessonPanel& lessons,
+                FullScreen& full_screen, AppearanceActions& appearance, TimelineBar& timeline);
 
   /// Begins or ends it, as the appearance asks for.
   void follow_appearance();
@@ -39,7 +39,9 @@ class ProjectorMode : public QObject {
   /// The view that the page says is large, or the scene, and what is beside it.
   QList<QWidget*> views() const;
 
-  WindowParts parts_;
+  WindowFrame frame_;
+  DockLayouts& docks_;
+  LessonPanel& lessons_;
   FullScreen& full_screen_;
   AppearanceActions& appearance_;
   TimelineBar& timeline_;

@@ -41,9 +41,9 @@ QString checkpoint_of(const QString& session) {
 
 }  // namespace
 
-Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QString& folder)
-    : QObject(&parts.window),
-      parts_(parts),
+Recovery::Recovery(const WindowFrame& frame, WindowSession& session, const QString& folder)
+    : QObject(&frame.window),
+      frame_(frame),
       session_(session),
       folder_(made(folder)),
       name_(QUuid::createUuid().toString(QUuid::WithoutBraces)),
@@ -55,11 +55,11 @@ Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QStri
   soon_.setSingleShot(true);
   connect(&every_, &QTimer::timeout, this, &Recovery::keep);
   connect(&soon_, &QTimer::timeout, this, &Recovery::keep);
-  connect(&parts_.scene, &OpenScene::snapshot_shown, this, &Recovery::on_snapshot);
-  connect(&parts_.scene, &OpenScene::scene_shown, this, [this] { kept_iteration_ = -1; });
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &Recovery::on_snapshot);
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] { kept_iteration_ = -1; });
   every_.start();
-  parts_.runner.save_to(checkpoint_of(session_file(name_)).toStdString());
-  Banner* bar = parts_.page.recovery_bar();
+  frame_.state.runner.save_to(checkpoint_of(session_file(name_)).toStdString());
+  Banner* bar = frame_.page.recovery_bar();
   QPushButton* restore = bar->add_button("restore_session", tr("Go on"));
   restore->setToolTip(tr("Open the scene as it was, with its solve, position, views and notes"));
   connect(restore, &QPushButton::clicked, this, &Recovery::restore);
@@ -73,7 +73,7 @@ Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QStri
 
 Recovery::~Recovery() {
   QFile::remove(session_file(name_));
-  parts_.runner.save_to({});
+  frame_.state.runner.save_to({});
 }
 
 QString Recovery::usual_folder() {
@@ -102,7 +102,7 @@ void Recovery::remove_orphans() const {
 }
 
 void Recovery::on_snapshot() {
-  const int iteration = parts_.scene.snapshot()->progress.iteration;
+  const int iteration = frame_.state.scene.snapshot()->progress.iteration;
   if (iteration != kept_iteration_ && !soon_.isActive()) {
     kept_iteration_ = iteration;
     soon_.start();
@@ -110,7 +110,7 @@ void Recovery::on_snapshot() {
 }
 
 void Recovery::keep() {
-  if (!parts_.scene.loaded()) {
+  if (!frame_.state.scene.loaded()) {
     return;
   }
   try {
@@ -131,7 +131,7 @@ void Recovery::offer() {
       continue;  // its program runs
     }
     offered_ = found.filePath();
-    parts_.page.recovery_bar()->show_message(
+    frame_.page.recovery_bar()->show_message(
         Banner::Kind::offer,
         tr("The program did not end as it should. Its session is kept, from %1.")
             .arg(found.lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"))));
@@ -140,23 +140,23 @@ void Recovery::offer() {
 }
 
 void Recovery::restore() {
-  if (!parts_.guard.may_lose(&parts_.window, tr("Go on"))) {
+  if (!frame_.guard.may_lose(&frame_.window, tr("Go on"))) {
     return;
   }
-  parts_.page.recovery_bar()->dismiss();
-  parts_.runner.resume_from(taken_over(checkpoint_of(offered_)).toStdString());
+  frame_.page.recovery_bar()->dismiss();
+  frame_.state.runner.resume_from(taken_over(checkpoint_of(offered_)).toStdString());
   try {
     const std::string name = offered_.toStdString();
     session_.restore(session_from_text(read_json_file(name), name, folder_.toStdString()));
   } catch (const std::exception& error) {
-    parts_.notifier.show_failure(failure_text(error));
+    frame_.notifier.show_failure(failure_text(error));
     return;
   }
   discard();
 }
 
 void Recovery::discard() {
-  parts_.page.recovery_bar()->dismiss();
+  frame_.page.recovery_bar()->dismiss();
   QFile::remove(checkpoint_of(offered_));
   QFile::remove(offered_);
   offered_.clear();

@@ -24,7 +24,7 @@ class Recovery : public QObject {
  public:
   /// What the arguments refer to must outlive this object.
   /// @param folder where the sessions are kept; created if it is missing
-  Recovery(const WindowParts& parts, WindowSession& session, const QString& folder);
+  Recovery(const WindowFrame& frame, WindowSession& session, const QString& folder);
   /// The program ends as it should: removes the session that it kept.
   ~Recovery() override;
 
@@ -44,7 +44,7 @@ class Recovery : public QObject {
   void restore();
   void discard();
 
-  WindowParts parts_;
+  WindowFrame frame_;
   WindowSession& session_;
   QString folder_, name_;
   QLockFile lock_;   ///< held while the program runs

@@ -34,30 +34,34 @@ QString forecast_text(std::int64_t patches) {
 
 }  // namespace
 
-SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
+SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, SolveActions& actions,
                            ViewStateApplier& applier)
-    : QObject(&parts.window), parts_(parts), actions_(actions), applier_(applier) {
-  SolveRunner& runner = parts_.runner;
+    : QObject(&frame.window),
+      frame_(frame),
+      settings_(settings),
+      actions_(actions),
+      applier_(applier) {
+  SolveRunner& runner = frame_.state.runner;
   connect(&actions_, &SolveActions::run, this, &SolveControl::run);
   connect(&actions_, &SolveActions::pause, &runner, &SolveRunner::pause);
   connect(&actions_, &SolveActions::one_direction, &runner, &SolveRunner::advance_one_direction);
   connect(&actions_, &SolveActions::one_iteration, &runner, &SolveRunner::advance_one_iteration);
   connect(&actions_, &SolveActions::stop, this, &SolveControl::start_over);
   connect(&runner, &SolveRunner::state_changed, this, &SolveControl::show_state);
-  connect(&parts_.scene, &OpenScene::snapshot_ready, this,
-          [this] { actions_.show_state(parts_.runner.state(), parts_.scene.at_start()); });
-  connect(&parts_.settings, &SettingsPanel::restart_clicked, this, [this] {
+  connect(&frame_.state.scene, &OpenScene::snapshot_ready, this, [this] {
+    actions_.show_state(frame_.state.runner.state(), frame_.state.scene.at_start());
+  });
+  connect(&settings_, &SettingsPanel::restart_clicked, this, [this] {
     if (may_solve_again()) {
       solve_again();
     }
   });
-  connect(&parts_.settings, &SettingsPanel::forecast_wanted, this,
-          [this](const SceneOptions& options) {
-            if (parts_.scene.loaded() && parts_.scene.loaded()->description) {
-              forecast_.request(parts_.scene.loaded(), options);
-            }
-          });
-  connect(&parts_.scene, &OpenScene::opening, this, [this] { awaits_forecast_ = false; });
+  connect(&settings_, &SettingsPanel::forecast_wanted, this, [this](const SceneOptions& options) {
+    if (frame_.state.scene.loaded() && frame_.state.scene.loaded()->description) {
+      forecast_.request(frame_.state.scene.loaded(), options);
+    }
+  });
+  connect(&frame_.state.scene, &OpenScene::opening, this, [this] { awaits_forecast_ = false; });
   connect(&forecast_, &PatchForecast::counted, this, &SolveControl::show_forecast);
   connect(&forecast_, &PatchForecast::failed, this, [this] {
     // Reading the scene will fail likewise, and say why.
@@ -65,49 +69,49 @@ SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
       open_again();
     }
   });
-  connect(parts_.settings.rounds(), &RoundPanel::canceled, &runner, &SolveRunner::stop);
-  connect(&parts_.page, &ScenePage::replicas_requested, this, &SolveControl::solve_with_replicas);
+  connect(settings_.rounds(), &RoundPanel::canceled, &runner, &SolveRunner::stop);
+  connect(&frame_.page, &ScenePage::replicas_requested, this, &SolveControl::solve_with_replicas);
 }
 
 void SolveControl::start_over() {
-  if (parts_.runner.state() == RunState::loading ||
-      parts_.guard.may_lose(&parts_.window, tr("Start over"))) {
-    parts_.runner.stop();
+  if (frame_.state.runner.state() == RunState::loading ||
+      frame_.guard.may_lose(&frame_.window, tr("Start over"))) {
+    frame_.state.runner.stop();
   }
 }
 
 bool SolveControl::may_solve_again() const {
-  return parts_.guard.may_lose(&parts_.window, tr("Solve again"));
+  return frame_.guard.may_lose(&frame_.window, tr("Solve again"));
 }
 
 void SolveControl::run() {
   // Before the first direction, changed settings still take effect.
-  if (parts_.scene.at_start() && parts_.settings.differ_from_effect()) {
+  if (frame_.state.scene.at_start() && settings_.differ_from_effect()) {
     solve_again();
   } else {
-    parts_.runner.run();
+    frame_.state.runner.run();
   }
 }
 
 void SolveControl::solve_again() {
-  if (!parts_.scene.loaded()) {
+  if (!frame_.state.scene.loaded()) {
     return;
   }
-  parts_.notifier.dismiss();
+  frame_.notifier.dismiss();
   RunOptions options = wanted_options();
-  const auto& shown = parts_.scene.snapshot();
+  const auto& shown = frame_.state.scene.snapshot();
   if (shown && shown->options.glossy != options.solve.glossy &&
-      has_lobes(*parts_.scene.loaded()->scene)) {
-    parts_.colors.show_lobes(options.solve.glossy);
+      has_lobes(*frame_.state.scene.loaded()->scene)) {
+    frame_.state.colors.show_lobes(options.solve.glossy);
   }
   if (options.refine.set() && !may_refine(options.refine.patches)) {
     return;
   }
-  if (parts_.scene.is_open(parts_.scene.spec(), options)) {
-    parts_.runner.restart(options.solve, {Goal::Kind::finished}, options.refine);
-  } else if (parts_.scene.loaded()->description) {
+  if (frame_.state.scene.is_open(frame_.state.scene.spec(), options)) {
+    frame_.state.runner.restart(options.solve, {Goal::Kind::finished}, options.refine);
+  } else if (frame_.state.scene.loaded()->description) {
     awaits_forecast_ = true;
-    forecast_.request(parts_.scene.loaded(), options.scene);
+    forecast_.request(frame_.state.scene.loaded(), options.scene);
   } else {
     open_again();
   }
@@ -116,9 +120,9 @@ void SolveControl::solve_again() {
 /// Of the panel, for the open scene. Materials that were changed in the window become those of the
 /// scene: they are solved, estimated, refined and copied as any others.
 RunOptions SolveControl::wanted_options() const {
-  RunOptions options = parts_.settings.options();
-  options.input = parts_.scene.input();
-  const std::vector<MaterialChange> changes = parts_.relighting.edits().changes();
+  RunOptions options = settings_.options();
+  options.input = frame_.state.scene.input();
+  const std::vector<MaterialChange> changes = frame_.state.relighting.edits().changes();
   options.input.changes.insert(options.input.changes.end(), changes.begin(), changes.end());
   return options;
 }
@@ -126,9 +130,9 @@ RunOptions SolveControl::wanted_options() const {
 void SolveControl::open_again() { applier_.open_again(wanted_options()); }
 
 void SolveControl::show_forecast(const SceneOptions& options, std::int64_t patches) {
-  parts_.settings.show_forecast(options, forecast_text(patches));
+  settings_.show_forecast(options, forecast_text(patches));
   // An earlier forecast may still arrive.
-  const SceneOptions wanted = parts_.settings.scene_options();
+  const SceneOptions wanted = settings_.scene_options();
   const bool newest =
       options.max_patch_area == wanted.max_patch_area && options.two_sided == wanted.two_sided;
   if (newest && std::exchange(awaits_forecast_, false) && may_refine(patches)) {
@@ -138,12 +142,12 @@ void SolveControl::show_forecast(const SceneOptions& options, std::int64_t patch
 
 bool SolveControl::may_refine(std::int64_t patches) {
   constexpr std::int64_t many_patches = 200'000;
-  if (patches <= many_patches || patches <= parts_.scene.loaded()->scene->patch_count()) {
+  if (patches <= many_patches || patches <= frame_.state.scene.loaded()->scene->patch_count()) {
     return true;
   }
   QMessageBox box(QMessageBox::Question, tr("Very many patches"),
                   tr("The scene would have %1. Divide it so finely?").arg(forecast_text(patches)),
-                  QMessageBox::Cancel, &parts_.window);
+                  QMessageBox::Cancel, &frame_.window);
   box.setObjectName("many_patches");
   const QPushButton* divide = box.addButton(tr("Divide"), QMessageBox::AcceptRole);
   box.setDefaultButton(QMessageBox::Cancel);
@@ -156,17 +160,17 @@ void SolveControl::solve_with_replicas() {
     return;
   }
   constexpr int replicas = 8;
-  SolveOptions solve = parts_.settings.solve_options();
+  SolveOptions solve = settings_.solve_options();
   solve.directions = std::max(solve.directions, replicas);
   solve.replicas = replicas;
-  parts_.settings.set_options(solve, parts_.settings.scene_options());
+  settings_.set_options(solve, settings_.scene_options());
   solve_again();
 }
 
 void SolveControl::show_state(RunState state) {
-  actions_.show_state(state, parts_.scene.at_start());
-  parts_.page.scene_view()->set_antialiased(state != RunState::running);
-  parts_.settings.set_restart_enabled(parts_.scene.loaded() && state != RunState::loading);
+  actions_.show_state(state, frame_.state.scene.at_start());
+  frame_.page.scene_view()->set_antialiased(state != RunState::running);
+  settings_.set_restart_enabled(frame_.state.scene.loaded() && state != RunState::loading);
 }
 
 }  // namespace transillum::viewer

@@ -20,7 +20,8 @@ class SolveControl : public QObject {
 
  public:
   /// The references must outlive this object.
-  SolveControl(const WindowParts& parts, SolveActions& actions, ViewStateApplier& applier);
+  SolveControl(const WindowFrame& frame, SettingsPanel& settings, SolveActions& actions,
+               ViewStateApplier& applier);
 
  private:
   void run();
@@ -37,7 +38,8 @@ class SolveControl : public QObject {
   void start_over();
   void show_state(RunState state);
 
-  WindowParts parts_;
+  WindowFrame frame_;
+  SettingsPanel& settings_;
   SolveActions& actions_;
   ViewStateApplier& applier_;
   bool awaits_forecast_ = false;  ///< to open the scene again

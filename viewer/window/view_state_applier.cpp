@@ -44,12 +44,18 @@ StepFinder find_named(StepName name, PatchId selection) {
 
 }  // namespace
 
-ViewStateApplier::ViewStateApplier(const WindowParts& parts)
-    : QObject(&parts.window), parts_(parts) {
-  connect(&parts_.scene, &OpenScene::scene_shown, this, &ViewStateApplier::on_scene);
-  connect(&parts_.scene, &OpenScene::snapshot_shown, this, &ViewStateApplier::on_snapshot);
-  connect(&parts_.runner, &SolveRunner::failed, this, [this] { awaits_ = Awaits::nothing; });
-  connect(&parts_.focus, &Focus::moved, this, &ViewStateApplier::on_direction);
+ViewStateApplier::ViewStateApplier(const WindowFrame& frame, DockLayouts& docks, MapView& map,
+                                   AlgorithmView& algorithm, SettingsPanel& settings)
+    : QObject(&frame.window),
+      frame_(frame),
+      docks_(docks),
+      map_(map),
+      algorithm_(algorithm),
+      settings_(settings) {
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, &ViewStateApplier::on_scene);
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &ViewStateApplier::on_snapshot);
+  connect(&frame_.state.runner, &SolveRunner::failed, this, [this] { awaits_ = Awaits::nothing; });
+  connect(&frame_.state.focus, &Focus::moved, this, &ViewStateApplier::on_direction);
 }
 
 void ViewStateApplier::show(const ViewState& state) {
@@ -59,10 +65,10 @@ void ViewStateApplier::show(const ViewState& state) {
 
 void ViewStateApplier::show_page(const ViewState& page) {
   if (!before_lesson_) {
-    parts_.breakpoints.set_scene({});
-    parts_.breakpoints.set_list({});
+    frame_.state.breakpoints.set_scene({});
+    frame_.state.breakpoints.set_list({});
     before_lesson_ = appearance();
-    before_lesson_->options = parts_.settings.options();
+    before_lesson_->options = settings_.options();
   }
   apply(page);
 }
@@ -86,27 +92,27 @@ void ViewStateApplier::leave_lesson() {
   awaits_ = Awaits::nothing;
   opened_here_ = false;
   leaving_ = true;
-  if (before_lesson_ && parts_.settings.options() == applied_options_) {
-    parts_.settings.set_options(before_lesson_->options);
+  if (before_lesson_ && settings_.options() == applied_options_) {
+    settings_.set_options(before_lesson_->options);
   }
 }
 
 void ViewStateApplier::apply(const ViewState& state) {
   requested_ = state;
   leaving_ = false;
-  parts_.notifier.dismiss();
-  if (requested_.layout && *requested_.layout != parts_.docks.current()) {
-    parts_.docks.choose(*requested_.layout);
+  frame_.notifier.dismiss();
+  if (requested_.layout && *requested_.layout != docks_.current()) {
+    docks_.choose(*requested_.layout);
   }
   for (const std::string& panel : requested_.panels) {
-    parts_.docks.bring_to_front(panel);
+    docks_.bring_to_front(panel);
   }
   apply_appearance(requested_);
   start_run();
 }
 
 void ViewStateApplier::apply_appearance(const ViewState& state) {
-  ColorChoice& colors = parts_.colors;
+  ColorChoice& colors = frame_.state.colors;
   colors.set_quantity(state.quantity);
   colors.set_range_rule(RangeRule::automatic);
   colors.set_mode(state.color_mode);
@@ -120,18 +126,18 @@ void ViewStateApplier::apply_appearance(const ViewState& state) {
   if (state.exposure) {
     colors.set_exposure(*state.exposure);
   }
-  const ShowMenu& show = *parts_.page.color_controls()->show_menu();
+  const ShowMenu& show = *frame_.page.color_controls()->show_menu();
   for (const Overlay overlay : all_overlays) {
     show.overlay(overlay)->setChecked(
         std::count(state.overlays.begin(), state.overlays.end(), overlay) > 0);
   }
   show.clip()->set_choice(state.clip);
-  parts_.algorithm.set_kind(state.algorithm);
-  parts_.map.set_labels_shown(state.labels);
+  algorithm_.set_kind(state.algorithm);
+  map_.set_labels_shown(state.labels);
 }
 
 void ViewStateApplier::reload() {
-  if (parts_.scene.spec().empty()) {
+  if (frame_.state.scene.spec().empty()) {
     return;
   }
   // A request that nothing has been applied of yet is repeated.
@@ -163,14 +169,14 @@ void ViewStateApplier::open_again(const RunOptions& options) {
 void ViewStateApplier::open_requested() {
   awaits_ = Awaits::scene;
   opened_here_ = true;
-  parts_.settings.set_options(requested_.options);
-  parts_.scene.open(requested_.scene, requested_.options, requested_.solve);
+  settings_.set_options(requested_.options);
+  frame_.state.scene.open(requested_.scene, requested_.options, requested_.solve);
 }
 
 void ViewStateApplier::start_run() {
   // A state without a scene applies to whichever scene is open.
   if (requested_.scene.empty()) {
-    if (!parts_.scene.loaded() && !parts_.scene.is_opening()) {
+    if (!frame_.state.scene.loaded() && !frame_.state.scene.is_opening()) {
       awaits_ = Awaits::nothing;
       fail(tr("scene: is missing, and no scene is open"));
       return;
@@ -180,18 +186,18 @@ void ViewStateApplier::start_run() {
     return;
   }
   SolveOptions& solve = requested_.options.solve;
-  const RunOptions now = parts_.settings.options();
+  const RunOptions now = settings_.options();
   solve.threads = now.solve.threads;
   solve.memory = now.solve.memory;
-  parts_.settings.set_options(requested_.options);
-  applied_options_ = parts_.settings.options();
+  settings_.set_options(requested_.options);
+  applied_options_ = settings_.options();
   RunOptions options = applied_options_;
   options.input = requested_.options.input;
-  const auto snapshot = parts_.scene.snapshot();
-  if (!snapshot || !parts_.scene.is_open(requested_.scene, options)) {
+  const auto snapshot = frame_.state.scene.snapshot();
+  if (!snapshot || !frame_.state.scene.is_open(requested_.scene, options)) {
     awaits_ = Awaits::scene;
     opened_here_ = true;
-    parts_.scene.open(requested_.scene, options, requested_.solve);
+    frame_.state.scene.open(requested_.scene, options, requested_.solve);
     return;
   }
   awaits_ = Awaits::run;
@@ -200,9 +206,9 @@ void ViewStateApplier::start_run() {
                        (requested_.solve.passes == 0 && !snapshot->statistics.refinement.empty()));
   if (beyond || !is_requested(*snapshot)) {
     run_before_ = snapshot->kept_directions.front();
-    parts_.runner.restart(solve, requested_.solve, requested_.options.refine);
+    frame_.state.runner.restart(solve, requested_.solve, requested_.options.refine);
   } else {
-    parts_.runner.set_goal(requested_.solve);
+    frame_.state.runner.set_goal(requested_.solve);
   }
   on_snapshot();
 }
@@ -213,7 +219,7 @@ void ViewStateApplier::on_scene() {
   if (leaving_) {
     restore_appearance();
   }
-  opened_here_ = opened_here_ && parts_.scene.is_open(requested_.scene, requested_.options);
+  opened_here_ = opened_here_ && frame_.state.scene.is_open(requested_.scene, requested_.options);
   // Otherwise the user has opened another scene meanwhile.
   awaits_ = opened_here_ ? Awaits::run : Awaits::nothing;
 }
@@ -222,16 +228,16 @@ void ViewStateApplier::restore_appearance() {
   leaving_ = false;
   if (before_lesson_) {
     apply_appearance(*before_lesson_);
-    parts_.page.color_controls()->set_direction(before_lesson_->direction_shown);
+    frame_.page.color_controls()->set_direction(before_lesson_->direction_shown);
     before_lesson_.reset();
   }
-  parts_.colors.set_automatic_exposure(true);
-  parts_.focus.set_following(true);
+  frame_.state.colors.set_automatic_exposure(true);
+  frame_.state.focus.set_following(true);
 }
 
 // Snapshots of the previous run may still arrive.
 bool ViewStateApplier::run_has_started() const {
-  const auto snapshot = parts_.scene.snapshot();
+  const auto snapshot = frame_.state.scene.snapshot();
   if (!snapshot) {
     return false;
   }
@@ -250,24 +256,25 @@ bool ViewStateApplier::is_requested(const SolverSnapshot& snapshot) const {
 // to be solved, there are no others.
 bool ViewStateApplier::has_patches() const {
   return requested_.scene.empty() || requested_.solve.kind == Goal::Kind::pause ||
-         !parts_.scene.snapshot()->refinement.left;
+         !frame_.state.scene.snapshot()->refinement.left;
 }
 
 // Judged by the snapshot: the runner's state may still be that of the previous run.
 bool ViewStateApplier::run_is_over() const {
-  const SolverSnapshot& snapshot = *parts_.scene.snapshot();
+  const SolverSnapshot& snapshot = *frame_.state.scene.snapshot();
   if (snapshot.progress.finished) {
     return true;
   }
   if (requested_.scene.empty()) {
-    return parts_.runner.state() != RunState::running && parts_.runner.state() != RunState::loading;
+    return frame_.state.runner.state() != RunState::running &&
+           frame_.state.runner.state() != RunState::loading;
   }
   return requested_.solve.kind != Goal::Kind::finished &&
          snapshot.passes_done >= requested_.solve.passes;
 }
 
 void ViewStateApplier::fail(const QString& message) {
-  parts_.notifier.show_failure(message);
+  frame_.notifier.show_failure(message);
   emit unreachable(message);
 }
 
@@ -289,7 +296,7 @@ void ViewStateApplier::on_snapshot() {
   if (awaits_ != Awaits::iteration) {
     return;
   }
-  const int iterations = parts_.focus.iterations();
+  const int iterations = frame_.state.focus.iterations();
   const bool exists = !requested_.focus || requested_.focus->iteration < iterations;
   if (!exists && !run_is_over()) {
     return;
@@ -303,32 +310,33 @@ void ViewStateApplier::on_snapshot() {
 }
 
 void ViewStateApplier::apply_view() {
-  parts_.page.show_scene();
-  SceneView* view = parts_.page.scene_view();
+  frame_.page.show_scene();
+  SceneView* view = frame_.page.scene_view();
   if (requested_.camera) {
     view->set_view_point(*requested_.camera);
   } else {
     view->reset_view();
   }
-  parts_.page.color_controls()->set_direction(requested_.direction_shown);
-  parts_.page.color_controls()->set_outlines(
-      requested_.outlines.value_or(parts_.scene.outlined_by_default()));
-  for (const std::string& misfit : parts_.relighting.edits().start_over(requested_.materials)) {
-    parts_.notifier.show_failure(tr("materials: %1").arg(QString::fromStdString(misfit)));
+  frame_.page.color_controls()->set_direction(requested_.direction_shown);
+  frame_.page.color_controls()->set_outlines(
+      requested_.outlines.value_or(frame_.state.scene.outlined_by_default()));
+  for (const std::string& misfit :
+       frame_.state.relighting.edits().start_over(requested_.materials)) {
+    frame_.notifier.show_failure(tr("materials: %1").arg(QString::fromStdString(misfit)));
   }
   // Set only now: the previous scene would have widened the range.
   if (requested_.range_rule != RangeRule::widening) {
     return;
   }
   if (requested_.range) {
-    parts_.colors.widen_from(requested_.range->first, requested_.range->second);
+    frame_.state.colors.widen_from(requested_.range->first, requested_.range->second);
   } else {
-    parts_.colors.set_range_rule(RangeRule::widening);
+    frame_.state.colors.set_range_rule(RangeRule::widening);
   }
 }
 
 void ViewStateApplier::apply_selection() {
-  const PatchId patches = parts_.scene.snapshot()->loaded->scene->patch_count();
+  const PatchId patches = frame_.state.scene.snapshot()->loaded->scene->patch_count();
   const auto check = [&](const QString& key, PatchId largest) {
     if (largest >= patches) {
       fail(tr("%1: there is no patch %2; the scene has 0 to %3")
@@ -341,22 +349,22 @@ void ViewStateApplier::apply_selection() {
     return ranges.empty() ? no_patch : ranges.back().last;
   };
   const PatchId patch = requested_.selection < patches ? requested_.selection : no_patch;
-  parts_.selection.select(patch);
+  frame_.state.selection.select(patch);
   if (patch != no_patch && !requested_.also_selected.empty()) {
     std::vector<PatchId> all = patches_in(requested_.also_selected, patches);
     if (!std::binary_search(all.begin(), all.end(), patch)) {
       all.insert(std::lower_bound(all.begin(), all.end(), patch), patch);
     }
-    parts_.selection.select_all(std::move(all));
+    frame_.state.selection.select_all(std::move(all));
   }
-  parts_.page.hidden().reset(patches, patches_in(requested_.hidden, patches));
+  frame_.page.hidden().reset(patches, patches_in(requested_.hidden, patches));
   check(QStringLiteral("select"), requested_.selection);
   check(QStringLiteral("also-selected"), last_of(requested_.also_selected));
   check(QStringLiteral("hidden"), last_of(requested_.hidden));
 }
 
 void ViewStateApplier::apply_focus() {
-  Focus& focus = parts_.focus;
+  Focus& focus = frame_.state.focus;
   if (!requested_.focus) {
     awaits_ = Awaits::nothing;
     focus.set_following(true);
@@ -374,61 +382,61 @@ void ViewStateApplier::apply_focus() {
 }
 
 void ViewStateApplier::on_direction() {
-  if (awaits_ != Awaits::direction || !parts_.focus.arrived()) {
+  if (awaits_ != Awaits::direction || !frame_.state.focus.arrived()) {
     return;
   }
   awaits_ = Awaits::nothing;
-  Focus& focus = parts_.focus;
+  Focus& focus = frame_.state.focus;
   if (const auto* name = std::get_if<StepName>(&requested_.focus->step)) {
-    focus.seek(find_named(*name, parts_.selection.patch()), StepOrder::forward);
+    focus.seek(find_named(*name, frame_.state.selection.patch()), StepOrder::forward);
   }
   focus.set_phase(requested_.focus->phase);
 }
 
 bool ViewStateApplier::arrived() const {
-  return awaits_ == Awaits::nothing && parts_.focus.arrived();
+  return awaits_ == Awaits::nothing && frame_.state.focus.arrived();
 }
 
 ViewState ViewStateApplier::state() const {
-  if (!parts_.scene.loaded()) {
+  if (!frame_.state.scene.loaded()) {
     return {};
   }
   ViewState state = appearance();
-  state.scene = parts_.scene.spec();
+  state.scene = frame_.state.scene.spec();
   // A scene that has just been loaded has no snapshot yet.
-  const auto snapshot = parts_.scene.snapshot();
-  state.options = {snapshot ? snapshot->options : parts_.settings.solve_options(),
-                   parts_.scene.options(), parts_.scene.input(),
-                   snapshot ? snapshot->refine : parts_.settings.refinement()};
-  const RunState run = parts_.runner.state();
-  if ((parts_.scene.loaded()->stored && !snapshot) ||
+  const auto snapshot = frame_.state.scene.snapshot();
+  state.options = {snapshot ? snapshot->options : settings_.solve_options(),
+                   frame_.state.scene.options(), frame_.state.scene.input(),
+                   snapshot ? snapshot->refine : settings_.refinement()};
+  const RunState run = frame_.state.runner.state();
+  if ((frame_.state.scene.loaded()->stored && !snapshot) ||
       (snapshot && snapshot->refinement.left && run != RunState::running)) {
     state.solve = {};  // a place within the rounds cannot be named
   } else if (snapshot && run != RunState::finished && run != RunState::running) {
     const std::int64_t passes = snapshot->passes_done;
     state.solve = passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{};
   }
-  const Focus& focus = parts_.focus;
+  const Focus& focus = frame_.state.focus;
   if (!focus.following() && focus.map()) {
     const RunPosition& position = focus.position();
     state.focus = FocusChoice{position.iteration, position.direction, position.step, focus.phase()};
   }
-  state.materials = parts_.relighting.edits().changes();
+  state.materials = frame_.state.relighting.edits().changes();
   read_patches(state);
-  state.camera = parts_.page.scene_view()->view_point();
-  state.outlines = parts_.page.color_controls()->outlines();
-  state.layout = parts_.docks.current();
+  state.camera = frame_.page.scene_view()->view_point();
+  state.outlines = frame_.page.color_controls()->outlines();
+  state.layout = docks_.current();
   return state;
 }
 
 void ViewStateApplier::read_patches(ViewState& state) const {
-  state.selection = parts_.selection.patch();
-  std::vector<PatchId> others = parts_.selection.patches();
+  state.selection = frame_.state.selection.patch();
+  std::vector<PatchId> others = frame_.state.selection.patches();
   others.erase(std::remove(others.begin(), others.end(), state.selection), others.end());
   state.also_selected = ranges_of(others);
   std::vector<PatchId> hidden;
-  for (PatchId i = 0; i < parts_.scene.loaded()->scene->patch_count(); ++i) {
-    if (parts_.page.hidden().hidden(i)) {
+  for (PatchId i = 0; i < frame_.state.scene.loaded()->scene->patch_count(); ++i) {
+    if (frame_.page.hidden().hidden(i)) {
       hidden.push_back(i);
     }
   }
@@ -437,7 +445,7 @@ void ViewStateApplier::read_patches(ViewState& state) const {
 
 ViewState ViewStateApplier::appearance() const {
   ViewState state;
-  const ColorChoice& colors = parts_.colors;
+  const ColorChoice& colors = frame_.state.colors;
   if (colors.quantity() != Quantity::difference) {
     state.quantity = colors.quantity();
   }
@@ -452,16 +460,16 @@ ViewState ViewStateApplier::appearance() const {
     state.exposure = colors.scale().exposure;
   }
   state.gamma = colors.scale().gamma;
-  const ShowMenu& show = *parts_.page.color_controls()->show_menu();
+  const ShowMenu& show = *frame_.page.color_controls()->show_menu();
   for (const Overlay overlay : all_overlays) {
     if (show.overlay(overlay)->isChecked()) {
       state.overlays.push_back(overlay);
     }
   }
   state.clip = show.clip()->choice();
-  state.algorithm = parts_.algorithm.kind();
-  state.direction_shown = parts_.page.color_controls()->direction();
-  state.labels = parts_.map.labels_shown();
+  state.algorithm = algorithm_.kind();
+  state.direction_shown = frame_.page.color_controls()->direction();
+  state.labels = map_.labels_shown();
   return state;
 }
 

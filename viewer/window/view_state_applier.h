@@ -17,7 +17,8 @@ class ViewStateApplier : public QObject {
   Q_OBJECT
 
  public:
-  explicit ViewStateApplier(const WindowParts& parts);
+  ViewStateApplier(const WindowFrame& frame, DockLayouts& docks, MapView& map,
+                   AlgorithmView& algorithm, SettingsPanel& settings);
 
   /// A newer request replaces an older one. A scene that is open with the same options is not
   /// solved again.
@@ -71,12 +72,16 @@ class ViewStateApplier : public QObject {
   void apply_selection();
   void apply_focus();
 
-  WindowParts parts_;
+  WindowFrame frame_;
+  DockLayouts& docks_;
+  MapView& map_;
+  AlgorithmView& algorithm_;
+  SettingsPanel& settings_;
   ViewState requested_;
   std::optional<ViewState> before_lesson_;  ///< appearance and options
   RunOptions applied_options_;              ///< in the settings panel after the last request
   bool leaving_ = false;                    ///< leave_lesson() was called for the next scene
-  bool applies_view_ = false;  ///< within apply_view()
+  bool applies_view_ = false;               ///< within apply_view()
   Awaits awaits_ = Awaits::nothing;
   /// The first directions of the run that the requested one replaces; null: none. Each run has its
   /// own copy.

@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QUndoStack>
+
 #include "colors/color_choice.h"
 #include "model/per_direction_visibility.h"
 #include "model/relighting.h"
@@ -13,12 +15,10 @@
 #include "window/open_scene.h"
 
 class QMainWindow;
-class QPlainTextEdit;
 
 namespace transillum::viewer {
 
 class AlgorithmView;
-class ConvergenceView;
 class DockLayouts;
 class LessonPanel;
 class MapView;
@@ -29,10 +29,11 @@ class WorkGuard;
 
 /// What the views follow and change. It outlives every widget of the window.
 struct SharedState {
+  QUndoStack undo;  ///< of everything that can be undone
   Selection selection;
   ColorChoice colors{selection};
   SolveRunner runner;
-  Relighting relighting;
+  Relighting relighting{undo};
   OpenScene scene{runner, relighting};
   Focus focus;
   FocusFeed focus_feed{focus};
@@ -41,28 +42,24 @@ struct SharedState {
   PerDirectionVisibility visibility;
 };
 
-/// References to the parts of the window, for what acts on all of it (files, exports, applying a
-/// saved state).
-struct WindowParts {
+/// What everything that acts on the whole window needs (files, exports, applying a saved state);
+/// the views that it acts on are given one by one.
+struct WindowFrame {
   QMainWindow& window;
-  SolveRunner& runner;
-  OpenScene& scene;
-  Relighting& relighting;
-  Focus& focus;
-  Selection& selection;
-  ColorChoice& colors;
-  Breakpoints& breakpoints;
-  Watches& watches;
-  DockLayouts& docks;
+  SharedState& state;
   ScenePage& page;
-  MapView& map;
-  AlgorithmView& algorithm;
-  ConvergenceView& charts;
-  SettingsPanel& settings;
-  LessonPanel& lessons;
-  QPlainTextEdit& notes;
   Notifier& notifier;
   const WorkGuard& guard;
+};
+
+/// Views that main() and the tests reach into.
+struct WindowViews {
+  ScenePage& page;
+  DockLayouts& docks;
+  MapView& map;
+  AlgorithmView& algorithm;
+  SettingsPanel& settings;
+  LessonPanel& lessons;
 };
 
 }  // namespace transillum::viewer

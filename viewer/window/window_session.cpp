@@ -12,41 +12,42 @@
 
 namespace transillum::viewer {
 
-WindowSession::WindowSession(const WindowParts& parts, ViewStateApplier& applier)
-    : QObject(&parts.window), parts_(parts), applier_(applier) {}
+WindowSession::WindowSession(const WindowFrame& frame, DockLayouts& docks, QPlainTextEdit& notes,
+                             ViewStateApplier& applier)
+    : QObject(&frame.window), frame_(frame), docks_(docks), notes_(notes), applier_(applier) {}
 
 Session WindowSession::current() const {
   return {applier_.state(),
-          parts_.breakpoints.list(),
-          parts_.page.bookmarks().all(),
-          parts_.notes.toPlainText().toStdString(),
-          parts_.docks.state(),
-          parts_.watches.list()};
+          frame_.state.breakpoints.list(),
+          frame_.page.bookmarks().all(),
+          notes_.toPlainText().toStdString(),
+          docks_.state(),
+          frame_.state.watches.list()};
 }
 
 void WindowSession::restore(const Session& session) {
-  parts_.notifier.dismiss();
+  frame_.notifier.dismiss();
   applier_.show(session.state);
   if (session.state.layout && !session.docks.isEmpty()) {
-    if (!parts_.docks.restore(static_cast<int>(*session.state.layout), session.docks)) {
-      parts_.docks.arrange(*session.state.layout);
-      parts_.notifier.show_warnings(
+    if (!docks_.restore(static_cast<int>(*session.state.layout), session.docks)) {
+      docks_.arrange(*session.state.layout);
+      frame_.notifier.show_warnings(
           {tr("docks: damaged, or of another version; the panels are in their usual places")});
     }
   }
   const std::string& scene = session.state.scene;
-  const std::string& shown = scene.empty() ? parts_.scene.spec() : scene;
-  parts_.breakpoints.set_list_of(shown, session.breakpoints);
-  parts_.watches.set_list_of(shown, session.watches);
-  parts_.page.bookmarks().set(session.saved_views);
-  parts_.relighting.edits().undo_stack().clear();
-  parts_.notes.setPlainText(QString::fromStdString(session.notes));
+  const std::string& shown = scene.empty() ? frame_.state.scene.spec() : scene;
+  frame_.state.breakpoints.set_list_of(shown, session.breakpoints);
+  frame_.state.watches.set_list_of(shown, session.watches);
+  frame_.page.bookmarks().set(session.saved_views);
+  frame_.state.undo.clear();
+  notes_.setPlainText(QString::fromStdString(session.notes));
 }
 
-void WindowSession::set_notes_saved() { parts_.notes.document()->setModified(false); }
+void WindowSession::set_notes_saved() { notes_.document()->setModified(false); }
 
 bool WindowSession::has_unsaved_notes() const {
-  return parts_.notes.document()->isModified() && !parts_.notes.document()->isEmpty();
+  return notes_.document()->isModified() && !notes_.document()->isEmpty();
 }
 
 }  // namespace transillum::viewer

@@ -6,6 +6,8 @@
 #include "lessons/session_file.h"
 #include "window/window_parts.h"
 
+class QPlainTextEdit;
+
 namespace transillum::viewer {
 
 class ViewStateApplier;
@@ -15,7 +17,8 @@ class WindowSession : public QObject {
   Q_OBJECT
 
  public:
-  WindowSession(const WindowParts& parts, ViewStateApplier& applier);
+  WindowSession(const WindowFrame& frame, DockLayouts& docks, QPlainTextEdit& notes,
+                ViewStateApplier& applier);
 
   Session current() const;
   void restore(const Session& session);
@@ -24,7 +27,9 @@ class WindowSession : public QObject {
   bool has_unsaved_notes() const;
 
  private:
-  WindowParts parts_;
+  WindowFrame frame_;
+  DockLayouts& docks_;
+  QPlainTextEdit& notes_;
   ViewStateApplier& applier_;
 };
 
