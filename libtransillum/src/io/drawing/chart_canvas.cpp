@@ -119,24 +119,25 @@ void ChartCanvas::fill(const ChartArea& area, const ChartColor& color) {
   cairo_fill(cairo_);
 }
 
-/// The nearest point where the edges of a line of this width are those of pixels.
-ChartPoint ChartCanvas::on_pixels(const ChartPoint& point, double width) {
+/// The nearest point where the edges of a vertical or horizontal line are those of pixels.
+ChartPoint ChartCanvas::on_pixels(const ChartPoint& point, double width, bool is_vertical) {
   double none = 0, x = point.x, y = point.y;
   cairo_user_to_device_distance(cairo_, &width, &none);
   const double middle = std::max(1L, std::lround(width)) % 2 == 1 ? 0.5 : 0;
   cairo_user_to_device(cairo_, &x, &y);
-  x = std::round(x - middle) + middle;
-  y = std::round(y - middle) + middle;
+  double& across = is_vertical ? x : y;
+  across = std::round(across - middle) + middle;
   cairo_device_to_user(cairo_, &x, &y);
   return {x, y};
 }
 
 void ChartCanvas::draw(std::span<const ChartPoint> points, const ChartPen& pen) {
-  const bool is_aligned =
-      points.size() == 2 && (points[0].x == points[1].x || points[0].y == points[1].y);
+  const bool is_vertical = points.size() == 2 && points[0].x == points[1].x;
+  const bool is_horizontal = points.size() == 2 && points[0].y == points[1].y;
   cairo_new_path(cairo_);
   for (const ChartPoint& point : points) {
-    const ChartPoint at = is_aligned ? on_pixels(point, pen.width) : point;
+    const ChartPoint at =
+        is_vertical || is_horizontal ? on_pixels(point, pen.width, is_vertical) : point;
     cairo_line_to(cairo_, at.x, at.y);
   }
   std::vector<double> dashes = dashes_of(pen.dashes);

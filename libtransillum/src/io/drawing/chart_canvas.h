@@ -54,7 +54,7 @@ class ChartCanvas {
  private:
   void set(const ChartColor& color);
   void select(const ChartText& look);
-  ChartPoint on_pixels(const ChartPoint& point, double width);
+  ChartPoint on_pixels(const ChartPoint& point, double width, bool is_vertical);
 
   cairo_t* cairo_;
   std::string font_;

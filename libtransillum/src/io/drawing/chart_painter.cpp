@@ -257,11 +257,12 @@ void ChartPainter::draw_axes() {
   const auto draw = [&](const ChartPoint& a, const ChartPoint& b) {
     canvas_.draw(std::array{a, b}, pen);
   };
+  const double corner = style_.line_width / 2;
   draw({left, bottom}, {right, bottom});
-  draw({left, top}, {left, bottom});
+  draw({left, top - corner}, {left, bottom + corner});
   if (style_.framed) {
     draw({left, top}, {right, top});
-    draw({right, top}, {right, bottom});
+    draw({right, top - corner}, {right, bottom + corner});
   }
   for (const ChartTick& tick : chart_.x.ticks) {
     if (!tick.minor) {
