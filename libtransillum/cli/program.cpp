@@ -6,7 +6,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <vtkObject.h>
 
 #include <algorithm>
 #include <new>
@@ -240,7 +239,6 @@ void with_definitions(const std::function<void(const CLI::App&)>& use) { use(Pro
 void prepare_process() {
   occupy_closed_streams();
   load_unwinder();
-  vtkObject::GlobalWarningDisplayOff();  // failures are reported once, by this program
   // A closed pipe and a file over the limit of `ulimit -f` are write errors; they must not end the
   // program before the other results are saved.
   ::signal(SIGPIPE, SIG_IGN);

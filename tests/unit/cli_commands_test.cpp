@@ -22,6 +22,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -69,6 +70,15 @@ TEST(CliHelp, VersionIsOneLine) {
   const ProgramResult result = run_program({"--version"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, ::testing::MatchesRegex("transillum [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+/// Every command would wait for them (decisions/0082-charts-without-vtk.md).
+TEST(CliHelp, TheProgramLoadsNeitherVtkNorMpi) {
+  RunningProgram listing({}, {}, {}, {}, "export LD_TRACE_LOADED_OBJECTS=1");
+  const std::string libraries = listing.wait().out;
+  EXPECT_THAT(libraries, HasSubstr("libtransillum.so"));
+  EXPECT_THAT(libraries, Not(HasSubstr("vtk")));
+  EXPECT_THAT(libraries, Not(HasSubstr("libmpi")));
 }
 
 TEST(CliSolve, WarnsWhereTheDirectionsAreTooFew) {

@@ -110,6 +110,41 @@ TEST(LineChart, LinesStayInThePlot) {
   EXPECT_EQ(outside, 0);
 }
 
+TEST(LineChart, MarkersAreDrawnOverTheAxes) {
+  LineChart chart = decades({{1, 0.001}, {5, 1}});
+  chart.series[0].marker = ChartMarker::square;
+  const Picture picture = paint(chart);
+  EXPECT_EQ(picture.at(picture.area.left, picture.area.bottom), red);
+  EXPECT_EQ(picture.at(picture.area.left + 3, picture.area.bottom), red);
+}
+
+TEST(LineChart, LegendBelowTheTitleTakesMoreRowsForMoreNames) {
+  LineChart chart = decades({{1, 0.01}, {5, 0.5}});
+  chart.legend_below_title = true;
+  const auto top_of = [&](std::size_t names) {
+    chart.series.resize(names, chart.series[0]);
+    return paint(chart).area.top;
+  };
+  const double one = top_of(1), row = top_of(6) - one;
+  EXPECT_EQ(top_of(2), one);
+  EXPECT_GT(row, 10);
+  EXPECT_NEAR(top_of(40), one + row, 1);  // a fifth of the height is the limit
+}
+
+TEST(LineChart, ManyMarkersArePaintedAsFew) {
+  std::vector<ChartPoint> points;
+  for (int k = 0; k < 100000; ++k) {
+    points.push_back({1 + 4 * k / 1e5, k % 2 == 0 ? 0.9 : 0.01});
+  }
+  LineChart chart = decades(points);
+  chart.series[0].marker = ChartMarker::dot;
+  const Picture picture = paint(chart);
+  const ChartArea& area = picture.area;
+  const double height = area.bottom - area.top;
+  EXPECT_EQ(picture.at((area.left + area.right) / 2, area.top + height / 3), red);
+  EXPECT_EQ(picture.at((area.left + area.right) / 2, area.bottom - height / 5), paper);
+}
+
 TEST(LineChart, ScaleChangesPixelsNotTheLayout) {
   const LineChart chart = decades({{1, 0.01}, {5, 0.5}});
   const Picture one = paint(chart), two = paint(chart, 800, 480, 2);

@@ -11,13 +11,13 @@
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
 
 #include <array>
 #include <functional>
 #include <limits>
 #include <random>
 
-#include "io/vtk/vtp_output.h"
 #include "program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
@@ -93,7 +93,11 @@ class ResultReader : public ::testing::Test {
     reader->SetFileName(path_.c_str());
     reader->Update();
     edit(*reader->GetOutput());
-    write_file_whole(path_, [&](std::ostream& out) { write_polygons(out, *reader->GetOutput()); });
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetFileName(path_.c_str());
+    writer->SetInputData(reader->GetOutput());
+    writer->SetHeaderTypeToUInt64();
+    writer->Write();
   }
   void replace(const std::string& from, const std::string& to) const {
     std::string text = read_file(path_);

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Line charts as a description (LineChart) and its drawing, to pixels or to a file
-// (decisions/0019-charts-by-vtk.md). The library makes them for studies, the viewer also for the
+// (decisions/0082-charts-without-vtk.md). The library makes them for studies, the viewer also for the
 // convergence of a solve run. Lengths are in pixels of a screen with scale 1. Texts are UTF-8;
 // invalid sequences are replaced.
 #pragma once
@@ -88,8 +88,8 @@ struct ChartAxis {
 /// Colors, font and sizes of a chart.
 struct ChartStyle {
   ChartColor paper{255, 255, 255};  ///< background
-  ChartColor ink{26, 26, 31};       ///< titles
-  ChartColor dim{26, 26, 31};       ///< labels and axes
+  ChartColor ink{26, 26, 31};       ///< title, labels, legend, and axes if not `framed`
+  ChartColor dim{26, 26, 31};       ///< titles of axes, hint, and axes if `framed`
   ChartColor grid{219, 222, 227};   ///< grid lines
   std::string font = "sans-serif";  ///< font family
   double title_size = 18;           ///< font size of the chart's title
@@ -110,7 +110,7 @@ struct LineChart {
   std::vector<ChartSeries> series;  ///< drawn in this order, the last on top
   std::vector<std::size_t> legend;  ///< order of the series in the legend; empty: as drawn
   std::string note_title;           ///< heading of the legend's second column
-  bool legend_below_title = false;  ///< in a row; otherwise a column at the right
+  bool legend_below_title = false;  ///< in rows; otherwise a column at the right
   bool axis_titles = true;          ///< false: only that of x, beside the title; for low charts
   ChartStyle style;                 ///< colors, font and sizes
 };

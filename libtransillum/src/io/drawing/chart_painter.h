@@ -7,7 +7,7 @@
 
 namespace transillum {
 
-/// Paints `chart` with VTK at the origin of `cairo`.
+/// Paints `chart` at the origin of `cairo`.
 /// @param width, height of the chart, in user units of `cairo`
 /// @returns the plot's area in the same units
 ChartArea paint_chart(cairo_t* cairo, const LineChart& chart, double width, double height);

@@ -1,18 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Results as VTK PolyData. data/FILES.md lists the arrays; result_reader.cpp reads them back.
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkStringArray.h>
-
 #include "io/results/result_figures.h"
 #include "io/results/result_writers.h"
-#include "io/vtk/vtp_output.h"
+#include "io/vtp_writer.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
 
@@ -20,66 +11,43 @@ namespace transillum {
 namespace {
 
 template <typename ValueOf>
-void add_colors(vtkFieldData& fields, const char* name, PatchId count, ValueOf value_of) {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(count);
-  const char* const channels[] = {"r", "g", "b"};
-  for (int c = 0; c < 3; ++c) {
-    array->SetComponentName(c, channels[c]);
-  }
+void add_colors(VtpArrays& fields, const char* name, PatchId count, ValueOf value_of) {
+  std::vector<double> values;
   for (PatchId i = 0; i < count; ++i) {
     const Rgb rgb = value_of(i);
-    array->SetTuple3(i, rgb.r, rgb.g, rgb.b);
+    values.insert(values.end(), {rgb.r, rgb.g, rgb.b});
   }
-  fields.AddArray(array);
+  add_array(fields, name, values, VtpEntries::colors);
 }
 
 /// A polygon per patch with points of its own, and B at each of them.
-void add_unshared_geometry(vtkPolyData& mesh, const Solution& solution) {
+void add_unshared_geometry(VtpPolygons& mesh, const Solution& solution) {
   const Scene& scene = *solution.scene;
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> polygons;
   std::vector<Rgb> values;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const auto outline = scene.outline(i);
-    polygons->InsertNextCell(static_cast<int>(outline.size()));
-    for (const PointId p : outline) {
-      const Vec3& point = scene.point(p);
-      polygons->InsertCellPoint(points->InsertNextPoint(point.x, point.y, point.z));
+    for (const PointId p : scene.outline(i)) {
+      mesh.corners.push_back(mesh.add_point(scene.point(p)));
     }
+    mesh.ends.push_back(std::ssize(mesh.corners));
     const std::vector<Rgb> corners = corner_radiosity(solution, i);
     values.insert(values.end(), corners.begin(), corners.end());
   }
-  mesh.SetPoints(points);
-  mesh.SetPolys(polygons);
-  add_colors(*mesh.GetPointData(), "B_corner", static_cast<PatchId>(values.size()),
+  add_colors(mesh.point_data, "B_corner", static_cast<PatchId>(values.size()),
              [&](PatchId k) { return at(values, k); });
 }
 
-void add_geometry(vtkPolyData& mesh, const Scene& scene) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(scene.points().size()));
-  for (std::size_t p = 0; p < scene.points().size(); ++p) {
-    const Vec3& point = scene.points()[p];
-    points->SetPoint(static_cast<vtkIdType>(p), point.x, point.y, point.z);
+void add_geometry(VtpPolygons& mesh, const Scene& scene) {
+  for (const Vec3& point : scene.points()) {
+    mesh.add_point(point);
   }
-  vtkNew<vtkCellArray> polygons;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const auto outline = scene.outline(i);
-    polygons->InsertNextCell(static_cast<int>(outline.size()));
-    for (const PointId p : outline) {
-      polygons->InsertCellPoint(p);
-    }
+    mesh.corners.insert(mesh.corners.end(), outline.begin(), outline.end());
+    mesh.ends.push_back(std::ssize(mesh.corners));
   }
-  mesh.SetPoints(points);
-  mesh.SetPolys(polygons);
 }
 
-void add_patch_values(vtkFieldData& fields, const Solution& solution) {
+void add_patch_values(VtpArrays& fields, const Solution& solution) {
   const Scene& scene = *solution.scene;
   const PatchId count = scene.patch_count();
   add_integers(fields, "face", count, [&](PatchId i) { return scene.patch(i).face; });
@@ -119,37 +87,39 @@ void add_patch_values(vtkFieldData& fields, const Solution& solution) {
   }
 }
 
+void add_field(VtpArrays& fields, const char* name, double value) {
+  add_array(fields, name, std::vector{value});
+}
+
+void add_field(VtpArrays& fields, const char* name, const std::string& value) {
+  add_array(fields, name, std::vector{value});
+}
+
+void add_vector(VtpArrays& fields, const char* name, const Vec3& vector) {
+  add_array(fields, name, std::vector{vector.x, vector.y, vector.z}, VtpEntries::vectors);
+}
+
 /// The sky, where there is one.
-void add_sky(vtkFieldData& fields, const Sky& sky) {
+void add_sky(VtpArrays& fields, const Sky& sky) {
   if (!sky.set()) {
     return;
   }
   add_colors(fields, "sky_exitance", 1, [&](PatchId) { return sky.exitance; });
   add_field(fields, "sky_model", name_of(sky.model));
-  vtkNew<vtkDoubleArray> up;
-  up->SetName("sky_up");
-  up->SetNumberOfComponents(3);
-  up->InsertNextTuple3(sky.up.x, sky.up.y, sky.up.z);
-  fields.AddArray(up);
-}
-
-template <class List, class NameOf>
-void add_names(vtkFieldData& fields, const char* name, const List& list, NameOf name_of) {
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  for (const auto& entry : list) {
-    array->InsertNextValue(name_of(entry));
-  }
-  fields.AddArray(array);
+  add_vector(fields, "sky_up", sky.up);
 }
 
 /// Adds the options, statistics and error estimate of the solve as field data, for the viewer.
-void add_solve_values(vtkFieldData& fields, const Solution& solution) {
+void add_solve_values(VtpArrays& fields, const Solution& solution) {
   const Scene& scene = *solution.scene;
   add_field(fields, "transillum_version", std::string(TRANSILLUM_VERSION));
   add_field(fields, "scene", scene.name());
-  add_names(fields, "materials", scene.materials(), [](const Material& m) { return m.name; });
-  add_names(fields, "groups", scene.groups(), [](const std::string& group) { return group; });
+  std::vector<std::string> materials;
+  for (const Material& material : scene.materials()) {
+    materials.push_back(material.name);
+  }
+  add_array(fields, "materials", materials);
+  add_array(fields, "groups", scene.groups());
   add_field(fields, "two_sided", scene.options().two_sided ? 1.0 : 0.0);
   add_field(fields, "max_patch_area", scene.options().max_patch_area);
   add_sky(fields, solution.sky);
@@ -157,11 +127,7 @@ void add_solve_values(vtkFieldData& fields, const Solution& solution) {
     add_field(fields, name, static_cast<double>(value));
   });
   if (solution.glossy && solution.eye) {
-    vtkNew<vtkDoubleArray> eye;
-    eye->SetName("eye");
-    eye->SetNumberOfComponents(3);
-    eye->InsertNextTuple3(solution.eye->x, solution.eye->y, solution.eye->z);
-    fields.AddArray(eye);
+    add_vector(fields, "eye", *solution.eye);
   }
   const auto& steps = solution.statistics.iteration_records;
   const int count = static_cast<int>(steps.size());
@@ -172,17 +138,17 @@ void add_solve_values(vtkFieldData& fields, const Solution& solution) {
 }  // namespace
 
 void write_result_vtp(std::ostream& out, const Solution& solution) {
-  vtkNew<vtkPolyData> mesh;
+  VtpPolygons mesh;
   if (solution.linear_parts.empty()) {
-    add_geometry(*mesh, *solution.scene);
+    add_geometry(mesh, *solution.scene);
   } else {
-    add_unshared_geometry(*mesh, solution);
+    add_unshared_geometry(mesh, solution);
   }
-  add_patch_values(*mesh->GetCellData(), solution);
-  mesh->GetCellData()->SetActiveScalars("B");
-  add_solve_values(*mesh->GetFieldData(), solution);
+  add_patch_values(mesh.cell_data, solution);
+  mesh.scalars = "B";
+  add_solve_values(mesh.fields, solution);
 
-  write_polygons(out, *mesh);
+  write_polygons(out, mesh);
 }
 
 }  // namespace transillum

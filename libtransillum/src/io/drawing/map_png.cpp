@@ -1,21 +1,21 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Maps as PNG: an anti-aliased rasterizer for the convex polygons and lines of a map, encoded by
-// VTK. Cairo draws the labels over it.
-#include <cairo.h>
+// Maps as PNG: an anti-aliased rasterizer for the convex polygons and lines of a map. Cairo draws
+// the labels over it and encodes it.
 #include <fmt/format.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <ostream>
-#include <stdexcept>
+#include <span>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "io/drawing/cairo_surface.h"
 #include "io/maps/map_drawing.h"
 #include "io/maps/map_labels.h"
 #include "io/maps/map_writers.h"
@@ -71,18 +71,24 @@ class Canvas {
     cover(bar, [&](std::size_t pixel, float part) { pixels_[pixel].line += part; });
   }
 
-  /// Copies the image bottom row first, as VTK stores images.
-  void copy_to(vtkImageData& image) const {
-    image.SetDimensions(width_, height_, 1);
-    image.AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    auto* byte = static_cast<unsigned char*>(image.GetScalarPointer());
-    for (int y = height_ - 1; y >= 0; --y) {
+  CairoSurface picture() const {
+    CairoSurface surface = make_picture(width_, height_);
+    check_drawn(cairo_surface_status(surface.get()));
+    unsigned char* bytes = cairo_image_surface_get_data(surface.get());
+    const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface.get());
+    for (int y = 0; y < height_; ++y) {
+      auto* row = reinterpret_cast<std::uint32_t*>(bytes + y * stride);
       for (int x = 0; x < width_; ++x) {
+        std::uint32_t color = 0;
         for (const float channel : finished(pixels_[index(x, y)])) {
-          *byte++ = static_cast<unsigned char>(std::clamp(std::lround(channel), 0L, 255L));
+          color =
+              color << 8 | static_cast<std::uint32_t>(std::clamp(std::lround(channel), 0L, 255L));
         }
+        row[x] = color;
       }
     }
+    cairo_surface_mark_dirty(surface.get());
+    return surface;
   }
 
  private:
@@ -163,106 +169,56 @@ class Canvas {
   std::vector<Pixel> pixels_;
 };
 
-/// A drawing by Cairo over a picture of VTK, which has the bottom row first and three bytes a
-/// pixel.
-class Overlay {
- public:
-  explicit Overlay(vtkImageData& image)
-      : image_(image),
-        width_(image.GetDimensions()[0]),
-        height_(image.GetDimensions()[1]),
-        surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_)),
-        cairo_(cairo_create(surface_)) {
-    each_pixel([](unsigned char* picture, unsigned char* drawing) {
-      std::copy(picture, picture + 3, std::reverse_iterator(drawing + 3));
-    });
-    cairo_surface_mark_dirty(surface_);
-  }
-  ~Overlay() {
-    cairo_destroy(cairo_);
-    cairo_surface_destroy(surface_);
-  }
-  Overlay(const Overlay&) = delete;
-  Overlay& operator=(const Overlay&) = delete;
-
-  void draw(const PlacedLabel& label) {
-    cairo_select_font_face(cairo_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
-    cairo_set_font_size(cairo_, label_size);
-    cairo_text_extents_t extents;
-    cairo_text_extents(cairo_, label.text.c_str(), &extents);
-    cairo_set_source_rgb(cairo_, 1, 1, 1);
-    cairo_set_line_width(cairo_, 2);
-    cairo_move_to(cairo_, label.point.x, label.point.y);
-    cairo_line_to(cairo_, label.base.x, label.base.y);
-    cairo_stroke(cairo_);
-    cairo_arc(cairo_, label.point.x, label.point.y, 3, 0, 7);
-    cairo_fill(cairo_);
-    cairo_move_to(cairo_, label.base.x - (label.ends_at ? extents.x_advance : 0), label.base.y);
-    cairo_text_path(cairo_, label.text.c_str());
-    cairo_set_source_rgb(cairo_, 0, 0, 0);
-    cairo_set_line_width(cairo_, 4);
-    cairo_stroke_preserve(cairo_);
-    cairo_set_source_rgb(cairo_, 1, 1, 1);
-    cairo_fill(cairo_);
-  }
-  /// Copies the drawing back into the picture.
-  void finish() {
-    cairo_surface_flush(surface_);
-    each_pixel([](unsigned char* picture, const unsigned char* drawing) {
-      std::copy(drawing, drawing + 3, std::reverse_iterator(picture + 3));
-    });
-  }
-
- private:
-  // Cairo stores blue first (little endian), VTK red.
-  template <typename Copy>
-  void each_pixel(Copy copy) {
-    auto* pixels = static_cast<unsigned char*>(image_.GetScalarPointer());
-    unsigned char* drawing = cairo_image_surface_get_data(surface_);
-    const int stride = cairo_image_surface_get_stride(surface_);
-    for (int y = 0; y < height_; ++y) {
-      unsigned char* row = pixels + std::ptrdiff_t{3} * width_ * (height_ - 1 - y);
-      for (int x = 0; x < width_; ++x) {
-        copy(row + std::ptrdiff_t{3} * x,
-             drawing + std::ptrdiff_t{stride} * y + std::ptrdiff_t{4} * x);
-      }
-    }
-  }
-
-  vtkImageData& image_;
-  const int width_, height_;
-  cairo_surface_t* surface_;
-  cairo_t* cairo_;
-};
-
-void draw_labels(vtkImageData& image, const MapLayout& layout,
-                 const std::vector<MapLabel>& labels) {
-  if (labels.empty()) {
-    return;
-  }
-  Overlay overlay(image);
-  for (const PlacedLabel& label : place_labels(labels, layout.transform, 0, layout.width)) {
-    overlay.draw(label);
-  }
-  overlay.finish();
+void draw_label(cairo_t* cairo, const PlacedLabel& label) {
+  cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
+  cairo_set_font_size(cairo, label_size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo, label.text.c_str(), &extents);
+  cairo_set_source_rgb(cairo, 1, 1, 1);
+  cairo_set_line_width(cairo, 2);
+  cairo_move_to(cairo, label.point.x, label.point.y);
+  cairo_line_to(cairo, label.base.x, label.base.y);
+  cairo_stroke(cairo);
+  cairo_arc(cairo, label.point.x, label.point.y, 3, 0, 7);
+  cairo_fill(cairo);
+  cairo_move_to(cairo, label.base.x - (label.ends_at ? extents.x_advance : 0), label.base.y);
+  cairo_text_path(cairo, label.text.c_str());
+  cairo_set_source_rgb(cairo, 0, 0, 0);
+  cairo_set_line_width(cairo, 4);
+  cairo_stroke_preserve(cairo);
+  cairo_set_source_rgb(cairo, 1, 1, 1);
+  cairo_fill(cairo);
 }
 
-/// Adds title and description as text chunks.
-void describe(vtkPNGWriter& writer, const Scene& scene, const VisibilityMap& map, double scale) {
+/// A chunk of text of a PNG file.
+std::string text_chunk(const std::string& key, const std::string& text) {
+  const std::string body = "tEXt" + key + '\0' + text;
+  const auto big_endian = [](std::size_t number) {
+    std::string bytes;
+    for (const int shift : {24, 16, 8, 0}) {
+      bytes += static_cast<char>(number >> shift & 0xff);
+    }
+    return bytes;
+  };
+  const uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(body.data()), body.size());
+  return big_endian(body.size() - 4) + body + big_endian(crc);
+}
+
+/// Title and description as chunks of text.
+std::string map_description(const Scene& scene, const VisibilityMap& map, double scale) {
   const Vec3& omega = map.frame.omega;
-  writer.AddText("Software", "transillum " TRANSILLUM_VERSION);
-  writer.AddText("Title", ("Visibility map of " + scene.name()).c_str());
-  writer.AddText(
-      "Description",
-      fmt::format("direction omega = {}, {}, {}; view along omega{}; {} pixels per meter{}",
-                  omega.x, omega.y, omega.z,
-                  map.receiver == no_patch ? std::string(" from below")
-                                           : fmt::format(" from patch {}", map.receiver),
-                  scale,
-                  map.pixels.side > 0
-                      ? fmt::format("; the engine's pixels are {} m wide", map.pixels.side)
-                      : std::string())
-          .c_str());
+  return text_chunk("Software", "transillum " TRANSILLUM_VERSION) +
+         text_chunk("Title", "Visibility map of " + scene.name()) +
+         text_chunk(
+             "Description",
+             fmt::format("direction omega = {}, {}, {}; view along omega{}; {} pixels per meter{}",
+                         omega.x, omega.y, omega.z,
+                         map.receiver == no_patch ? std::string(" from below")
+                                                  : fmt::format(" from patch {}", map.receiver),
+                         scale,
+                         map.pixels.side > 0
+                             ? fmt::format("; the engine's pixels are {} m wide", map.pixels.side)
+                             : std::string()));
 }
 
 }  // namespace
@@ -302,20 +258,18 @@ void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& m
     }
   }
 
-  vtkNew<vtkImageData> image;
-  canvas.copy_to(*image);
-  draw_labels(*image, layout, options.labels);
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  writer->WriteToMemoryOn();
-  describe(*writer, scene, map, layout.transform.scale);
-  writer->Write();
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  if (bytes == nullptr || bytes->GetNumberOfValues() == 0) {
-    throw std::runtime_error("PNG: VTK could not encode the picture");
+  const CairoSurface picture = canvas.picture();
+  const CairoContext cairo(cairo_create(picture.get()), cairo_destroy);
+  for (const PlacedLabel& label : place_labels(options.labels, layout.transform, 0, layout.width)) {
+    draw_label(cairo.get(), label);
   }
-  out.write(reinterpret_cast<const char*>(bytes->GetPointer(0)),
-            static_cast<std::streamsize>(bytes->GetNumberOfValues()));
+  check_drawn(cairo_status(cairo.get()));
+  std::ostringstream png;
+  write_png(png, picture.get());
+  constexpr std::size_t header = 8 + 25;  // the signature and the first chunk
+  const std::string bytes = std::move(png).str();
+  out << bytes.substr(0, header) << map_description(scene, map, layout.transform.scale)
+      << bytes.substr(header);
 }
 
 }  // namespace transillum

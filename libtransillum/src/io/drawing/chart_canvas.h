@@ -1,0 +1,63 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cairo.h>
+
+#include <span>
+#include <string>
+
+#include "transillum/line_chart.h"
+
+namespace transillum {
+
+/// How a text looks.
+struct ChartText {
+  double size;  ///< of the font
+  ChartColor color;
+  bool bold = false;
+};
+
+/// How a line looks.
+struct ChartPen {
+  ChartColor color;
+  double width;
+  ChartDashes dashes = ChartDashes::solid;
+};
+
+/// Draws the parts of charts on a Cairo context, in its user units, y downward.
+class ChartCanvas {
+ public:
+  /// @param cairo  must outlive this object
+  /// @param font  family of all texts
+  ChartCanvas(cairo_t* cairo, std::string font) : cairo_(cairo), font_(std::move(font)) {}
+
+  double width_of(const std::string& text, const ChartText& look);
+  /// `text`, shortened with an ellipsis if it is wider than `room`; empty if there is no room.
+  std::string elided(const std::string& text, double room, const ChartText& look);
+  /// Draws a line of text.
+  /// @param at  middle of its height, and of its width the share `align` from its begin
+  /// @param upward  turned by 90 degrees, to be read from below
+  void draw(const std::string& text, const ChartPoint& at, double align, const ChartText& look,
+            bool upward = false);
+
+  void fill(const ChartArea& area, const ChartColor& color);
+  /// Draws a polyline. Horizontal and vertical lines are aligned with whole pixels.
+  void draw(std::span<const ChartPoint> points, const ChartPen& pen);
+  /// Draws the marker of a series.
+  /// @param paper  color of the inside of hollow markers
+  void draw_marker(const ChartPoint& center, const ChartSeries& series, const ChartColor& paper);
+
+  /// Limits drawing to `area`, until clip_nothing().
+  void clip(const ChartArea& area);
+  void clip_nothing() { cairo_reset_clip(cairo_); }
+
+ private:
+  void set(const ChartColor& color);
+  void select(const ChartText& look);
+  ChartPoint on_pixels(const ChartPoint& point, double width, bool is_vertical);
+
+  cairo_t* cairo_;
+  std::string font_;
+};
+
+}  // namespace transillum
