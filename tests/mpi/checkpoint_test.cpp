@@ -5,15 +5,12 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
-#include <chrono>
-#include <thread>
-
 #include "mpi_run.h"
+#include "support/wait_until.h"
 
 namespace transillum {
 namespace {
 
-using namespace std::chrono_literals;
 using testing::read_file;
 using testing::run_alone;
 using testing::run_mpi;
@@ -42,11 +39,9 @@ void expect_same_after_resuming(const Words& scheme, int first, const std::vecto
     RunningProgram run(
         testing::mpi_command(first, command({"--checkpoint", checkpoint, "--checkpoint-every",
                                              "0.001", "--out", folder / "cut.csv"})));
-    const auto end = std::chrono::steady_clock::now() + 60s;
-    while (!std::filesystem::exists(checkpoint)) {
-      ASSERT_LT(std::chrono::steady_clock::now(), end) << run.err_so_far();
-      std::this_thread::sleep_for(1ms);
-    }
+    ASSERT_TRUE(testing::wait_until([&] {
+      return std::filesystem::exists(checkpoint) || run.ended();
+    })) << run.err_so_far();
     run.send(SIGKILL);
     run.wait();
   }

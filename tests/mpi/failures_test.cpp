@@ -8,18 +8,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
-#include <functional>
 #include <sstream>
-#include <thread>
 
 #include "mpi_run.h"
+#include "support/wait_until.h"
 
 namespace transillum {
 namespace {
 
-using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using testing::mpi_command;
 using testing::read_file;
@@ -27,6 +24,7 @@ using testing::run_mpi;
 using testing::RunningProgram;
 using ::testing::StartsWith;
 using testing::TemporaryFolder;
+using testing::wait_until;
 using Words = std::vector<std::string>;
 
 /// Lines that the program has printed; those of mpirun do not begin like that.
@@ -39,18 +37,6 @@ Words messages(const std::string& err) {
     }
   }
   return lines;
-}
-
-/// Waits for a condition; false if it does not come true within a minute.
-bool wait_until(const std::function<bool()>& condition) {
-  const auto end = std::chrono::steady_clock::now() + 60s;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) {
-      return false;
-    }
-    std::this_thread::sleep_for(10ms);
-  }
-  return true;
 }
 
 std::vector<pid_t> children_of(pid_t pid) {

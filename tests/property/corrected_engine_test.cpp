@@ -101,10 +101,17 @@ TEST(CorrectedEngine, AssignsTheRestToTheFaceBehind) {
   EXPECT_NEAR(transfers.exchanges[1].area, 3, 1e-12);
 }
 
-class CorrectedPower : public ::testing::TestWithParam<const char*> {};
+/// A closed scene, and the largest share of the light that is exchanged between the wrong patches,
+/// of 20 directions, as measured: it is a property of the rule that assigns the rest (decision 34).
+struct Misplaced {
+  const char* scene;
+  double share;
+};
+
+class CorrectedPower : public ::testing::TestWithParam<Misplaced> {};
 
 TEST_P(CorrectedPower, ReceivedEqualsProjectedAndLittleIsMisplaced) {
-  const Engines engines(load_scene(GetParam()));
+  const Engines engines(load_scene(GetParam().scene));
   double most = 0;
   for (const Vec3& omega : test_directions(20, 7)) {
     const Transfers transfers = engines.corrected(omega, {});
@@ -120,12 +127,13 @@ TEST_P(CorrectedPower, ReceivedEqualsProjectedAndLittleIsMisplaced) {
     EXPECT_NEAR(received, exact, 1e-5 * exact);
     most = std::max(most, compare(by_fast, transfers).misplaced);
   }
-  EXPECT_LT(most, 0.2);
-  EXPECT_GT(most, 1e-3);
+  EXPECT_NEAR(most, GetParam().share, 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(ClosedScenes, CorrectedPower,
-                         ::testing::Values("furnace", "cornell-box", "sphere-flake:levels=1"),
+                         ::testing::Values(Misplaced{"furnace", 0.0765},
+                                           Misplaced{"cornell-box", 0.0455},
+                                           Misplaced{"sphere-flake:levels=1", 0.0354}),
                          [](const auto& test) { return "scene" + std::to_string(test.index); });
 
 TEST(CorrectedEngine, SolvesWithSmallError) {
@@ -141,7 +149,8 @@ TEST(CorrectedEngine, SolvesWithSmallError) {
     all +=
         exact.radiosity[i].r * exact.radiosity[i].r + exact.radiosity[i].g * exact.radiosity[i].g;
   }
-  EXPECT_LT(std::sqrt(off / all), 0.03);
+  // Measured: 0.74 %; with patches of half the area, decision 34 has 0.41 %.
+  EXPECT_LT(std::sqrt(off / all), 0.008);
   EXPECT_LT(corrected.statistics.escaped, 1e-6);
   options.threads = 1;
   EXPECT_TRUE(solve(scene, options).radiosity == corrected.radiosity);

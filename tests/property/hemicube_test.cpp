@@ -278,13 +278,14 @@ TEST(HemicubeSolve, ApproachesTheExactEngineAsPatchesShrink) {
     const Solution hemicubes = solve_by_form_factors(scene, options);
     EXPECT_TRUE(hemicubes.complete && hemicubes.statistics.converged);
     EXPECT_LT(hemicubes.statistics.escaped, 1e-9);
-    EXPECT_LT(hemicubes.statistics.energy_defect, patch_area > 0 ? 0.05 : 0.5);
+    // Form factors of the centers are not reciprocal. Measured: 23 %, and 1.5 % of small patches.
+    EXPECT_LT(hemicubes.statistics.energy_defect, patch_area > 0 ? 0.016 : 0.24);
     return rms_difference(hemicubes, exact);
   };
   const double large = error(0), small = error(0.02);
-  EXPECT_LT(large, 0.2);
-  EXPECT_LT(small, 0.5 * large);
-  EXPECT_LT(small, 0.03);
+  // Measured: 1.44 % and 0.57 %.
+  EXPECT_LT(large, 0.015);
+  EXPECT_LT(small, 0.4 * large);
 }
 
 TEST(HemicubeSolve, GivesTheSameBitsForAnyNumberOfThreads) {

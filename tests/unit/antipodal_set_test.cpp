@@ -118,7 +118,9 @@ TEST(AntipodalSet, HasAsManyDirectionsOnEitherSide) {
       for (int k = 0; k < part; ++k) {
         sum = sum + at(set, at(order, k)).direction;
       }
-      EXPECT_LT(norm(sum) / part, 0.3) << part << " of " << count;
+      // Measured: at most 3.8. Of independent directions it would be about the root of their
+      // number.
+      EXPECT_LT(norm(sum), 4) << part << " of " << count;
     }
   }
 }

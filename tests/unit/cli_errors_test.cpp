@@ -20,6 +20,7 @@ struct InvalidCall {
 /// Exit status 2, one line on stderr, nothing on stdout.
 void expect_refused(const std::vector<std::string>& arguments, const std::string& expected) {
   SCOPED_TRACE(::testing::PrintToString(arguments));
+  ASSERT_NE(expected, "") << "any message would do";
   const ProgramResult result = run_program(arguments);
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.out, "");

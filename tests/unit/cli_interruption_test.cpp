@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <utility>
 
 #include "program_run.h"
+#include "support/wait_until.h"
 
 namespace transillum::testing {
 namespace {
@@ -23,12 +22,8 @@ std::vector<std::string> long_solve(const TemporaryFolder& folder) {
           "--out", folder / "a.csv", "--stats", folder / "a.json"};
 }
 
-/// Waits for the first progress line, which is written during the passes.
-void wait_for_passes(const RunningProgram& program) {
-  for (int k = 0; k < 600 && program.err_so_far().find("passes/s") == std::string::npos; ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-}
+/// Part of a progress line, which is written during the passes.
+const char* const passes_made = "passes/s";
 
 /// Programs inherit that a signal is ignored: this one may have been started in the background.
 class CliInterruption : public ::testing::Test {
@@ -52,7 +47,7 @@ TEST_F(CliInterruption, SavesResultsSoFarAndExitsWith130) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
     RunningProgram program(long_solve(folder));
-    wait_for_passes(program);
+    ASSERT_TRUE(program.reports(passes_made)) << program.err_so_far();
     program.send(signal);
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.status, 130) << result.err;
@@ -74,7 +69,7 @@ TEST_F(CliInterruption, IgnoredSignalsStayIgnored) {
   for (const std::string& environment : {std::string(), with_catching_library}) {
     const TemporaryFolder folder;
     RunningProgram program(long_solve(folder), {}, {}, {}, "trap '' INT HUP" + environment);
-    wait_for_passes(program);
+    ASSERT_TRUE(program.reports(passes_made)) << program.err_so_far();
     EXPECT_TRUE(program.catches(SIGTERM));
     EXPECT_FALSE(program.catches(SIGINT)) << environment;
     EXPECT_FALSE(program.catches(SIGHUP)) << environment;
@@ -87,10 +82,7 @@ TEST_F(CliInterruption, IgnoredSignalsStayIgnored) {
 TEST_F(CliInterruption, BoundsReportWhatIsUnderWay) {
   RunningProgram program(
       {"bounds", "--sampling", "random", "--reflectance", "0.5", "-m", "16777216"});
-  for (int k = 0; k < 600 && program.err_so_far().find("quadrature error") == std::string::npos;
-       ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
+  ASSERT_TRUE(program.reports("quadrature error")) << program.err_so_far();
   program.send(SIGINT);
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.status, 130) << result.err;
@@ -101,9 +93,7 @@ TEST_F(CliInterruption, BoundsReportWhatIsUnderWay) {
 TEST_F(CliInterruption, ReportsThatTheFirstPassIsUnderWay) {
   RunningProgram program({"solve", "sphere-flake", "--engine", "global", "--two-sided", "-m", "2"});
   const std::string expected = "iteration 1, pass 0/2, 0 %, next pass under way for ";
-  for (int k = 0; k < 600 && program.err_so_far().find("pass ") == std::string::npos; ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
+  ASSERT_TRUE(program.reports("pass ")) << program.err_so_far();
   program.send(SIGINT);
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.status, 130) << result.err;
@@ -113,9 +103,7 @@ TEST_F(CliInterruption, ReportsThatTheFirstPassIsUnderWay) {
 TEST_F(CliInterruption, WritesNothingBeforeTheFirstPass) {
   const TemporaryFolder folder;
   RunningProgram program({"solve", "sphere-flake:levels=3", "--out", folder / "a.csv"});
-  for (int k = 0; k < 6000 && !program.catches(SIGINT); ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+  ASSERT_TRUE(wait_until([&] { return program.catches(SIGINT) || program.ended(); }));
   program.send(SIGINT);
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.status, 130) << result.err;
@@ -139,9 +127,7 @@ TEST_F(CliInterruption, EnginesWithoutDirectionsSaveNothingAndReportWhy) {
     std::vector<std::string> call{"solve", "sphere-flake:levels=1", "--out", folder / "a.csv"};
     call.insert(call.end(), run.options.begin(), run.options.end());
     RunningProgram program(call);
-    for (int k = 0; k < 600 && program.err_so_far().find(run.progress) == std::string::npos; ++k) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
+    ASSERT_TRUE(program.reports(run.progress)) << program.err_so_far();
     program.send(SIGINT);
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.status, 130) << result.err;

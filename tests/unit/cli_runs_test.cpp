@@ -4,16 +4,19 @@
 // kills, full disks and wrong calls.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/inotify.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <random>
-#include <thread>
+#include <tuple>
 
 #include "program_run.h"
+#include "support/wait_until.h"
 
 namespace transillum::testing {
 namespace {
@@ -33,22 +36,37 @@ Arguments solve(const std::string& out, const Arguments& options = {}) {
 }
 
 /// Identifies the file that a path names now; it changes whenever the file is replaced.
-std::uint64_t identity_of(const std::string& path) {
+std::tuple<ino_t, time_t, long> identity_of(const std::string& path) {
   struct stat status {};
-  return ::stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+  return ::stat(path.c_str(), &status) == 0
+             ? std::tuple(status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec)
+             : std::tuple(ino_t{0}, time_t{0}, 0L);
 }
 
-/// Waits until the file is replaced, or the program has told where it goes on: it saves then.
-void wait_for_a_save(const RunningProgram& program, const std::string& file) {
-  const std::uint64_t before = identity_of(file);
-  for (int k = 0; k < 20'000 && identity_of(file) == before &&
-                  program.err_so_far().find("goes on after") == std::string::npos;
-       ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+/// Waits until the file has been replaced at least so many times, or the program is over.
+void wait_for_saves(const RunningProgram& program, const std::string& file, int times) {
+  auto before = identity_of(file);
+  int seen = 0;
+  EXPECT_TRUE(wait_until([&] {
+    const auto now = identity_of(file);
+    seen += now != before ? 1 : 0;
+    before = now;
+    return seen >= times || program.ended();
+  }));
 }
 
-/// Kills a solve with SIGKILL at random moments, `kills` times, and lets it finish.
+/// Waits until the program begins to write a file in the folder, or is over.
+void wait_for_writing(const RunningProgram& program, const TemporaryFolder& folder) {
+  const int events = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+  ASSERT_GE(::inotify_add_watch(events, folder.path().c_str(), IN_CREATE), 0);
+  pollfd created{events, POLLIN, 0};
+  constexpr int longest_ms = 10;
+  EXPECT_TRUE(wait_until([&] { return ::poll(&created, 1, longest_ms) > 0 || program.ended(); }));
+  ::close(events);
+}
+
+/// Kills a solve with SIGKILL after random numbers of saves, every second time during one, `kills`
+/// times, and lets it finish.
 void expect_kills_change_nothing(int kills, const Arguments& options, unsigned seed) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program(solve(folder / "whole.csv", options)).status, 0);
@@ -58,8 +76,10 @@ void expect_kills_change_nothing(int kills, const Arguments& options, unsigned s
   int resumed = 0;
   for (int k = 0; k < kills; ++k) {
     RunningProgram program(solve(folder / "killed.csv", again));
-    wait_for_a_save(program, folder / "run.tck");
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % 60'000));
+    wait_for_saves(program, folder / "run.tck", 1 + static_cast<int>(random() % 16));
+    if (k % 2 == 1) {
+      wait_for_writing(program, folder);
+    }
     program.send(SIGKILL);
     resumed += program.wait().err.find("goes on after") != std::string::npos ? 1 : 0;
     // Complete files only, whenever the kill came. Between the calls that name a file and that put
@@ -69,7 +89,7 @@ void expect_kills_change_nothing(int kills, const Arguments& options, unsigned s
                                          ::testing::StartsWith(".transillum-")));
     }
   }
-  EXPECT_GE(resumed, kills / 2);
+  EXPECT_EQ(resumed, kills - 1);  // all but the first: each has saved before it was killed
   const ProgramResult last = run_program(solve(folder / "killed.csv", again));
   EXPECT_EQ(last.status, 0) << last.err;
   EXPECT_EQ(read_file(folder / "whole.csv"), read_file(folder / "killed.csv"));
@@ -113,9 +133,7 @@ TEST(CliRuns, ACheckpointIsSavedAtTheEndAndWhenInterrupted) {
 
   const Arguments keep_long{"-m", "100000", "--checkpoint", folder / "long.tck", "--resume"};
   RunningProgram interrupted(solve(folder / "c.csv", keep_long));
-  while (interrupted.err_so_far().find("passes/s") == std::string::npos) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
+  ASSERT_TRUE(interrupted.reports("passes/s")) << interrupted.err_so_far();
   interrupted.send(SIGINT);
   EXPECT_EQ(interrupted.wait().status, 130);
   EXPECT_THAT(folder.names(), ElementsAre("a.csv", "b.csv", "c.csv", "long.tck", "run.tck"));

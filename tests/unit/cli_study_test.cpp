@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
 #include <sstream>
-#include <thread>
 
 #include "program_run.h"
 
@@ -158,12 +156,7 @@ TEST(CliStudy, SavesPointsSoFarWhenInterrupted) {
   RunningProgram program({"study", "rooms", "--max-patch-area", "0.2", "--directions", "1,1000000",
                           "--sampling", "fibonacci", "--reference", "4", "--no-cache", "--out",
                           folder / "s.csv"});
-  for (int k = 0; k < 600; ++k) {
-    if (program.err_so_far().find("fibonacci, 1000000 passes") != std::string::npos) {
-      break;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
+  ASSERT_TRUE(program.reports("fibonacci, 1000000 passes")) << program.err_so_far();
   program.send(SIGINT);
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.status, 130) << result.err;

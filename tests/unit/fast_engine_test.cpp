@@ -1,14 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Engine fast in cases where its shortcuts might fail, against the local map and known answers.
 #include <gmock/gmock.h>
-#include <pthread.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <optional>
 #include <thread>
@@ -16,6 +12,7 @@
 #include "scene/build/closed_surface.h"
 #include "support/map_on_failure.h"
 #include "support/scenes.h"
+#include "support/stopping.h"
 #include "support/transfer_difference.h"
 #include "transillum/directions.h"
 #include "transillum/engine.h"
@@ -413,57 +410,23 @@ TEST(FastEngine, ThrowsWhenCanceled) {
   EXPECT_THROW(fast.run({0, 0, 1}, cancellation), Canceled);
 }
 
-/// CPU time of one thread, independent of the machine's load.
-double cpu_seconds(clockid_t clock) {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// CPU time from cancellation, after `delay` seconds of a pass, to its end; nothing where the pass
-/// ended before.
-std::optional<double> seconds_to_stop(const Fast& fast, const Vec3& omega, clockid_t clock,
-                                      double delay) {
-  const Cancellation cancellation;
-  const double start = cpu_seconds(clock);
-  double canceled = 0;
-  std::atomic<bool> ended = false;
-  std::thread canceler([&] {
-    while (cpu_seconds(clock) < start + delay && !ended) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    canceled = cpu_seconds(clock);
-    cancellation.cancel();
-  });
-  bool left = false;
-  try {
-    fast.run(omega, cancellation);
-  } catch (const Canceled&) {
-    left = true;
-  }
-  const double stopped = cpu_seconds(clock);
-  ended = true;
-  canceler.join();
-  return left ? std::optional(stopped - canceled) : std::nullopt;
-}
-
 TEST(FastEngine, StopsQuicklyWhenCanceledDuringAPass) {
   const Fast fast(load_scene("sphere-flake:slices=34,stacks=17"));
   const Vec3 omega = normalized({1, 2, 3});
-  clockid_t clock{};
-  ASSERT_EQ(pthread_getcpuclockid(pthread_self(), &clock), 0);
   fast.run(omega, {});  // the first takes longer than those after it
-  const double begin = cpu_seconds(clock);
+  const double begin = testing::cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
   fast.run(omega, {});
-  const double pass = cpu_seconds(clock) - begin;
+  const double pass = testing::cpu_seconds(CLOCK_THREAD_CPUTIME_ID) - begin;
   for (const double share : {0.02, 0.1, 0.25, 0.5, 0.7}) {
     std::optional<double> seconds;
     for (int attempt = 0; attempt < 10 && !seconds; ++attempt) {
-      seconds = seconds_to_stop(fast, omega, clock, share * pass);
+      seconds = testing::seconds_to_stop(
+          [&](const Cancellation& cancellation) { fast.run(omega, cancellation); }, share * pass);
     }
     ASSERT_TRUE(seconds) << "ten passes ended before " << share << " of " << pass << " s";
-    // The limit is 50 ms; sanitizers slow everything down in proportion.
-    EXPECT_LT(*seconds, std::max(0.05, 0.2 * pass)) << share << " of " << pass << " s";
+    // Sanitizers slow everything down in proportion.
+    EXPECT_LT(*seconds, std::max(testing::longest_stop, 0.2 * pass))
+        << share << " of " << pass << " s";
   }
 }
 

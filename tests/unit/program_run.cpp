@@ -12,6 +12,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "support/wait_until.h"
+
 namespace transillum::testing {
 
 namespace fs = std::filesystem;
@@ -114,6 +116,23 @@ bool RunningProgram::catches(int signal) const {
 }
 
 std::string RunningProgram::err_so_far() const { return read_file(streams_ / "err"); }
+
+bool RunningProgram::ended() const {
+  siginfo_t change{};
+  // The process stays, for wait().
+  return ::waitid(P_PID, static_cast<id_t>(process_), &change, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         change.si_pid == process_;
+}
+
+bool RunningProgram::reports(const std::string& text) const {
+  bool reported = false;
+  const bool known = wait_until([&] {
+    const bool last = ended();  // before its text is read
+    reported = err_so_far().find(text) != std::string::npos;
+    return reported || last;
+  });
+  return known && reported;
+}
 
 ProgramResult RunningProgram::wait() {
   int status = 0;

@@ -63,6 +63,11 @@ class RunningProgram {
   bool catches(int signal) const;
   /// The text on stderr so far.
   std::string err_so_far() const;
+  /// Whether the program is over; wait() returns at once then.
+  bool ended() const;
+  /// Waits until stderr has `text`. False if it does not come: the program has ended without it, or
+  /// two minutes have passed.
+  [[nodiscard]] bool reports(const std::string& text) const;
   ProgramResult wait();
 
  private:

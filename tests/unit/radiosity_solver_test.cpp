@@ -3,13 +3,15 @@
 // RadiositySolver and solve(): stepping, pausing, cancellation, convergence, options.
 #include <gmock/gmock.h>
 
-#include <chrono>
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <thread>
 
 #include "support/refusal.h"
 #include "support/scenes.h"
+#include "support/stopping.h"
 #include "transillum/radiosity.h"
 #include "transillum/solve_errors.h"
 #include "transillum/solve_session.h"
@@ -86,17 +88,33 @@ TEST(RadiositySolver, ACanceledSolveReturnsTheEstimateSoFar) {
 TEST(RadiositySolver, CancelingIsQuick) {
   const Cancellation cancellation;
   const auto scene = load_scene("sphere-flake");
-  RadiositySolver solver(scene, {.directions = 100000}, {}, cancellation);
-  std::thread later([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  constexpr int threads = 2;
+  RadiositySolver solver(scene, {.directions = 100000, .threads = threads}, {}, cancellation);
+  const auto now = [] { return testing::cpu_seconds(CLOCK_PROCESS_CPUTIME_ID); };
+  const double begin = now();
+  solver.advance(Until::direction);
+  const double pass = now() - begin;
+  double canceled = 0;
+  std::atomic<bool> passes_made = false;
+  std::thread canceler([&] {
+    passes_made.wait(false);
+    canceled = now();
     cancellation.cancel();
   });
-  const auto start = std::chrono::steady_clock::now();
-  EXPECT_THROW(solver.advance(Until::finished), Canceled);
-  const std::chrono::duration<double> until_left = std::chrono::steady_clock::now() - start;
-  later.join();
-  // 0.3 s of solving, and the delays of a busy machine.
-  EXPECT_LT(until_left.count(), 2);
+  // The thread cancels while further passes run.
+  EXPECT_THROW(solver.advance(Until::finished,
+                              [&](const RadiositySolver&) {
+                                passes_made = true;
+                                passes_made.notify_one();
+                                return true;
+                              }),
+               Canceled);
+  const double stopped = now();
+  passes_made = true;
+  passes_made.notify_one();
+  canceler.join();
+  // Of each thread; sanitizers slow everything down in proportion.
+  EXPECT_LT(stopped - canceled, threads * std::max(testing::longest_stop, 0.2 * pass));
 }
 
 TEST(RadiositySolver, GivesItsSolutionAtAnyTime) {

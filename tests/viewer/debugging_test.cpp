@@ -60,6 +60,27 @@ struct Debugging : SolvedWindow {
   }
 };
 
+/// A window with three watched figures, before the first step of a direction.
+struct Watching : Debugging {
+  WatchChart* chart;
+
+  Watching() : Debugging("cornell-box"), chart(window->findChild<WatchChart*>()) {
+    ready = ready && go_to(3, -1);
+    window->selection.select(0);
+    // A figure that is watched already is not added again.
+    for (const char* watch : {"watch_area", "watch_defect", "watch_size", "watch_size"}) {
+      trigger(watch);
+    }
+    ready = ready && window->watches.list().size() == 3 && wait_for([this] {
+              return chart->isVisible() && button(2)->isVisible() && button(2)->y() >= 0 &&
+                     button(2)->geometry().bottom() < chart->plot().top();
+            });
+  }
+  QToolButton* button(int k) const {
+    return window->findChild<QToolButton*>(QString("watch_%1").arg(k));
+  }
+};
+
 std::vector<std::int32_t> steps_that_pass(const MapHistory& history, const EventFilter& filter) {
   std::vector<std::int32_t> steps;
   for (std::int32_t k = 0; k < history.step_count(); ++k) {
@@ -434,75 +455,74 @@ class DebuggingTest : public QObject {
     }
   }
 
-  void watched_figures_are_drawn_over_the_steps() {
+  void watched_figures_of_the_selection_need_one() {
     const Debugging s("cornell-box");
-    QVERIFY(s.ready);
-    s.focus.go_to({0, 3, -1});
-    QVERIFY(s.settles());
-    const auto* chart = s.window->findChild<WatchChart*>();
-    QVERIFY(!chart->isVisible());
+    QVERIFY(s.ready && s.go_to(3, -1));
+    QVERIFY(!s.window->findChild<WatchChart*>()->isVisible());
     QVERIFY(!s.window->findChild<QAction*>("watch_area")->isEnabled());
     s.window->selection.select(0);
-    for (const char* watch : {"watch_area", "watch_defect", "watch_size", "watch_size"}) {
-      s.trigger(watch);
-    }
-    const auto button = [&](int k) {
-      return s.window->findChild<QToolButton*>(QString("watch_%1").arg(k));
-    };
-    QVERIFY(wait_for([&] {
-      return chart->isVisible() && button(2)->isVisible() && button(2)->y() >= 0 &&
-             button(2)->geometry().bottom() < chart->plot().top();
-    }));
-    QCOMPARE(s.window->watches.list().size(), std::size_t{3});
+    QVERIFY(s.window->findChild<QAction*>("watch_area")->isEnabled());
+  }
+
+  void values_of_watched_figures_are_beside_the_chart_on_a_small_screen() {
+    const Watching s;
+    QVERIFY(s.ready);
     // A window that is high enough gives the chart more than its least height.
-    QVERIFY(wait_for([&] { return chart->height() > chart->minimumSizeHint().height(); }));
-    // On a small screen, the values are beside it.
+    QVERIFY(wait_for([&] { return s.chart->height() > s.chart->minimumSizeHint().height(); }));
     const QSize usual = s.window->size();
     s.window->resize(1280 - 16, 720 - 48);
     s.window->resizeDocks({s.window->findChild<QDockWidget*>("timeline_dock")}, {1}, Qt::Vertical);
-    QVERIFY(wait_for([&] { return button(2)->x() > chart->plot().right(); }));
+    QVERIFY(wait_for([&] { return s.button(2)->x() > s.chart->plot().right(); }));
     QCOMPARE(s.window->size(), QSize(1280 - 16, 720 - 48));
     for (int k = 0; k < 3; ++k) {
-      QVERIFY2(chart->rect().contains(button(k)->geometry()), qPrintable(button(k)->text()));
-      QVERIFY(button(k)->toolTip().contains("at most"));
+      const QToolButton* button = s.button(k);
+      QVERIFY2(s.chart->rect().contains(button->geometry()), qPrintable(button->text()));
+      QVERIFY(button->toolTip().contains("at most"));
       // A number that is cut off would be taken for another one.
-      QVERIFY(button(k)->width() >= button(k)->sizeHint().width());
+      QVERIFY(button->width() >= button->sizeHint().width());
     }
-    QVERIFY(chart->plot().height() >= 26);
+    QVERIFY(s.chart->plot().height() >= 26);
     save_picture(*s.window, "watched-small");
     s.window->resize(usual);
     s.trigger("layout_reset");
-    QVERIFY(wait_for([&] { return button(2)->x() < chart->plot().right(); }));
+    QVERIFY(wait_for([&] { return s.button(2)->x() < s.chart->plot().right(); }));
+  }
+
+  // The lines pass where the values are, and the buttons tell them.
+  void watched_figures_are_drawn_over_the_steps() {
+    const Watching s;
+    QVERIFY(s.ready);
     const MapHistory& history = s.history();
     const auto sizes = values_of({Watch::Kind::map_size}, history);
-    // The lines pass where the values are, and the buttons tell them.
     const std::int32_t step = history.step_count() * 2 / 3;
-    QTest::mouseClick(
-        s.window->findChild<WatchChart*>(), Qt::LeftButton, {},
-        QPointF(TimelineLanes::position(chart->plot(), step + 1, history.step_count() + 1),
-                chart->plot().center().y())
-            .toPoint());
+    const auto x_of_step = [&] {
+      return TimelineLanes::position(s.chart->plot(), step + 1, history.step_count() + 1);
+    };
+    QTest::mouseClick(s.chart, Qt::LeftButton, {},
+                      QPointF(x_of_step(), s.chart->plot().center().y()).toPoint());
     QCOMPARE(s.focus.position().step, step);
-    QCOMPARE(button(2)->text(),
+    QCOMPARE(s.button(2)->text(),
              QString("Polygons of V: %1, at most %2")
                  .arg(number_text(at(sizes, step + 1)),
                       number_text(*std::max_element(sizes.begin(), sizes.end()))));
     s.focus.go_to_step(-1);
-    const QImage image = s.window->findChild<WatchChart*>()->grab().toImage();
-    const double x = TimelineLanes::position(chart->plot(), step + 1, history.step_count() + 1);
-    const QPointF place(x, chart->height_of(2, at(sizes, step + 1)));
+    const QImage image = s.chart->grab().toImage();
+    const QPointF place(x_of_step(), s.chart->height_of(2, at(sizes, step + 1)));
     const QColor color = image.pixelColor((place * image.devicePixelRatio()).toPoint());
     QVERIFY2(std::abs(color.hue() - WatchChart::color_of(2).hue()) < 20, qPrintable(color.name()));
     save_picture(*s.window, "watched");
+  }
 
-    // Removed at a click, with undo; those of another scene do not come along.
-    QTest::mouseClick(button(1), Qt::LeftButton);
+  void watched_figures_are_removed_at_a_click_and_with_their_scene() {
+    const Watching s;
+    QVERIFY(s.ready);
+    QTest::mouseClick(s.button(1), Qt::LeftButton);
     QVERIFY(wait_for([&] { return s.window->watches.list().size() == 2; }));
     s.trigger("undo");
     QVERIFY((s.window->watches.list()[1] == Watch{Watch::Kind::closure_defect}));
     s.window->files().open_scene("furnace");
     QVERIFY(wait_for([&] { return s.window->windowTitle().startsWith("furnace"); }));
-    QVERIFY(s.window->watches.list().empty() && !chart->isVisible());
+    QVERIFY(s.window->watches.list().empty() && !s.chart->isVisible());
   }
 };
 

@@ -44,6 +44,64 @@ void write(const QString& path, const QByteArray& text) {
   file.write(text);
 }
 
+/// A window that shows the first page of a lesson.
+struct Opened : Taught {
+  QTemporaryDir folder;
+  bool ready = false;
+
+  explicit Opened(const QByteArray& lesson) {
+    const QString path = folder.filePath("lesson.json");
+    write(path, lesson);
+    window->files().try_open(path);
+    ready = settles();
+  }
+};
+
+/// A page with controls.
+struct Controlled : Opened {
+  Controlled()
+      : Opened(R"({"title": "T", "pages": [{"text": ["Above.", "",
+          "With {M} directions, {set}, of {rho} and {step}", "", "Below."],
+          "show": {"layout": "teach", "scene": "furnace", "options": {"directions": 16},
+                   "camera": {"eye": [9, 8, 7], "target": [0, 0, 0], "up": [0, 0, 1], "angle": 20},
+                   "focus": {"direction": 2, "step": 3}},
+          "controls": {"M": {"option": "directions", "values": [4, 16, 32]},
+                       "set": {"option": "sampling", "values": ["random", "fibonacci"]},
+                       "rho": {"reflectance": "glowing", "from": 0, "to": 0.8},
+                       "step": {"focus": "step"}}}]})") {}
+
+  template <class Part>
+  Part* part(const char* control, const char* name) const {
+    return window->findChild<QWidget*>(control)->findChild<Part*>(name);
+  }
+};
+
+/// A page with callouts, then one with a large panel, then a usual one.
+struct Named : Opened {
+  const CalloutLayer* layer;
+  QTextBrowser* text;
+
+  Named()
+      : Opened(R"({"title": "T", "pages": [
+          {"text": "Patch *i*, ω and *A*(i, j, ω) with *B*ᵢ.",
+           "show": {"layout": "teach", "scene": "cornell-box", "options": {"directions": 8},
+                    "select": 16, "focus": {"direction": 5, "step": "exchange", "phase": "split"}},
+           "callouts": [{"text": "the top", "patch": 16},
+                        {"text": "here", "point": [0.2, 0.3, 0.1]}]},
+          {"text": "Large.", "large": "map"}, {"text": "Usual."}]})"),
+        layer(window->findChild<CalloutLayer*>()),
+        text(window->findChild<QTextBrowser*>("lesson_text")) {
+    ready = ready && wait_for([this] { return names() == QStringList{"the top", "here"}; });
+  }
+  QStringList names() const {
+    QStringList all;
+    for (const CalloutLayer::Placed& callout : layer->callouts()) {
+      all << callout.text;
+    }
+    return all;
+  }
+};
+
 }  // namespace
 
 class LessonsTest : public QObject {
@@ -108,34 +166,25 @@ class LessonsTest : public QObject {
     QCOMPARE(window.selection.patch(), PatchId{4});
   }
 
-  // Widgets in the lines of the text, where their names were; they drive the window and follow it.
-  void controls_in_the_text_drive_the_window() {
-    Taught taught;
-    TestWindow& window = *taught.window;
-    const QTemporaryDir folder;
-    const QString path = folder.filePath("controls.json");
-    write(path, R"({"title": "T", "pages": [{"text": ["Above.", "",
-      "With {M} directions, {set}, of {rho} and {step}", "", "Below."],
-      "show": {"layout": "teach", "scene": "furnace", "options": {"directions": 16},
-               "camera": {"eye": [9, 8, 7], "target": [0, 0, 0], "up": [0, 0, 1], "angle": 20},
-               "focus": {"direction": 2, "step": 3}},
-      "controls": {"M": {"option": "directions", "values": [4, 16, 32]},
-                   "set": {"option": "sampling", "values": ["random", "fibonacci"]},
-                   "rho": {"reflectance": "glowing", "from": 0, "to": 0.8},
-                   "step": {"focus": "step"}}}]})");
-    window.files().try_open(path);
-    QVERIFY(taught.settles());
-    const auto part = [&](const char* control, const char* name) {
-      return window.findChild<QWidget*>(control)->findChild<QWidget*>(name);
-    };
-    auto* text = window.findChild<QTextBrowser*>("lesson_text");
+  // Widgets in the lines of the text, where their names were.
+  void controls_are_in_the_text() {
+    Controlled taught;
+    QVERIFY(taught.ready);
+    const auto* text = taught.window->findChild<QTextBrowser*>("lesson_text");
     QVERIFY(!text->toPlainText().contains('{'));
     for (const char* control : {"control_M", "control_set", "control_rho", "control_step"}) {
-      auto* widget = window.findChild<QWidget*>(control);
+      auto* widget = taught.window->findChild<QWidget*>(control);
       QVERIFY(widget->isVisible() && text->viewport()->rect().contains(widget->geometry()));
       QVERIFY(widget->y() > 10);  // below the first line
     }
-    auto* directions = qobject_cast<QSlider*>(part("control_M", "slider"));
+    save_picture(*taught.window, "lesson-controls");
+  }
+
+  void controls_of_options_solve_again_and_keep_the_view() {
+    Controlled taught;
+    QVERIFY(taught.ready);
+    TestWindow& window = *taught.window;
+    auto* directions = taught.part<QSlider>("control_M", "slider");
     QCOMPARE(directions->value(), 1);
     window.findChild<SceneView*>()->view_from_side(Side::top);
     const ViewPoint turned = window.findChild<SceneView*>()->view_point();
@@ -144,23 +193,32 @@ class LessonsTest : public QObject {
     QVERIFY(taught.settles());
     QVERIFY(window.findChild<SceneView*>()->view_point() == turned);
     QCOMPARE(taught.focus().position().step, 2);
-    auto* set = qobject_cast<QComboBox*>(part("control_set", "choice"));
+    auto* set = taught.part<QComboBox>("control_set", "choice");
     set->setFocus();
     QTest::keyClick(set, Qt::Key_Home);
     QVERIFY(wait_for([&] { return window.snapshot()->options.sampling == Sampling::random; }));
-    QVERIFY(taught.settles());
-    auto* rho = qobject_cast<QSlider*>(part("control_rho", "slider"));
+  }
+
+  void a_control_of_a_material_relights_and_follows_undo() {
+    Controlled taught;
+    QVERIFY(taught.ready);
+    auto* rho = taught.part<QSlider>("control_rho", "slider");
     QCOMPARE(rho->value(), 63);  // 0.5 of 0.8
     rho->setValue(0);
-    QVERIFY(wait_for([&] { return std::abs(window.snapshot()->radiosity[0].r - 1) < 1e-9; }));
+    QVERIFY(
+        wait_for([&] { return std::abs(taught.window->snapshot()->radiosity[0].r - 1) < 1e-9; }));
     taught.trigger("undo");
     QTRY_COMPARE(rho->value(), 63);
-    auto* step = qobject_cast<QSlider*>(part("control_step", "slider"));
+  }
+
+  void a_control_of_the_step_moves_the_focus_and_follows_it() {
+    Controlled taught;
+    QVERIFY(taught.ready);
+    auto* step = taught.part<QSlider>("control_step", "slider");
     step->setValue(7);
     QTRY_COMPARE(taught.focus().position().step, 6);
     taught.trigger("step_on");
     QTRY_COMPARE(step->value(), 8);
-    save_picture(window, "lesson-controls");
   }
 
   void exported_pictures_have_the_callouts_of_the_page() {
@@ -202,75 +260,74 @@ class LessonsTest : public QObject {
     QVERIFY(QImage(folder.filePath("map.png")) != named_map);
   }
 
-  void a_page_enlarges_a_panel_and_names_things() {
-    Taught taught;
-    TestWindow& window = *taught.window;
-    const QTemporaryDir folder;
-    const QString path = folder.filePath("large.json");
-    write(path, R"({"title": "T", "pages": [
-      {"text": "Patch *i*, ω and *A*(i, j, ω) with *B*ᵢ.",
-       "show": {"layout": "teach", "scene": "cornell-box", "options": {"directions": 8},
-                "select": 16, "focus": {"direction": 5, "step": "exchange", "phase": "split"}},
-       "callouts": [{"text": "the top", "patch": 16}, {"text": "here", "point": [0.2, 0.3, 0.1]}]},
-      {"text": "Large.", "large": "map"}, {"text": "Usual."}]})");
-    window.files().try_open(path);
-    QVERIFY(taught.settles());
-    const auto* layer = window.findChild<CalloutLayer*>();
-    const auto names = [&] {
-      QStringList all;
-      for (const CalloutLayer::Placed& callout : layer->callouts()) {
-        all << callout.text;
-      }
-      return all;
-    };
-    QTRY_COMPARE(names(), (QStringList{"the top", "here"}));
-    // The callout of a patch is where the patch is drawn.
-    auto* view = window.findChild<SceneView*>();
-    QCOMPARE(view->patch_at(layer->callouts()[0].anchor.toPoint()), PatchId{16});
+  void callouts_are_where_their_patches_are_drawn() {
+    Named taught;
+    QVERIFY(taught.ready);
+    const auto anchor = [&taught] { return taught.layer->callouts()[0].anchor; };
+    auto* view = taught.window->findChild<SceneView*>();
+    QCOMPARE(view->patch_at(anchor().toPoint()), PatchId{16});
     // It moves with the camera.
-    const QPointF before = layer->callouts()[0].anchor;
+    const QPointF before = anchor();
     view->view_from_side(Side::top);
-    QTRY_VERIFY(layer->callouts()[0].anchor != before);
-    // An index is below the line, and a symbol under the pointer is named.
-    auto* text = window.findChild<QTextBrowser*>("lesson_text");
-    QTextCursor index = text->document()->find("Bi");
+    QTRY_VERIFY(anchor() != before);
+  }
+
+  void an_index_is_below_the_line() {
+    Named taught;
+    QVERIFY(taught.ready);
+    const QTextCursor index = taught.text->document()->find("Bi");
     QVERIFY(!index.isNull());
     QVERIFY(index.charFormat().verticalAlignment() == QTextCharFormat::AlignSubScript);
+  }
+
+  void a_symbol_under_the_pointer_is_named_in_all_views() {
+    Named taught;
+    QVERIFY(taught.ready);
     const auto point_at = [&](const char* word) {
-      QTextCursor cursor = text->document()->find(word);
+      QTextCursor cursor = taught.text->document()->find(word);
       cursor.setPosition(cursor.selectionStart());
-      const QPoint position = text->cursorRect(cursor).center() + QPoint(3, 0);
-      QMouseEvent move(QEvent::MouseMove, position, text->viewport()->mapToGlobal(position),
+      const QPoint position = taught.text->cursorRect(cursor).center() + QPoint(3, 0);
+      QMouseEvent move(QEvent::MouseMove, position, taught.text->viewport()->mapToGlobal(position),
                        Qt::NoButton, Qt::NoButton, Qt::NoModifier);
-      QApplication::sendEvent(text->viewport(), &move);
+      QApplication::sendEvent(taught.text->viewport(), &move);
     };
-    const QImage map = taught.window->findChild<MapCanvas*>("map_canvas")->grab().toImage();
+    auto* map = taught.window->findChild<MapCanvas*>("map_canvas");
+    const QImage before = map->grab().toImage();
     point_at("A(");
-    QCOMPARE(names().mid(2).contains("i"), true);
-    QTRY_VERIFY(window.findChild<MapCanvas*>("map_canvas")->grab().toImage() != map);
+    QVERIFY(taught.names().mid(2).contains("i"));
+    QTRY_VERIFY(map->grab().toImage() != before);
     int marked = 0;
-    for (const QLabel* line : window.findChild<AlgorithmView*>()->findChildren<QLabel*>()) {
+    for (const QLabel* line : taught.window->findChild<AlgorithmView*>()->findChildren<QLabel*>()) {
       marked += line->styleSheet().contains(theme::region.name()) ? 1 : 0;
     }
     QVERIFY(marked > 0);
-    save_picture(window, "lesson-symbol");
+    save_picture(*taught.window, "lesson-symbol");
     point_at("Patch");
-    QTRY_COMPARE(names().size(), 2);
+    QTRY_COMPARE(taught.names().size(), 2);
+  }
 
-    const auto* map_dock = window.findChild<QDockWidget*>("map_dock");
+  void a_page_enlarges_a_panel_for_itself() {
+    Named taught;
+    QVERIFY(taught.ready);
+    const auto* map_dock = taught.window->findChild<QDockWidget*>("map_dock");
     const int usual = map_dock->width();
     taught.trigger("lesson_next");
     QTRY_VERIFY(map_dock->width() > 1.25 * usual);
-    QVERIFY(names().isEmpty());
-    save_picture(window, "lesson-large");
+    save_picture(*taught.window, "lesson-large");
     taught.trigger("lesson_next");
     QTRY_VERIFY(std::abs(map_dock->width() - usual) < 8);
+  }
+
+  void callouts_are_those_of_the_page_and_its_scene() {
+    Named taught;
+    QVERIFY(taught.ready);
+    taught.trigger("lesson_next");
+    QTRY_VERIFY(taught.names().isEmpty());
+    taught.trigger("lesson_previous");
+    QTRY_COMPARE(taught.names().size(), 2);
     // Not in a scene that the user opens.
-    taught.trigger("lesson_previous");
-    taught.trigger("lesson_previous");
-    QTRY_COMPARE(names().size(), 2);
-    window.files().open_scene("furnace");
-    QTRY_VERIFY(names().isEmpty());
+    taught.window->files().open_scene("furnace");
+    QTRY_VERIFY(taught.names().isEmpty());
   }
 
   void a_bad_lesson_is_reported_and_changes_nothing() {

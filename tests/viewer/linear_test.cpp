@@ -209,7 +209,7 @@ class LinearTest : public QObject {
     colors.set_mode(static_cast<ColorMode>(mode));
     colors.set_map(static_cast<ColorMap>(map));
     colors.set_logarithmic(logarithmic);
-    QTest::qWait(50);
+    QVERIFY(comes_to_rest(*shown.window));
     const QImage picture = shown.scene_view->picture(1);
     const Compared all = compare(*shown.scene_view, colors, picture);
     QVERIFY2(all.pixels > 500 && all.negative > 0, qPrintable(text_of(all)));
@@ -228,14 +228,14 @@ class LinearTest : public QObject {
     SceneView& view = *shown.scene_view;
     view.set_direction_shown(false);
     view.set_outlines_shown(true);
-    QTest::qWait(50);
+    QVERIFY(comes_to_rest(*shown.window));
     const Compared outlined = compare(view, shown.window->colors, view.picture(1));
     // A patch that is not convex has edges within.
     QVERIFY2(outlined.pixels > 500 && 100 * outlined.others < outlined.pixels,
              qPrintable(text_of(outlined)));
     view.set_outlines_shown(false);
     view.set_clip(ClipPlane{.axis = ClipPlane::Axis::z, .place = 0.4});
-    QTest::qWait(50);
+    QVERIFY(comes_to_rest(*shown.window));
     const Compared clipped = compare(view, shown.window->colors, view.picture(1));
     QVERIFY2(clipped.pixels > 200 && clipped.largest <= most_difference,
              qPrintable(text_of(clipped)));
@@ -265,7 +265,7 @@ class LinearTest : public QObject {
     Focus& focus = shown.window->focus;
     focus.go_to({0, 0, 12});
     QVERIFY(wait_for([&] { return focus.map() && focus.arrived(); }));
-    QTest::qWait(50);
+    QVERIFY(comes_to_rest(*shown.window));
     const std::vector<bool> dimmed = later_patches(*focus.map(), focus.position().step);
     const auto later = std::count(dimmed.begin(), dimmed.end(), true);
     QVERIFY(later > 5 && later < shown.window->snapshot()->loaded->scene->patch_count());
@@ -291,7 +291,7 @@ class LinearTest : public QObject {
     QVERIFY(window->colors.linear());
     auto* view = window->findChild<SceneView*>();
     view->set_outlines_shown(false);
-    QTest::qWait(50);
+    QVERIFY(comes_to_rest(*window));
     const Compared all = compare(*view, window->colors, view->picture(1));
     QVERIFY2(all.pixels > 500 && all.largest <= most_difference, qPrintable(text_of(all)));
 
@@ -321,7 +321,7 @@ class LinearTest : public QObject {
     QVERIFY2(spread_within_a_patch(*shown.scene_view, flat) < 3,
              qPrintable(QString::number(spread_within_a_patch(*shown.scene_view, flat))));
     smooth->trigger();
-    QTest::qWait(50);
+    QVERIFY(comes_to_rest(*shown.window));
     const int smoothed = spread_within_a_patch(*shown.scene_view, shown.scene_view->picture(1));
     QVERIFY2(smoothed > 10, qPrintable(QString::number(smoothed)));
     // Linear again: as without it.
@@ -392,7 +392,6 @@ class LinearTest : public QObject {
     QCOMPARE(shown.text("corner_highest"), rgb_text(highest));
     QVERIFY(shown.text("summary_negative") ==
             count_text(shown.window->snapshot()->statistics.negative_corners));
-    QTest::qWait(100);
     save_picture(*shown.window, "linear-inspector");
   }
 
@@ -473,7 +472,7 @@ class LinearTest : public QObject {
     QVERIFY(max_abs(colors.value_at(3, corner) - expected) <= 1e-12 * max_abs(expected));
     shown.scene_view->set_direction_shown(false);
     shown.scene_view->set_outlines_shown(false);
-    QTest::qWait(50);
+    QVERIFY(comes_to_rest(*shown.window));
     // Colors of edges between patches of about the same color cover some pixels.
     const Compared all = compare(*shown.scene_view, colors, shown.scene_view->picture(1));
     QVERIFY2(all.pixels > 500 && all.largest <= most_difference, qPrintable(text_of(all)));

@@ -10,6 +10,8 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTabWidget>
+#include <QTimer>
+#include <algorithm>
 
 #include "lessons/lesson_panel.h"
 #include "map/compare_view.h"
@@ -41,13 +43,14 @@ void keep(const QImage& picture, const QString& name, const QSize& size) {
   QVERIFY(small.convertToFormat(QImage::Format_RGB888).save(QDir(folder()).filePath(name), "PNG"));
 }
 
-bool settles(TestWindow& window) {
-  const auto still = [&] { return window.settled(); };
-  if (!wait_for(still, 120000)) {
-    return false;
-  }
-  QTest::qWait(150);  // views may still be about to request a new picture
-  return wait_for(still, 120000);
+bool settles(TestWindow& window) { return comes_to_rest(window, 120000); }
+
+/// Whether a panel is about to refresh, after a pause: it does so while the solver runs.
+bool refreshes(const QWidget& panel) {
+  const auto timers = panel.findChildren<QTimer*>();
+  return std::any_of(timers.begin(), timers.end(), [](const QTimer* timer) {
+    return timer->isSingleShot() && timer->isActive();
+  });
 }
 
 struct PictureWindow : TestWindow {
@@ -127,8 +130,7 @@ class PicturesTest : public QObject {
     compare->findChild<QComboBox*>("other_engine")->setCurrentText("Painter's algorithm");
     compare->findChild<QSpinBox*>("other_resolution")->setValue(64);
     QVERIFY(wait_for([&] { return compare->up_to_date(); }));
-    QTest::qWait(600);
-    QVERIFY(wait_for([&] { return compare->up_to_date(); }));
+    QVERIFY(settles(window));
     keep(compare->grab().toImage(), "compare.png", {480, 640});
   }
 
@@ -168,8 +170,7 @@ class PicturesTest : public QObject {
       window.findChild<QAction*>(layout)->trigger();
       window.parts().docks.bring_to_front(panel);
       auto* dock = window.findChild<QDockWidget*>(QString(panel) + "_dock");
-      QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }));
-      QTest::qWait(500);  // requests that the panel makes while the solver runs
+      QVERIFY(wait_for([&] { return dock->widget()->isVisible() && !refreshes(*dock); }));
       QVERIFY(settles(window));
       const QImage picture = dock->grab().toImage();
       keep(picture, QStringLiteral("panel-%1.png").arg(name), picture.size());

@@ -5,7 +5,7 @@
 #include "support/request_worker.h"
 
 #include <QtTest>
-#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <new>
@@ -169,20 +169,48 @@ class RequestWorkerTest : public QObject {
     QCOMPARE(*waiting, 2);
   }
 
-  void only_requests_after_the_pause_wait_for_it() {
+  void a_request_after_the_pause_begins_at_its_end() {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds pause{40};
+    Log done;
+    Clock::time_point times[2];
+    RequestWorker<int> worker(
+        [&](int number, const Cancellation&) {
+          times[number] = Clock::now();
+          done.add(number);
+        },
+        [](int, const QString&) {}, {pause, 0});
+    worker.request(0, CurrentJob::finish, Start::at_once);
+    done.wait_for(1);
+    worker.request(1, CurrentJob::finish, Start::after_pause);
+    QCOMPARE(done.wait_for(2), (Entries{{0, {}}, {1, {}}}));
+    QVERIFY(times[1] - times[0] >= pause);  // the first job ended after its time
+  }
+
+  void a_request_at_once_replaces_one_that_waits_and_ends_its_pause() {
     Log done;
     RequestWorker<int> worker([&](int number, const Cancellation&) { done.add(number); },
                               [](int, const QString&) {}, {std::chrono::minutes(5), 0});
     worker.request(1, CurrentJob::finish, Start::at_once);
     done.wait_for(1);
     worker.request(2, CurrentJob::finish, Start::after_pause);
-    QTest::qWait(50);
-    QCOMPARE(done.wait_for(0), (Entries{{1, {}}}));
-    // A newer request replaces the waiting one, and ends its pause.
     worker.request(3, CurrentJob::finish, Start::at_once);
     QCOMPARE(done.wait_for(2), (Entries{{1, {}}, {3, {}}}));
-    // The destructor does not wait for the pause.
-    worker.request(4, CurrentJob::finish, Start::after_pause);
+  }
+
+  void the_destructor_does_not_wait_for_the_pause() {
+    Log done;
+    std::chrono::steady_clock::time_point begin;
+    {
+      RequestWorker<int> worker([&](int number, const Cancellation&) { done.add(number); },
+                                [](int, const QString&) {}, {std::chrono::minutes(5), 0});
+      worker.request(1, CurrentJob::finish, Start::at_once);
+      done.wait_for(1);
+      worker.request(2, CurrentJob::finish, Start::after_pause);
+      begin = std::chrono::steady_clock::now();
+    }
+    QVERIFY(std::chrono::steady_clock::now() - begin < std::chrono::minutes(1));
+    QCOMPARE(done.wait_for(1), (Entries{{1, {}}}));
   }
 };
 

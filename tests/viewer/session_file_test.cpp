@@ -768,8 +768,13 @@ class SessionFileTest : public QObject {
     QVERIFY(wait_for([&] { return recorder.frames() >= 2; }));
     recorder.end();
     const int frames = recorder.frames();
+    const int direction = solved.window->snapshot()->progress.direction;
     solved.trigger("one_direction");
-    QTest::qWait(200);
+    QVERIFY(wait_for([&] {
+      return solved.window->snapshot()->progress.direction == direction + 1 &&
+             solved.window->settled();
+    }));
+    handle_posted();
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), frames);
     // Steps are recorded too, after the frames of the earlier recording.
     const QByteArray first = contents(folder.filePath("frame_00001.png"));

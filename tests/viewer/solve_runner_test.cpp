@@ -8,9 +8,10 @@
 #include <QFile>
 #include <QTemporaryDir>
 #include <QTest>
-#include <QThread>
 
 #include "registered.h"
+#include "support/stopping.h"
+#include "support/wait_until.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer::solve_runner_test {
@@ -45,6 +46,18 @@ struct Watched {
   }
   bool pauses_after_opening() {
     return QTest::qWaitFor([&] { return loaded && runner.state() == RunState::paused; }, 30000);
+  }
+  // Whether all commands so far are done, and nothing else is: a load that fails leaves the goal as
+  // it is, and another state than that of loading follows when the runner has no goal any more.
+  bool handles_all() {
+    failure.clear();
+    open("/no/such/scene.obj", 16);
+    return QTest::qWaitFor(
+        [&] {
+          return !failure.isEmpty() && runner.state() != RunState::loading &&
+                 runner.state() != RunState::running;
+        },
+        30000);
   }
   // Commands run on another thread: wait until the command has begun and is done.
   bool advances(const std::function<bool(const SolveProgress&)>& reached) {
@@ -135,15 +148,23 @@ class SolveRunnerTest : public QObject {
     QCOMPARE(w.snapshot->radiosity.size(), std::size_t(w.loaded->scene->patch_count()));
   }
 
-  // While this thread sleeps, one scene is solved and another is opened and solved.
+  // While this thread handles no events, one scene is solved and another is opened and solved.
   void a_scene_is_announced_before_its_snapshots() {
+    const QTemporaryDir folder;
     Watched w;
     QObject::connect(&w.runner, &SolveRunner::snapshot_ready, &w.runner,
                      [&w](const auto& newest) { QVERIFY(newest->loaded == w.loaded); });
-    for (int k = 0; k < 2; ++k) {
-      w.open("furnace", 16, {Goal::Kind::finished});
-      QThread::msleep(400);
+    // Saved after each pass, and thus after the first snapshot.
+    const QString checkpoint = folder.filePath("run.tck");
+    w.runner.keep_in(checkpoint.toStdString(), 0);
+    for (const char* scene : {"cornell-box", "furnace"}) {
+      w.open(scene, 16, {Goal::Kind::finished});
+      QVERIFY(testing::wait_until([&] {
+        QFile file(checkpoint);
+        return file.open(QIODevice::ReadOnly) && file.readAll().contains(scene);
+      }));
     }
+    QVERIFY(!w.snapshot && !w.loaded);
     QVERIFY(w.reaches(RunState::finished));
     QTRY_VERIFY(w.snapshot && w.snapshot->loaded == w.loaded);
     QVERIFY(w.snapshot->progress.finished);
@@ -156,7 +177,7 @@ class SolveRunnerTest : public QObject {
     for (int expected = 1; expected <= 3; ++expected) {
       w.runner.advance_one_direction();
       QVERIFY(w.advances([&](const SolveProgress& p) { return p.direction == expected; }));
-      QTest::qWait(60);
+      QVERIFY(w.handles_all());
       QCOMPARE(w.snapshot->progress.direction, expected);
     }
   }
@@ -168,7 +189,7 @@ class SolveRunnerTest : public QObject {
     for (int expected = 1; expected <= 2; ++expected) {
       w.runner.advance_one_iteration();
       QVERIFY(w.advances([&](const SolveProgress& p) { return p.iteration == expected; }));
-      QTest::qWait(60);
+      QVERIFY(w.handles_all());
       QCOMPARE(w.snapshot->progress.iteration, expected);
       QCOMPARE(w.snapshot->progress.direction, 0);
       QCOMPARE(w.snapshot->statistics.iteration_records.size(), std::size_t(expected));
@@ -197,7 +218,7 @@ class SolveRunnerTest : public QObject {
     Watched w;
     w.open("furnace", 64, {Goal::Kind::passes, 23});
     QVERIFY(w.advances([](const SolveProgress& p) { return p.direction == 23; }));
-    QTest::qWait(60);
+    QVERIFY(w.handles_all());
     QCOMPARE(w.snapshot->progress.direction, 23);
     QCOMPARE(w.snapshot->estimate_changes.size(), std::size_t{23});
   }
@@ -211,7 +232,7 @@ class SolveRunnerTest : public QObject {
     w.runner.pause();
     QVERIFY(w.reaches(RunState::paused));
     const int paused_at = w.snapshot->progress.direction;
-    QTest::qWait(300);
+    QVERIFY(w.handles_all());
     QCOMPARE(w.snapshot->progress.direction, paused_at);  // no pass after the pause
     w.runner.run();
     QVERIFY(QTest::qWaitFor([&] { return w.snapshot->progress.direction > paused_at; }, 30000));
@@ -224,7 +245,6 @@ class SolveRunnerTest : public QObject {
     options.normalize = Normalization::rows;
     w.runner.open({"furnace", {options}, {Goal::Kind::finished}});
     QVERIFY(w.reaches(RunState::finished));
-    QTest::qWait(60);
     QVERIFY(w.snapshot->statistics.converged);
     QCOMPARE(w.snapshot->estimate_changes.size(), std::size_t{64});  // of the iteration with passes
     for (const Rgb& b : w.snapshot->radiosity) {
@@ -282,7 +302,7 @@ class SolveRunnerTest : public QObject {
     QCOMPARE(w.snapshot->passes_done, std::int64_t{passes});
     // It stays paused: the goal is already reached.
     w.runner.set_goal({Goal::Kind::passes, passes});
-    QTest::qWait(50);
+    QVERIFY(w.handles_all());
     QCOMPARE(w.snapshot->progress.direction, direction);
     QCOMPARE(w.snapshot->progress.iteration, iteration);
   }
@@ -325,8 +345,11 @@ class SolveRunnerTest : public QObject {
 
   void ending_while_loading_is_quick() {
     auto w = std::make_unique<Watched>();
+    const auto worked = [] { return testing::cpu_seconds(CLOCK_PROCESS_CPUTIME_ID); };
+    const double begin = worked();
     w->open("sphere-flake:levels=3", 16);
-    QTest::qWait(200);
+    QVERIFY(QTest::qWaitFor([&] { return worked() > begin + 0.2; }, 30000));
+    QVERIFY(!w->loaded);
     QElapsedTimer timer;
     timer.start();
     w.reset();

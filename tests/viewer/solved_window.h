@@ -21,9 +21,14 @@ struct SolvedWindow {
     map_view = window->findChild<MapView*>();
     window->open(scene, {Goal::Kind::iteration});
     ready = wait_for([this] {
-      return window->snapshot() && window->snapshot()->progress.iteration == 1 && window->settled();
-    });
-    QTest::qWait(100);
+              return window->snapshot() && window->snapshot()->progress.iteration == 1;
+            }) &&
+            comes_to_rest(*window);
+  }
+
+  /// The picture of the scene, when nothing changes it any more; null where that does not come.
+  QImage picture() const {
+    return comes_to_rest(*window) ? scene_view->canvas()->grab().toImage() : QImage();
   }
 
   QString text(const char* label) const { return window->findChild<QLabel*>(label)->text(); }

@@ -216,7 +216,6 @@ class SteppingTest : public QObject {
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
     const auto press = [&](Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
       QTest::keyClick(s.window.get(), key, modifiers);
-      QTest::qWait(20);
       return wait_for([&] { return s.focus.arrived(); });
     };
     QVERIFY(press(Qt::Key_Period));
@@ -284,7 +283,7 @@ class SteppingTest : public QObject {
     s.trigger("layout_debug");
     s.focus.go_to({0, 3, -1});
     QVERIFY(s.settles());
-    const QImage scene_before = s.scene_view->canvas()->grab().toImage();
+    QCOMPARE(share_of(s.picture(), theme::processed), 0.0);
     s.focus.seek(find_where([](const MapHistory& history, std::int32_t k) {
                    return history.step(k).exchanges > 1 && history.outside_at(k).size() > 1;
                  }),
@@ -296,14 +295,12 @@ class SteppingTest : public QObject {
     QVERIFY(s.text("value_gathered").size() > 3);
     const auto* events = s.window->findChild<QTableView*>("step_events");
     QCOMPARE(events->model()->rowCount(), step.cut + 1);
-    const QImage scene = s.scene_view->canvas()->grab().toImage();
-    QVERIFY(scene != scene_before);
-    QVERIFY(share_of(scene, theme::processed) > 0);
+    QVERIFY(share_of(s.picture(), theme::processed) > 0);
     // A click in the table selects the patch of the polygon that was cut.
     const QModelIndex above = events->model()->index(1, 3);
     QTest::mouseClick(events->viewport(), Qt::LeftButton, {}, events->visualRect(above).center());
     QCOMPARE(s.window->selection.patch(), above.data().toInt());
-    QTest::qWait(100);
+    QVERIFY(comes_to_rest(*s.window));
     save_picture(*s.window, "step");
   }
 
@@ -330,7 +327,7 @@ class SteppingTest : public QObject {
     s.window->findChild<QComboBox*>("map_kind")->setCurrentIndex(1);
     QCOMPARE(s.text("value_region_list").split(", ").size(), line->model()->rowCount());
     QVERIFY(s.text("value_region_i").startsWith(line->model()->index(0, 1).data().toString()));
-    QTest::qWait(100);
+    QVERIFY(comes_to_rest(*s.window));
     save_picture(*s.window, "global");
     // R is highlighted on the map, but only with the global map.
     QVERIFY(share_of(canvas->grab().toImage(), theme::region) > 0.002);
@@ -353,7 +350,7 @@ class SteppingTest : public QObject {
     std::set<int> seen;
     connect(&focus, &Focus::moved, &play, [&] { seen.insert(focus.position().direction); });
     s.trigger("play");
-    QVERIFY(play.action()->isChecked());
+    QVERIFY(play.action()->isChecked() && play.playing());
     QVERIFY(wait_for([&] { return !play.action()->isChecked(); }));
     QCOMPARE(focus.target().direction, 7);
     QCOMPARE(seen, (std::set<int>{6, 7}));
@@ -368,8 +365,8 @@ class SteppingTest : public QObject {
     QVERIFY(wait_for([&] { return focus.position().direction >= 3; }));
     s.trigger("play");
     const RunPosition stopped = focus.target();
-    QTest::qWait(100);
-    QVERIFY(focus.target() == stopped);
+    handle_posted();
+    QVERIFY(!play.playing() && focus.target() == stopped);
 
     // Once started it can be stopped, but not started, while there is no direction to show.
     s.trigger("play");

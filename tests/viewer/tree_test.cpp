@@ -214,8 +214,7 @@ class TreeTest : public QObject {
     s.window->selection.select(focus.map()->history.step(9).patch);
     QVERIFY(wait_for([&] { return focus.arrived(); }));
     QVERIFY(s.text("tree_words").contains("after"));
-    QTest::qWait(50);
-    QVERIFY(share_of(view->grab().toImage(), theme::selection) > 0);
+    QTRY_VERIFY(share_of(view->grab().toImage(), theme::selection) > 0);
     save_picture(*s.window, "tree");
   }
 

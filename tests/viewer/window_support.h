@@ -3,12 +3,16 @@
 
 #include <QVTKOpenGLNativeWidget.h>
 
+#include <QAbstractAnimation>
 #include <QApplication>
 #include <QImage>
+#include <QMouseEvent>
 #include <QSet>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
 #include <QTest>
+#include <algorithm>
+#include <cstdlib>
 #include <functional>
 
 #include "map/map_canvas.h"
@@ -29,6 +33,9 @@ namespace transillum::viewer::test {
 inline bool wait_for(const std::function<bool()>& condition, int milliseconds = 30000) {
   return QTest::qWaitFor(condition, milliseconds);
 }
+
+/// Handles what has been posted, and what that posts: layouts, queued calls, repaints.
+inline void handle_posted() { QCoreApplication::processEvents(); }
 
 /// Number of clearly different colors in a picture, at 16 levels per channel.
 inline int color_count(const QImage& image) {
@@ -55,6 +62,80 @@ inline double share_of(const QImage& image, const QColor& color) {
   return static_cast<double>(close) / (image.width() * image.height());
 }
 
+/// The number of pixels that differ between two pictures of the same size; -1: of different sizes.
+inline int different_pixels(const QImage& a, const QImage& b) {
+  if (a.size() != b.size()) {
+    return -1;
+  }
+  int count = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      count += a.pixel(x, y) != b.pixel(x, y);
+    }
+  }
+  return count;
+}
+
+/// Whether a patch, or none, is drawn at a point of the scene and around it.
+inline bool is_inside(const SceneView& view, const QPoint& point, PatchId patch) {
+  constexpr int margin = 4;
+  const QPoint around[] = {{margin, 0}, {-margin, 0}, {0, margin}, {0, -margin}};
+  return std::all_of(std::begin(around), std::end(around),
+                     [&](const QPoint& offset) { return view.patch_at(point + offset) == patch; });
+}
+
+/// Of points of the scene that are inside of a patch, or of the background: the share of those
+/// whose pixels have the color that `color_of` gives for the patch, or no_patch. 0: no such points.
+inline double share_in_color(const SceneView& view,
+                             const std::function<QColor(PatchId)>& color_of) {
+  const QImage picture = view.canvas()->grab().toImage();
+  const double scale = 1.0 * picture.width() / view.canvas()->width();
+  int points = 0, right = 0;
+  for (int y = 8; y < view.canvas()->height() - 8; y += 9) {
+    for (int x = 8; x < view.canvas()->width() - 8; x += 9) {
+      const PatchId patch = view.patch_at({x, y});
+      if (!is_inside(view, {x, y}, patch)) {
+        continue;
+      }
+      const QColor pixel = picture.pixelColor(static_cast<int>((x + 0.5) * scale),
+                                              static_cast<int>((y + 0.5) * scale));
+      const QColor color = color_of(patch);
+      ++points;
+      constexpr int rounding = 2;
+      right +=
+          std::max({std::abs(pixel.red() - color.red()), std::abs(pixel.green() - color.green()),
+                    std::abs(pixel.blue() - color.blue())}) <= rounding;
+    }
+  }
+  return points > 0 ? 1.0 * right / points : 0.0;
+}
+
+/// The share of points of the scene's picture that have the color of their patch, or of the
+/// background: nearly 1 where the picture is that of these colors, patches and camera. Lines and
+/// the plane of the direction cover some.
+inline double share_in_own_color(const SceneView& view, const ColorChoice& colors) {
+  return share_in_color(view, [&colors](PatchId patch) {
+    if (patch == no_patch) {
+      return theme::scene_background;
+    }
+    const Color8& color = colors.patch_colors()[static_cast<std::size_t>(patch)];
+    return QColor(color[0], color[1], color[2]);
+  });
+}
+
+/// Drags from a point with the left button, in `steps` movements. Other than QTest::mouseMove(), it
+/// does not move the pointer of the screen, whose events arrive at any time.
+inline void drag(QWidget& canvas, const QPoint& from, const QPoint& by, int steps = 4) {
+  QTest::mousePress(&canvas, Qt::LeftButton, {}, from);
+  for (int k = 1; k <= steps; ++k) {
+    const QPoint place = from + k * by / steps;
+    QMouseEvent move(QEvent::MouseMove, place, canvas.mapToGlobal(place), Qt::LeftButton,
+                     Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&canvas, &move);
+  }
+  QTest::mouseRelease(&canvas, Qt::LeftButton, {}, from + by);
+}
+
 /// A window that remembers nothing, with the state that it shows, which outlives it.
 struct TestWindow : SharedState, MainWindow {
   TestWindow() : MainWindow(static_cast<SharedState&>(*this), false) {}
@@ -69,6 +150,28 @@ struct TestWindow : SharedState, MainWindow {
   std::shared_ptr<const SolverSnapshot> snapshot() const { return scene.snapshot(); }
   QString banner_text() { return parts().page.banner()->text(); }
 };
+
+/// Whether docks move to their new places: Qt animates that.
+inline bool is_moving(const QWidget& window) {
+  const auto animations = window.findChildren<QAbstractAnimation*>();
+  return std::any_of(animations.begin(), animations.end(), [](const QAbstractAnimation* animation) {
+    return animation->state() == QAbstractAnimation::Running;
+  });
+}
+
+/// Waits until the solver is idle, every view shows the newest state in its place, and the scene
+/// has its final picture; twice, with what has been posted in between: a view may be about to ask
+/// for a picture.
+inline bool comes_to_rest(const TestWindow& window, int milliseconds = 30000) {
+  const auto* view = window.findChild<SceneView*>();
+  int checks = 0;
+  return wait_for(
+      [&] {
+        checks = window.settled() && view->at_rest() && !is_moving(window) ? checks + 1 : 0;
+        return checks == 3;
+      },
+      milliseconds);
+}
 
 inline std::unique_ptr<TestWindow> make_window(const SolveOptions& options) {
   auto window = std::make_unique<TestWindow>();
@@ -86,6 +189,7 @@ inline std::unique_ptr<TestWindow> make_window(int directions = 32) {
 inline void save_picture(QWidget& window, const QString& name) {
   const QString folder = qEnvironmentVariable("TRANSILLUM_PICTURES");
   if (!folder.isEmpty()) {
+    handle_posted();
     window.grab().save(QStringLiteral("%1/%2.png").arg(folder, name));
   }
 }

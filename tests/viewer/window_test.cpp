@@ -116,9 +116,10 @@ class WindowTest : public QObject {
   void a_color_map_shows_its_color_bar() {
     const SolvedScene solved("cornell-box");
     QVERIFY(solved.ready);
-    const QImage before = picture_of(solved.scene_view->canvas());
     solved.window->findChild<QComboBox*>("color_mode")->setCurrentIndex(1);
-    QVERIFY(wait_for([&] { return picture_of(solved.scene_view->canvas()) != before; }));
+    QVERIFY(comes_to_rest(*solved.window));
+    const double share = share_in_own_color(*solved.scene_view, solved.window->colors);
+    QVERIFY2(share > 0.9, qPrintable(QString::number(share)));
     const Color8 top = color_of(ColorMap::viridis, 1);
     const QImage whole = picture_of(solved.window.get());
     QVERIFY(share_of(whole, QColor(top[0], top[1], top[2])) > 0);
@@ -147,7 +148,7 @@ class WindowTest : public QObject {
     solved.window->selection.select(no_patch);
     const int whole = solved.scene_view->width();
     solved.window->colors.set_quantity(Quantity::form_factor_from);
-    QTest::qWait(50);
+    QVERIFY(comes_to_rest(*solved.window));
     QCOMPARE(solved.scene_view->width(), whole);
     solved.window->selection.select(0);
     QVERIFY(wait_for([&] { return solved.scene_view->width() < whole; }));
@@ -159,7 +160,7 @@ class WindowTest : public QObject {
     const QImage before = picture_of(solved.scene_view->canvas());
     const QImage large = solved.scene_view->picture(2);
     QCOMPARE(large.size(), 2 * before.size());
-    QTest::qWait(50);
+    handle_posted();
     QVERIFY(picture_of(solved.scene_view->canvas()) == before);
   }
 
@@ -171,11 +172,11 @@ class WindowTest : public QObject {
     ViewPoint view = solved.scene_view->view_point();
     view.target = patch.center;
     solved.window->selection.select(lamp);
+    QVERIFY(comes_to_rest(*solved.window));
     // From the front, at a grazing angle, and through the culled back side.
     for (const double below : {2.0, 0.2, -0.2, -2.0}) {
       view.eye = patch.center + Vec3{-1, -8, 0} + below * patch.normal;
       solved.scene_view->set_view_point(view);
-      QTest::qWait(50);
       save_picture(*solved.window, QString("outline-%1").arg(below));
       const double pink = share_of(picture_of(solved.scene_view->canvas()), theme::selection);
       QVERIFY2(pink > 4e-4, qPrintable(QString("%1: %2").arg(below).arg(pink)));
@@ -188,7 +189,7 @@ class WindowTest : public QObject {
     const QPoint place = solved.place_of(solved.patches_in_map());
     QVERIFY(place.x() >= 0);
     const PatchId patch = solved.scene_view->patch_at(place);
-    const QImage scene_before = picture_of(solved.scene_view->canvas());
+    QCOMPARE(share_of(picture_of(solved.scene_view->canvas()), theme::selection), 0.0);
     QCOMPARE(share_of(picture_of(solved.map_view->canvas()), theme::selection), 0.0);
 
     QTest::mouseClick(solved.scene_view->canvas(), Qt::LeftButton, {}, place);
@@ -197,7 +198,6 @@ class WindowTest : public QObject {
     QVERIFY(!solved.text("patch_radiosity").isEmpty());
     QVERIFY(wait_for(
         [&] { return share_of(picture_of(solved.map_view->canvas()), theme::selection) > 0; }));
-    QVERIFY(picture_of(solved.scene_view->canvas()) != scene_before);
     QVERIFY(share_of(picture_of(solved.scene_view->canvas()), theme::selection) > 0);
   }
 
@@ -205,14 +205,16 @@ class WindowTest : public QObject {
     const SolvedScene solved("furnace");
     QVERIFY(solved.ready);
     QWidget* canvas = solved.scene_view->canvas();
-    const QPoint from = canvas->rect().center();
-    const QImage before = picture_of(canvas);
-    QTest::mousePress(canvas, Qt::LeftButton, {}, from);
-    for (int k = 1; k <= 10; ++k) {
-      QTest::mouseMove(canvas, from + QPoint(9 * k, 4 * k), 10);
-    }
-    QTest::mouseRelease(canvas, Qt::LeftButton, {}, from + QPoint(90, 40));
-    QVERIFY(wait_for([&] { return picture_of(canvas) != before; }));
+    solved.trigger("show_direction");
+    const ViewPoint before = solved.scene_view->view_point();
+    drag(*canvas, canvas->rect().center(), {90, 40}, 10);
+    const ViewPoint after = solved.scene_view->view_point();
+    QVERIFY(after.target == before.target);
+    QVERIFY(norm(after.eye - before.eye) > 0.1 * norm(before.eye - before.target));
+    // The picture is that of the new camera.
+    QVERIFY(comes_to_rest(*solved.window));
+    const double share = share_in_own_color(*solved.scene_view, solved.window->colors);
+    QVERIFY2(share > 0.9, qPrintable(QString::number(share)));
     QCOMPARE(solved.window->selection.patch(), no_patch);
   }
 
@@ -257,9 +259,12 @@ class WindowTest : public QObject {
     solved.trigger("pause");
     QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
     const int at = solved.window->snapshot()->progress.direction;
-    QTest::qWait(300);
-    QCOMPARE(solved.window->snapshot()->progress.direction, at);
     QVERIFY(solved.text("phase").startsWith("Paused"));
+    // The next pass is the one after it: none was made meanwhile.
+    solved.trigger("one_direction");
+    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction > at; }));
+    QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
+    QCOMPARE(solved.window->snapshot()->progress.direction, at + 1);
     solved.trigger("stop");
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction == 0; }));
   }
@@ -313,7 +318,7 @@ class WindowTest : public QObject {
       for (const char* layout : {"layout_teach", "layout_inspect", "layout_debug"}) {
         window->findChild<QAction*>(layout)->trigger();
         window->resize(size);
-        QTest::qWait(20);
+        handle_posted();
         if (window->size() != size) {
           return qInfo() << layout << window->size(), false;
         }

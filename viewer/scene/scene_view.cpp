@@ -144,6 +144,8 @@ SceneView::~SceneView() = default;
 
 QWidget* SceneView::canvas() const { return canvas_; }
 
+bool SceneView::at_rest() const { return !pressed_ && !rest_timer_->isActive(); }
+
 void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   // Other patches of the same scene: the camera stays.
   const bool stays = loaded_ && whole_of(loaded) == whole_of(loaded_);
@@ -548,7 +550,7 @@ void SceneView::render() {
   feature_edges_->set_line_width(1.2 * scale);
   path_glyph_->set_line_width(1.5 * scale);
   surface_->GetProperty()->SetLineWidth(scale);
-  renderer_->SetUseFXAA(antialiased_ && !pressed_ && !rest_timer_->isActive());
+  renderer_->SetUseFXAA(antialiased_ && at_rest());
   renderer_->ResetCameraClippingRange();
   if (canvas_->isVisible()) {
     window_->Render();

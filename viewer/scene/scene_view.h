@@ -107,6 +107,8 @@ class SceneView : public QWidget {
   /// That patch with the point of it.
   std::optional<PickedPoint> hit_at(const QPoint& position) const;
   QWidget* canvas() const;
+  /// Whether the picture is final: no button is held, and no further step has come for a while.
+  bool at_rest() const;
 
  signals:
   /// The camera is at another point than in the picture before; emitted while a picture is drawn.

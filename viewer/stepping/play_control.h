@@ -37,6 +37,8 @@ class PlayControl : public QObject {
   /// @param per_second pictures, above 0
   void set_speed(double per_second);
   double speed() const { return per_second_; }
+  /// Whether a next picture follows.
+  bool playing() const { return timer_.isActive(); }
   /// Waits with the next picture while `may_go_on` says false.
   void set_gate(std::function<bool()> may_go_on) { may_go_on_ = std::move(may_go_on); }
 

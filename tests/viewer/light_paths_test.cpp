@@ -1,0 +1,159 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel of light paths: listed with their shares, drawn over the scene, written to files.
+#include <QDockWidget>
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <cmath>
+
+#include "inspected_window.h"
+#include "patches/path_panel.h"
+
+namespace transillum::viewer::light_paths_test {
+
+using namespace test;
+
+namespace {
+
+/// The panel of light paths, with those to patch 4.
+struct ListedPaths : Inspected {
+  PathPanel* panel;
+  QTableWidget* table;
+
+  ListedPaths()
+      : Inspected("cornell-box"),
+        panel(part<PathPanel>("path_panel")),
+        table(part<QTableWidget>("path_table")) {
+    trigger("show_direction");
+    ready = ready && raise("paths_dock");
+    window->selection.select(4);
+    ready = ready && wait_for([this] { return table->rowCount() == 20; });
+  }
+  LightPaths expected() const {
+    const auto snapshot = window->snapshot();
+    const Scene& scene = *snapshot->loaded->scene;
+    return find_light_paths(scene, *snapshot->form_factors, 4, scene.materials(), {.count = 20});
+  }
+};
+
+/// The number of pixels that are close to `color`.
+int count_of(const QImage& picture, const QColor& color) {
+  return static_cast<int>(
+      std::lround(share_of(picture, color) * picture.width() * picture.height()));
+}
+
+}  // namespace
+
+class LightPathsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void light_paths_wait_for_a_patch() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready && shown.raise("paths_dock"));
+    QCOMPARE(shown.part<QTableWidget>("path_table")->rowCount(), 0);
+    QVERIFY(shown.text("path_caption").contains("Select a patch"));
+  }
+
+  void light_paths_are_listed_with_their_shares() {
+    const ListedPaths shown;
+    QVERIFY(shown.ready);
+    const LightPaths expected = shown.expected();
+    double listed = 0;
+    for (int row = 0; row < 20; ++row) {
+      const LightPath& path = expected.paths[std::size_t(row)];
+      QVERIFY(shown.panel->paths()->paths[std::size_t(row)].patches == path.patches);
+      QCOMPARE(shown.table->item(row, 2)->text().toInt(), int(path.patches.size()) - 1);
+      QVERIFY(shown.table->item(row, 3)->text().endsWith("→ 4"));
+      listed += shown.table->item(row, 0)->text().toDouble();
+      // Equal decimals in a column, so that the shares can be compared at a glance.
+      for (const int column : {0, 1}) {
+        const QString text = shown.table->item(row, column)->text();
+        const auto decimals = [](const QString& number) { return number.section('.', 1).size(); };
+        QVERIFY2(text == "≈ 0" || decimals(text) == decimals(shown.table->item(0, column)->text()),
+                 qPrintable(text));
+      }
+    }
+    const double rest = 100 * luminance(expected.cut_off) / luminance(expected.radiosity);
+    QVERIFY(std::abs(listed + rest - 100) < 0.05);  // digits shown
+    QVERIFY(shown.text("path_caption").contains(QString::number(rest, 'f', 1) + " %"));
+  }
+
+  void light_paths_are_drawn_and_the_one_of_the_row_emphasized() {
+    const ListedPaths shown;
+    QVERIFY(shown.ready);
+    const QImage many = shown.picture();
+    shown.table->setFocus();
+    QTest::keyClick(shown.table, Qt::Key_Down);
+    QTest::keyClick(shown.table, Qt::Key_Down);
+    const QImage emphasized = shown.picture();
+    save_picture(*shown.window, "light-paths");
+    shown.part<QSpinBox>("path_count")->setValue(3);
+    QTRY_COMPARE(shown.table->rowCount(), 3);
+    const QImage few = shown.picture();
+    shown.scene_view->show_paths(nullptr, -1);
+    const QImage none = shown.picture();
+    // A line has more pixels than that is wide, and the scene is hundreds wide.
+    const int yellow = count_of(emphasized, theme::processed);
+    QVERIFY2(yellow > 50 && count_of(many, theme::processed) == 0,
+             qPrintable(QString::number(yellow)));
+    const int of_many = different_pixels(many, none), of_few = different_pixels(few, none);
+    QVERIFY2(of_many > of_few && of_few > 50,
+             qPrintable(QString("%1, %2").arg(of_many).arg(of_few)));
+  }
+
+  void light_paths_are_written() {
+    const ListedPaths shown;
+    QVERIFY(shown.ready);
+    shown.part<QSpinBox>("path_count")->setValue(3);
+    QTRY_COMPARE(shown.table->rowCount(), 3);
+    const QTemporaryDir folder;
+    shown.panel->write(folder.filePath("paths.csv"));
+    QFile file(folder.filePath("paths.csv"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QList<QByteArray> lines = file.readAll().trimmed().split('\n');
+    QCOMPARE(lines.size(), 5);
+    double shares = 0;
+    for (int line = 1; line < 5; ++line) {
+      shares += lines[line].split(',')[1].toDouble();
+    }
+    // B is solved to 1e-9 of the largest, which a lamp has.
+    double largest = 0;
+    for (const Rgb& b : shown.window->snapshot()->radiosity) {
+      largest = std::max(largest, luminance(b));
+    }
+    QVERIFY(std::abs(shares - 1) < 1e-8 * largest / luminance(shown.expected().radiosity));
+    shown.panel->write(folder.filePath("paths.json"));
+    QFile json(folder.filePath("paths.json"));
+    QVERIFY(json.open(QIODevice::ReadOnly));
+    const QJsonObject root = QJsonDocument::fromJson(json.readAll()).object();
+    QCOMPARE(root["receiver"].toInt(), 4);
+    QCOMPARE(root["paths"].toArray().size(), 3);
+    QCOMPARE(root["paths"].toArray()[0].toObject()["patches"].toArray().last().toInt(), 4);
+    QVERIFY_EXCEPTION_THROWN(shown.panel->write(folder.filePath("no/such/folder.csv")),
+                             std::runtime_error);
+  }
+
+  void a_hidden_panel_neither_draws_nor_searches_light_paths() {
+    const ListedPaths shown;
+    QVERIFY(shown.ready);
+    shown.part<QDockWidget>("paths_dock")->hide();
+    const QImage hidden = shown.picture();
+    shown.scene_view->show_paths(nullptr, -1);
+    QCOMPARE(shown.picture(), hidden);
+    shown.window->selection.select(9);
+    QVERIFY(!shown.panel->busy());
+    QCOMPARE(shown.table->rowCount(), 0);
+  }
+};
+
+const test::Registered registered("light_paths", test::run_as_viewer<LightPathsTest>);
+
+}  // namespace transillum::viewer::light_paths_test
+
+#include "light_paths_test.moc"
