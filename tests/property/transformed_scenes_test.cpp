@@ -6,8 +6,9 @@
 // The bound. A coordinate c is rounded by up to 2^-53 |c|, so a corner moves by up to
 // d = sqrt(3) 2^-53 C, C being the largest coordinate of the scene, and no farther in a projection.
 // A patch is then bent; its outline lies within d of its own plane, and so within 2 d of the
-// outline of another rounding of it. Its projected area changes by 2 d times its perimeter. A part
-// that is seen has edges of any patches: its area changes by 2 d times the sum of all perimeters.
+// outline of another rounding of it. A patch that its file has bent by more, by b, lies within b.
+// Its projected area changes by 2 d times its perimeter. A part that is seen has edges of any
+// patches: its area changes by 2 d times the sum of all perimeters.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -23,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "support/imperfect_scenes.h"
 #include "support/random_scenes.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
@@ -206,12 +208,14 @@ struct AreasOfFaces {
 /// A scene and an engine of each kind, for one transformation.
 class TestedScene {
  public:
-  TestedScene(const Transformed& transformed, const SceneOptions& options, bool slow)
+  /// @param bends whether the parts of patches that their file has bent are known to that bend only
+  TestedScene(const Transformed& transformed, const SceneOptions& options, bool slow,
+              bool bends = false)
       : scene_(std::make_shared<const Scene>(transformed.description, options)),
         tree_(std::make_shared<const BspTree>(*scene_)),
         turn_(transformed.turn),
         scale_(transformed.scale) {
-    double coordinate = 0, perimeters = 0;
+    double coordinate = 0;
     for (const Vec3& p : scene_->points()) {
       coordinate = std::max(coordinate, max_abs(p));
     }
@@ -224,13 +228,14 @@ class TestedScene {
         perimeter +=
             norm(scene_->point(outline[(k + 1) % outline.size()]) - scene_->point(outline[k]));
       }
-      rounding_.push_back(displacement_ * perimeter);
-      perimeters += perimeter;
+      const double bend = bend_of(i);
+      const double known = displacement_ + (bend > displacement_ ? bend : 0);
+      rounding_.push_back(known * perimeter);
+      rounding_of_parts_ += (bends ? known : displacement_) * perimeter;
       const int face = at(transformed.face, patch.face);
       const bool back = options.two_sided && dot(patch.normal, normal_of_face(transformed, i)) < 0;
       side_.push_back(face < 0 ? -1 : 2 * face + (back ? 1 : 0));
     }
-    rounding_of_parts_ = displacement_ * perimeters;
     const std::size_t fragments = tree_->fragments().size();
     for (const Engine engine : {Engine::fast, Engine::local, Engine::global, Engine::exact}) {
       if (engine == Engine::fast || engine == Engine::local || (slow && fragments <= 60)) {
@@ -285,6 +290,19 @@ class TestedScene {
   }
 
  private:
+  /// Largest distance of a patch's corners from the plane of its normal through their mean, m.
+  double bend_of(PatchId i) const {
+    const auto outline = scene_->outline(i);
+    Vec3 mean;
+    for (const PointId p : outline) {
+      mean = mean + scene_->point(p) / static_cast<double>(outline.size());
+    }
+    double bend = 0;
+    for (const PointId p : outline) {
+      bend = std::max(bend, std::abs(dot(scene_->patch(i).normal, scene_->point(p) - mean)));
+    }
+    return bend;
+  }
   Vec3 normal_of_face(const Transformed& transformed, PatchId i) const {
     const auto outline =
         transformed.description.outline(static_cast<std::size_t>(scene_->patch(i).face));
@@ -422,11 +440,14 @@ bool has_coincident_faces(const RandomScene& random) {
 }
 
 /// Tests one transformation of a scene along some directions of the original.
+/// @param same whether areas are compared with those of the original
+/// @param bends as for TestedScene
 void expect_invariance(const RandomScene& random, const Transformed& changed,
-                       const std::vector<Vec3>& directions, bool slow) {
+                       const std::vector<Vec3>& directions, bool slow, bool same = true,
+                       bool bends = false) {
   const TestedScene before({"", random.description, same_faces(random.description)}, random.options,
                            slow);
-  const TestedScene after(changed, random.options, slow);
+  const TestedScene after(changed, random.options, slow, bends);
   const std::map<int, double> areas = before.areas();
   const double rounding =
       before.rounding_of_parts() + changed.roundings * after.rounding_of_parts_in_original_units();
@@ -443,7 +464,7 @@ void expect_invariance(const RandomScene& random, const Transformed& changed,
                   areas, after.rounding_of_parts_in_original_units(), engine + ", " + context);
       expect_same("agreement", found.front(), found.back(), areas,
                   after.rounding_of_parts_in_original_units(), engine + ", " + context);
-      if (!has_coincident_faces(random) && k < before.engine_count()) {
+      if (same && !has_coincident_faces(random) && k < before.engine_count()) {
         expect_same("invariance", found.back(), before.by_face(before.run(k, omega)), areas,
                     rounding, engine + ", " + context);
       }
@@ -478,6 +499,19 @@ TEST_P(NightlyTransformedScenes, HaveTheSameAreas) {
 }
 INSTANTIATE_TEST_SUITE_P(FiveHundreds, NightlyTransformedScenes, ::testing::Range(0, 20));
 
+/// Directions along all edges.
+std::vector<Vec3> edges_of(const SceneDescription& description) {
+  std::vector<Vec3> edges;
+  for (std::size_t f = 0; f < description.face_count(); ++f) {
+    const auto outline = description.outline(f);
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      edges.push_back(normalized(at(description.points, outline[(k + 1) % outline.size()]) -
+                                 at(description.points, outline[k])));
+    }
+  }
+  return edges;
+}
+
 /// Scenes to which engine fast gave areas below 0, or covered twice, far from the origin.
 struct MovedScene {
   std::uint64_t seed;
@@ -488,13 +522,8 @@ TEST_P(MovedScenes, HaveTheSameAreasAlongAllTheirEdges) {
   const RandomScene random = testing::random_scene(GetParam().seed);
   const Transformed moved = moved_by(random.description, GetParam().offset);
   std::vector<Vec3> directions = random.directions;
-  for (std::size_t f = 0; f < moved.description.face_count(); ++f) {
-    const auto outline = moved.description.outline(f);
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-      directions.push_back(
-          normalized(at(moved.description.points, outline[(k + 1) % outline.size()]) -
-                     at(moved.description.points, outline[k])));
-    }
+  for (const Vec3& edge : edges_of(moved.description)) {
+    directions.push_back(edge);
   }
   expect_invariance(random, moved, directions, false);
 }
@@ -507,6 +536,60 @@ INSTANTIATE_TEST_SUITE_P(
         MovedScene{334, {-2454.8225405398675, 4048.7631957959388, 2787.441043730762}},
         MovedScene{508, {805413.78943060453, 941781.9160890832, -902433.37368576945}}),
     [](const auto& moved) { return std::to_string(moved.param.seed); });
+
+/// Scenes as files have them, moved. Whether a bent face is one patch depends on the digits of its
+/// coordinates, which a shift changes: they are not compared with the originals.
+void expect_possible_areas_moved(std::uint64_t seed, double sizes, bool along_all_edges,
+                                 bool slow) {
+  const RandomScene random = testing::random_imperfect_scene(seed);
+  std::vector<Vec3> directions = directions_of(random, Numbers(seed));
+  for (const Vec3& edge : along_all_edges ? edges_of(random.description) : std::vector<Vec3>{}) {
+    directions.push_back(edge);
+    directions.push_back(normalized(edge + 1e-6 * normalized(cross(edge, {.3, .5, .2}))));
+  }
+  const Vec3 offset = sizes * bounds_of(random.description).diagonal() *
+                      testing::random_rotation(seed)(normalized({3, -2, 1}));
+  expect_invariance(random, moved_by(random.description, offset), directions, slow, false,
+                    !along_all_edges);
+}
+
+/// Moved by 100 sizes and more: nearer, what is not promised along the edges of rounded scenes is
+/// more than the roundings explain. Without the truss, whose triangles meet in their tips: where
+/// they are closer to each other than planes are thick, their order is not promised (ALGORITHM.md,
+/// section 8).
+void expect_possible_areas_of_moved(std::uint64_t first, std::uint64_t count) {
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    if (testing::random_imperfect_scene(seed).kind == "truss") {
+      continue;
+    }
+    expect_possible_areas_moved(seed, Numbers(seed).power_of_ten(2, 6), false, seed % 11 == 0);
+    if (::testing::Test::HasFailure()) {
+      return;
+    }
+  }
+}
+
+class MovedImperfectScenes : public ::testing::TestWithParam<int> {};
+TEST_P(MovedImperfectScenes, HavePossibleAreas) {
+  expect_possible_areas_of_moved(static_cast<std::uint64_t>(GetParam()) * 10, 10);
+}
+INSTANTIATE_TEST_SUITE_P(Tens, MovedImperfectScenes, ::testing::Range(3000, 3004));
+
+class NightlyMovedImperfectScenes : public ::testing::TestWithParam<int> {};
+TEST_P(NightlyMovedImperfectScenes, HavePossibleAreas) {
+  expect_possible_areas_of_moved(static_cast<std::uint64_t>(GetParam()) * 250, 250);
+}
+INSTANTIATE_TEST_SUITE_P(TwoHundredFifties, NightlyMovedImperfectScenes,
+                         ::testing::Range(120, 128));
+
+/// Edges seen along their lengths: their directions are rounding, and whole faces were lost, of
+/// 1.2e-6 m² where roundings explain 1e-6 m², of 0.086 m² of beams of 1,000 m.
+TEST(MovedImperfectScenesRegression, HavePossibleAreasAlongAllTheirEdges) {
+  for (const std::uint64_t seed : {31081, 31093}) {
+    expect_possible_areas_moved(seed, 7e5, true, false);
+  }
+  expect_possible_areas_moved(30241, 4e5, true, false);
+}
 
 }  // namespace
 }  // namespace transillum::transformed_scenes_test

@@ -33,24 +33,28 @@ bool are_nearly_parallel(const GridLine& p, const GridLine& q) {
          0x1p-20L * (std::abs(px) + std::abs(py)) * (std::abs(qx) + std::abs(qy));
 }
 
+long double squared_distance(const GridPoint& a, const GridPoint& b) {
+  const auto x = static_cast<long double>(b.x - a.x), y = static_cast<long double>(b.y - a.y);
+  return x * x + y * y;
+}
+
+/// Twice the area by which an outline turns right at b; 0 where it turns left, or right as nearly
+/// collinear corners may by rounding.
+long double right_turn(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+  const WideInteger turn = exact_turn(a, b, c);
+  if (turn >= 0) {
+    return 0;
+  }
+  const auto right = static_cast<long double>(-turn);
+  return right > 1e-14L * (squared_distance(a, b) + squared_distance(b, c)) ? right : 0;
+}
+
 /// Whether the outline turns left everywhere, up to rounding. An outline seen edge-on within
 /// rounding may not; it is left out, as by FragmentProjector.
 bool is_convex(const GridPoint* outline, std::size_t count, double area) {
   for (std::size_t k = 0; k < count; ++k) {
-    const GridPoint& a = outline[k];
-    const GridPoint& b = outline[(k + 1) % count];
-    const GridPoint& c = outline[(k + 2) % count];
-    const WideInteger turn = exact_turn(a, b, c);
-    if (turn >= 0) {
-      continue;
-    }
-    const auto square = [](std::int64_t v) {
-      return static_cast<long double>(v) * static_cast<long double>(v);
-    };
-    const long double size =
-        square(b.x - a.x) + square(b.y - a.y) + square(c.x - b.x) + square(c.y - b.y);
-    if (static_cast<long double>(turn) < -1e-14L * size &&
-        -64 * static_cast<long double>(turn) > static_cast<long double>(area)) {
+    if (64 * right_turn(outline[k], outline[(k + 1) % count], outline[(k + 2) % count]) >
+        static_cast<long double>(area)) {
       return false;
     }
   }
@@ -374,10 +378,11 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
   Fragment fragment{
       begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch, front, false, -1,
       area};
-  const bool changed = needle && !outline.plain && remove_turned_edges(outlines, fragment);
+  bool changed = needle && !outline.plain && remove_turned_edges(outlines, fragment);
   if (needle && !is_convex(first, fragment.end - begin, area)) {
     return false;
   }
+  changed = (needle && remove_reflex_edges(outlines, fragment)) || changed;
   // Corners are off their lines by up to a grid unit.
   const auto is_inaccurate = [&] {
     return 2 * std::sqrt(size) > accuracy * patch_area(outline.patch);
@@ -460,6 +465,29 @@ void ProjectedFragments::remove_edge(const FragmentOutlines& outlines, Fragment&
   changed_corners_.erase(own + next);
   corners.erase(corners.begin() + fragment.begin + next);
   --fragment.end;
+}
+
+/// Removes an edge at each right turn that is_convex() lets pass, as FragmentProjector does: of an
+/// edge seen along its length, the direction is rounding of the scene's coordinates, and its line
+/// may have the whole outline on its outer side. Returns whether there are such edges.
+bool ProjectedFragments::remove_reflex_edges(const FragmentOutlines& outlines, Fragment& fragment) {
+  bool any = false;
+  for (std::uint32_t k = 0; k < fragment.end - fragment.begin;) {
+    const std::uint32_t count = fragment.end - fragment.begin;
+    const auto corner = [&](std::uint32_t j) -> const GridPoint& {
+      return corners[fragment.begin + (k + j) % count];
+    };
+    if (count == 3 || right_turn(corner(0), corner(1), corner(2)) == 0) {
+      ++k;
+      continue;
+    }
+    const bool first_is_shorter =
+        squared_distance(corner(0), corner(1)) < squared_distance(corner(1), corner(2));
+    remove_edge(outlines, fragment, first_is_shorter ? k : (k + 1) % count, !first_is_shorter);
+    any = true;
+    k = 0;
+  }
+  return any;
 }
 
 FragmentOutlines::Corner ProjectedFragments::corner_of(const FragmentOutlines& outlines,

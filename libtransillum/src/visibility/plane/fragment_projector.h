@@ -26,7 +26,7 @@ class FragmentProjector {
       reverse();
       area_ = -area_;
     }
-    return area_ > 0 && is_convex();
+    return area_ > 0 && make_convex();
   }
 
   const BasicMapPolygon<Number>& outline() const { return outline_; }
@@ -46,26 +46,46 @@ class FragmentProjector {
     outline_.swap(reversed_);
   }
 
-  /// Whether the outline turns left everywhere. Pieces are planar only to rounding, so the outline
-  /// of one seen edge-on within rounding may not, and is left out. Right turns that are small
-  /// compared with the area are ignored: nearly collinear corners may turn either way.
-  bool is_convex() const {
-    const std::size_t count = outline_.size();
-    for (std::size_t k = 0; k < count; ++k) {
+  /// Makes the outline turn left everywhere; returns whether that is possible. Pieces are planar
+  /// only to rounding, so the outline of one seen edge-on within rounding may not turn left, and is
+  /// left out. Where right turns are small compared with the area, one of their edges is removed:
+  /// an edge seen along its length has a direction from rounding, and a line that may have the
+  /// whole outline on its outer side. Those that are rounding of nearly collinear corners are kept.
+  bool make_convex() {
+    for (std::size_t k = 0; k < outline_.size();) {
+      const std::size_t count = outline_.size();
       const BasicPlanePoint<Number>& a = outline_[k].at;
       const BasicPlanePoint<Number>& b = outline_[(k + 1) % count].at;
       const BasicPlanePoint<Number>& c = outline_[(k + 2) % count].at;
       const Number turn = cross(b - a, c - b);
       if (turn >= 0) {
+        ++k;
         continue;
       }
-      const Number size = (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) +
-                          (c.x - b.x) * (c.x - b.x) + (c.y - b.y) * (c.y - b.y);
-      if (turn < static_cast<Number>(-1e-14) * size && -64 * turn > area_) {
+      const Number before = square(b - a), after = square(c - b);
+      if (turn >= static_cast<Number>(-1e-14) * (before + after)) {
+        ++k;
+        continue;
+      }
+      if (-64 * turn > area_ || count == 3) {
         return false;
       }
+      remove_edge(before < after ? k : (k + 1) % count, before < after);
+      area_ = area_of(outline_);
+      k = 0;
     }
-    return true;
+    return area_ > 0;
+  }
+
+  static Number square(const BasicPlanePoint<Number>& v) { return v.x * v.x + v.y * v.y; }
+
+  /// Removes the edge from corner k to the next, and the one of these that is not kept.
+  void remove_edge(std::size_t k, bool keep_start) {
+    const std::size_t next = k + 1 < outline_.size() ? k + 1 : 0;
+    if (keep_start) {
+      outline_[next].at = outline_[k].at;
+    }
+    outline_.erase(outline_.begin() + static_cast<std::ptrdiff_t>(k));
   }
 
   const BspTree& tree_;
