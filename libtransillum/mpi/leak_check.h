@@ -5,13 +5,21 @@
 // when it starts and in MPI_Finalize(); of those, a report at the end of the program could not say
 // whose they are. What it keeps besides is named in tests/lsan.supp.
 
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__)
+#define TRANSILLUM_ADDRESS_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define TRANSILLUM_ADDRESS_SANITIZER
+#endif
+#endif
+
+#ifdef TRANSILLUM_ADDRESS_SANITIZER
 #include <sanitizer/lsan_interface.h>
 #endif
 
 namespace transillum::mpi {
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TRANSILLUM_ADDRESS_SANITIZER
 /// Allocations of this thread, as long as it lives, are not ours.
 using AllocationsOfMpi = __lsan::ScopedDisabler;
 /// Ends the process if something has leaked until now; later, nothing is checked.

@@ -219,7 +219,7 @@ bool same_bits(const Transfers& a, const Transfers& b) {
          same_side(a.backward, b.backward) && a.back_seen == b.back_seen;
 }
 
-TEST(RayEngine, IsAFunctionOfTheDirection) {
+TEST(RayEngine, IsAFunctionOfTheDirectionInAnyThread) {
   const auto scene = load_scene("boards", {.two_sided = true});
   const TransferEngine rays = make_engine(Engine::rays, scene, nullptr);
   const Vec3 omega = normalized({3, 1, 2});

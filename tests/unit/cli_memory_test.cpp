@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "program_run.h"
+#include "support/sanitizers.h"
 
 namespace transillum::testing {
 namespace {
@@ -14,11 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// Sanitizers reserve terabytes of addresses, so that no limit of addresses can be set.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool has_limits = false;
-#else
-constexpr bool has_limits = true;
-#endif
+constexpr bool has_limits = !has_address_sanitizer && !has_thread_sanitizer;
 
 class CliMemory : public ::testing::Test {
  protected:

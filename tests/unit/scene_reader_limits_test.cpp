@@ -9,6 +9,7 @@
 #include "base/text_file.h"
 #include "scene/read/obj_reader.h"
 #include "scene_test_support.h"
+#include "support/sanitizers.h"
 
 namespace transillum::scene_reader_limits_test {
 namespace {
@@ -40,9 +41,9 @@ std::size_t peak_memory() {
 
 /// Reads the file in a process of its own, which exits with 0 if that takes at most `most` bytes.
 void expect_memory(const std::string& path, std::size_t most) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "memory that is freed is kept for a while";
-#endif
+  if (testing::has_address_sanitizer) {
+    GTEST_SKIP() << "memory that is freed is kept for a while";
+  }
   ::testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(
       {
