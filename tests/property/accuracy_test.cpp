@@ -110,14 +110,14 @@ class CoverageCount {
       SolveOptions options = options_;
       options.goal = goal;
       options.seed = 1000 * static_cast<std::uint64_t>(run + 1);
-      const Solution solution = goal.set() ? solved_to_accuracy(options) : solved(options);
+      const Solution solution = goal.is_set() ? solved_to_accuracy(options) : solved(options);
       const double error = error_of(*scene_, solution.radiosity, truth_);
       coverage.limit += (error <= solution.error.rms_limit) / double(runs);
       coverage.above +=
-          (goal.set() && solution.accuracy->trusted && error > goal.accuracy) / double(runs);
+          (goal.is_set() && solution.accuracy->trusted && error > goal.accuracy) / double(runs);
       coverage.intervals += share_within(solution) / runs;
       coverage.passes +=
-          double(goal.set() ? solution.accuracy->passes_made : options.directions) / runs;
+          double(goal.is_set() ? solution.accuracy->passes_made : options.directions) / runs;
     }
     return coverage;
   }

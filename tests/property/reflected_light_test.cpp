@@ -234,7 +234,7 @@ TEST(ReflectedLight, ConvergedMeansTheSameForConjugateGradientsAndGrowingSets) {
 
 TEST(ReflectedLight, ConvergedMeansTheSameOfGivenFormFactorsAndRelitScenes) {
   for (const TestScene& test : scenes_with_light()) {
-    if (test.sky.set()) {
+    if (test.sky.is_set()) {
       continue;
     }
     SolveOptions options{.engine = Engine::pairs};
@@ -262,7 +262,7 @@ TEST(ReflectedLight, ALampOf5MillimetersIsSolvedByDefault) {
 TEST(ReflectedLight, AccuracyIsThatOfReflectedLight) {
   int runs = 0, limits_exceeded = 0, means_missed = 0;
   for (const TestScene& test : scenes_with_light()) {
-    if (test.sky.set()) {
+    if (test.sky.is_set()) {
       continue;
     }
     const Solution truth = solve_by_form_factors(test.scene, {.engine = Engine::pairs});

@@ -65,7 +65,7 @@ Outcome outcome_of(const Solution& solution) {
 }
 
 Outcome solved(const SolveOptions& options, const std::shared_ptr<SolverGroup>& group = nullptr) {
-  if (options.goal.set()) {
+  if (options.goal.is_set()) {
     return outcome_of(solve(box(), options, {}, {}, group));
   }
   RadiositySolver solver(box(), options, {.group = group});

@@ -376,7 +376,7 @@ class CompareTest : public QObject {
     panel.findChild<QLineEdit*>("accuracy")->setText("0.5");
     QVERIFY(panel.differ_from_effect());
     panel.findChild<QLineEdit*>("accuracy")->clear();
-    QVERIFY(!panel.solve_options().goal.set());
+    QVERIFY(!panel.solve_options().goal.is_set());
     QVERIFY(directions->isEnabled());
   }
 

@@ -212,7 +212,7 @@ class OptionsAgreeTest : public QObject {
     Outcome again = by_command_line(copied);
     QVERIFY2(again.refusal.empty(), (text + "\n" + line + "\n" + again.refusal).c_str());
     RunOptions expected = options;
-    if (options.solve.goal.set()) {
+    if (options.solve.goal.is_set()) {
       expected.solve.tolerance = SolveOptions{}.tolerance;  // chosen by the goal
     }
     QVERIFY2(again.options == expected, (text + "\n" + line).c_str());

@@ -110,7 +110,7 @@ struct RefinedWindow : SolvedWindow {
   bool finishes() const {
     return wait_for([this] {
       const auto snapshot = window->snapshot();
-      return snapshot && snapshot->refine.set() && snapshot->progress.finished &&
+      return snapshot && snapshot->refine.is_set() && snapshot->progress.finished &&
              !snapshot->refinement.left && window->settled();
     });
   }
@@ -216,7 +216,7 @@ class RefinementTest : public QObject {
     QVERIFY(watched.snapshot->radiosity == radiosity);
     watched.runner.restart(few, {Goal::Kind::finished});
     QVERIFY(watched.reaches(
-        [](const SolverSnapshot& s) { return !s.refine.set() && s.progress.finished; }));
+        [](const SolverSnapshot& s) { return !s.refine.is_set() && s.progress.finished; }));
     QCOMPARE(watched.snapshot->loaded->scene->patch_count(), 27);
     QVERIFY(watched.snapshot->statistics.refinement.empty());
   }
@@ -314,7 +314,7 @@ class RefinementTest : public QObject {
     w.part<QComboBox>("refine_by")->setCurrentText("None");
     w.part<QPushButton>("restart")->click();
     QVERIFY(wait_for([&] {
-      return w.window->snapshot() && !w.window->snapshot()->refine.set() && w.window->settled();
+      return w.window->snapshot() && !w.window->snapshot()->refine.is_set() && w.window->settled();
     }));
     QCOMPARE(w.window->snapshot()->loaded->scene->patch_count(), 27);
     QVERIFY(w.window->findChild<RoundPanel*>()->isHidden());
@@ -420,7 +420,7 @@ class RefinementTest : public QObject {
 
   void settings_are_those_of_the_panel() {
     SettingsPanel panel;
-    QVERIFY(!panel.refinement().set());
+    QVERIFY(!panel.refinement().is_set());
     auto* until = panel.findChild<QLineEdit*>("refine_until");
     QVERIFY(!until->isVisibleTo(&panel));
     panel.set_options(RunOptions{few, {}, {}, by(RefineBy::error, 345, 1.0 / 3)});
@@ -434,10 +434,10 @@ class RefinementTest : public QObject {
     QVERIFY(panel.differ_from_effect());
     // That of a result file.
     panel.set_scene_fixed(true);
-    QVERIFY(!panel.refinement().set());
+    QVERIFY(!panel.refinement().is_set());
     QVERIFY(!until->isVisibleTo(&panel));
     panel.set_scene_fixed(false);
-    QVERIFY(panel.refinement().set());
+    QVERIFY(panel.refinement().is_set());
   }
 
   void commands_and_files_have_the_rounds() {

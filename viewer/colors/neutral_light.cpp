@@ -7,7 +7,7 @@
 namespace transillum::viewer {
 
 bool has_light(const SolverSnapshot& snapshot) {
-  if (snapshot.options.sky.set()) {
+  if (snapshot.options.sky.is_set()) {
     return true;
   }
   for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {

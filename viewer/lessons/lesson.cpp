@@ -132,7 +132,7 @@ ErrorRuns errors_from_json(const json& value, const std::string& where, const js
 
 // Whether patches of the page may differ from those that figures are about.
 bool refines(const Lesson::Page& page) {
-  return page.state.options.refine.set() ||
+  return page.state.options.refine.is_set() ||
          std::any_of(page.controls.begin(), page.controls.end(),
                      [](const PageControl& control) { return control.target == "refine-by"; });
 }

@@ -87,7 +87,7 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
   line.add_changes(options.input.changes);
   line.add_changes(changes);
   RunOptions asked = options;
-  if (asked.solve.goal.set()) {
+  if (asked.solve.goal.is_set()) {
     asked.solve.tolerance = SolveOptions{}.tolerance;  // chosen by the goal
   }
   line.add_differences(asked, [](const Option& option) { return option.name != "threads"; });

@@ -47,7 +47,7 @@ json options_json(const RunOptions& options, bool of_reading) {
 
 bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked) {
   SolveOptions expected = asked;
-  if (expected.goal.set() && expected.goal == in_effect.goal) {
+  if (expected.goal.is_set() && expected.goal == in_effect.goal) {
     expected.directions = in_effect.directions;
     expected.replicas = in_effect.replicas;
     expected.tolerance = in_effect.tolerance;

@@ -25,7 +25,7 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
     run.refine = {};
   }
   SolveRequest request{.scene = whole->scene, .options = run.solve, .tree = whole->tree};
-  if (run.refine.set()) {
+  if (run.refine.is_set()) {
     request.refine = run.refine.options();
   }
   request.keep_form_factors = true;
@@ -242,7 +242,7 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   form_factors_.update(session);
   auto snapshot = std::make_shared<SolverSnapshot>(snapshot_of(session, loaded_));
   snapshot->refine = run_.refine;
-  if (run_.refine.set()) {
+  if (run_.refine.is_set()) {
     snapshot->refinement = {session.refined_scene()->patch_count(), session.in_rounds()};
   }
   snapshot->materials = session.glossy() != nullptr ? materials_ : nullptr;

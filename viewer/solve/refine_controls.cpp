@@ -84,7 +84,7 @@ void RefineControls::set_choice(const RefineChoice& choice) {
   base_ = choice;
   patches_->setValue(choice.patches > 0 ? choice.patches : usual_patches);
   until_->setText(percent_text(choice.until));
-  by_->setCurrentIndex(choice.set() ? static_cast<int>(*choice.by) + 1 : 0);
+  by_->setCurrentIndex(choice.is_set() ? static_cast<int>(*choice.by) + 1 : 0);
 }
 
 void RefineControls::set_available(bool available) {

@@ -91,8 +91,8 @@ RoundPanel::RoundPanel(QWidget* parent) : QWidget(parent) {
 
 void RoundPanel::show_snapshot(const SolverSnapshot& snapshot) {
   const int rows = isHidden() ? 0 : table_->rowCount();
-  setVisible(snapshot.refine.set());
-  if (!snapshot.refine.set()) {
+  setVisible(snapshot.refine.is_set());
+  if (!snapshot.refine.is_set()) {
     return;
   }
   show_table(snapshot);

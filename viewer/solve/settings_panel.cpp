@@ -315,7 +315,7 @@ void SettingsPanel::set_sky(const Sky& sky) {
   sky_color_ = largest > 0 ? (1 / largest) * sky.exitance : Rgb{1, 1, 1};
   sky_value_->setValue(largest);
   sky_model_->setCurrentIndex(static_cast<int>(sky.model));
-  if (sky.set() && sky.model != SkyModel::uniform) {
+  if (sky.is_set() && sky.model != SkyModel::uniform) {
     choose_up(sky.up);
   }
 }
@@ -333,7 +333,7 @@ void SettingsPanel::choose_up(const Vec3& up) {
 }
 
 void SettingsPanel::set_scene_up(const Vec3& up) {
-  if (!sky().set()) {
+  if (!sky().is_set()) {
     choose_up(up);
   }
 }
@@ -454,7 +454,7 @@ SolveOptions SettingsPanel::solve_options() const {
   options.sampling = static_cast<Sampling>(sampling_->currentIndex());
   options.normalize = static_cast<Normalization>(normalize_->currentIndex());
   options.scheme = static_cast<Scheme>(scheme_->currentIndex());
-  options.replicas = options.goal.set() ? 1 : replicas_->value();
+  options.replicas = options.goal.is_set() ? 1 : replicas_->value();
   options.iterations = stop_at_->currentIndex() == 1 ? iterations_->value() : 0;
   const double tolerance = QLocale::c().toDouble(tolerance_->text(), &number);
   if (number && tolerance > 0) {
@@ -561,7 +561,7 @@ void SettingsPanel::show_state() {
   };
   seed_->setEnabled(has_effect("seed"));
   stop_value_->setCurrentIndex(stop_at_->currentIndex());
-  const bool chosen = goal().set();
+  const bool chosen = goal().is_set();
   for (QWidget* widget : {static_cast<QWidget*>(directions_), static_cast<QWidget*>(replicas_)}) {
     widget->setEnabled(!chosen);
   }

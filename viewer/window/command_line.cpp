@@ -47,7 +47,7 @@ bool has_only(const CLI::App& app, const std::set<std::string>& names) {
 /// What a screenshot shows unless options say otherwise.
 void choose_look(CommandLine& line, const CLI::App& app) {
   SolveOptions& solve = line.options.solve;
-  if (!solve.goal.set() && app.count("--directions") + app.count("--after") == 0) {
+  if (!solve.goal.is_set() && app.count("--directions") + app.count("--after") == 0) {
     solve.directions = screenshot_directions;
   }
   const std::int64_t patches = soft_patches(line.scene);

@@ -53,7 +53,7 @@ LightOffer::LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPan
 void LightOffer::update() {
   Banner& bar = *frame_.page.light_bar();
   const auto snapshot = frame_.state.scene.snapshot();
-  const bool sky = snapshot && snapshot->options.sky.set();
+  const bool sky = snapshot && snapshot->options.sky.is_set();
   if (closed_ || sky || !frame_.state.scene.loaded() ||
       frame_.state.relighting.edits().has_light()) {
     bar.dismiss();

@@ -104,7 +104,7 @@ void SolveControl::solve_again() {
       has_lobes(*frame_.state.scene.loaded()->scene)) {
     frame_.state.colors.show_lobes(options.solve.glossy);
   }
-  if (options.refine.set() && !may_refine(options.refine.patches)) {
+  if (options.refine.is_set() && !may_refine(options.refine.patches)) {
     return;
   }
   if (frame_.state.scene.is_open(frame_.state.scene.spec(), options)) {

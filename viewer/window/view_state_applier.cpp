@@ -75,7 +75,7 @@ void ViewStateApplier::show_page(const ViewState& page) {
 
 void ViewStateApplier::set_option(const std::string& name, const std::string& value) {
   ViewState now = arrived() ? state() : requested_;
-  if (!now.options.refine.set()) {
+  if (!now.options.refine.is_set()) {
     now.options.refine = requested_.options.refine;  // the page's limits
     now.options.refine.by.reset();
   }

@@ -80,11 +80,11 @@ void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
   refuse_unless(is_any_of(out, {".glb", ".gltf"}), command, "--light-map",
                 "used only with a .glb or .gltf file");
   refuse_unless(!colors.series.empty(), command, "--series-every", "used only with --series");
-  const bool sky_has_zenith = options.sky.set() && options.sky.model != SkyModel::uniform;
+  const bool sky_has_zenith = options.sky.is_set() && options.sky.model != SkyModel::uniform;
   refuse_unless(sky_has_zenith || is_any_of(out, {".glb", ".gltf", ".png"}), command, "--up",
                 "used only with --sky and --sky-model cie-overcast, or a .glb, .gltf or .png file");
   const bool has_factors = command.get_option("--factors")->count() > 0;
-  refuse_unless(takes_directions(options.engine) && !options.goal.set() && !has_factors, command,
+  refuse_unless(takes_directions(options.engine) && !options.goal.is_set() && !has_factors, command,
                 "--series",
                 "not used with engine hemicube or pairs, an accuracy, a time limit or --factors");
 }

@@ -92,7 +92,7 @@ void add_groups(CLI::App& command, GivenOptions& options,
 
 void complete(GivenOptions& options) {
   set_dependent_defaults(options.run, options.given);
-  if (!options.run.refine.set()) {
+  if (!options.run.refine.is_set()) {
     options.run.refine = {};
   }
   options.run.validate();

@@ -87,7 +87,7 @@ std::string sky_advice(const RunInput& input, const Scene& scene, const BackShar
 SceneOptions division(const RunInput& input, const SceneDescription& description,
                       const Cancellation& cancellation) {
   SceneOptions options = input.run.scene;
-  if (input.run.refine.set() || (input.run.input.patches == 0 && options.max_patch_area == 0)) {
+  if (input.run.refine.is_set() || (input.run.input.patches == 0 && options.max_patch_area == 0)) {
     return options;
   }
   options.max_patch_area = 0;

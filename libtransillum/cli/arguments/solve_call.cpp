@@ -131,7 +131,7 @@ void check_share(const SolveCall& call) {
 
 /// Refuses what rounds of refinement cannot have.
 void check_refinement(const SolveCall& call) {
-  if (!call.scene.run.refine.set()) {
+  if (!call.scene.run.refine.is_set()) {
     return;
   }
   for (const char* option : {"--shard", "--factors"}) {

@@ -100,7 +100,7 @@ PreparedCall prepare_call(SolveCall& call, const Cancellation& cancellation) {
   complete(call);
   prepared.options = call.options();
   prepared.scene = load_input_scene(call.scene, outputs, cancellation,
-                                    prepared.options.sky.set() ? Light::sky : Light::required);
+                                    prepared.options.sky.is_set() ? Light::sky : Light::required);
   check_series(call.colors, prepared.scene->files());
   check_pictures(call.colors, call.out, *prepared.scene, call.eye);
   if (!call.colors.series.empty() && is_first_process()) {
@@ -180,7 +180,7 @@ int run_solve(SolveCall& call) {
   const SolveJob job{
       .scene = prepared.scene,
       .options = options,
-      .refine = refine.set() ? std::optional(refine.options()) : std::nullopt,
+      .refine = refine.is_set() ? std::optional(refine.options()) : std::nullopt,
       .cancellation = cancellation,
       .display = display,
       .quiet = call.quiet,
@@ -233,7 +233,7 @@ int run_shard(SolveCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.quiet);
   const auto scene = load_input_scene(call.scene, outputs, cancellation,
-                                      options.sky.set() ? Light::sky : Light::required);
+                                      options.sky.is_set() ? Light::sky : Light::required);
   const auto start = WallClock::now();
   const int passes = (options.directions - call.share->number) / call.share->of + 1;
   int done = 0;

@@ -25,7 +25,7 @@ std::string place_of(const SolveSession& session) {
   const std::string round =
       session.in_rounds() ? fmt::format("round {}, ", session.rounds().size() + 1) : std::string();
   const SolveOptions& options = session.options();
-  return options.goal.set() ? fmt::format("{}{} replicas, ", round, options.replicas) : round;
+  return options.goal.is_set() ? fmt::format("{}{} replicas, ", round, options.replicas) : round;
 }
 
 void show_progress(ProgressDisplay& display, const SolveSession& session) {
@@ -73,7 +73,7 @@ class Saver {
       save_in_group_if_due(session);
       return;
     }
-    const bool stage_ends = session.options().goal.set() && session.progress().finished;
+    const bool stage_ends = session.options().goal.is_set() && session.progress().finished;
     attempt([&] {
       checkpoint_->save_if_due(session, stage_ends ? std::min(between_stages, job_.checkpoint_every)
                                                    : job_.checkpoint_every);
@@ -82,7 +82,7 @@ class Saver {
   /// Where the solve pauses or ends. The state of an accuracy is that before its last stage is
   /// judged.
   void save(const SolveSession& session) {
-    const bool judged = session.options().goal.set() && session.progress().finished;
+    const bool judged = session.options().goal.is_set() && session.progress().finished;
     if (!judged) {
       attempt([&] { checkpoint_->save(session); });
     }
@@ -274,7 +274,7 @@ Solution solve_with_stored(const std::string& file, const SolveJob& job) {
 
 Solution solve_without_directions(const SolveJob& job) {
   const SolveOptions& options = job.options;
-  if (options.goal.set() && options.engine == Engine::pairs) {
+  if (options.goal.is_set() && options.engine == Engine::pairs) {
     return solve_by_pairs_to(options.goal, job);
   }
   const bool hemicubes = options.engine == Engine::hemicube;

@@ -32,7 +32,7 @@ struct AccuracyGoal {
   double seconds = 0;               ///< wall time of the solve, without loading; 0: not limited
 
   /// Whether there is a goal.
-  bool set() const { return accuracy > 0 || seconds > 0; }
+  bool is_set() const { return accuracy > 0 || seconds > 0; }
   /// @throws InputError naming the value and its range.
   void validate() const;
   /// Exact comparison of all members.

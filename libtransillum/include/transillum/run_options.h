@@ -37,13 +37,13 @@ struct RefineChoice {
   double until = 0;                 ///< RefineOptions::until
 
   /// Whether there are rounds.
-  bool set() const { return by.has_value(); }
+  bool is_set() const { return by.has_value(); }
   /// Requires set().
   RefineOptions options() const { return {*by, patches, until}; }
 
   /// Limits without a criterion change nothing.
   friend bool operator==(const RefineChoice& a, const RefineChoice& b) {
-    return a.by == b.by && (!a.set() || (a.patches == b.patches && a.until == b.until));
+    return a.by == b.by && (!a.is_set() || (a.patches == b.patches && a.until == b.until));
   }
 };
 

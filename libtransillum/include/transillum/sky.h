@@ -28,7 +28,7 @@ struct Sky {
   Vec3 up{0, 0, 1};                    ///< toward the zenith; unit; read by cie_overcast only
 
   /// Whether there is light.
-  bool set() const { return max_abs(exitance) > 0; }
+  bool is_set() const { return max_abs(exitance) > 0; }
   /// pi L / exitance of the sky in the direction omega, a unit vector: 1 everywhere in a uniform
   /// sky; of cie_overcast 9/7 at the zenith and 3/7 at the horizon.
   double relative_radiance(const Vec3& omega) const;

@@ -19,11 +19,11 @@ bool is_semi_iterative(const RunOptions& r) { return traits_of(r.solve.scheme).r
 bool is_conjugate(const RunOptions& r) { return traits_of(r.solve.scheme).is_symmetric; }
 bool is_not_fixed(const RunOptions& r) { return r.solve.scheme != Scheme::fixed; }
 bool chooses_directions(const RunOptions& r) { return is_not_fixed(r) && !is_conjugate(r); }
-bool has_goal(const RunOptions& r) { return r.solve.goal.set(); }
+bool has_goal(const RunOptions& r) { return r.solve.goal.is_set(); }
 bool has_iterations(const RunOptions& r) { return r.solve.iterations > 0; }
 bool has_shot(const RunOptions& r) { return r.solve.first_shot.has_value(); }
 bool has_replicas(const RunOptions& r) { return r.solve.replicas > 1; }
-bool has_rounds(const RunOptions& r) { return r.refine.set(); }
+bool has_rounds(const RunOptions& r) { return r.refine.is_set(); }
 bool has_no_limit_of_patches(const RunOptions& r) { return r.refine.patches == 0; }
 bool has_time_limit(const RunOptions& r) { return r.solve.goal.seconds > 0; }
 bool has_no_moments(const RunOptions& r) { return !traits_of(r.solve.engine).has_linear_basis; }
@@ -144,7 +144,7 @@ void RunOptions::validate() const {
   check_ranges(*this);
   check_conflicts(*this);
   input.read.validate();
-  if (refine.set()) {
+  if (refine.is_set()) {
     refine.options().validate();
   }
 }

@@ -347,7 +347,7 @@ void add_sky(Table& t) {
     o.solve.sky.exitance = text == "none" ? Rgb{} : exitance_from_text(text);
   };
   sky.print = [](const RunOptions& o) {
-    return o.solve.sky.set() ? exact_text(o.solve.sky.exitance) : "none";
+    return o.solve.sky.is_set() ? exact_text(o.solve.sky.exitance) : "none";
   };
   Option& model =
       t.add("sky-model", "NAME", "a name",
@@ -391,7 +391,7 @@ void add_patches(Table& t) {
   };
   patches.print = [](const RunOptions& o) {
     // A file may have a limit for rounds that are not chosen yet.
-    const bool by_area = !o.refine.set() && o.input.patches > 0;
+    const bool by_area = !o.refine.is_set() && o.input.patches > 0;
     const std::int64_t number = by_area ? o.input.patches : o.refine.patches;
     return number == 0 ? "none" : fmt::to_string(number);
   };
@@ -573,7 +573,7 @@ std::string Option::help_text() const {
 
 void set_dependent_defaults(RunOptions& options, const std::set<std::string>& given) {
   SolveOptions& solve = options.solve;
-  if (solve.goal.set() && given.count("first-shot") == 0 && takes_directions(solve.engine) &&
+  if (solve.goal.is_set() && given.count("first-shot") == 0 && takes_directions(solve.engine) &&
       solve.basis == Basis::constant && !solve.glossy) {
     solve.first_shot = first_shot_where_it_pays;
   }
@@ -584,14 +584,14 @@ void set_dependent_defaults(RunOptions& options, const std::set<std::string>& gi
   if (solve.sampling == default_sampling(solve.two_way)) {
     solve.sampling.reset();
   }
-  if (options.refine.set()) {
+  if (options.refine.is_set()) {
     options.input.patches = 0;
   }
 }
 
 std::vector<std::pair<std::string, std::string>> differences_from_default(const RunOptions& asked) {
   RunOptions options = asked;
-  if (!options.refine.set()) {
+  if (!options.refine.is_set()) {
     options.refine = {};
   }
   std::vector<std::pair<std::string, std::string>> differences;

@@ -19,7 +19,7 @@ bool takes_order(const RunOptions& run) { return traits_of(run.solve.engine).tak
 
 bool draws_random_numbers(const RunOptions& run) {
   const SolveOptions& solve = run.solve;
-  const bool seeded_rotations = (solve.replicas > 1 || solve.goal.set()) && !solve.rotation;
+  const bool seeded_rotations = (solve.replicas > 1 || solve.goal.is_set()) && !solve.rotation;
   return has_directions(run) &&
          (is_seeded(solve.used_sampling()) ||
           traits_of(solve.engine).error == EngineTraits::Error::statistical || seeded_rotations ||
@@ -27,16 +27,16 @@ bool draws_random_numbers(const RunOptions& run) {
            differs_by_iteration(solve.used_sampling())));
 }
 
-bool has_goal(const RunOptions& run) { return run.solve.goal.set(); }
+bool has_goal(const RunOptions& run) { return run.solve.goal.is_set(); }
 bool has_no_goal(const RunOptions& run) { return !has_goal(run); }
-bool has_sky(const RunOptions& run) { return run.solve.sky.set(); }
+bool has_sky(const RunOptions& run) { return run.solve.sky.is_set(); }
 bool is_semi_iterative(const RunOptions& run) {
   return traits_of(run.solve.scheme).renews_directions;
 }
 bool stops_by_tolerance(const RunOptions& run) {
   return run.solve.iterations == 0 && run.solve.averaged_iterations == 0;
 }
-bool has_rounds(const RunOptions& run) { return run.refine.set(); }
+bool has_rounds(const RunOptions& run) { return run.refine.is_set(); }
 
 /// An option that only some runs read; all runs read the others.
 struct Use {

@@ -53,7 +53,7 @@ void SolveSession::Impl::begin(const std::shared_ptr<const Scene>& solved) {
   if (called) {
     called = Clock::now();
   }
-  if (request.options.goal.set()) {
+  if (request.options.goal.is_set()) {
     plan.emplace(request.options, *scene);
   }
 }

@@ -50,7 +50,7 @@ void add_options(ContentHash& hash, const SolveOptions& options) {
   if (options.basis != Basis::constant) {
     hash.add(name_of(options.basis));
   }
-  if (options.sky.set()) {
+  if (options.sky.is_set()) {
     hash.add(options.sky.exitance);
     hash.add(name_of(options.sky.model));
     hash.add(options.sky.up);

@@ -101,7 +101,7 @@ void add_vector(VtpArrays& fields, const char* name, const Vec3& vector) {
 
 /// The sky, where there is one.
 void add_sky(VtpArrays& fields, const Sky& sky) {
-  if (!sky.set()) {
+  if (!sky.is_set()) {
     return;
   }
   add_colors(fields, "sky_exitance", 1, [&](PatchId) { return sky.exitance; });

@@ -64,13 +64,13 @@ std::optional<AccuracyPlan> Checkpoint::Impl::read_plan(SealedFile& file_in, con
   file_in.check(cancellation);
   const Json seconds_used = file_in.head().value("seconds", Json());
   const Json plan_size = file_in.head().value("plan", Json());
-  if (!seconds_used.is_number() || plan_size.is_null() == options.goal.set() ||
-      (options.goal.set() &&
+  if (!seconds_used.is_number() || plan_size.is_null() == options.goal.is_set() ||
+      (options.goal.is_set() &&
        (!plan_size.is_number_unsigned() || plan_size.get<std::uint64_t>() > file_in.size()))) {
     file_in.refuse("its head is damaged");
   }
   std::optional<AccuracyPlan> plan;
-  if (options.goal.set()) {
+  if (options.goal.is_set()) {
     plan.emplace(options, scene);
     try {
       plan->restore(file_in.in(), plan_size.get<std::uint64_t>());

@@ -112,18 +112,18 @@ std::string scene_difference(const Scene& one, const Scene& other) {
 namespace {
 
 bool knows_sky(const Solution& solution) {
-  return solution.sky.set() || solution.sky_irradiance.empty();
+  return solution.sky.is_set() || solution.sky_irradiance.empty();
 }
 
 /// Whether two skies give the same light.
 bool are_same(const Sky& one, const Sky& other) {
   return one.exitance == other.exitance &&
-         (!one.set() ||
+         (!one.is_set() ||
           (one.model == other.model && (one.model == SkyModel::uniform || one.up == other.up)));
 }
 
 std::string text_of(const Sky& sky) {
-  if (!sky.set()) {
+  if (!sky.is_set()) {
     return "none";
   }
   std::string text = fmt::format("a sky of {} W/m2, {}", text_of(sky.exitance), name_of(sky.model));

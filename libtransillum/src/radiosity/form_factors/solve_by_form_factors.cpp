@@ -193,7 +193,7 @@ void refuse_directions(const SolveOptions& options, const std::string& who) {
                      " no directions, and therefore no schemes, normalizations, replicas or "
                      "first shot");
   }
-  if (options.sky.set()) {
+  if (options.sky.is_set()) {
     throw InputError(who + " no directions, and cannot tell the sky from the backs of patches");
   }
 }
@@ -214,7 +214,7 @@ void check_form_factor_options(const SolveOptions& options) {
   }
   refuse_directions(options, "engine " + name_of(options.engine) + " has");
   const AccuracyGoal& goal = options.goal;
-  if (goal.set() &&
+  if (goal.is_set() &&
       (options.engine != Engine::pairs || goal.of != AccuracyOf::rms || goal.seconds > 0)) {
     throw InputError(
         "accuracy: engine hemicube has none to choose, and engine pairs estimates "
@@ -255,7 +255,7 @@ Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors
   if (options.basis != Basis::constant) {
     throw InputError("given form factors have no moments for linear functions");
   }
-  if (options.goal.set()) {
+  if (options.goal.is_set()) {
     throw InputError("accuracy: given form factors have none to choose");
   }
   check_form_factor_input(*scene, form_factors, scene->materials(), {});

@@ -63,7 +63,7 @@ void GlossySolver::Impl::find_glossy(GlossyLight::Data& data) {
 void GlossySolver::Impl::check_radiance_memory(std::size_t patches, std::size_t directions) const {
   // Phi, its successor, the lobe's radiance, its successor, and areas seen.
   const std::uint64_t per_slot =
-      4 * sizeof(Rgb) + (input.options.sky.set() ? 2 : 1) * sizeof(double);
+      4 * sizeof(Rgb) + (input.options.sky.is_set() ? 2 : 1) * sizeof(double);
   const std::uint64_t needed = patches * directions * per_slot;
   if (const std::uint64_t available = free_memory(); needed > available) {
     throw std::runtime_error(
@@ -89,8 +89,8 @@ void GlossySolver::Impl::forget_passes() {
   kept_finished = has_light = false;
   const std::size_t slots = glossy.size() * passes();
   seen.assign(slots, 0.0);
-  sky_seen.assign(input.options.sky.set() ? slots : 0, 0.0);
-  sky_area.assign(input.options.sky.set() ? input.patch_count() : 0, 0.0);
+  sky_seen.assign(input.options.sky.is_set() ? slots : 0, 0.0);
+  sky_area.assign(input.options.sky.is_set() ? input.patch_count() : 0, 0.0);
 }
 
 void GlossySolver::Impl::start(Start from) {
@@ -224,7 +224,7 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers, const Observer
   std::vector<Rgb> before, after, received(input.patch_count());
   std::vector<Rgb> reflected(input.patch_count()), changes(input.patch_count());
   LobeTables::Change change;
-  const bool has_sky = input.options.sky.set();
+  const bool has_sky = input.options.sky.is_set();
   std::vector<Rgb> sky_light(has_sky ? input.patch_count() : 0);
   for (std::size_t i = 0; i < input.patch_count(); ++i) {
     received[i] = scale(i) * gathered[i];

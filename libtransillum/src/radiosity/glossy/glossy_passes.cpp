@@ -81,7 +81,7 @@ void GlossySolver::Impl::set_of_pass(int k, bool is_new, const PassLight& made) 
       }
     }
   }
-  if (is_new && sky.set()) {
+  if (is_new && sky.is_set()) {
     const double ahead = sky.relative_radiance(transfers.direction);
     const double behind = sky.relative_radiance(-transfers.direction);
     for (std::size_t g = 0; g < glossy.size(); ++g) {
@@ -93,7 +93,7 @@ void GlossySolver::Impl::set_of_pass(int k, bool is_new, const PassLight& made) 
   for (std::size_t g = 0; g < glossy.size(); ++g) {
     Rgb& arriving = incoming[slot(g)];
     arriving = 1 / input.scene->patch(glossy[g]).area * at(made.gathered, glossy[g]);
-    if (sky.set()) {
+    if (sky.is_set()) {
       arriving += sky_seen[slot(g)] / std::numbers::pi * sky.exitance;
     }
   }
@@ -103,7 +103,7 @@ void GlossySolver::Impl::add_new(int k, PassLight& made) {
   const Transfers& transfers = made.pass.transfers;
   statistics->add(made.pass);
   const Sky& sky = input.options.sky;
-  if (sky.set()) {
+  if (sky.is_set()) {
     const double ahead = sky.relative_radiance(transfers.direction);
     const double behind = sky.relative_radiance(-transfers.direction);
     for (std::size_t i = 0; i < sky_area.size(); ++i) {

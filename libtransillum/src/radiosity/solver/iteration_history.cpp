@@ -108,7 +108,7 @@ void IterationHistory::update(const RadiosityIterate& iterate, const std::vector
 
 std::vector<Rgb> IterationHistory::sky_irradiance(const RadiosityIterate& iterate) const {
   std::vector<Rgb> received;
-  for (std::size_t u = 0; options_.sky.set() && u < b_.size(); u += unknowns_.per_patch) {
+  for (std::size_t u = 0; options_.sky.is_set() && u < b_.size(); u += unknowns_.per_patch) {
     received.push_back(iterate.sky_irradiance(u));
   }
   return received;

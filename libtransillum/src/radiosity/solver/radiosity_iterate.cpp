@@ -31,7 +31,7 @@ RadiosityIterate::RadiosityIterate(const Unknowns& unknowns, const SolveOptions&
   }
   gathered_.resize(count);
   projected_.resize(count);
-  sky_areas_.resize(sky_.set() ? count : 0);
+  sky_areas_.resize(sky_.is_set() ? count : 0);
 }
 
 void RadiosityIterate::start_from(const Rgb& gathered) {

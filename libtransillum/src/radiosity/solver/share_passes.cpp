@@ -38,7 +38,7 @@ void check_can_be_shared(const SolveOptions& options, const Share& share) {
     throw InputError(
         fmt::format("engine {}: it makes no passes to be shared out", name_of(options.engine)));
   }
-  if (options.goal.set()) {
+  if (options.goal.is_set()) {
     throw InputError(
         "accuracy: it chooses the passes by the results of others, so they cannot be "
         "shared out");

@@ -28,7 +28,7 @@ EngineOptions used_engine_options(const SolveOptions& options) {
 }
 
 int expected_directions(const SolveOptions& options) {
-  if (!options.goal.set()) {
+  if (!options.goal.is_set()) {
     return options.directions;
   }
   // Some hundred passes in most scenes; the error is expected to fall as 1/M.

@@ -157,7 +157,7 @@ std::vector<double> RadiositySolver::sky_shares() const {
 
 std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
   std::vector<Rgb> received;
-  if (input.options.sky.set()) {
+  if (input.options.sky.is_set()) {
     for (PatchId i = 0; i < input.scene->patch_count(); ++i) {
       received.push_back(whole.sky_irradiance(input.unknowns->mean_of(i)));
     }
