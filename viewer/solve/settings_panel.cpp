@@ -36,6 +36,14 @@ namespace transillum::viewer {
 
 namespace {
 
+/// The choices of an enumeration, in its order.
+template <class Value>
+void add_choices(QComboBox& box) {
+  for (const std::string& label : choices_of<Value>().labels) {
+    box.addItem(QString::fromStdString(label));
+  }
+}
+
 // The slider's position is the square root of the sky's share of this.
 constexpr int sky_steps = 200;
 constexpr double sky_of_slider = 100;  // W/m²
@@ -103,9 +111,7 @@ void SettingsPanel::add_direction_rows(QFormLayout& form) {
   directions_->setToolTip(tip("directions"));
   sampling_ = new QComboBox;
   sampling_->setObjectName("sampling");
-  for (const std::string& name : names_of<Sampling>()) {
-    sampling_->addItem(capitalized(QString::fromStdString(name)));
-  }
+  add_choices<Sampling>(*sampling_);
   sampling_->setToolTip(tip("sampling"));
   seed_ = new QLineEdit;
   seed_->setObjectName("seed");
@@ -151,7 +157,7 @@ void SettingsPanel::add_engine_rows(QFormLayout& form) {
   resolution_->setSuffix(tr(" px"));
   order_ = new QComboBox;
   order_->setObjectName("painters_order");
-  order_->addItems({tr("BSP tree"), tr("Newell's tests")});
+  add_choices<PaintersOrder>(*order_);
   order_->setToolTip(
       tr("Order of painting\nBSP tree: splits polygons that overlap cyclically, so an order always "
          "exists\nNewell's tests: split nothing, and fail on cyclic overlap"));
@@ -169,14 +175,12 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   pass_serves_->addItems({tr("serves ω and −ω"), tr("serves ω only (paper)")});
   pass_serves_->setToolTip(tip("one-way"));
   normalize_ = new QComboBox;
-  normalize_->addItems({tr("None (paper)"), tr("Rows"), tr("Symmetric")});
+  add_choices<Normalization>(*normalize_);
   normalize_->setToolTip(
       tr("Rows: divide each row by the patch's quadrature of the cosine\n"
          "Symmetric: scale rows and columns alike, which preserves reciprocity"));
   scheme_ = new QComboBox;
-  for (const std::string& name : names_of<Scheme>()) {
-    scheme_->addItem(capitalized(QString::fromStdString(name)));
-  }
+  add_choices<Scheme>(*scheme_);
   scheme_->setToolTip(
       tr("Fixed: the same directions in every iteration\n"
          "Growing: twice as many in each iteration, up to M\n"
@@ -189,8 +193,7 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   replicas_->setToolTip(tip("replicas"));
   basis_ = new QComboBox;
   basis_->setObjectName("basis");
-  // In the order of Basis.
-  basis_->addItems({tr("Constant"), tr("Linear")});
+  add_choices<Basis>(*basis_);
   basis_->setToolTip(tr(
       "Constant: one value of B per patch\n"
       "Linear: a linear function on each patch, with engines Fast, Local map and Exact numbers;\n"
@@ -265,7 +268,7 @@ void SettingsPanel::add_sky_rows(QFormLayout& form) {
   sky_model_ = new QComboBox;
   sky_model_->setObjectName("sky_model");
   // In the order of SkyModel.
-  sky_model_->addItems({tr("Uniform"), tr("CIE overcast")});
+  add_choices<SkyModel>(*sky_model_);
   sky_model_->setToolTip(tr(
       "Uniform: the same from everywhere, also from below\n"
       "CIE overcast: three times as bright at the zenith as at the horizon, nothing from below"));
