@@ -11,6 +11,7 @@
 #include <QStandardPaths>
 #include <QSurfaceFormat>
 #include <QTest>
+#include <QTimer>
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
@@ -29,8 +30,9 @@
 
 namespace transillum::viewer::test {
 
-/// Lets the event loop run until `condition` holds.
-inline bool wait_for(const std::function<bool()>& condition, int milliseconds = 30000) {
+/// Lets the event loop run until `condition` holds. The limit is for busy machines, on which the
+/// solver's thread, of a low priority, waits long for a processor.
+inline bool wait_for(const std::function<bool()>& condition, int milliseconds = 120000) {
   return QTest::qWaitFor(condition, milliseconds);
 }
 
@@ -151,23 +153,29 @@ struct TestWindow : SharedState, MainWindow {
   QString banner_text() { return parts().page.banner()->text(); }
 };
 
-/// Whether docks move to their new places: Qt animates that.
-inline bool is_moving(const QWidget& window) {
+/// Whether a part of the window is about to change by itself: Qt moves docks by animations, and
+/// panels refresh after pauses, for which timers of theirs run.
+inline bool changes_later(const QWidget& window) {
   const auto animations = window.findChildren<QAbstractAnimation*>();
-  return std::any_of(animations.begin(), animations.end(), [](const QAbstractAnimation* animation) {
-    return animation->state() == QAbstractAnimation::Running;
-  });
+  const auto timers = window.findChildren<QTimer*>();
+  return std::any_of(animations.begin(), animations.end(),
+                     [](const QAbstractAnimation* animation) {
+                       return animation->state() == QAbstractAnimation::Running;
+                     }) ||
+         std::any_of(timers.begin(), timers.end(), [](const QTimer* timer) {
+           return timer->isSingleShot() && timer->isActive();
+         });
 }
 
 /// Waits until the solver is idle, every view shows the newest state in its place, and the scene
-/// has its final picture; twice, with what has been posted in between: a view may be about to ask
-/// for a picture.
-inline bool comes_to_rest(const TestWindow& window, int milliseconds = 30000) {
+/// has its final picture; three times, with what has been posted in between: a view may be about to
+/// ask for a picture.
+inline bool comes_to_rest(const TestWindow& window, int milliseconds = 120000) {
   const auto* view = window.findChild<SceneView*>();
   int checks = 0;
   return wait_for(
       [&] {
-        checks = window.settled() && view->at_rest() && !is_moving(window) ? checks + 1 : 0;
+        checks = window.settled() && view->at_rest() && !changes_later(window) ? checks + 1 : 0;
         return checks == 3;
       },
       milliseconds);
