@@ -69,10 +69,10 @@ void EngineMenu::add_engines(QMenu& menu) {
   for (const EngineTraits& traits : transillum::engines()) {
     using Picture = EngineTraits::Picture;
     if (traits.picture != Picture::polygons && traits.picture != Picture::none) {
-      add_engine(traits.engine, std::string("map_") + traits.name);
+      add_engine(traits.value, std::string("map_") + traits.name);
     }
     if (traits.takes_order) {
-      add_engine(traits.engine, "map_newell", PaintersOrder::newell);
+      add_engine(traits.value, "map_newell", PaintersOrder::newell);
     }
   }
   menu.addActions(engines->actions());
