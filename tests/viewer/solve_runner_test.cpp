@@ -218,6 +218,22 @@ class SolveRunnerTest : public QObject {
     QCOMPARE(last.error.rms_limit, last.accuracy->error);
   }
 
+  // The time ends in the middle of a stage, most likely: the one before is the result.
+  void a_limit_of_time_ends_with_a_finished_stage() {
+    Watched w;
+    SolveOptions options;
+    options.goal.seconds = 0.5;
+    w.runner.open({"cornell-box", {options}, {Goal::Kind::finished}});
+    QVERIFY(w.reaches(RunState::finished));
+    QTRY_VERIFY(w.snapshot && w.snapshot->accuracy && w.snapshot->progress.finished);
+    const SolverSnapshot& last = *w.snapshot;
+    QCOMPARE(last.options.directions, last.accuracy->stages.back().directions);
+    QCOMPARE(static_cast<int>(last.directions->size()), last.options.directions);
+    QCOMPARE(last.error.rms_limit, last.accuracy->error);
+    QCOMPARE(last.statistics.passes, last.options.directions);
+    QCOMPARE(last.errors.size(), last.statistics.iteration_records.size());
+  }
+
   void a_goal_of_passes_is_reached_exactly() {
     Watched w;
     w.open("furnace", 64, {Goal::Kind::passes, 23});

@@ -19,7 +19,7 @@ QString engine_sentence(Engine engine) { return tr(traits_of(engine).sentence); 
 void add_engines(QComboBox& box, bool with_rows) {
   for (const EngineTraits& traits : engines()) {
     if (with_rows || traits.takes_directions) {
-      box.addItem(tr(traits.label), static_cast<int>(traits.engine));
+      box.addItem(tr(traits.label), static_cast<int>(traits.value));
       box.setItemData(box.count() - 1, tr(traits.sentence), Qt::ToolTipRole);
     }
   }
