@@ -558,6 +558,7 @@ void SolveRunner::post_snapshot() {
     snapshot->estimate_iteration = changes_iteration_;
   }
   use_stored_result(*snapshot);
+  count_uncertain_patches(*snapshot);
   show_linear_parts(*snapshot);
   since_snapshot_.start();
   snapshot_cost_ms_ = static_cast<double>(cost.nsecsElapsed()) * 1e-6;
@@ -587,6 +588,17 @@ void SolveRunner::use_stored_result(SolverSnapshot& snapshot) const {
   snapshot.sky_irradiance = stored->sky_irradiance;
   snapshot.error = stored->error;
   snapshot.statistics = stored->statistics;
+}
+
+void SolveRunner::count_uncertain_patches(SolverSnapshot& snapshot) {
+  if (snapshot.of_file || snapshot.error.replicas == 0) {
+    return;
+  }
+  Solution errors;
+  errors.scene = snapshot.loaded->scene;
+  errors.error = snapshot.error;
+  errors.statistics = snapshot.statistics;
+  snapshot.uncertain_patches = std::ssize(uncertain_patches(errors));
 }
 
 void SolveRunner::deliver_snapshot() {

@@ -164,6 +164,7 @@ class SolveRunner : public QObject {
   void assemble_form_factors();
   bool form_factors_are_due(const SolveProgress& progress) const;
   void use_stored_result(SolverSnapshot& snapshot) const;
+  static void count_uncertain_patches(SolverSnapshot& snapshot);
   void post_form_factors();
   void post_load_progress(const QString& phase, double share);
   void post_current_failure(const QString& no_memory = {});
