@@ -47,6 +47,26 @@ TEST(SmoothCells, AreNotCutByShadowsThatMissThePolygon) {
   EXPECT_EQ(cells.size(), 1U);
 }
 
+/// Walls through a square, on it, above it and beside it.
+TEST(SmoothCells, AreCutWhereBlockersMeetThePolygon) {
+  const auto wall = [](double x, double low, double y = 0.2) {
+    Corners corners;
+    for (const auto& [along, z] : {std::pair{0.0, low}, {0.4, low}, {0.4, 1.0}, {0.0, 1.0}}) {
+      corners.push_back({x, y + along, z});
+    }
+    return corners;
+  };
+  for (const double low : {-0.3, 0.0}) {
+    const auto cells = smooth_cells(square(1, 0), square(0.3, 3, 0.2), {wall(0.9, low)}, tolerance);
+    ASSERT_EQ(cells.size(), 2U) << low;
+    EXPECT_NEAR(std::min(area({cells[0]}), area({cells[1]})), 0.1, 1e-12);
+    EXPECT_NEAR(area(cells), 1, 1e-12);
+  }
+  for (const Corners& apart : {wall(0.9, 0.1), wall(0.9, 0, 1.1), wall(1.1, 0), wall(1, 0)}) {
+    EXPECT_EQ(smooth_cells(square(1, 0), square(0.3, 3, 0.2), {apart}, tolerance).size(), 1U);
+  }
+}
+
 TEST(SmoothCells, AreFewAndMakeUpThePolygon) {
   std::vector<Corners> blockers;
   for (int k = 0; k < 20; ++k) {

@@ -16,6 +16,8 @@
 #include "solve/study_chart.h"
 #include "solved_window.h"
 #include "support/number_text.h"
+#include "transillum/accuracy_plan.h"
+#include "transillum/files.h"
 #include "widgets/banner.h"
 
 namespace transillum::viewer::study_test {
@@ -149,6 +151,28 @@ class StudyTest : public QObject {
     const QString bound = number_text(directions_if_homogeneous(rho, 0.01));
     QVERIFY2(text("summary_bound").startsWith(QString("M = %1 (eq. 37)").arg(bound)),
              qPrintable(text("summary_bound")));
+  }
+
+  /// The directions of a replica hardly meet the small sources: its row gave errors alone.
+  void figures_name_errors_that_cannot_be_trusted() {
+    const auto window = make_window();
+    const auto* row = window->findChild<QLabel*>("summary_error");
+    const auto shows = [&](const QString& scene, int directions, const QString& end) {
+      window->set_options({.directions = directions, .replicas = 4}, {});
+      window->open(scene);
+      return wait_for([&] {
+        const auto& snapshot = window->snapshot();
+        return snapshot && snapshot->progress.finished && window->settled() &&
+               snapshot->options.directions == directions && row->text().endsWith(end) &&
+               row->text().contains(" %, at most ");
+      });
+    };
+    const Solution solution = solve(load_scene("stars"), {.directions = 512, .replicas = 4});
+    const QString count = count_text(std::ssize(uncertain_patches(solution)));
+    QVERIFY2(shows("stars", 512, QString(" %;\ncannot be trusted on %1 patches").arg(count)),
+             qPrintable(row->text()));
+    QVERIFY2(shows("stars", 64, " %;\ncannot be trusted"), qPrintable(row->text()));
+    QVERIFY2(shows("furnace", 128, " %"), qPrintable(row->text()));
   }
 
   void stopping_at_once_works() {

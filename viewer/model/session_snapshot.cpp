@@ -18,6 +18,8 @@ SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const Lo
   snapshot.glossy = std::move(solution.glossy);
   if (snapshot.of_file) {
     solution = *snapshot.loaded->stored;
+  } else {
+    snapshot.uncertain_patches = std::ssize(uncertain_patches(solution));
   }
   snapshot.statistics = std::move(solution.statistics);
   snapshot.radiosity = std::move(solution.radiosity);

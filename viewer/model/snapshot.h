@@ -103,6 +103,9 @@ struct SolverSnapshot {
   std::vector<double> quadrature_errors;  ///< epsilon after each pass
   ErrorEstimate error;                    ///< from replicas; empty without
   std::vector<ErrorBand> errors;  ///< of B after each finished iteration; empty without replicas
+  /// How many standard errors in `error` cannot be trusted; 0 for those of a file, which does not
+  /// tell what was shot first.
+  std::int64_t uncertain_patches = 0;
   /// Of a solve with a goal, once its first stage is finished.
   std::optional<AccuracyReport> accuracy;
   int estimate_iteration = 0;  ///< number of that iteration, from 0

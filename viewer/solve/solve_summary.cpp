@@ -53,7 +53,9 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
   error_ = grid->add_row(tr("Error of B"), {},
                          tr("RMS over patches, from the spread of the replicas, and what it does\n"
                             "not exceed in 95 % of all runs; set an accuracy or the number of\n"
-                            "replicas in Solve settings"));
+                            "replicas in Solve settings. It is too small on patches to which few\n"
+                            "directions of each replica bring the light of small sources"));
+  error_->setObjectName("summary_error");
   bound_ =
       grid->add_row(tr("Directions for 1 %:\nguaranteed"), {},
                     symbol_tip(tr("M by the paper's bounds, in a nearly homogeneous environment "
@@ -101,11 +103,7 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
                       ? tr("%1; n = %2 needs M = %3")
                             .arg(lobes, number_text(g.exponent), number_text(10 * g.exponent))
                       : lobes);
-  error_->setText(snapshot.error.replicas > 0
-                      ? tr("%1 %, at most %2 %")
-                            .arg(number_text(100 * snapshot.error.rms),
-                                 number_text(100 * snapshot.error.rms_limit))
-                      : tr("no replicas"));
+  show_error(snapshot);
   show_directions_needed(snapshot);
   energy_->setText(any_iteration ? number_text(s.energy_defect) : none);
   contraction_->setText(s.iteration_records.size() > 1
@@ -114,6 +112,22 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
                                        number_text(s.predicted_contraction))
                         : any_pass ? tr("bound %1").arg(number_text(s.predicted_contraction))
                                    : none);
+}
+
+void SolveSummary::show_error(const SolverSnapshot& snapshot) {
+  const ErrorEstimate& error = snapshot.error;
+  if (error.replicas == 0) {
+    error_->setText(tr("no replicas"));
+    return;
+  }
+  const QString limit = tr("%1 %, at most %2 %")
+                            .arg(number_text(100 * error.rms), number_text(100 * error.rms_limit));
+  const double met = snapshot.statistics.light_directions / error.replicas;
+  const std::int64_t uncertain = snapshot.uncertain_patches;
+  error_->setText(met > 0 && met < least_light_directions ? tr("%1;\ncannot be trusted").arg(limit)
+                  : uncertain > 0
+                      ? tr("%1;\ncannot be trusted on %2 patches").arg(limit, count_text(uncertain))
+                      : limit);
 }
 
 void SolveSummary::show_directions_needed(const SolverSnapshot& snapshot) {

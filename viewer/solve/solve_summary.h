@@ -19,6 +19,7 @@ class SolveSummary : public QWidget {
   void show_snapshot(const SolverSnapshot& snapshot);
 
  private:
+  void show_error(const SolverSnapshot& snapshot);
   void show_directions_needed(const SolverSnapshot& snapshot);
 
   QLabel *patches_, *fragments_, *transfers_, *form_factors_, *closure_, *escaped_, *negative_,

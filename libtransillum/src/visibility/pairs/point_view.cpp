@@ -110,7 +110,7 @@ double PointView::visible_form_factor(const Vec3& turned) const {
 
 /// Subtracts the projection of a blocker from x. Parts of it that are not beyond x do not block.
 void PointView::subtract(const Corners& blocker, const Vec3& x) {
-  constexpr double near = 1e-12;
+  constexpr double near = 1e-12, vanishing = 1e-12;
   between_.clear();
   double nearest = HUGE_VAL;
   for (const Vec3& corner : blocker) {
@@ -134,6 +134,10 @@ void PointView::subtract(const Corners& blocker, const Vec3& x) {
     const Vec3 &a = between_[k], &b = between_[k + 1 < between_.size() ? k + 1 : 0];
     box.add({a.x / a.z, a.y / a.z});
     const Vec3 across = sign * cross(a, b);
+    // A cut has left next to nothing of an edge: its direction is noise.
+    if (dot(across, across) <= vanishing * vanishing * dot(a, a) * dot(b, b)) {
+      continue;
+    }
     add_side(sides_, across.x, across.y, across.z);
   }
   region_.subtract(sides_, box);

@@ -2,6 +2,7 @@
 #include "visibility/pairs/smooth_cells.h"
 
 #include <algorithm>
+#include <array>
 
 namespace transillum {
 namespace {
@@ -37,6 +38,23 @@ class Cells {
   bool full() const { return lines_ >= most_lines; }
   std::vector<Corners> take() && { return std::move(cells_); }
 
+  /// Cuts by the plane of a polygon that crosses a cell, or stands on it.
+  void cut_where_met(Outline polygon) {
+    const Corners& any = cells_[0];
+    const HalfSpace floor = lit_half_space(any), wall = lit_half_space(polygon);
+    constexpr double parallel = 1e-6;
+    if (full() || norm(cross(floor.normal, wall.normal)) < parallel) {
+      return;
+    }
+    const std::array<Vec3, 2> foot = foot_of(polygon, floor);
+    if (std::any_of(cells_.begin(), cells_.end(), [&](const Corners& cell) {
+          return is_cut(cell, wall) && is_segment_in(cell, floor.normal, foot);
+        })) {
+      split(wall);
+      ++lines_;
+    }
+  }
+
   /// Cuts by the plane through two parallel edges, if the shadow of the one before the light from
   /// the other may reach a cell.
   void cut(const Side& edge, const Side& light) {
@@ -57,6 +75,49 @@ class Cells {
   }
 
  private:
+  /// The ends of the part of a polygon that lies in a plane, up to the tolerance; equal if none
+  /// does or the polygon only touches it.
+  std::array<Vec3, 2> foot_of(Outline polygon, const HalfSpace& plane) const {
+    std::array<Vec3, 2> foot{};
+    int found = 0;
+    const auto add = [&](const Vec3& x) {
+      if (found == 0) {
+        foot = {x, x};
+      } else if (norm(x - foot[0]) > norm(foot[1] - foot[0])) {
+        foot[1] = x;
+      }
+      ++found;
+    };
+    for_each_side(polygon, [&](const Side& side) {
+      const double begin = plane.distance(side.begin), end = plane.distance(side.end);
+      if (std::abs(begin) <= tolerance_) {
+        add(side.begin);
+      } else if (std::abs(end) > tolerance_ && (begin > 0) != (end > 0)) {
+        add(side.begin + begin / (begin - end) * (side.end - side.begin));
+      }
+    });
+    return foot;
+  }
+
+  /// Whether part of a segment, longer than the tolerance, lies inside a polygon of its plane.
+  bool is_segment_in(const Corners& polygon, const Vec3& normal,
+                     const std::array<Vec3, 2>& segment) const {
+    double from = 0, to = 1;
+    for_each_side(polygon, [&](const Side& side) {
+      const Vec3 inward = cross(normal, side.end - side.begin);
+      const double begin = dot(inward, segment[0] - side.begin);
+      const double end = dot(inward, segment[1] - side.begin);
+      if (begin <= 0 && end <= 0) {
+        to = 0;
+      } else if (begin < 0) {
+        from = std::max(from, begin / (begin - end));
+      } else if (end < 0) {
+        to = std::min(to, begin / (begin - end));
+      }
+    });
+    return (to - from) * norm(segment[1] - segment[0]) > tolerance_;
+  }
+
   bool is_cut(const Corners& polygon, const HalfSpace& plane) const {
     bool below = false, above = false;
     for (const Vec3& x : polygon) {
@@ -104,6 +165,9 @@ class Cells {
 std::vector<Corners> smooth_cells(Outline small, Outline large,
                                   const std::vector<Corners>& blockers, double tolerance) {
   Cells cells(small, tolerance);
+  for (const Corners& blocker : blockers) {
+    cells.cut_where_met(blocker);
+  }
   if (blockers.size() > most_blockers) {
     return std::move(cells).take();
   }
