@@ -104,7 +104,7 @@ RunState SolveWorker::state() const {
 
 /// Whether the present stage of the session is prepared, and so is what is shown of it.
 bool SolveWorker::is_ready() const {
-  return session_ && session_->is_prepared() && session_->scene() == loaded_->scene;
+  return session_ && session_->is_prepared() && session_->tree() == loaded_->tree;
 }
 
 void SolveWorker::advance(const Goal& goal) {
@@ -165,12 +165,13 @@ void SolveWorker::prepare_stage() {
   if (is_ready()) {
     return;
   }
-  const bool is_round = session_->scene() != loaded_->scene;
-  if (is_round) {
+  // A round has a tree of its own, even where no patch was divided before the last.
+  const auto is_round = [this] { return session_->tree() != loaded_->tree; };
+  if (is_round()) {
     checkpoints_.resume(*session_, run_.solve);
   }
   session_->prepare();
-  if (is_round) {
+  if (is_round()) {
     take_patches(with_patches_of(*session_, whole_of(loaded_), cancellation_));
     checkpoints_.begin(loaded_->scene, run_.solve);
     stage_result_ = nullptr;
