@@ -118,6 +118,26 @@ TEST(ShotCheck, FindsMissingLight) {
   EXPECT_EQ(s.shot_disagreement_patch, brightest);
 }
 
+/// Two quads of which one hid itself: one of 24 directions meets both, which six deviations of its
+/// light explain.
+TEST(ShotCheck, FindsByOneDirectionThatAPatchGetsNothing) {
+  Sketch sketch;
+  sketch.face({{-.35, 1.04, 1.33}, {-.31, 1.042, 1.37}, {-.05, 1.042, 1.37}, {-.01, 1.04, 1.33}},
+              sketch.material(0.5, 100));
+  sketch.face({{-.17, 1.18, 1.45}, {-.17, 1.18, 1.43}, {-.17, 1.08, 1.43}, {-.17, 1.08, 1.45}},
+              sketch.material(0.7, 0));
+  const auto scene = sketch.scene();
+  auto light = std::make_shared<DirectLight>(shoot(*scene, find_small_sources(*scene, 0)));
+  EXPECT_LT(checked(scene, {.directions = 24}, light).shot_disagreement, 1);
+  for (const double left : {1e-7, 0.0}) {
+    light = std::make_shared<DirectLight>(*light);
+    at(light->irradiance, 1) = left * at(light->irradiance, 1);
+    const SolveStatistics s = checked(scene, {.directions = 24}, light);
+    EXPECT_GT(s.shot_disagreement, 1) << left;
+    EXPECT_EQ(s.shot_disagreement_patch, 1) << left;
+  }
+}
+
 /// The fault that it is there for: it found the bent lamp that hid itself.
 TEST(ShotCheck, FindsThatABentLampHidesItself) {
   for (const double bend : {1e-6, 1e-7, 1e-8, -1e-7}) {

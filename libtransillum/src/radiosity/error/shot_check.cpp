@@ -22,6 +22,12 @@ namespace {
 constexpr double deviations = 6;
 /// Relative difference that is never reported: errors of the quadrature beyond their estimates.
 constexpr double tolerated = 0.02;
+/// A sum of terms >= 0 exceeds so many times its mean with the inverse probability (Markov's
+/// inequality): no surprise among many patches.
+constexpr double surprising = 1e5;
+/// Share of the most light of a direction below which what is received may be seen through a narrow
+/// gap, as there are many.
+constexpr double negligible = 0.02;
 
 }  // namespace
 
@@ -88,13 +94,29 @@ void ShotCheck::complete() {
   }
 }
 
+/// The most light that a patch can receive along a direction, W.
+double ShotCheck::most_of(PatchId i) const {
+  return std::min(power_, scene_.patch(i).area * largest_exitance_);
+}
+
+/// The error of a shot's sum over directions, W.
+double ShotCheck::error_of(PatchId i) const {
+  return sum(at(shot_.irradiance_error, i)) * scene_.patch(i).area * static_cast<double>(passes_) /
+         2;
+}
+
 /// What the errors explain of a difference of two sums over directions, W.
 double ShotCheck::allowed_of(PatchId i, double received, double shot) const {
-  const double most = std::min(power_, scene_.patch(i).area * largest_exitance_);
-  const double variance = std::max(at(rows_, i).squares, shot * most);
-  const double of_shot =
-      sum(at(shot_.irradiance_error, i)) * scene_.patch(i).area * static_cast<double>(passes_) / 2;
-  return deviations * std::sqrt(variance) + 2 * of_shot + tolerated * std::max(received, shot);
+  const double variance = std::max(at(rows_, i).squares, shot * most_of(i));
+  return deviations * std::sqrt(variance) + 2 * error_of(i) + tolerated * std::max(received, shot);
+}
+
+/// How much more than surprising it is that directions meet so much light, if the shot is right. A
+/// single one tells where the shot has next to nothing, though its sum has no known error.
+double ShotCheck::surprise_of(PatchId i, double received, double shot) const {
+  const double least = negligible * most_of(i);
+  const double mean = std::max(shot + 2 * error_of(i), least / surprising);
+  return received > least ? received / (surprising * mean) : 0;
 }
 
 /// The share of the power of all sources that other patches receive.
@@ -135,7 +157,8 @@ ShotCheck::Disagreement ShotCheck::disagreement() const {
     if (received == 0 && shot == 0) {
       continue;
     }
-    const double ratio = std::abs(received - shot) / allowed_of(i, received, shot);
+    const double ratio = std::max(std::abs(received - shot) / allowed_of(i, received, shot),
+                                  surprise_of(i, received, shot));
     if (ratio > worst.ratio) {
       worst = {ratio, i};
     }

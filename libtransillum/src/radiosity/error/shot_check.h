@@ -52,7 +52,10 @@ class ShotCheck {
     double receives_now = 0, sends_now = 0;  ///< along the direction being added; else 0
   };
   void exchange(PatchId receiver, PatchId source, double area);
+  double most_of(PatchId i) const;
+  double error_of(PatchId i) const;
   double allowed_of(PatchId i, double received, double shot) const;
+  double surprise_of(PatchId i, double received, double shot) const;
   Disagreement of_power() const;
 
   const Scene& scene_;
