@@ -30,7 +30,7 @@ struct Taught {
   LessonPanel* panel = window->findChild<LessonPanel*>();
 
   bool settles() {
-    return wait_for([this] { return window->settled(); }, 60000) &&
+    return wait_for([this] { return window->settled(); }) &&
            wait_for([this] { return window->settled(); });
   }
   QString text(const char* name) const { return window->findChild<QLabel*>(name)->text(); }

@@ -65,7 +65,7 @@ struct Class {
 
   Class() { panel->set_tally_folder(data.path() + "/tallies"); }
   bool settles() {
-    return wait_for([this] { return window->settled(); }, 60000) &&
+    return wait_for([this] { return window->settled(); }) &&
            wait_for([this] { return window->settled(); });
   }
   void open(const std::string& lesson) {
@@ -84,7 +84,7 @@ struct Class {
   QString text(const char* name) const { return window->findChild<QLabel*>(name)->text(); }
   void reveal() {
     action("question_reveal")->trigger();
-    QVERIFY(wait_for([this] { return box->solved() != nullptr; }, 60000));
+    QVERIFY(wait_for([this] { return box->solved() != nullptr; }));
   }
   int counted(const QString& answer) const { return counts().value(answer); }
   // As in the file.

@@ -371,10 +371,10 @@ class SolveRunnerTest : public QObject {
     w->open("sphere-flake:levels=3", 16);
     QVERIFY(QTest::qWaitFor([&] { return worked() > begin + 0.2; }, longest_ms));
     QVERIFY(!w->loaded);
-    QElapsedTimer timer;
-    timer.start();
+    // CPU time: on a busy machine, the thread of a low priority waits long for a processor.
+    const double ended = worked();
     w.reset();
-    QVERIFY2(timer.elapsed() < 3000, qPrintable(QString::number(timer.elapsed())));
+    QVERIFY2(worked() - ended < 1, qPrintable(QString::number(worked() - ended)));
   }
 };
 

@@ -137,7 +137,7 @@ class WindowTest : public QObject {
     QTest::keyClick(quantity->view(), Qt::Key_Return);
     QVERIFY(wait_for([&] { return !quantity->view()->isVisible(); }));
     QVERIFY(solved.window->colors.quantity() == Quantity::eye_radiance);
-    QVERIFY(wait_for([&] { return solved.scene_view->canvas()->hasFocus(); }, 3000));
+    QVERIFY(wait_for([&] { return solved.scene_view->canvas()->hasFocus(); }));
     QTest::keyClicks(QApplication::focusWidget(), "see");
     QVERIFY(solved.window->colors.quantity() == Quantity::eye_radiance);
   }
@@ -382,7 +382,7 @@ class WindowTest : public QObject {
     for (std::size_t lesson = 0; lesson < built_in_lessons().size(); ++lesson) {
       for (std::size_t page = 0; page < built_in_lessons()[lesson].pages.size(); ++page) {
         window->parts().lessons.show_page(static_cast<int>(lesson), static_cast<int>(page));
-        QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }, 60000));
+        QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
         if (window->size() != screen) {
           too_large << QString("%1, page %2: %3 x %4")
                            .arg(lesson + 1)
