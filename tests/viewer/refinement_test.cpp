@@ -402,11 +402,13 @@ class RefinementTest : public QObject {
       QVERIFY(w.finishes());
       w.window->selection.select(80);
       radiosity = w.window->snapshot()->radiosity;
-      const WindowSession session(w.window->parts(), w.window->applier());
+      const WindowSession session(w.window->frame(), w.window->parts().docks,
+                                  w.window->parts().notes, w.window->applier());
       text = QString::fromStdString(to_text(session.current(), folder.path().toStdString()));
     }
     const auto window = make_window(8);
-    WindowSession session(window->parts(), window->applier());
+    WindowSession session(window->frame(), window->parts().docks, window->parts().notes,
+                          window->applier());
     session.restore(session_from_text(text.toStdString(), "session", folder.path().toStdString()));
     QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
     QVERIFY(window->snapshot()->radiosity == radiosity);

@@ -408,8 +408,9 @@ class SessionFileTest : public QObject {
     std::vector<Rgb> radiosity;
     {
       const auto window = make_window(16);
-      WindowSession session(window->parts(), window->applier());
-      Recovery recovery(window->parts(), session, folder.path());
+      WindowSession session(window->frame(), window->parts().docks, window->parts().notes,
+                            window->applier());
+      Recovery recovery(window->frame(), session, folder.path());
       recovery.keep();
       QVERIFY(QDir(folder.path()).entryList({"*.json"}).isEmpty());
       window->open("cornell-box",
@@ -426,8 +427,9 @@ class SessionFileTest : public QObject {
     QCOMPARE(QDir(folder.path()).entryList({"*.json"}), QStringList("killed.json"));
 
     const auto window = make_window(8);
-    WindowSession session(window->parts(), window->applier());
-    Recovery recovery(window->parts(), session, folder.path());
+    WindowSession session(window->frame(), window->parts().docks, window->parts().notes,
+                          window->applier());
+    Recovery recovery(window->frame(), session, folder.path());
     auto* bar = window->findChild<Banner*>("recovery_bar");
     QVERIFY(bar->isHidden());
     recovery.offer();
@@ -446,8 +448,9 @@ class SessionFileTest : public QObject {
       write(folder.filePath(name), "{}");
     }
     const auto window = make_window(8);
-    WindowSession session(window->parts(), window->applier());
-    Recovery recovery(window->parts(), session, folder.path());
+    WindowSession session(window->frame(), window->parts().docks, window->parts().notes,
+                          window->applier());
+    Recovery recovery(window->frame(), session, folder.path());
     recovery.offer();
     auto* bar = window->findChild<Banner*>("recovery_bar");
     for (const int left : {2, 1}) {
@@ -462,13 +465,15 @@ class SessionFileTest : public QObject {
   void the_session_of_a_running_program_is_not_offered() {
     const QTemporaryDir folder;
     const auto window = make_window(8), other = make_window(8);
-    WindowSession session(window->parts(), window->applier());
-    Recovery recovery(window->parts(), session, folder.path());
+    WindowSession session(window->frame(), window->parts().docks, window->parts().notes,
+                          window->applier());
+    Recovery recovery(window->frame(), session, folder.path());
     window->open("cornell-box");
     QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
     recovery.keep();
-    WindowSession other_session(other->parts(), other->applier());
-    Recovery other_recovery(other->parts(), other_session, folder.path());
+    WindowSession other_session(other->frame(), other->parts().docks, other->parts().notes,
+                                other->applier());
+    Recovery other_recovery(other->frame(), other_session, folder.path());
     other_recovery.offer();
     QVERIFY(other->findChild<Banner*>("recovery_bar")->isHidden());
     QCOMPARE(QDir(folder.path()).entryList({"*.json"}).size(), 1);
@@ -533,8 +538,9 @@ class SessionFileTest : public QObject {
     write(folder.filePath("session.json"), R"({"show": {"scene": "furnace"}})");
     write(kept_sessions.filePath("killed.json"), R"({"show": {"scene": "furnace"}})");
     const auto window = make_window(8);
-    WindowSession session(window->parts(), window->applier());
-    Recovery recovery(window->parts(), session, kept_sessions.path());
+    WindowSession session(window->frame(), window->parts().docks, window->parts().notes,
+                          window->applier());
+    Recovery recovery(window->frame(), session, kept_sessions.path());
     recovery.offer();
     window->open("cornell-box");
     QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));

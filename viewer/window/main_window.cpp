@@ -119,7 +119,7 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
 MainWindow::~MainWindow() = default;
 
 WindowViews MainWindow::parts() {
-  return {*page_, docks_, *map_view_, *algorithm_, *settings_, *lesson_panel_};
+  return {*page_, docks_, *map_view_, *algorithm_, *settings_, *lesson_panel_, *notes_};
 }
 
 WindowFrame MainWindow::frame() { return {*this, state_, *page_, *notifier_, work_guard_}; }

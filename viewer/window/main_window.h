@@ -51,6 +51,7 @@ class MainWindow : public QMainWindow {
   MainWindow(SharedState& state, bool remember, QWidget* parent = nullptr);
   ~MainWindow() override;
 
+  WindowFrame frame();
   WindowViews parts();
   FileActions& files() { return *files_; }
   ViewStateApplier& applier() { return *applier_; }
@@ -69,7 +70,6 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  WindowFrame frame();
   void make_views();
   void make_whole_window_actions();
   void make_docks();

@@ -15,6 +15,7 @@
 #include "window/open_scene.h"
 
 class QMainWindow;
+class QPlainTextEdit;
 
 namespace transillum::viewer {
 
@@ -60,6 +61,7 @@ struct WindowViews {
   AlgorithmView& algorithm;
   SettingsPanel& settings;
   LessonPanel& lessons;
+  QPlainTextEdit& notes;
 };
 
 }  // namespace transillum::viewer
