@@ -467,9 +467,23 @@ void ProjectedFragments::remove_edge(const FragmentOutlines& outlines, Fragment&
   --fragment.end;
 }
 
-/// Removes an edge at each right turn that is_convex() lets pass, as FragmentProjector does: of an
-/// edge seen along its length, the direction is rounding of the scene's coordinates, and its line
-/// may have the whole outline on its outer side. Returns whether there are such edges.
+/// Whether the outline lies on the outer side of an edge's line rather than on the inner side.
+bool ProjectedFragments::has_outline_outside(const Fragment& fragment, std::uint32_t k) const {
+  const std::uint32_t count = fragment.end - fragment.begin;
+  const GridPoint& from = corners[fragment.begin + k];
+  const GridPoint& to = corners[fragment.begin + (k + 1) % count];
+  WideInteger inside = 0, outside = 0;
+  for (std::uint32_t j = fragment.begin; j < fragment.end; ++j) {
+    const WideInteger side = exact_turn(from, to, corners[j]);
+    inside = std::max(inside, side);
+    outside = std::max(outside, -side);
+  }
+  return outside > inside;
+}
+
+/// Removes an edge at right turns that is_convex() lets pass, as FragmentProjector does, where its
+/// line has the outline on its outer side: of an edge seen along its length, the direction is
+/// rounding of the scene's coordinates. Returns whether there are such edges.
 bool ProjectedFragments::remove_reflex_edges(const FragmentOutlines& outlines, Fragment& fragment) {
   bool any = false;
   for (std::uint32_t k = 0; k < fragment.end - fragment.begin;) {
@@ -483,7 +497,12 @@ bool ProjectedFragments::remove_reflex_edges(const FragmentOutlines& outlines, F
     }
     const bool first_is_shorter =
         squared_distance(corner(0), corner(1)) < squared_distance(corner(1), corner(2));
-    remove_edge(outlines, fragment, first_is_shorter ? k : (k + 1) % count, !first_is_shorter);
+    const std::uint32_t shorter = first_is_shorter ? k : (k + 1) % count;
+    if (!has_outline_outside(fragment, shorter)) {
+      ++k;
+      continue;
+    }
+    remove_edge(outlines, fragment, shorter, !first_is_shorter);
     any = true;
     k = 0;
   }

@@ -195,6 +195,7 @@ struct ProjectedFragments {
   Turned is_turned(const Fragment& fragment, std::uint32_t k) const;
   void remove_edge(const FragmentOutlines& outlines, Fragment& fragment, std::uint32_t k,
                    bool keep_end);
+  bool has_outline_outside(const Fragment& fragment, std::uint32_t k) const;
   bool remove_reflex_edges(const FragmentOutlines& outlines, Fragment& fragment);
   void add_or_drop(const FragmentOutlines& outlines, std::uint32_t outline);
   std::size_t add_joined(const FragmentOutlines& outlines, const std::vector<FragmentId>& order,

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "visibility/plane/map_polygon.h"
@@ -48,9 +49,9 @@ class FragmentProjector {
 
   /// Makes the outline turn left everywhere; returns whether that is possible. Pieces are planar
   /// only to rounding, so the outline of one seen edge-on within rounding may not turn left, and is
-  /// left out. Where right turns are small compared with the area, one of their edges is removed:
-  /// an edge seen along its length has a direction from rounding, and a line that may have the
-  /// whole outline on its outer side. Those that are rounding of nearly collinear corners are kept.
+  /// left out. Where right turns are small compared with the area, an edge is removed that has the
+  /// outline on its outer side: seen along its length, its direction is rounding. Right turns of
+  /// nearly collinear corners are kept.
   bool make_convex() {
     for (std::size_t k = 0; k < outline_.size();) {
       const std::size_t count = outline_.size();
@@ -70,11 +71,29 @@ class FragmentProjector {
       if (-64 * turn > area_ || count == 3) {
         return false;
       }
-      remove_edge(before < after ? k : (k + 1) % count, before < after);
+      const std::size_t shorter = before < after ? k : (k + 1) % count;
+      if (!is_turned(shorter)) {
+        ++k;
+        continue;
+      }
+      remove_edge(shorter, before < after);
       area_ = area_of(outline_);
       k = 0;
     }
     return area_ > 0;
+  }
+
+  /// Whether the outline lies on the outer side of an edge's line rather than on the inner side.
+  bool is_turned(std::size_t k) const {
+    const BasicPlanePoint<Number>& a = outline_[k].at;
+    const BasicPlanePoint<Number> along = outline_[(k + 1) % outline_.size()].at - a;
+    Number inside{}, outside{};
+    for (const BasicMapCorner<Number>& corner : outline_) {
+      const Number side = cross(along, corner.at - a);
+      inside = std::max(inside, side);
+      outside = std::max<Number>(outside, -side);
+    }
+    return outside > inside;
   }
 
   static Number square(const BasicPlanePoint<Number>& v) { return v.x * v.x + v.y * v.y; }
