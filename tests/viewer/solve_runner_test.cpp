@@ -160,7 +160,7 @@ class SolveRunnerTest : public QObject {
                      [&w](const auto& newest) { QVERIFY(newest->loaded == w.loaded); });
     // Saved after each pass, and thus after the first snapshot.
     const QString checkpoint = folder.filePath("run.tck");
-    w.runner.keep_in(checkpoint.toStdString(), 0);
+    w.runner.save_to(checkpoint.toStdString(), 0);
     for (const char* scene : {"cornell-box", "furnace"}) {
       w.open(scene, 16, {Goal::Kind::finished});
       QVERIFY(testing::wait_until([&] {

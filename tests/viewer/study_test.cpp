@@ -16,8 +16,8 @@
 #include "solve/study_chart.h"
 #include "solved_window.h"
 #include "support/number_text.h"
-#include "transillum/accuracy_plan.h"
 #include "transillum/files.h"
+#include "transillum/solve_session.h"
 #include "widgets/banner.h"
 
 namespace transillum::viewer::study_test {
