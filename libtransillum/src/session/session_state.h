@@ -28,6 +28,7 @@ struct [[gnu::visibility("hidden")]] SolveSession::Impl {
   std::optional<RunningSolver> solver;      ///< of the present stage; nothing: not prepared
   std::optional<AccuracyPlan::Next> next;   ///< after this stage, which has ended
   std::optional<Solution> best;             ///< of a goal: of the last stage that has ended
+  bool assessed = false;                    ///< the round has ended; its patches are to be divided
   double seconds_bsp = 0, seconds_first_shot = 0;
   double seconds_before = 0;                ///< of finished calls
   std::optional<Clock::time_point> called;  ///< when the present call began

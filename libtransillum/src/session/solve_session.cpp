@@ -45,6 +45,7 @@ void SolveSession::Impl::begin(const std::shared_ptr<const Scene>& solved) {
   solver.reset();
   next.reset();
   best.reset();
+  assessed = false;
   plan.reset();
   scene = solved;
   tree = scene == request.scene ? request.tree : nullptr;
@@ -166,7 +167,10 @@ bool SolveSession::Impl::begin_next() {
   if (!in_rounds()) {
     return false;
   }
-  rounds->assess(best ? *best : solver->solution(), seconds(), cancellation);
+  if (!assessed) {
+    rounds->assess(best ? *best : solver->solution(), seconds(), cancellation);
+    assessed = true;
+  }
   rounds->divide_worst(cancellation);
   begin(rounds->scene());
   return true;
