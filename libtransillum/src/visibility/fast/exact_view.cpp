@@ -122,7 +122,7 @@ void ExactView::begin_query(std::int32_t fragment, const FragmentBins::Bin& bin)
     if (sides.right == 0) {
       continue;
     }
-    split(polygon, ref, sides, inside_[0], inside_[1]);
+    split(polygon, ref, inside_[0], inside_[1]);
     polygon = inside_[0];
   }
   kept_edges_ = edge_count_;
@@ -411,7 +411,7 @@ bool ExactView::subtract_from_polygon(std::uint32_t index, Real& area) {
     if (from_pool) {
       rest = &polygons_[index];
     }
-    split(*rest, ref, sides, inside_[used], polygons_[part]);
+    split(*rest, ref, inside_[used], polygons_[part]);
     new_parts_.push_back(part);
     if (polygons_[part].count > halving_corners) {
       split_in_half(part);
@@ -465,37 +465,38 @@ void ExactView::split_in_half(std::uint32_t index) {
   new_parts_.push_back(other);
 }
 
-/// Splits a polygon along a line with corners on both sides. `sides` and sides_ are from
-/// measure_sides().
+/// Splits a polygon along a line with corners on both sides. sides_ is from measure_sides().
 ///
 ///            F ── … ── L        F … L: corners on the left, which is inside
 ///           /           \\.
 ///      ────Y─────────────X───►  X, Y: corners on the line, or made by the cut; in both parts
 ///           \\           /
 ///            … ─── … ──        outside
-void ExactView::split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& inside,
-                      Polygon& outside) {
+void ExactView::split(const Polygon& polygon, EdgeRef by, Polygon& inside, Polygon& outside) {
   ++counts_.cuts;
   const std::size_t count = polygon.count;
   const auto after = [count](std::size_t k) { return k + 1 < count ? k + 1 : 0; };
   const auto before = [count](std::size_t k) { return k > 0 ? k - 1 : count - 1; };
-  const auto is_left = [&](std::size_t k) { return (sides.left >> k & 1) != 0; };
-  // Find the run of corners on the left; in a convex polygon there is only one.
-  auto first = static_cast<std::size_t>(std::countr_zero(sides.left));
-  if (first == 0) {
-    while (is_left(before(first))) {
-      first = before(first);
-    }
+  // The run of corners on the left around the farthest of them. A convex polygon has only one,
+  // without corners on the line in it; rounding may bend an outline where its edges continue one
+  // another.
+  const auto farthest = static_cast<std::size_t>(
+      std::max_element(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(count)) -
+      sides_.begin());
+  std::size_t first = farthest, last = farthest;
+  for (std::size_t k = before(farthest); sides_[k] >= 0; k = before(k)) {
+    first = sides_[k] > 0 ? k : first;
+  }
+  for (std::size_t k = after(farthest); sides_[k] >= 0; k = after(k)) {
+    last = sides_[k] > 0 ? k : last;
   }
   inside.count = outside.count = 0;
   inside.error = outside.error = polygon.error;
-  std::size_t last = first;
-  for (std::size_t k = first; is_left(k); k = after(k)) {
+  std::size_t k = first;
+  for (; k != after(last); k = after(k)) {
     inside.add_corner(polygon, k, polygon.edge[k]);
-    last = k;
   }
   // X, where the outline leaves the left side.
-  std::size_t k = after(last);
   if (sides_[k] == 0) {
     inside.add_corner(polygon, k, by);
     outside.add_corner(polygon, k, polygon.edge[k]);

@@ -162,7 +162,7 @@ class ExactView {
   bool add_covered(const Polygon& part, Real& area);
   std::uint32_t new_polygon();
   void split_in_half(std::uint32_t index);
-  void split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& inside, Polygon& outside);
+  void split(const Polygon& polygon, EdgeRef by, Polygon& inside, Polygon& outside);
   static PointId common_point(const Edge& p, const Edge& q);
   void add_crossing(const Polygon& polygon, std::size_t from, std::size_t to, EdgeRef by,
                     Polygon& inside, Polygon& outside);
