@@ -107,7 +107,7 @@ inline Vec3 diffuse_direction(const Vec3& normal, RandomNumbers& random) {
 }
 
 /// Where a ray meets a surface.
-struct Meeting {
+struct SurfaceHit {
   PatchId patch;
   float distance;
 };
@@ -116,14 +116,14 @@ struct Meeting {
 inline constexpr double ray_lift = 1e-6;
 
 /// The first surface that a ray meets, on either side.
-inline std::optional<Meeting> first_meeting(const EmbreeScene& embree, const Vec3& origin,
-                                            const Vec3& direction) {
+inline std::optional<SurfaceHit> first_meeting(const EmbreeScene& embree, const Vec3& origin,
+                                               const Vec3& direction) {
   RTCRayHit ray = make_ray(origin, direction);
   embree.first_hit(ray, false);
   if (!has_hit(ray)) {
     return std::nullopt;
   }
-  return Meeting{embree.patch_of(ray.hit.primID), ray.ray.tfar};
+  return SurfaceHit{embree.patch_of(ray.hit.primID), ray.ray.tfar};
 }
 
 }  // namespace transillum

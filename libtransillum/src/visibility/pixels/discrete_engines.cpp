@@ -32,7 +32,7 @@ void paint(const Scene& scene, const BspTree& tree, PaintersOrder order, const P
     Painter(pieces, grid, heights, sink, cancellation)
         .paint(newell_order(scene, grid, pieces, heights, cancellation));
   } else {
-    const FragmentOutlines fragments(tree, grid);
+    const SnappedFragments fragments(tree, grid);
     Painter(fragments, grid, heights, sink, cancellation)
         .paint(tree.order(grid.frame().omega, cancellation));
   }
@@ -94,7 +94,7 @@ void sample_visibility(Engine engine, const Scene& scene, const BspTree& tree,
     case Engine::zbuffer:
       return fill_zbuffer(tree, fragments, grid, heights, sink, cancellation);
     case Engine::painter: {
-      const FragmentOutlines outlines(tree, grid);
+      const SnappedFragments outlines(tree, grid);
       Painter painter(outlines, grid, heights, sink, cancellation);
       if (options.order == PaintersOrder::bsp) {
         return painter.paint(fragments);

@@ -42,10 +42,10 @@ class PieceOutlines {
 };
 
 /// The fragments of a tree. Their edges are converted as parts of the tree's lines.
-class FragmentOutlines {
+class SnappedFragments {
  public:
   /// Keeps a reference.
-  FragmentOutlines(const BspTree& tree, const PixelGrid& grid)
+  SnappedFragments(const BspTree& tree, const PixelGrid& grid)
       : tree_(tree), points_(grid.snapped(tree.points())) {}
 
   PatchId patch(FragmentId f) const { return tree_.fragment(f).patch; }

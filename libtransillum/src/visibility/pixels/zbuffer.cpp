@@ -16,7 +16,7 @@
 namespace transillum {
 namespace {
 
-/// @tparam Outlines PieceOutlines or FragmentOutlines
+/// @tparam Outlines PieceOutlines or SnappedFragments
 template <class Outlines>
 class ZBuffer {
  public:
@@ -218,7 +218,7 @@ void fill_zbuffer(const Scene& scene, const PixelGrid& grid, const PatchHeights&
 void fill_zbuffer(const BspTree& tree, std::span<const FragmentId> fragments, const PixelGrid& grid,
                   const PatchHeights& heights, VisibilitySink& sink,
                   const Cancellation& cancellation) {
-  ZBuffer(FragmentOutlines(tree, grid), fragments, grid, heights, sink, cancellation).fill();
+  ZBuffer(SnappedFragments(tree, grid), fragments, grid, heights, sink, cancellation).fill();
 }
 
 }  // namespace transillum
