@@ -770,16 +770,17 @@ class SessionFileTest : public QObject {
     const QTemporaryDir folder;
     FrameRecorder& recorder = *solved.window->findChild<FrameRecorder*>();
     const auto passes = [&] { return solved.window->snapshot()->passes_done; };
-    const std::int64_t before = passes();
+    // Each command makes an iteration, whose passes are kept.
+    std::int64_t before = passes();
     recorder.begin_frames(folder.path());
     solved.trigger("one_direction");
-    QVERIFY(wait_for([&] {
-      return recorder.frames() >= 2 && passes() == before + 1 && solved.window->settled();
-    }));
+    QVERIFY(wait_for(
+        [&] { return recorder.frames() >= 2 && passes() > before && solved.window->settled(); }));
     recorder.end();
     const int frames = recorder.frames();
+    before = passes();
     solved.trigger("one_direction");
-    QVERIFY(wait_for([&] { return passes() == before + 2 && solved.window->settled(); }));
+    QVERIFY(wait_for([&] { return passes() > before && solved.window->settled(); }));
     handle_posted();
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), frames);
     // Steps are recorded too, after the frames of the earlier recording.
