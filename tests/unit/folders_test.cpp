@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -245,6 +246,7 @@ const fs::path viewer = repository / "viewer";
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 TEST(Folders, OfTheLibraryIncludeOnlyWhatTheTableAllows) {
   const Rules rules = read_rules(document, "### Folders of libtransillum/src");
@@ -286,6 +288,33 @@ TEST(Folders, TheCommandLineUsesThePublicApiOnly) {
     EXPECT_TRUE(include.path.starts_with("transillum/") ||
                 fs::exists(folder.parent_path() / include.path))
         << place(include);
+  }
+}
+
+/// Two classes of one name are one for the linker, which keeps one destructor for both.
+TEST(Folders, TypesOfTheLibraryHaveOneDefinition) {
+  static const std::regex definition(
+      R"((?:class|struct) (?:\[\[.*\]\] )?(?:alignas\(\w+\) )?(\w+)(?: final)?(?: : .*)? \{)");
+  std::map<std::string, Names> files_of;
+  for (const fs::path& root : {sources, headers}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
+      std::ifstream in(entry.path());
+      bool has_linkage = true;
+      for (std::string line; std::getline(in, line);) {
+        std::smatch match;
+        if (line == "namespace {") {
+          has_linkage = false;
+        } else if (line == "}  // namespace") {
+          has_linkage = true;
+        } else if (has_linkage && std::regex_match(line, match, definition)) {
+          files_of[match[1]].insert(entry.path().lexically_relative(repository).string());
+        }
+      }
+    }
+  }
+  EXPECT_GT(files_of.size(), 300u);
+  for (const auto& [name, files] : files_of) {
+    EXPECT_THAT(files, SizeIs(1)) << name;
   }
 }
 
