@@ -48,9 +48,7 @@ QStringList texts_of(const KeptRun& run) {
   const QString none = QStringLiteral("–");
   return {run.name,
           by_directions ? QString::number(options.directions) : none,
-          by_directions ? QString::fromStdString(at(
-                              names_of<Sampling>(), static_cast<std::size_t>(options.used_sampling())))
-                        : none,
+          by_directions ? QString::fromStdString(name_of(options.used_sampling())) : none,
           snapshot.of_file ? RunPanel::tr("a file") : engine_label(options.engine),
           QString::number(snapshot.progress.iteration),
           QLocale::c().toString(run.kept, QStringLiteral("HH:mm:ss"))};

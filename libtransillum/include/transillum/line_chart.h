@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Line charts as a description (LineChart) and its drawing, to pixels or to a file
-// (decisions/0082-charts-without-vtk.md). The library makes them for studies, the viewer also for the
-// convergence of a solve run. Lengths are in pixels of a screen with scale 1. Texts are UTF-8;
+// (decisions/0082-charts-without-vtk.md). The library makes them for studies, the viewer also for
+// the convergence of a solve run. Lengths are in pixels of a screen with scale 1. Texts are UTF-8;
 // invalid sequences are replaced.
 #pragma once
 

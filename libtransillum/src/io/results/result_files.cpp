@@ -46,8 +46,7 @@ ResultWriter writer_for(const std::filesystem::path& path) {
     return write_result_png;
   }
   throw InputError(fmt::format(
-      "{}: the name of a result must end in .csv, .vtp, .ply, .glb, .gltf or .png",
-      path.string()));
+      "{}: the name of a result must end in .csv, .vtp, .ply, .glb, .gltf or .png", path.string()));
 }
 
 }  // namespace
