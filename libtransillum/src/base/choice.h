@@ -19,6 +19,9 @@ struct Choice {
   const char* label = nullptr;  ///< null: the name with a capital
   const char* sentence = "";
 };
+/// Clang 14 does not deduce the arguments of aggregates itself.
+template <class Value>
+Choice(Value, const char*, const char* = nullptr, const char* = "") -> Choice<Value>;
 
 /// Whether the enumeration has an enumerator with this value: the compiler writes others as
 /// numbers.
