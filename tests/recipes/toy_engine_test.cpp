@@ -12,7 +12,7 @@ namespace transillum::toy_engine_test {
 namespace {
 
 TEST(ToyEngine, IsAChoiceOfTheOption) {
-  const auto options_of_solves = options();
+  const auto& options_of_solves = options();
   const auto option = std::find_if(options_of_solves.begin(), options_of_solves.end(),
                                    [](const Option& o) { return o.name == "engine"; });
   ASSERT_NE(option, options_of_solves.end());

@@ -56,7 +56,7 @@ void whole(Option& o, Get get, std::int64_t low, std::int64_t high, std::string 
 
 /// A number that `is_valid`; 0 stands for `unset`, unless that is empty.
 template <class Get, class IsValid>
-void real(Option& o, Get get, IsValid is_valid, const char* valid, std::string unset = {}) {
+void real(Option& o, Get get, IsValid is_valid, const char* valid, const std::string& unset = {}) {
   o.json = Option::Json::number;
   o.unset = unset;
   o.zero_is_unset = !unset.empty();

@@ -38,7 +38,7 @@ std::string hex(const Color8& c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r
 /// A name of at most `max_size` bytes: the end of a longer one, after an ellipsis. The end is the
 /// distinctive part of a path.
 std::string shortened(const std::string& text, std::size_t max_size) {
-  const std::string clean = clean_text(text);
+  std::string clean = clean_text(text);
   if (clean.size() <= max_size) {
     return clean;
   }

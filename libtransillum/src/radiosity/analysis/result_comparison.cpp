@@ -96,7 +96,7 @@ std::string scene_difference(const Scene& one, const Scene& other) {
                        other.patch_count());
   }
   for (PatchId i = 0; i < one.patch_count(); ++i) {
-    if (const std::string outline = outline_difference(one, other, i); !outline.empty()) {
+    if (std::string outline = outline_difference(one, other, i); !outline.empty()) {
       return outline;
     }
     if (one.exitance(i) != other.exitance(i)) {

@@ -72,7 +72,7 @@ void make_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& 
             pass.transfers = engine(at(directions, pass_of(n)), cancellation);
             return pass;
           },
-          [&](int n, Pass pass) {
+          [&](int n, const Pass& pass) {
             cancellation.throw_if_canceled();
             add(pass_of(n), pass.transfers);
             return true;

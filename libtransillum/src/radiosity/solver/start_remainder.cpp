@@ -90,12 +90,12 @@ void StartRemainder::make_upper() {
 }
 
 double StartRemainder::contraction() const {
-  const std::size_t count = largest_.size();
-  if (count < 4 || !(largest_[count / 2] > 0)) {
+  const std::size_t count = largest_.size(), middle = count / 2;
+  if (count < 4 || !(largest_[middle] > 0)) {
     return rho_max();
   }
-  const auto iterations = static_cast<double>(count - 1 - count / 2);
-  return std::pow(largest_.back() / largest_[count / 2], 1 / iterations);
+  const auto iterations = static_cast<double>(count - 1 - middle);
+  return std::pow(largest_.back() / largest_[middle], 1 / iterations);
 }
 
 }  // namespace transillum

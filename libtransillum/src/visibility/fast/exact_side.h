@@ -10,7 +10,7 @@ struct GridLine {
   GridPoint a, b;
 };
 
-__extension__ typedef __int128 WideInteger;
+__extension__ typedef __int128 WideInteger;  // NOLINT(modernize-use-using)
 
 /// Twice the area of the triangle a, b, c; exact.
 inline WideInteger exact_turn(const GridPoint& a, const GridPoint& b, const GridPoint& c) {

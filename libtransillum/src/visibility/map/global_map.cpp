@@ -89,7 +89,7 @@ class TileEdges {
     std::vector<PointPlace> places;
     for (const BasicPlanePoint<Rational>& p : polygon.outline) {
       const Kernel::Point_2 point{Kernel::FT(p.x), Kernel::FT(p.y)};
-      places.push_back(points_.try_emplace(std::pair(p.x, p.y), point).first);
+      places.emplace_back(points_.try_emplace(std::pair(p.x, p.y), point).first);
     }
     for (std::size_t k = 0; k < places.size(); ++k) {
       const PointPlace a = places[k], b = places[(k + 1) % places.size()];
