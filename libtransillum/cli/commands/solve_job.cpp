@@ -139,7 +139,7 @@ void run_rounds(SolveSession& session, const SolveJob& job) {
   }
 }
 
-/// Makes the checkpoint that the job asks for, and goes on with what is in it.
+/// Makes the checkpoint that the job asks for, and resumes the solve in its file, if there is one.
 void resume(SolveSession& session, const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
   if (job.checkpoint.file.empty()) {
     return;

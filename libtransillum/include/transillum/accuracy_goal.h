@@ -20,7 +20,7 @@ enum class AccuracyOf {
   mean,   ///< error of the area-weighted mean of B over that of B - E, as lengths of RGB vectors
 };
 
-/// Their names (choice.h); that of a patch is followed by its number.
+/// The names of the errors (choice.h). The number of a patch follows the name `patch`.
 template <>
 const Choices& choices_of<AccuracyOf>();
 

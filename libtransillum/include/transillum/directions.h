@@ -36,7 +36,8 @@ struct DirectionSample {
 /// Their names (choice.h).
 template <>
 const Choices& choices_of<Sampling>();
-/// As for other enumerations; the former spelling `centred-hammersley` is read too.
+/// The sampling called `name`. Reads the former spelling `centred-hammersley` too.
+/// @throws InputError listing the names.
 template <>
 Sampling from_name<Sampling>(const std::string& name);
 

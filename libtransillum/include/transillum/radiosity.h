@@ -287,7 +287,7 @@ inline constexpr double least_light_directions = 3;
 struct Solution;
 class GlossyLight;
 
-/// What a solver starts from. What is null is made by the solver.
+/// The parts that a solver starts from. The solver makes each part that is null.
 struct SolverParts {
   std::shared_ptr<const BspTree> tree = nullptr;  ///< of the scene
   /// Direct light of the scene's small sources, if SolveOptions::first_shot is set.

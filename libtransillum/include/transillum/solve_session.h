@@ -23,10 +23,10 @@
 
 namespace TRANSILLUM_API transillum {
 
-/// What is made before the first pass of a solve.
+/// The work before the first pass of a solve.
 enum class Preparation { tree, first_shot };
 
-/// What a solve is made of.
+/// The scene, the options and the ready-made parts of a solve.
 struct SolveRequest {
   std::shared_ptr<const Scene> scene;                 ///< with the materials to be solved for
   SolveOptions options = {};                          ///< of each solve
@@ -45,7 +45,7 @@ struct SolveRequest {
 /// Without a goal and without rounds it has one stage. With SolveOptions::goal, each stage has more
 /// directions or replicas than the one before, until the error that the replicas show is below the
 /// goal (decisions/0052-accuracy.md); the result is that of the last stage that has finished. With
-/// rounds of refinement, each round is such a solve, and so is that of the refined scene.
+/// rounds of refinement, each round is such a solve, and the refined scene is solved last.
 ///
 /// Threads: at most one thread at a time may call it; an observer may read it.
 class SolveSession {
