@@ -21,8 +21,8 @@
 #include "stepping/watch_chart.h"
 #include "widgets/full_screen.h"
 #include "widgets/theme.h"
-#include "window/dock_layouts.h"
-#include "window/key_list.h"
+#include "window/base/dock_layouts.h"
+#include "window/menus/key_list.h"
 
 namespace transillum::viewer::appearance_test {
 

@@ -14,7 +14,7 @@
 #include "lessons/lesson_panel.h"
 #include "solved_window.h"
 #include "transillum/at.h"
-#include "window/lesson_export.h"
+#include "window/files/lesson_export.h"
 
 namespace transillum::viewer::lesson_html_test {
 

@@ -18,7 +18,7 @@
 
 #include "colors/color_scale.h"
 #include "lessons/lesson.h"
-#include "model/recorded_map.h"
+#include "model/requests/recorded_map.h"
 #include "registered.h"
 #include "scene/direction_glyph.h"
 #include "transillum/at.h"

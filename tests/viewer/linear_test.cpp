@@ -18,7 +18,7 @@
 #include "scene/step_glyph.h"
 #include "solved_window.h"
 #include "transillum/files.h"
-#include "window/export_actions.h"
+#include "window/files/export_actions.h"
 
 namespace transillum::viewer::linear_test {
 

@@ -26,8 +26,8 @@
 #include "patches/path_panel.h"
 #include "solved_window.h"
 #include "transillum/power_table.h"
-#include "window/view_state_applier.h"
-#include "window/window_session.h"
+#include "window/base/view_state_applier.h"
+#include "window/files/window_session.h"
 
 namespace transillum::viewer::parts_test {
 

@@ -23,8 +23,8 @@
 #include "solve/round_panel.h"
 #include "solved_window.h"
 #include "transillum/scene.h"
-#include "window/view_state_applier.h"
-#include "window/window_session.h"
+#include "window/base/view_state_applier.h"
+#include "window/files/window_session.h"
 
 namespace transillum::viewer::refinement_test {
 

@@ -9,8 +9,8 @@
 #include "solved_window.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "window/export_actions.h"
-#include "window/file_actions.h"
+#include "window/files/export_actions.h"
+#include "window/files/file_actions.h"
 
 namespace transillum::viewer::result_test {
 

@@ -28,12 +28,12 @@
 #include "solved_window.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "window/color_export_dialog.h"
 #include "window/command_line.h"
-#include "window/export_actions.h"
-#include "window/file_actions.h"
-#include "window/reading_dialog.h"
-#include "window/reading_memory.h"
+#include "window/files/color_export_dialog.h"
+#include "window/files/export_actions.h"
+#include "window/files/file_actions.h"
+#include "window/files/reading_dialog.h"
+#include "window/files/reading_memory.h"
 
 namespace transillum::viewer::scene_files_test {
 

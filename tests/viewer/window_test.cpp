@@ -28,7 +28,7 @@
 #include "solved_window.h"
 #include "transillum/at.h"
 #include "transillum/patch_count.h"
-#include "window/view_state_applier.h"
+#include "window/base/view_state_applier.h"
 
 namespace transillum::viewer::window_test {
 

@@ -10,8 +10,8 @@
 
 #include "colors/color_scale.h"
 #include "colors/quantity.h"
-#include "model/eye_radiance.h"
-#include "model/jump_finder.h"
+#include "model/requests/eye_radiance.h"
+#include "model/requests/jump_finder.h"
 #include "model/snapshot.h"
 #include "state/kept_runs.h"
 #include "state/selection.h"

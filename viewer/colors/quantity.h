@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "model/response_solver.h"
+#include "model/requests/response_solver.h"
 #include "model/snapshot.h"
 
 namespace transillum::viewer {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "colors/color_scale.h"
-#include "model/per_direction_visibility.h"
+#include "model/requests/per_direction_visibility.h"
 
 namespace transillum::viewer {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "colors/color_choice.h"
-#include "model/engine_comparer.h"
+#include "model/requests/engine_comparer.h"
 #include "state/focus.h"
 #include "state/selection.h"
 

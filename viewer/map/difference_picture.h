@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "map/map_canvas.h"
-#include "model/engine_comparer.h"
+#include "model/requests/engine_comparer.h"
 
 namespace transillum::viewer {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "map/map_picture.h"
-#include "model/recorded_map.h"
+#include "model/requests/recorded_map.h"
 
 namespace transillum::viewer {
 

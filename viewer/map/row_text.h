@@ -3,7 +3,7 @@
 
 #include <QString>
 
-#include "model/recorded_map.h"
+#include "model/requests/recorded_map.h"
 
 namespace transillum::viewer {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "model/power_counter.h"
-#include "model/relighting.h"
+#include "model/requests/power_counter.h"
+#include "model/requests/relighting.h"
 #include "state/hidden_patches.h"
 #include "state/selection.h"
 #include "transillum/power_table.h"

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <memory>
 
-#include "model/light_request.h"
+#include "model/requests/light_request.h"
 #include "state/selection.h"
 #include "support/newest_result.h"
 #include "transillum/light_paths.h"

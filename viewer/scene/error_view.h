@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "model/error_runs.h"
 #include "model/snapshot.h"
+#include "model/solver/error_runs.h"
 #include "state/initial_view.h"
 #include "support/request_worker.h"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "model/study_runner.h"
+#include "model/solver/study_runner.h"
 #include "transillum/study_files.h"
 
 class QComboBox;

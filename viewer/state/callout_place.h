@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "model/recorded_map.h"
+#include "model/requests/recorded_map.h"
 #include "state/callout.h"
 
 namespace transillum::viewer {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/recorded_map.h"
+#include "model/requests/recorded_map.h"
 #include "state/event_filter.h"
 #include "state/step_finder.h"
 #include "support/has_index.h"

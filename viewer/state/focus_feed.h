@@ -4,7 +4,7 @@
 #include <QObject>
 #include <memory>
 
-#include "model/map_recorder.h"
+#include "model/requests/map_recorder.h"
 #include "model/snapshot.h"
 #include "state/focus.h"
 

@@ -7,7 +7,7 @@
 #include <QMenuBar>
 #include <utility>
 
-#include "model/solve_runner.h"
+#include "model/solver/solve_runner.h"
 #include "patches/compare_actions.h"
 #include "patches/material_panel.h"
 #include "patches/parts_panel.h"
@@ -17,8 +17,8 @@
 #include "patches/selection_actions.h"
 #include "patches/warning_list.h"
 #include "widgets/scrolling.h"
-#include "window/dock_layouts.h"
-#include "window/window_parts.h"
+#include "window/base/dock_layouts.h"
+#include "window/base/window_parts.h"
 
 namespace transillum::viewer {
 

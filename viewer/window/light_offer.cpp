@@ -12,9 +12,9 @@
 #include "scene/scene_page.h"
 #include "solve/settings_panel.h"
 #include "widgets/banner.h"
-#include "window/dock_layouts.h"
-#include "window/view_state_applier.h"
-#include "window/work_guard.h"
+#include "window/base/dock_layouts.h"
+#include "window/base/view_state_applier.h"
+#include "window/base/work_guard.h"
 
 namespace transillum::viewer {
 

@@ -3,7 +3,7 @@
 
 #include <QObject>
 
-#include "window/window_parts.h"
+#include "window/base/window_parts.h"
 
 class QMenu;
 class QPushButton;

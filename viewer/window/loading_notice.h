@@ -4,7 +4,7 @@
 #include <QObject>
 #include <QTimer>
 
-#include "window/window_parts.h"
+#include "window/base/window_parts.h"
 
 namespace transillum::viewer {
 

@@ -4,10 +4,10 @@
 #include <QMainWindow>
 
 #include "widgets/full_screen.h"
-#include "window/appearance_actions.h"
-#include "window/dock_layouts.h"
-#include "window/window_parts.h"
-#include "window/work_guard.h"
+#include "window/base/dock_layouts.h"
+#include "window/base/window_parts.h"
+#include "window/base/work_guard.h"
+#include "window/menus/appearance_actions.h"
 
 class QDockWidget;
 class QMenu;

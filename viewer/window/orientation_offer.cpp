@@ -13,9 +13,9 @@
 #include "support/number_text.h"
 #include "transillum/orientation.h"
 #include "widgets/banner.h"
-#include "window/notifier.h"
-#include "window/view_state_applier.h"
-#include "window/work_guard.h"
+#include "window/base/notifier.h"
+#include "window/base/view_state_applier.h"
+#include "window/base/work_guard.h"
 
 namespace transillum::viewer {
 

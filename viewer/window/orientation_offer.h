@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "support/request_worker.h"
-#include "window/window_parts.h"
+#include "window/base/window_parts.h"
 
 class QPushButton;
 

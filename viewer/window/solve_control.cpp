@@ -14,9 +14,9 @@
 #include "solve/solve_actions.h"
 #include "support/number_text.h"
 #include "transillum/patch_count.h"
-#include "window/notifier.h"
-#include "window/view_state_applier.h"
-#include "window/work_guard.h"
+#include "window/base/notifier.h"
+#include "window/base/view_state_applier.h"
+#include "window/base/work_guard.h"
 
 namespace transillum::viewer {
 

@@ -3,9 +3,9 @@
 
 #include <QObject>
 
-#include "model/patch_forecast.h"
+#include "model/requests/patch_forecast.h"
 #include "model/snapshot.h"
-#include "window/window_parts.h"
+#include "window/base/window_parts.h"
 
 namespace transillum::viewer {
 
