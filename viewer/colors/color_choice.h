@@ -10,11 +10,11 @@
 
 #include "colors/color_scale.h"
 #include "colors/quantity.h"
-#include "model/requests/eye_radiance.h"
-#include "model/requests/jump_finder.h"
+#include "model/requests/slow_quantities.h"
 #include "model/snapshot.h"
 #include "state/kept_runs.h"
 #include "state/selection.h"
+#include "support/newest_result.h"
 
 namespace transillum::viewer {
 
@@ -98,9 +98,7 @@ class ColorChoice : public QObject {
   const QString& missing() const { return values_.missing; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
   /// Whether values() waits for a solve.
-  bool busy() const {
-    return response_solver_.busy() || jump_finder_.busy() || eye_radiance_.busy();
-  }
+  bool busy() const { return response_.busy() || jumps_.busy() || eye_radiance_.busy(); }
 
  signals:
   void changed();  ///< all pictures must be recolored
@@ -109,6 +107,8 @@ class ColorChoice : public QObject {
   void eye_changed();
 
  private:
+  /// Recolors if the shown quantity is of a kind.
+  void change_if(bool QuantityTraits::*kind);
   bool& logarithmic_choice();
   PatchValues values_by_response(const SolverSnapshot& snapshot);
   PatchValues values_by_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot);
@@ -138,11 +138,12 @@ class ColorChoice : public QObject {
   bool lit_ = true;  ///< something emits
   PatchValues values_;
   std::vector<Color8> patch_colors_;
-  ResponseSolver response_solver_;
-  JumpFinder jump_finder_;
   Vec3 eye_;
   std::shared_ptr<const GlossyLight> light_of_range_;  ///< that by_eye quantities were fitted to
-  EyeRadiance eye_radiance_;
+  KeptResult<LightRequest, PatchResponse> response_;
+  // While one is being computed, only the newest of later ones is kept.
+  KeptResult<std::shared_ptr<const SolverSnapshot>, PatchJumps> jumps_;
+  KeptResult<EyeRequest, RadianceToward> eye_radiance_;
 };
 
 }  // namespace transillum::viewer

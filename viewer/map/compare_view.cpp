@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Compares two engines on the direction in focus. Their transfers come from EngineComparer; the
-// maps are painted by MapCanvas, the differences by DifferencePicture (by patch) and PairPicture
-// (by polygon), and listed by PairTable.
+// Compares two engines on the direction in focus. Their transfers come from
+// compare_engines(); the maps are painted by MapCanvas, the differences by DifferencePicture (by
+// patch) and PairPicture (by polygon), and listed by PairTable.
 #include "map/compare_view.h"
 
 #include <QAction>
@@ -108,7 +108,18 @@ QString row_text(const EngineComparison& c, std::size_t directions) {
 
 CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& colors,
                          QWidget* parent)
-    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
+    : QWidget(parent),
+      focus_(focus),
+      selection_(selection),
+      colors_(colors),
+      comparer_(*this, &compare_engines,
+                [this](const EngineRequest& request,
+                       std::shared_ptr<const EngineComparison> comparison, const QString& error) {
+                  show_comparison(comparison
+                                      ? std::move(comparison)
+                                      : std::make_shared<const EngineComparison>(
+                                            failed_comparison(request, error.toStdString())));
+                }) {
   first_ = make_choice("first", Engine::fast);
   other_ = make_choice("other", Engine::zbuffer);
   auto* grid = new QGridLayout(this);
@@ -141,7 +152,6 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
       request_timer_->start();
     }
   });
-  connect(&comparer_, &EngineComparer::compared, this, &CompareView::show_comparison);
   connect(&selection_, &Selection::changed, this, [this] {
     if (list_->currentIndex().row() < 0) {
       by_polygon_->show(focus_.map(), comparison_, receiver_to_show());
@@ -359,8 +369,8 @@ void CompareView::showEvent(QShowEvent* event) {
   send_request();
 }
 
-EngineComparer::Request CompareView::current_request() const {
-  EngineComparer::Request request;
+EngineRequest CompareView::current_request() const {
+  EngineRequest request;
   request.loaded = focus_.map()->loaded;
   request.direction = focus_.map()->record().frame.omega;
   request.options = snapshot_->options.engine_options;
@@ -382,7 +392,7 @@ void CompareView::send_request() {
   if (!isVisible() || !snapshot_ || !focus_.map()) {
     return;
   }
-  EngineComparer::Request request = current_request();
+  EngineRequest request = current_request();
   if (request == sent_) {
     return;
   }

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "map/map_canvas.h"
-#include "model/requests/engine_comparer.h"
+#include "model/requests/engine_comparison.h"
 
 namespace transillum::viewer {
 

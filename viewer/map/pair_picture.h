@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "map/map_canvas.h"
-#include "model/requests/engine_comparer.h"
+#include "model/requests/engine_comparison.h"
 
 class QLabel;
 

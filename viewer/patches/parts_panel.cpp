@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The panel "Groups". Snapshots arrive often while a solve runs; their powers are added up a few
-// times a second at most, on the thread of PowerCounter, and only while the panel is visible.
+// times a second at most, on a thread of their own, and only while the panel is visible.
 #include "patches/parts_panel.h"
 
 #include <QAction>
@@ -65,7 +65,20 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
       relighting_(relighting),
       selection_(selection),
       hidden_(hidden),
-      tabs_(new QTabWidget) {
+      tabs_(new QTabWidget),
+      counter_(
+          *this,
+          [](const std::shared_ptr<const SolverSnapshot>& snapshot, const Cancellation&) {
+            return power_tables(snapshot);
+          },
+          [this](const auto&, std::shared_ptr<const PowerTables> tables, const QString& error) {
+            if (tables) {
+              show_tables(std::move(tables));
+            } else {
+              emit failed(error);
+            }
+          },
+          CurrentJob::finish) {
   tabs_->setDocumentMode(true);
   tabs_->setObjectName("part_tabs");
   QLayout* buttons = make_buttons();
@@ -85,8 +98,6 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
     refresh();
     show_state();
   });
-  connect(&counter_, &PowerCounter::counted, this, &PartsPanel::show_tables);
-  connect(&counter_, &PowerCounter::failed, this, &PartsPanel::failed);
   connect(&relighting_.edits(), &MaterialEdits::changed, this, &PartsPanel::show_state);
   connect(&selection_, &Selection::patches_changed, this, [this] {
     if (!selects_) {

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "model/requests/power_counter.h"
+#include "model/requests/power_tables.h"
 #include "model/requests/relighting.h"
 #include "state/hidden_patches.h"
 #include "state/selection.h"
+#include "support/newest_result.h"
 #include "transillum/power_table.h"
 
 class QAction;
@@ -86,7 +87,7 @@ class PartsPanel : public QWidget {
   bool watched_ = false;
   bool selects_ = false;   ///< while the panel itself changes the selection
   QTimer* refresh_timer_;  ///< limits how often powers are added up
-  PowerCounter counter_;
+  NewestResult<std::shared_ptr<const SolverSnapshot>, PowerTables> counter_;
 };
 
 }  // namespace transillum::viewer

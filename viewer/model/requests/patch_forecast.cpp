@@ -1,25 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "model/requests/patch_forecast.h"
 
-#include <QMetaObject>
-
 #include "transillum/patch_count.h"
 
 namespace transillum::viewer {
-
-PatchForecast::PatchForecast(QObject* parent)
-    : QObject(parent),
-      worker_([this](const Request& request,
-                     const Cancellation& cancellation) { count(request, cancellation); },
-              [this](const Request&, const QString& message) {
-                QMetaObject::invokeMethod(
-                    this, [this, message] { emit failed(message); }, Qt::QueuedConnection);
-              }) {}
-
-void PatchForecast::request(std::shared_ptr<const LoadedScene> loaded,
-                            const SceneOptions& options) {
-  worker_.request({whole_of(loaded), options});
-}
 
 std::shared_ptr<const Scene> PatchForecast::unrefined(const Request& request,
                                                       const Cancellation& cancellation) {
@@ -38,13 +22,10 @@ std::shared_ptr<const Scene> PatchForecast::unrefined(const Request& request,
   return faces_;
 }
 
-void PatchForecast::count(const Request& request, const Cancellation& cancellation) {
+std::int64_t PatchForecast::operator()(const Request& request, const Cancellation& cancellation) {
   const auto faces = unrefined(request, cancellation);
   const double area = request.options.max_patch_area;
-  const std::int64_t patches = area > 0 ? count_patches(*faces, area) : faces->patch_count();
-  QMetaObject::invokeMethod(
-      this, [this, options = request.options, patches] { emit counted(options, patches); },
-      Qt::QueuedConnection);
+  return area > 0 ? count_patches(*faces, area) : faces->patch_count();
 }
 
 }  // namespace transillum::viewer

@@ -1,9 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "model/snapshot.h"
+#include "transillum/cancellation.h"
 #include "transillum/map_history.h"
 
 namespace transillum::viewer {
@@ -19,5 +21,16 @@ struct RecordedMap {
   const MapRecord& record() const { return history.record(); }
   const MapRecord::Row& row(std::int32_t r) const { return history.row(r); }
 };
+
+/// A direction of a solve run whose map is to be recorded.
+struct MapRequest {
+  std::shared_ptr<const LoadedScene> loaded;
+  Vec3 omega;
+  int iteration = 0, direction = 0, passes = 0;  ///< of the RecordedMap
+  std::uint64_t memory = 0;                      ///< SolveOptions::memory
+};
+/// Any thread.
+/// @throws Canceled
+RecordedMap record_map(const MapRequest& request, const Cancellation& cancellation);
 
 }  // namespace transillum::viewer

@@ -7,19 +7,35 @@
 
 namespace transillum::viewer {
 
-Relighting::Relighting(QUndoStack& undo, QObject* parent) : QObject(parent), edits_(undo) {
-  connect(&edits_, &MaterialEdits::changed, this, &Relighting::request_light);
-  connect(&relighter_, &Relighter::failed, this, &Relighting::failed);
-  connect(&relighter_, &Relighter::relit, this,
-          [this](const std::shared_ptr<const RelightResult>& light,
-                 const std::shared_ptr<const PatchMaterials>& materials) {
-            if (!edits_.any()) {
-              return;  // undone since
+// While a slider is dragged, a late picture is better than none: a running job is finished.
+Relighting::Relighting(QUndoStack& undo, QObject* parent)
+    : QObject(parent),
+      edits_(undo),
+      relighter_(
+          *this, &Relighting::relit,
+          [this](const Request& request, std::shared_ptr<const RelightResult> light,
+                 const QString& error) {
+            if (!light) {
+              emit failed(error);
+            } else if (edits_.any()) {  // else undone since
+              light_ = std::move(light);
+              materials_ = request.materials;
+              emit changed();
             }
-            light_ = light;
-            materials_ = materials;
-            emit changed();
-          });
+          },
+          CurrentJob::finish) {
+  connect(&edits_, &MaterialEdits::changed, this, &Relighting::request_light);
+}
+
+RelightResult Relighting::relit(const Request& request, const Cancellation& cancellation) {
+  RelightOptions options;
+  options.tolerance = request.tolerance;
+  options.start = request.start;
+  options.sky_irradiance = request.sky;
+  options.shot = request.shot.get();
+  options.patch_materials = request.materials->of_patch;
+  return relight(*request.scene, *request.form_factors, request.materials->materials, options,
+                 cancellation);
 }
 
 void Relighting::show_scene(std::shared_ptr<const Scene> scene) {

@@ -3,10 +3,12 @@
 
 #include <QObject>
 #include <memory>
+#include <vector>
 
 #include "model/material_edits.h"
-#include "model/requests/relighter.h"
 #include "model/snapshot.h"
+#include "support/newest_result.h"
+#include "transillum/relight.h"
 
 namespace transillum::viewer {
 
@@ -48,16 +50,26 @@ class Relighting : public QObject {
   void failed(const QString& message);
 
  private:
+  struct Request {
+    std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const FormFactors> form_factors;
+    std::shared_ptr<const DirectLight> shot;  ///< may be null
+    std::shared_ptr<const PatchMaterials> materials;
+    std::vector<Rgb> start;  ///< initial B, W/m², one per patch
+    std::vector<Rgb> sky;    ///< what the patches receive from the sky, W/m²; empty: no sky
+    double tolerance = 1e-6;
+  };
+  static RelightResult relit(const Request& request, const Cancellation& cancellation);
   void request_light();
   void ask_solver();
 
   MaterialEdits edits_;
-  Relighter relighter_;
   std::shared_ptr<const SolverSnapshot> snapshot_;   ///< newest of the solver
   std::shared_ptr<const FormFactors> used_;          ///< of the newest request
   std::shared_ptr<const RelightResult> light_;       ///< null: the solver's light
   std::shared_ptr<const PatchMaterials> materials_;  ///< of light_
   std::shared_ptr<const PatchMaterials> asked_;      ///< of solver_light_requested(), the newest
+  NewestResult<Request, RelightResult> relighter_;
 };
 
 }  // namespace transillum::viewer

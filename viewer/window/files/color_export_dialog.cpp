@@ -45,7 +45,14 @@ constexpr Vertical verticals[] = {{"+y", {0, 1, 0}},  {"+z", {0, 0, 1}},  {"+x",
 
 ColorExportDialog::ColorExportDialog(std::shared_ptr<const SolverSnapshot> snapshot,
                                      const ViewPoint& view, const Vec3& up, QWidget* parent)
-    : QDialog(parent) {
+    : QDialog(parent),
+      preview_(*this, &unlit_view,
+               [this](const UnlitRequest&, std::shared_ptr<const UnlitView> unlit,
+                      const QString& error) {
+                 view_ = std::move(unlit);
+                 picture_->setText(error);
+                 show_state();
+               }) {
   setObjectName("color_export_dialog");
   setWindowTitle(tr("Export for Blender or the web"));
   picture_ = make_picture();
@@ -71,8 +78,6 @@ ColorExportDialog::ColorExportDialog(std::shared_ptr<const SolverSnapshot> snaps
   layout->setSizeConstraint(QLayout::SetFixedSize);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  connect(&preview_, &UnlitPreview::ready, this, &ColorExportDialog::take);
-  connect(&preview_, &UnlitPreview::failed, picture_, &QLabel::setText);
   show_state();
   const QSize rays = rays_per_pixel_side * QSize(picture_width, picture_height);
   preview_.request({std::move(snapshot), view.eye, view.target, view.up, view.view_angle, rays});
@@ -137,11 +142,6 @@ void ColorExportDialog::make_fields(const Vec3& up) {
   connect(automatic_, &QCheckBox::toggled, this, &ColorExportDialog::show_state);
   connect(exposure_, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
           &ColorExportDialog::show_state);
-}
-
-void ColorExportDialog::take(std::shared_ptr<const UnlitView> view) {
-  view_ = std::move(view);
-  show_state();
 }
 
 double ColorExportDialog::exposure() const {

@@ -5,8 +5,9 @@
 #include <QString>
 #include <memory>
 
-#include "model/requests/unlit_preview.h"
+#include "model/requests/unlit_view.h"
 #include "state/initial_view.h"
+#include "support/newest_result.h"
 #include "transillum/files.h"
 
 class QCheckBox;
@@ -37,7 +38,6 @@ class ColorExportDialog : public QDialog {
   QLabel* make_picture();
   void make_fields(const Vec3& up);
   double exposure() const;
-  void take(std::shared_ptr<const UnlitView> view);
   void show_state();
 
   std::shared_ptr<const UnlitView> view_;  ///< null until it has been computed
@@ -45,7 +45,7 @@ class ColorExportDialog : public QDialog {
   QComboBox *format_, *up_;
   QCheckBox *automatic_, *light_map_;
   QDoubleSpinBox* exposure_;
-  UnlitPreview preview_;
+  NewestResult<UnlitRequest, UnlitView> preview_;
 };
 
 }  // namespace transillum::viewer

@@ -3,13 +3,11 @@
 // A picture of a result as programs show it that open its export: triangles without lighting, whose
 // colors are B times an exposure. One ray per pixel finds the patch; another exposure needs no new
 // rays.
-#include "model/requests/unlit_preview.h"
+#include "model/requests/unlit_view.h"
 
-#include <QMetaObject>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "model/linear_values.h"
 #include "model/snapshot_solution.h"
@@ -26,7 +24,9 @@ int srgb_byte(double linear) {
   return static_cast<int>(std::lround(255 * s));
 }
 
-UnlitView view_of(const UnlitPreview::Request& request, const Cancellation& cancellation) {
+}  // namespace
+
+UnlitView unlit_view(const UnlitRequest& request, const Cancellation& cancellation) {
   UnlitView view{request.snapshot, request.size, {}};
   view.automatic_exposure = automatic_exposure(solution_of(*request.snapshot));
   const Vec3 back = normalized(request.eye - request.target);
@@ -50,8 +50,6 @@ UnlitView view_of(const UnlitPreview::Request& request, const Cancellation& canc
   }
   return view;
 }
-
-}  // namespace
 
 QImage UnlitView::picture(double exposure, QRgb background) const {
   const auto color_of = [exposure](const Rgb& b) {
@@ -89,20 +87,5 @@ double UnlitView::white_share(double exposure) const {
   }
   return all > 0 ? white / all : 0;
 }
-
-UnlitPreview::UnlitPreview(QObject* parent)
-    : QObject(parent),
-      worker_(
-          [this](const Request& request, const Cancellation& cancellation) {
-            const auto view = std::make_shared<const UnlitView>(view_of(request, cancellation));
-            QMetaObject::invokeMethod(
-                this, [this, view] { emit ready(view); }, Qt::QueuedConnection);
-          },
-          [this](const Request&, const QString& message) {
-            QMetaObject::invokeMethod(
-                this, [this, message] { emit failed(message); }, Qt::QueuedConnection);
-          }) {}
-
-void UnlitPreview::request(Request request) { worker_.request(std::move(request)); }
 
 }  // namespace transillum::viewer

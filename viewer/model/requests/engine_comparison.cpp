@@ -1,10 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Runs two engines on one direction (or on one row of form factors), times them, and compares their
-// transfers. Input: an EngineComparer::Request from the window; output: an EngineComparison.
-#include "model/requests/engine_comparer.h"
+// transfers. Input: an EngineRequest of the window; output: an EngineComparison.
+#include "model/requests/engine_comparison.h"
 
-#include <QMetaObject>
 #include <algorithm>
 #include <ctime>
 #include <stdexcept>
@@ -28,7 +27,7 @@ double thread_seconds() {
 }
 
 /// Runs fast engines twice, because the first run includes memory allocation.
-Transfers run_direction(const EngineComparer::Request& request, EngineComparison::Side& side,
+Transfers run_direction(const EngineRequest& request, EngineComparison::Side& side,
                         const TransferEngine& engine, const Cancellation& cancellation) {
   Transfers transfers;
   for (int run = 0; run < 2 && (run == 0 || side.seconds < 0.1); ++run) {
@@ -40,8 +39,7 @@ Transfers run_direction(const EngineComparer::Request& request, EngineComparison
 }
 
 /// A_i F_ij of patch i = `eye` for all j, m², from all directions of the solve run.
-std::vector<double> row_by_directions(const EngineComparer::Request& request,
-                                      const TransferEngine& engine,
+std::vector<double> row_by_directions(const EngineRequest& request, const TransferEngine& engine,
                                       const Cancellation& cancellation) {
   std::vector<double> row(static_cast<std::size_t>(request.loaded->scene->patch_count()));
   const double directions_per_pass = request.two_way ? 2 : 1;
@@ -59,7 +57,7 @@ std::vector<double> row_by_directions(const EngineComparer::Request& request,
   return row;
 }
 
-std::vector<double> row_by_hemicube(const EngineComparer::Request& request, int resolution,
+std::vector<double> row_by_hemicube(const EngineRequest& request, int resolution,
                                     const Cancellation& cancellation) {
   HemicubeOptions options;
   options.resolution = resolution;
@@ -72,8 +70,7 @@ std::vector<double> row_by_hemicube(const EngineComparer::Request& request, int 
   return row;
 }
 
-std::vector<double> row_by_pairs(const EngineComparer::Request& request,
-                                 const Cancellation& cancellation) {
+std::vector<double> row_by_pairs(const EngineRequest& request, const Cancellation& cancellation) {
   const Scene& scene = *request.loaded->scene;
   std::vector<double> row = exact_form_factors(scene, request.eye, cancellation);
   for (double& factor : row) {
@@ -83,7 +80,7 @@ std::vector<double> row_by_pairs(const EngineComparer::Request& request,
 }
 
 /// A row A_i F_ij as the transfers of one direction, with A_i as the projected area.
-Transfers as_transfers(const EngineComparer::Request& request, const std::vector<double>& row) {
+Transfers as_transfers(const EngineRequest& request, const std::vector<double>& row) {
   Transfers transfers;
   transfers.forward.resize(row.size());
   transfers.backward.resize(row.size());
@@ -99,7 +96,7 @@ Transfers as_transfers(const EngineComparer::Request& request, const std::vector
   return transfers;
 }
 
-Transfers find_transfers(const EngineComparer::Request& request, EngineComparison::Side& side,
+Transfers find_transfers(const EngineRequest& request, EngineComparison::Side& side,
                          const Cancellation& cancellation) {
   EngineOptions options = request.options;
   options.resolution = side.resolution;
@@ -129,7 +126,7 @@ Transfers find_transfers(const EngineComparer::Request& request, EngineCompariso
 
 /// Runs one engine and fills in `side`; an engine's failure goes to side.failure.
 /// @throws Canceled
-Transfers run_engine(const EngineComparer::Request& request, EngineComparison::Side& side,
+Transfers run_engine(const EngineRequest& request, EngineComparison::Side& side,
                      const Cancellation& cancellation) {
   Transfers transfers;
   try {
@@ -165,7 +162,7 @@ std::vector<double> seen_areas(const Transfers& first, const Transfers& other, P
   return seen;
 }
 
-EngineComparison without_results(const EngineComparer::Request& request) {
+EngineComparison without_results(const EngineRequest& request) {
   EngineComparison comparison;
   comparison.loaded = request.loaded;
   comparison.direction = request.direction;
@@ -176,8 +173,9 @@ EngineComparison without_results(const EngineComparer::Request& request) {
   return comparison;
 }
 
-EngineComparison compare_engines(const EngineComparer::Request& request,
-                                 const Cancellation& cancellation) {
+}  // namespace
+
+EngineComparison compare_engines(const EngineRequest& request, const Cancellation& cancellation) {
   EngineComparison comparison = without_results(request);
   const Transfers first = run_engine(request, comparison.first, cancellation);
   const Transfers other = run_engine(request, comparison.other, cancellation);
@@ -196,38 +194,10 @@ EngineComparison compare_engines(const EngineComparer::Request& request,
   return comparison;
 }
 
-}  // namespace
-
-EngineComparer::EngineComparer(QObject* parent)
-    : QObject(parent),
-      worker_(
-          [this](const Task& task, const Cancellation& cancellation) {
-            deliver(task, compare_engines(task.request, cancellation));
-          },
-          [this](const Task& task, const QString& message) {
-            EngineComparison failed = without_results(task.request);
-            failed.first.failure = message.toStdString();
-            deliver(task, std::move(failed));
-          }) {}
-
-void EngineComparer::request(Request request) { worker_.request({std::move(request), ++number_}); }
-
-void EngineComparer::clear() {
-  ++number_;
-  worker_.clear();
-}
-
-// On the worker's thread; what it posts runs on the owner's.
-void EngineComparer::deliver(const Task& task, EngineComparison comparison) {
-  auto done = std::make_shared<const EngineComparison>(std::move(comparison));
-  QMetaObject::invokeMethod(
-      this,
-      [this, number = task.number, done = std::move(done)] {
-        if (number == number_) {
-          emit compared(done);
-        }
-      },
-      Qt::QueuedConnection);
+EngineComparison failed_comparison(const EngineRequest& request, const std::string& failure) {
+  EngineComparison comparison = without_results(request);
+  comparison.first.failure = failure;
+  return comparison;
 }
 
 }  // namespace transillum::viewer

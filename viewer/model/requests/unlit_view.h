@@ -2,13 +2,12 @@
 #pragma once
 
 #include <QImage>
-#include <QObject>
 #include <QSize>
 #include <memory>
 #include <vector>
 
 #include "model/snapshot.h"
-#include "support/request_worker.h"
+#include "transillum/cancellation.h"
 
 namespace transillum::viewer {
 
@@ -28,30 +27,15 @@ struct UnlitView {
   double white_share(double exposure) const;
 };
 
-/// Computes an UnlitView by rays, on its own thread; the newest request replaces the others. Back
-/// sides are transparent, as those of the exported triangles.
-///
-/// Threads: the public functions and the signals belong to the thread that created it.
-class UnlitPreview : public QObject {
-  Q_OBJECT
-
- public:
-  struct Request {
-    std::shared_ptr<const SolverSnapshot> snapshot;
-    Vec3 eye, target, up;    ///< of the camera, m
-    double view_angle = 30;  ///< vertical, degrees
-    QSize size;              ///< of the picture, pixels
-  };
-  explicit UnlitPreview(QObject* parent = nullptr);
-
-  void request(Request request);
-
- signals:
-  void ready(std::shared_ptr<const transillum::viewer::UnlitView> view);
-  void failed(const QString& message);
-
- private:
-  RequestWorker<Request> worker_;
+/// From where a snapshot is seen.
+struct UnlitRequest {
+  std::shared_ptr<const SolverSnapshot> snapshot;
+  Vec3 eye, target, up;    ///< of the camera, m
+  double view_angle = 30;  ///< vertical, degrees
+  QSize size;              ///< of the picture, pixels
 };
+/// Computes an UnlitView by rays. Back sides are transparent, as those of the exported triangles.
+/// @throws Canceled
+UnlitView unlit_view(const UnlitRequest& request, const Cancellation& cancellation);
 
 }  // namespace transillum::viewer
