@@ -126,7 +126,7 @@ class ColorChoice : public QObject {
   Quantity quantity_ = Quantity::radiosity;
   ColorMode mode_ = ColorMode::true_color;
   ColorScale scale_;
-  ColorMap map_ = ColorMap::viridis;
+  ColorMap map_ = default_color_map;
   bool logarithmic_ = false;         ///< the user's choice for most quantities
   bool decades_logarithmic_ = true;  ///< that for quantities that span decades
   RangeRule range_rule_ = RangeRule::automatic;

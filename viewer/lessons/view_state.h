@@ -56,7 +56,7 @@ struct ViewState {
   std::optional<ViewPoint> camera;          ///< none: the initial view
   Quantity quantity = Quantity::radiosity;  ///< shown in color; never Quantity::difference
   ColorMode color_mode = ColorMode::true_color;
-  ColorMap color_map = ColorMap::viridis;
+  ColorMap color_map = default_color_map;
   std::optional<bool> logarithmic;  ///< none: as suits the quantity
   RangeRule range_rule = RangeRule::automatic;
   std::optional<std::pair<double, double>> range;  ///< ends of the color map; none: automatic

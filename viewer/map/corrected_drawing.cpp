@@ -39,12 +39,11 @@ QPolygonF polygon_of(const CorrectedMap& map, const CorrectedMap::Part& part,
   return polygon;
 }
 
-QColor color_of(const CorrectedMap::Part& part, const std::vector<Color8>& patch_colors,
-                bool differences) {
-  if (differences) {
+QColor color_of(const CorrectedMap::Part& part, const FragmentColors& colors) {
+  if (colors.differences) {
     return color_of_surplus((part.open - part.exact) / part.area);
   }
-  const Color8& c = at(patch_colors, part.patch);
+  const Color8& c = at(colors.of_patches, part.patch);
   return between(theme::scene_background, QColor(c[0], c[1], c[2]), 0.25 + 0.75 * open_share(part));
 }
 
@@ -56,8 +55,7 @@ QColor color_of_surplus(double surplus) {
 }
 
 void draw_corrected(QPainter& painter, const CorrectedMap& map, const MapTransform& transform,
-                    const std::vector<Color8>& patch_colors, const QBrush& back_side,
-                    bool differences, const Cancellation& cancellation) {
+                    const FragmentColors& colors, const Cancellation& cancellation) {
   painter.save();
   std::vector<QPolygonF> outlines;
   std::size_t done = 0;
@@ -68,8 +66,7 @@ void draw_corrected(QPainter& painter, const CorrectedMap& map, const MapTransfo
     const QPolygonF polygon = polygon_of(map, part, transform);
     painter.setRenderHint(QPainter::Antialiasing, false);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(part.front_facing ? back_side
-                                       : QBrush(color_of(part, patch_colors, differences)));
+    painter.setBrush(part.front_facing ? colors.back_side : QBrush(color_of(part, colors)));
     painter.drawPolygon(polygon);
     const bool open = !part.front_facing && part.open > hidden * part.area;
     if (open && part.area * transform.scale * transform.scale > 60) {

@@ -15,13 +15,18 @@ namespace transillum::viewer {
 /// positive; saturated from a quarter on.
 QColor color_of_surplus(double surplus);
 
+/// How fragments are colored.
+struct FragmentColors {
+  const std::vector<Color8>& of_patches;  ///< front sides: darker where less is open
+  const QBrush& back_side;
+  /// Front sides get color_of_surplus() of the error of the open share instead.
+  bool differences = false;
+};
 /// Draws whole fragments over one another, the farthest first, then the outlines of those that are
-/// partly open. Front sides: with `differences`, color_of_surplus() of the error of the open share;
-/// otherwise the patch's color, darker where less is open. Back sides: `back_side`.
+/// partly open.
 /// @throws Canceled
 void draw_corrected(QPainter& painter, const CorrectedMap& map, const MapTransform& transform,
-                    const std::vector<Color8>& patch_colors, const QBrush& back_side,
-                    bool differences, const Cancellation& cancellation);
+                    const FragmentColors& colors, const Cancellation& cancellation);
 /// Writes patch number and open share, percent, on fragments with room for it.
 void label_corrected(QPainter& painter, const CorrectedMap& map, const MapTransform& transform,
                      double pixel_ratio);

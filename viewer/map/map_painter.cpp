@@ -174,8 +174,11 @@ class MapPainting {
       draw_pixels(painter_, view, transform_, *request_.patch_colors, hatch_, cancellation_);
       return;
     }
-    draw_corrected(painter_, *view.corrected, transform_, *request_.patch_colors, hatch_,
-                   request_.choice.differences, cancellation_);
+    draw_corrected(painter_, *view.corrected, transform_,
+                   {.of_patches = *request_.patch_colors,
+                    .back_side = hatch_,
+                    .differences = request_.choice.differences},
+                   cancellation_);
     if (request_.labels) {
       label_corrected(painter_, *view.corrected, transform_, ratio_);
     }

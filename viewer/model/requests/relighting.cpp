@@ -114,9 +114,13 @@ void Relighting::request_light() {
     return;
   }
   used_ = snapshot_->form_factors;
-  relighter_.request({snapshot_->loaded->scene, used_, snapshot_->shot, edits_.materials(),
-                      light_ ? light_->radiosity : snapshot_->radiosity, snapshot_->sky_irradiance,
-                      snapshot_->options.tolerance});
+  relighter_.request({.scene = snapshot_->loaded->scene,
+                      .form_factors = used_,
+                      .shot = snapshot_->shot,
+                      .materials = edits_.materials(),
+                      .start = light_ ? light_->radiosity : snapshot_->radiosity,
+                      .sky = snapshot_->sky_irradiance,
+                      .tolerance = snapshot_->options.tolerance});
 }
 
 std::shared_ptr<const SolverSnapshot> Relighting::lit(
