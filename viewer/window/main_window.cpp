@@ -10,8 +10,6 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QPlainTextEdit>
-#include <QScreen>
-#include <QSettings>
 #include <QStandardPaths>
 #include <QStatusBar>
 #include <QTimer>
@@ -50,7 +48,6 @@
 #include "stepping/step_panel.h"
 #include "stepping/timeline_bar.h"
 #include "stepping/timeline_lanes.h"
-#include "support/checked_bytes.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
 #include "transillum/reference_cache.h"
@@ -67,6 +64,7 @@
 #include "window/files/recovery.h"
 #include "window/files/window_session.h"
 #include "window/inspection_panels.h"
+#include "window/layout_memory.h"
 #include "window/light_offer.h"
 #include "window/loading_notice.h"
 #include "window/menus/command_actions.h"
@@ -82,8 +80,6 @@ namespace transillum::viewer {
 namespace {
 
 constexpr QSize usual_size(1600, 1000);
-// Title bar and borders are known only once the window is on the screen.
-constexpr QSize room_for_frame(16, 48);
 
 /// The share of light that escapes; unset before the first pass.
 std::optional<double> escape_of(const SolverSnapshot& snapshot) {
@@ -110,9 +106,11 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
   connect_failures();
   make_docks();
   make_menus();
-  restore_layout();
-  if (recovery_) {
-    recovery_->offer();
+  docks_.arrange(Layout::inspect);
+  resize(usual_size);  // a screenshot has the same size on every screen
+  if (remember_) {
+    memory_->restore();
+    (new Recovery(frame(), *session_, Recovery::usual_folder()))->offer();
   }
 }
 
@@ -176,14 +174,12 @@ void MainWindow::make_whole_window_actions() {
   new SolveControl(frame, *settings_, *solve_actions_, *applier_);
   session_ = new WindowSession(frame, docks_, *notes_, *applier_);
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
+  memory_ = new LayoutMemory(frame, docks_, appearance_, *files_);
   exports_ = new ExportActions(frame, *map_view_, *convergence_view_);
   recorder_ = new FrameRecorder(frame, *timeline_->play());
   timeline_->play()->menu()->addSeparator();
   timeline_->play()->menu()->addAction(recorder_->animation_action());
   new LoadingNotice(frame);
-  if (remember_) {
-    recovery_ = new Recovery(frame, *session_, Recovery::usual_folder());
-  }
   lesson_export_ = new LessonExport(frame, *lesson_panel_, [this] { return settled(); });
   new LightOffer(frame, docks_, *settings_, inspection_->materials(), *applier_);
   new OrientationOffer(frame, *settings_, *applier_);
@@ -508,60 +504,6 @@ void MainWindow::fill_built_in_menu(QMenu& menu) {
   }
 }
 
-void MainWindow::fit_into_screen(const QSize& wanted) {
-  resize(wanted.boundedTo(screen()->availableSize() - room_for_frame));
-}
-
-void MainWindow::restore_layout() {
-  docks_.arrange(Layout::inspect);
-  if (!remember_) {
-    resize(usual_size);  // a screenshot has the same size on every screen
-    return;
-  }
-  fit_into_screen(usual_size);
-  // Panels that were laid out for the first time can have made the window larger.
-  connect(&state_.scene, &OpenScene::scene_shown, this, [this] {
-    QTimer::singleShot(0, this, [this] {
-      const QSize room = screen()->availableSize();
-      const bool fits = frameSize().boundedTo(room) == frameSize();
-      if (!fits && !isMaximized() && !isFullScreen()) {
-        fit_into_screen(size());
-      }
-    });
-  });
-  QSettings settings;
-  state_.breakpoints.load(settings);
-  page_->turntable_action()->setChecked(settings.value("scene/turntable", false).toBool());
-  files_->load(settings);
-  const auto geometry = without_checksum(settings.value("window/geometry").toByteArray());
-  if (geometry) {
-    restoreGeometry(*geometry);
-  }
-  // The saved state may not fit after an update of Qt or of the docks.
-  const bool fits = docks_.load(settings);
-  if (!fits) {
-    docks_.arrange(Layout::inspect);
-  }
-  appearance_.load(settings);  // may show parts of the layout
-  if (!fits && settings.contains("window/state")) {
-    // Later: opening the first scene dismisses messages.
-    QTimer::singleShot(0, notifier_, [this] {
-      notifier_->show_warnings(
-          {tr("The saved layout is damaged, or of another version; the usual one is used")});
-    });
-  }
-}
-
-void MainWindow::save_layout() {
-  QSettings settings;
-  settings.setValue("window/geometry", with_checksum(saveGeometry()));
-  docks_.save(settings);
-  state_.breakpoints.save(settings);
-  appearance_.save(settings);
-  settings.setValue("scene/turntable", page_->turntable_action()->isChecked());
-  files_->save(settings);
-}
-
 bool MainWindow::may_close() {
   if (!work_guard_.may_lose(this, tr("Quit"))) {
     return false;
@@ -630,7 +572,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   }
   full_screen_.show_all();
   if (remember_) {
-    save_layout();
+    memory_->save();
   }
   QMainWindow::closeEvent(event);
 }

@@ -24,13 +24,13 @@ class ExportActions;
 class FileActions;
 class FrameRecorder;
 class InspectionPanels;
+class LayoutMemory;
 class LessonExport;
 class LobeView;
 class PatchInspector;
 class ProgressLine;
 class ProjectorMode;
 class ReceivedView;
-class Recovery;
 class SolveActions;
 class SolveSummary;
 class StepActions;
@@ -84,10 +84,6 @@ class MainWindow : public QMainWindow {
   void make_view_menu();
   void make_tool_bar();
   void fill_built_in_menu(QMenu& menu);
-  void restore_layout();
-  /// Resizes the window to `wanted`, or less where the screen is smaller.
-  void fit_into_screen(const QSize& wanted);
-  void save_layout();
   /// Asks about long work and unsaved notes. Whether the window may close.
   bool may_close();
 
@@ -129,9 +125,9 @@ class MainWindow : public QMainWindow {
   ViewStateApplier* applier_;
   WindowSession* session_;
   FileActions* files_;
+  LayoutMemory* memory_;
   ExportActions* exports_;
   FrameRecorder* recorder_;
-  Recovery* recovery_ = nullptr;  ///< null: nothing is remembered
   LessonExport* lesson_export_;
 };
 
