@@ -29,6 +29,7 @@
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/pixel_map.h"
+#include "widgets/build.h"
 #include "widgets/elided.h"
 #include "widgets/engine_text.h"
 #include "widgets/figure_table.h"
@@ -166,34 +167,29 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
 }
 
 void CompareView::make_large_action() {
-  large_ = new QAction(tr("Compare engines, large"), this);
-  large_->setObjectName("compare_large");
+  large_ = make_action(this, "compare_large", tr("Compare engines, large"),
+                       tr("Give the comparison of engines most of the window, or take it back (G)"),
+                       Qt::Key_G);
   large_->setIconText(tr("Large"));
   large_->setCheckable(true);
-  large_->setShortcut(Qt::Key_G);
-  large_->setToolTip(tr("Give the comparison of engines most of the window, or take it back (G)"));
   connect(large_, &QAction::toggled, this, &CompareView::enlarged);
 }
 
 QWidget* CompareView::make_words() {
-  text_ = new QLabel;
-  text_->setObjectName(QStringLiteral("compare_words"));
+  text_ = named("compare_words", new QLabel);
   text_->setWordWrap(true);
   text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  worst_ = new QPushButton(tr("Worst pair"));
-  worst_->setObjectName("worst_pair");
-  worst_->setToolTip(
+  worst_ = named(
+      "worst_pair", new QPushButton(tr("Worst pair")),
       tr("Select the patch of the largest difference and go to the step where it meets the other"));
   connect(worst_, &QPushButton::clicked, this, [this] {
     const Transfer& worst = comparison_->transfers.largest;
     go_to(worst.receiver, worst.source);
   });
   make_large_action();
-  auto* large = new QToolButton;
-  large->setDefaultAction(large_);
+  auto* large = button_for(large_);
   auto* words = new QWidget;
-  auto* row = new QHBoxLayout(words);
-  row->setContentsMargins(10, 6, 10, 6);
+  auto* row = make_row(words, {10, 6, 10, 6});
   row->addWidget(text_, 1);
   row->addWidget(worst_, 0, Qt::AlignTop);
   row->addWidget(large, 0, Qt::AlignTop);
@@ -202,15 +198,13 @@ QWidget* CompareView::make_words() {
 
 QTableView* CompareView::make_list() {
   pairs_ = new PairTable(this);
-  list_ = new QTableView;
-  list_->setObjectName("pair_differences");
+  list_ = named("pair_differences", new QTableView,
+                tr("Pairs of patches in which the engines differ. A chosen pair is shown in the "
+                   "maps; Return or a double-click goes to the step where the two meet."));
   list_->setModel(pairs_);
   list_->setSelectionBehavior(QAbstractItemView::SelectRows);
   list_->setSelectionMode(QAbstractItemView::SingleSelection);
   list_->setMinimumHeight(90);
-  list_->setToolTip(
-      tr("Pairs of patches in which the engines differ. A chosen pair is shown in the maps; Return "
-         "or a double-click goes to the step where the two meet."));
   set_up_figure_table(*list_, {"888888", "888888"});
   connect(list_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& index) { show_pair(index.row()); });
@@ -287,9 +281,7 @@ CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
 }
 
 QBoxLayout* CompareView::column_of(const Choice& choice) const {
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(6, 6, 6, 4);
-  row->setSpacing(4);
+  auto* row = make_row({6, 6, 6, 4}, 4);
   row->addWidget(choice.engine, 1);
   row->addWidget(choice.resolution);
   auto* column = new QVBoxLayout;

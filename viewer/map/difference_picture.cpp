@@ -7,6 +7,7 @@
 
 #include "map/color_legend.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -22,11 +23,8 @@ QColor color_of_share(double share) {
 
 DifferencePicture::DifferencePicture(Selection& selection, QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("difference_picture"));
-  canvas_ = new MapCanvas(selection);
-  canvas_->setObjectName(QStringLiteral("difference_canvas"));
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  canvas_ = named("difference_canvas", new MapCanvas(selection));
+  auto* layout = make_column(this, {}, 0);
   layout->addWidget(canvas_, 1);
   layout->addWidget(new ColorLegend([](double t) { return color_of_share(t * full_color_at); },
                                     tr("0 to %1 % of a patch").arg(100 * full_color_at)));

@@ -8,6 +8,7 @@
 #include "map/color_legend.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -21,11 +22,8 @@ Color8 color8_of_share(double share) {
 
 PairPicture::PairPicture(Selection& selection, QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("pair_picture"));
-  canvas_ = new MapCanvas(selection);
-  canvas_->setObjectName(QStringLiteral("pair_canvas"));
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  canvas_ = named("pair_canvas", new MapCanvas(selection));
+  auto* layout = make_column(this, {}, 0);
   layout->addWidget(canvas_, 1);
   layout->addWidget(new ColorLegend(
       [](double t) {

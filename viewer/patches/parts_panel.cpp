@@ -24,6 +24,7 @@
 #include "patches/patch_table.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/figure_table.h"
 
 namespace transillum::viewer {
@@ -88,9 +89,7 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
   exchanges_.view->sortByColumn(power_column, Qt::DescendingOrder);
   refresh_timer_ = new QTimer(this);
   refresh_timer_->setSingleShot(true);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addWidget(tabs_, 1);
   layout->addLayout(buttons);
   connect(refresh_timer_, &QTimer::timeout, this, &PartsPanel::refresh);
@@ -132,9 +131,7 @@ PartsPanel::Page PartsPanel::add_page(const QString& title, const char* name) {
                                       QStringLiteral("8.8888"), QStringLiteral("8.8888"),
                                       QStringLiteral("8.8888")});
   auto* widget = new QWidget;
-  auto* layout = new QVBoxLayout(widget);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(widget, {}, 0);
   layout->addWidget(page.caption);
   layout->addWidget(page.view, 1);
   tabs_->addTab(widget, title);
@@ -153,9 +150,7 @@ PartsPanel::Page PartsPanel::add_page(const QString& title, const char* name) {
 
 QAction* PartsPanel::add_action(const char* name, const QString& text, const QString& tip,
                                 const char* key, void (PartsPanel::*what)()) {
-  auto* action = new QAction(text, this);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setToolTip(tip);
+  auto* action = make_action(this, name, text, tip);
   if (key != nullptr) {
     action->setShortcut(QKeySequence(QString::fromLatin1(key)));
     action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
@@ -178,11 +173,9 @@ QLayout* PartsPanel::make_buttons() {
                         &PartsPanel::isolate_current);
   emit_ = add_action("emit_part", tr("Make it emit"), {}, "E", &PartsPanel::make_emit);
   reflect_ = add_action("reflect_part", tr("Make it reflect"), {}, "R", &PartsPanel::make_reflect);
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(8, 4, 8, 6);
+  auto* row = make_row({8, 4, 8, 6});
   for (QAction* action : {hide_, isolate_, emit_, reflect_}) {
-    auto* button = new QToolButton;
-    button->setObjectName(action->objectName() + "_button");
+    auto* button = named(action->objectName() + "_button", new QToolButton);
     button->setDefaultAction(action);
     row->addWidget(button);
   }

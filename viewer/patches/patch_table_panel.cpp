@@ -21,6 +21,7 @@
 #include "patches/patch_table.h"
 #include "support/number_text.h"
 #include "transillum/files.h"
+#include "widgets/build.h"
 #include "widgets/figure_table.h"
 #include "widgets/save_dialog.h"
 
@@ -35,13 +36,11 @@ constexpr int share_column = 4;  // of the table of partners
 
 PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
     : QWidget(parent), selection_(selection), tabs_(new QTabWidget) {
-  search_ = new QLineEdit;
-  search_->setObjectName("patch_search");
+  search_ = named("patch_search", new QLineEdit);
   search_->setPlaceholderText(tr("Patch number or material"));
   search_->setClearButtonEnabled(true);
-  auto* export_button = new QPushButton(tr("Export…"));
-  export_button->setObjectName("export_table");
-  export_button->setToolTip(tr("Write the shown rows as CSV"));
+  auto* export_button =
+      named("export_table", new QPushButton(tr("Export…")), tr("Write the shown rows as CSV"));
   tabs_->setDocumentMode(true);
   all_ = add_page(tr("All patches"), "patch_table");
   partners_ = add_page(tr("Partners of selection"), "partner_table");
@@ -49,13 +48,10 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
   refresh_timer_ = new QTimer(this);
   refresh_timer_->setSingleShot(true);
 
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(10, 8, 10, 6);
+  auto* row = make_row({10, 8, 10, 6});
   row->addWidget(search_, 1);
   row->addWidget(export_button);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addLayout(row);
   layout->addWidget(tabs_, 1);
 
@@ -105,9 +101,7 @@ PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char
   set_up_figure_table(*page.view, {});
 
   auto* widget = new QWidget;
-  auto* layout = new QVBoxLayout(widget);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(widget, {}, 0);
   layout->addWidget(page.caption);
   layout->addWidget(page.view, 1);
   tabs_->addTab(widget, title);

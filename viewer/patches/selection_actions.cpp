@@ -5,6 +5,8 @@
 #include <QMenu>
 #include <utility>
 
+#include "widgets/build.h"
+
 namespace transillum::viewer {
 
 SelectionActions::SelectionActions(Selection& selection, HiddenPatches& hidden, QObject* parent)
@@ -44,10 +46,7 @@ SelectionActions::SelectionActions(Selection& selection, HiddenPatches& hidden, 
 
 QAction* SelectionActions::add(const char* name, const QString& text, const QString& tip,
                                const char* key) {
-  auto* action = new QAction(text, this);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setToolTip(tip);
-  action->setShortcut(QKeySequence(QString::fromLatin1(key)));
+  auto* action = make_action(this, name, text, tip, QKeySequence(QString::fromLatin1(key)));
   return action;
 }
 

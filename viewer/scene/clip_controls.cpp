@@ -7,6 +7,8 @@
 #include <QLabel>
 #include <QSlider>
 
+#include "widgets/build.h"
+
 namespace transillum::viewer {
 
 namespace {
@@ -16,23 +18,18 @@ constexpr int steps = 200;
 }  // namespace
 
 ClipControls::ClipControls(QWidget* parent) : QWidget(parent) {
-  axis_ = new QComboBox;
-  axis_->setObjectName("clip_axis");
+  axis_ = named("clip_axis", new QComboBox,
+                tr("The axis across which a plane cuts the scene open (X: the next one)"));
   axis_->addItems({tr("Off"), tr("x"), tr("y"), tr("z")});
-  axis_->setToolTip(tr("The axis across which a plane cuts the scene open (X: the next one)"));
-  place_ = new QSlider(Qt::Horizontal);
-  place_->setObjectName("clip_place");
+  place_ = named("clip_place", new QSlider(Qt::Horizontal), tr("Where the plane cuts the scene"));
   place_->setRange(0, steps);
   place_->setValue(steps / 2);
   place_->setMinimumWidth(120);
-  place_->setToolTip(tr("Where the plane cuts the scene"));
-  other_side_ = new QCheckBox(tr("Other side"));
-  other_side_->setObjectName("clip_other_side");
-  other_side_->setToolTip(tr("Show what the plane cuts away, instead of the rest"));
+  other_side_ = named("clip_other_side", new QCheckBox(tr("Other side")),
+                      tr("Show what the plane cuts away, instead of the rest"));
   auto* label = new QLabel(tr("Clipping plane"));
   label->setBuddy(axis_);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(14, 6, 14, 8);
+  auto* row = make_row(this, {14, 6, 14, 8});
   for (QWidget* widget : {static_cast<QWidget*>(label), static_cast<QWidget*>(axis_),
                           static_cast<QWidget*>(place_), static_cast<QWidget*>(other_side_)}) {
     row->addWidget(widget);

@@ -30,6 +30,7 @@
 #include <utility>
 
 #include "scene/callout_layer.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -81,11 +82,9 @@ Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
 SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice& colors,
                      const HiddenPatches& hidden, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection), colors_(colors), hidden_(hidden) {
-  canvas_ = new QVTKOpenGLNativeWidget(this);
-  canvas_->setObjectName("scene_canvas");
+  canvas_ = named("scene_canvas", new QVTKOpenGLNativeWidget(this));
   canvas_->setMinimumSize(200, 150);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
+  auto* layout = make_column(this, {});
   layout->addWidget(canvas_);
   callout_layer_ = new CalloutLayer(canvas_);
 

@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QToolBar>
 
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -14,10 +15,8 @@ namespace {
 
 QAction* make_action(QObject* parent, theme::Icon icon, const char* name, const QString& text,
                      const QKeySequence& key, const QString& tip) {
-  auto* action = new QAction(theme::icon(icon), text, parent);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setShortcut(key);
-  action->setToolTip(QStringLiteral("%1 (%2)").arg(tip, key.toString(QKeySequence::NativeText)));
+  auto* action = make_key_action(parent, name, text, tip, key);
+  action->setIcon(theme::icon(icon));
   return action;
 }
 

@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "widgets/build.h"
+
 namespace transillum::viewer {
 
 namespace {
@@ -38,10 +40,9 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
   QFont bold = heading->font();
   bold.setBold(true);
   heading->setFont(bold);
-  together_ = new QCheckBox(tr("together"));
-  together_->setObjectName(part("together"));
+  together_ = named(part("together"), new QCheckBox(tr("together")),
+                    tr("Keeps the proportions of red, green and blue, and so the hue"));
   together_->setChecked(true);
-  together_->setToolTip(tr("Keeps the proportions of red, green and blue, and so the hue"));
   grid->addWidget(heading, 0, 0, 1, 2);
   grid->addWidget(together_, 0, 2);
   const QString labels[] = {tr("red"), tr("green"), tr("blue")};

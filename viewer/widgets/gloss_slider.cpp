@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "widgets/build.h"
+
 namespace transillum::viewer {
 
 namespace {
@@ -38,12 +40,10 @@ double value_at_place(double place, bool is_exponent) {
 
 GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent) {
   title_ = new QLabel;
-  slider_ = new QSlider(Qt::Horizontal);
-  slider_->setObjectName("gloss");
+  slider_ = named("gloss", new QSlider(Qt::Horizontal));
   slider_->setRange(0, gloss_steps);
   slider_->setMinimumWidth(70);
-  box_ = new QDoubleSpinBox;
-  box_->setObjectName("gloss_value");
+  box_ = named("gloss_value", new QDoubleSpinBox);
   box_->setKeyboardTracking(false);
   auto* dull = new QLabel(tr("dull"));
   auto* sharp = new QLabel(tr("sharp"));
@@ -56,9 +56,7 @@ GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent) {
   row->addWidget(slider_, 1);
   row->addWidget(sharp);
   row->addWidget(box_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(1);
+  auto* column = make_column(this, {}, 1);
   column->addWidget(title_);
   column->addLayout(row);
   setToolTip(tr(

@@ -4,6 +4,8 @@
 #include <QTextBrowser>
 #include <QVBoxLayout>
 
+#include "widgets/build.h"
+
 namespace transillum::viewer {
 
 PageDialog::PageDialog(const char* name, const QString& title, const QString& html, QWidget& parent)
@@ -14,8 +16,7 @@ PageDialog::PageDialog(const char* name, const QString& title, const QString& ht
   auto* page = new QTextBrowser;
   page->setFrameShape(QFrame::NoFrame);
   page->setHtml(html);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
+  auto* layout = make_column(this, {});
   layout->addWidget(page);
   resize(QSize(960, 760).boundedTo(parent.size()));
 }

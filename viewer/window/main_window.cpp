@@ -53,6 +53,7 @@
 #include "transillum/reference_cache.h"
 #include "tree/tree_view.h"
 #include "widgets/banner.h"
+#include "widgets/build.h"
 #include "widgets/scrolling.h"
 #include "widgets/theme.h"
 #include "window/base/notifier.h"
@@ -153,8 +154,7 @@ void MainWindow::make_views() {
     return state_.scene.is_open(page.scene, page.options) ? whole_of(state_.scene.loaded())
                                                           : nullptr;
   });
-  notes_ = new QPlainTextEdit;
-  notes_->setObjectName("notes");
+  notes_ = named("notes", new QPlainTextEdit);
   notes_->setPlaceholderText(tr("Your notes. Saved with the session."));
   timeline_ = new TimelineBar(state_.focus, state_.selection, state_.watches, *step_actions_);
   timeline_->lanes()->set_marks(
@@ -409,10 +409,10 @@ void MainWindow::make_menus() {
   QMenu* solve = menuBar()->addMenu(tr("&Solve"));
   solve_actions_->add_to(*solve);
   solve->addSeparator();
-  study_action_ = new QAction(theme::icon(theme::Icon::study), tr("Study…"), this);
-  study_action_->setObjectName("study");
-  study_action_->setShortcut(QKeySequence(QStringLiteral("Ctrl+T")));
-  study_action_->setToolTip(tr("Error of B against the number of directions (Ctrl+T)"));
+  study_action_ = make_action(this, "study", tr("Study…"),
+                              tr("Error of B against the number of directions (Ctrl+T)"),
+                              QKeySequence("Ctrl+T"));
+  study_action_->setIcon(theme::icon(theme::Icon::study));
   connect(study_action_, &QAction::triggered, study_, &StudyDialog::present);
   solve->addAction(study_action_);
 
@@ -483,8 +483,7 @@ void MainWindow::make_view_menu() {
 }
 
 void MainWindow::make_tool_bar() {
-  auto* bar = new QToolBar(tr("Tools"));
-  bar->setObjectName("tool_bar");
+  auto* bar = named("tool_bar", new QToolBar(tr("Tools")));
   bar->setMovable(false);
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   bar->addAction(page_->scenes_action());

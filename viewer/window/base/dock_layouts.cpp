@@ -14,6 +14,7 @@
 
 #include "support/checked_bytes.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -58,8 +59,7 @@ DockLayouts::DockLayouts(QMainWindow& window) : QObject(&window), window_(window
 
 QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* content,
                               std::vector<Place> places) {
-  auto* dock = new QDockWidget(title, &window_);
-  dock->setObjectName(QString::fromLatin1(name));
+  auto* dock = named(name, new QDockWidget(title, &window_));
   dock->setWidget(content);
   // Qt moves a tab behind others off screen but reports it as visible: its content would go on
   // working, and would not be notified when it comes to the front.

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "support/number_text.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -84,8 +85,7 @@ ColorExportDialog::ColorExportDialog(std::shared_ptr<const SolverSnapshot> snaps
 }
 
 QLabel* ColorExportDialog::make_picture() {
-  auto* picture = new QLabel(tr("Drawing the preview…"));
-  picture->setObjectName("color_preview");
+  auto* picture = named("color_preview", new QLabel(tr("Drawing the preview…")));
   picture->setFixedSize(picture_width, picture_height);
   picture->setAlignment(Qt::AlignCenter);
   picture->setWordWrap(true);
@@ -101,13 +101,11 @@ QLabel* ColorExportDialog::make_picture() {
 }
 
 void ColorExportDialog::make_fields(const Vec3& up) {
-  format_ = new QComboBox;
-  format_->setObjectName("color_format");
+  format_ = named("color_format", new QComboBox);
   for (const Format& format : formats) {
     format_->addItem(tr(format.text));
   }
-  up_ = new QComboBox;
-  up_->setObjectName("color_up");
+  up_ = named("color_up", new QComboBox);
   for (const Vertical& vertical : verticals) {
     up_->addItem(QString::fromUtf8(vertical.name));
     if (vertical.direction == up) {
@@ -115,28 +113,22 @@ void ColorExportDialog::make_fields(const Vec3& up) {
     }
   }
   up_->setToolTip(tr("The direction that becomes up (+y) in glTF"));
-  exposure_ = new QDoubleSpinBox;
-  exposure_->setObjectName("color_exposure");
+  exposure_ = named("color_exposure", new QDoubleSpinBox,
+                    tr("A patch whose B times this is 1 or more is white"));
   exposure_->setDecimals(6);
   exposure_->setRange(1e-6, 1e9);
   exposure_->setValue(1);
   exposure_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   exposure_->setSuffix(tr(" m²/W"));
-  exposure_->setToolTip(tr("A patch whose B times this is 1 or more is white"));
-  automatic_ = new QCheckBox(tr("automatic"));
-  automatic_->setObjectName("color_automatic");
+  automatic_ = named("color_automatic", new QCheckBox(tr("automatic")),
+                     tr("98 % of the area that does not emit is below white"));
   automatic_->setChecked(true);
-  automatic_->setToolTip(tr("98 % of the area that does not emit is below white"));
-  light_map_ = new QCheckBox(tr("as a light map"));
-  light_map_->setObjectName("color_light_map");
-  light_map_->setToolTip(
-      tr("glTF: a picture with texture coordinates, a square of it per patch, instead of a color "
-         "per corner; for programs that ignore colors of corners"));
-  note_ = new QLabel;
-  note_->setObjectName("color_note_of_export");
-  note_->setWordWrap(true);
+  light_map_ =
+      named("color_light_map", new QCheckBox(tr("as a light map")),
+            tr("glTF: a picture with texture coordinates, a square of it per patch, instead of a "
+               "color per corner; for programs that ignore colors of corners"));
+  note_ = named("color_note_of_export", note_label());
   note_->setMinimumHeight(2 * note_->fontMetrics().lineSpacing());
-  note_->setForegroundRole(QPalette::PlaceholderText);
   connect(format_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           &ColorExportDialog::show_state);
   connect(automatic_, &QCheckBox::toggled, this, &ColorExportDialog::show_state);

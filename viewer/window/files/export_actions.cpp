@@ -23,6 +23,7 @@
 #include "transillum/errors.h"
 #include "transillum/map_files.h"
 #include "transillum/material_changes.h"
+#include "widgets/build.h"
 #include "widgets/save_dialog.h"
 #include "window/base/notifier.h"
 #include "window/files/color_export_dialog.h"
@@ -102,15 +103,13 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
   add("export_charts", tr("Convergence charts…"), tr("As vectors (SVG) or PNG"), &E::choose_charts);
   add("export_figures", tr("Convergence figures…"), tr("The data of the charts as CSV"),
       &E::choose_figures);
-  save_scene_ = new QAction(tr("Save scene…"), this);
-  save_scene_->setObjectName("save_scene");
-  save_scene_->setToolTip(
-      tr("Write the scene with its changed materials and turned faces as OBJ and MTL"));
+  save_scene_ =
+      make_action(this, "save_scene", tr("Save scene…"),
+                  tr("Write the scene with its changed materials and turned faces as OBJ and MTL"));
   connect(save_scene_, &QAction::triggered, this, &ExportActions::choose_scene_file);
-  export_colors_ = new QAction(tr("Export for Blender or the web…"), this);
-  export_colors_->setObjectName("export_colors");
-  export_colors_->setToolTip(
-      tr("Write the colors shown, without lighting, as glTF or PLY; with a preview"));
+  export_colors_ =
+      make_action(this, "export_colors", tr("Export for Blender or the web…"),
+                  tr("Write the colors shown, without lighting, as glTF or PLY; with a preview"));
   connect(export_colors_, &QAction::triggered, this, &ExportActions::choose_colors);
   const auto enable = [this] {
     export_colors_->setEnabled(frame_.state.scene.snapshot() != nullptr);
@@ -125,9 +124,7 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
 
 void ExportActions::add(const char* name, const QString& text, const QString& tip,
                         void (ExportActions::*what)()) {
-  auto* action = new QAction(text, this);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setToolTip(tip);
+  auto* action = make_action(this, name, text, tip);
   connect(action, &QAction::triggered, this, what);
   actions_ << action;
 }

@@ -25,6 +25,7 @@
 #include "transillum/files.h"
 #include "transillum/json_text.h"
 #include "widgets/banner.h"
+#include "widgets/build.h"
 #include "widgets/save_dialog.h"
 #include "widgets/theme.h"
 #include "window/base/dock_layouts.h"
@@ -41,15 +42,6 @@ namespace {
 
 constexpr int most_recent = 10;
 constexpr int settle_ms = 300, most_checks = 20;
-
-QAction* make_action(QObject* parent, const char* name, const QString& text,
-                     const QKeySequence& key, const QString& tip) {
-  auto* action = new QAction(text, parent);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setShortcut(key);
-  action->setToolTip(tip);
-  return action;
-}
 
 }  // namespace
 
@@ -89,18 +81,21 @@ FileActions::FileActions(const WindowFrame& frame, DockLayouts& docks, SettingsP
 
 void FileActions::make_actions() {
   open_ =
-      make_action(this, "open", tr("Open…"), QKeySequence::Open,
-                  tr("Open a scene, a result, a session or a lesson (Ctrl+O), or drop one here"));
+      make_action(this, "open", tr("Open…"),
+                  tr("Open a scene, a result, a session or a lesson (Ctrl+O), or drop one here"),
+                  QKeySequence::Open);
   open_->setIcon(theme::icon(theme::Icon::open));
-  save_session_ = make_action(
-      this, "save_session", tr("Save session…"), QKeySequence::Save,
-      tr("Save scene, options, focus, views, breakpoints and notes in a file (Ctrl+S)"));
-  reload_ = make_action(this, "reload", tr("Reload"), QKeySequence(QStringLiteral("Ctrl+R")),
-                        tr("Read the scene's file again and keep the view (Ctrl+R)"));
-  watch_ = make_action(this, "watch", tr("Reload when the file changes"), {},
+  save_session_ =
+      make_action(this, "save_session", tr("Save session…"),
+                  tr("Save scene, options, focus, views, breakpoints and notes in a file (Ctrl+S)"),
+                  QKeySequence::Save);
+  reload_ = make_action(this, "reload", tr("Reload"),
+                        tr("Read the scene's file again and keep the view (Ctrl+R)"),
+                        QKeySequence("Ctrl+R"));
+  watch_ = make_action(this, "watch", tr("Reload when the file changes"),
                        tr("Read the scene's file again whenever another program changes it"));
   watch_->setCheckable(true);
-  reading_ = make_action(this, "reading", tr("Units and orientation…"), {},
+  reading_ = make_action(this, "reading", tr("Units and orientation…"),
                          tr("Read the scene's file in another unit, or with its faces turned or "
                             "joined; remembered for the file"));
   reading_->setEnabled(false);

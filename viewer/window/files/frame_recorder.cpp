@@ -22,6 +22,7 @@
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "stepping/play_control.h"
+#include "widgets/build.h"
 #include "widgets/save_dialog.h"
 #include "window/base/notifier.h"
 #include "window/files/export_actions.h"
@@ -53,9 +54,7 @@ FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play)
                 report(animation, message);
               }) {
   const auto add = [this](const char* name, const QString& text, const QString& tip) {
-    auto* action = new QAction(text, this);
-    action->setObjectName(QString::fromLatin1(name));
-    action->setToolTip(tip);
+    auto* action = make_action(this, name, text, tip);
     action->setCheckable(true);
     return action;
   };
@@ -84,19 +83,14 @@ FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play)
 FrameRecorder::~FrameRecorder() { worker_.clear(); }
 
 void FrameRecorder::add_status(const WindowFrame& frame) {
-  status_ = new QWidget;
-  status_->setObjectName("recording");
+  status_ = named("recording", new QWidget);
   status_text_ = new QLabel;
-  finish_ = new QToolButton;
+  finish_ = named("finish_recording", new QToolButton,
+                  tr("Write the animation with the pictures so far (Shift+L)"));
   finish_->setText(tr("Finish"));
-  finish_->setObjectName("finish_recording");
-  finish_->setToolTip(tr("Write the animation with the pictures so far (Shift+L)"));
-  auto* discard = new QToolButton;
+  auto* discard = named("cancel_recording", new QToolButton, tr("Throw the animation away"));
   discard->setText(tr("Cancel"));
-  discard->setObjectName("cancel_recording");
-  discard->setToolTip(tr("Throw the animation away"));
-  auto* row = new QHBoxLayout(status_);
-  row->setContentsMargins(0, 0, 6, 0);
+  auto* row = make_row(status_, {0, 0, 6, 0});
   row->addWidget(status_text_);
   row->addWidget(finish_);
   row->addWidget(discard);

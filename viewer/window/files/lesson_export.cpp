@@ -16,6 +16,7 @@
 #include "scene/scene_view.h"
 #include "support/failure_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/save_dialog.h"
 #include "window/base/notifier.h"
 
@@ -71,9 +72,9 @@ void LessonExport::export_to(const QString& path) {
   page_before_ = lessons_.page();
   pages_.clear();
   const auto count = static_cast<int>(at(lessons_.lessons(), lesson_).pages.size());
-  progress_ = new QProgressDialog(tr("Showing and taking the pages…"), tr("Cancel"), 0, count,
-                                  &frame_.window);
-  progress_->setObjectName("lesson_export_progress");
+  progress_ =
+      named("lesson_export_progress", new QProgressDialog(tr("Showing and taking the pages…"),
+                                                          tr("Cancel"), 0, count, &frame_.window));
   progress_->setWindowTitle(tr("Export the lesson"));
   progress_->setMinimumDuration(0);
   connect(progress_, &QProgressDialog::canceled, this, [this] {

@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 
 #include "transillum/scene.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -33,24 +34,20 @@ ReadingDialog::ReadingDialog(const QString& file, const SceneInput& input, QWidg
     : QDialog(parent), base_(input) {
   setObjectName("reading_dialog");
   setWindowTitle(tr("Units and orientation"));
-  unit_ = new QComboBox;
-  unit_->setObjectName("reading_unit");
-  scale_ = new QDoubleSpinBox;
-  scale_->setObjectName("reading_scale");
+  unit_ = named("reading_unit", new QComboBox);
+  scale_ = named("reading_scale", new QDoubleSpinBox);
   scale_->setDecimals(9);
   scale_->setRange(1e-9, 1e9);
   scale_->setSuffix(tr(" m per unit"));
-  orient_ = new QComboBox;
-  orient_->setObjectName("reading_orient");
+  orient_ = named("reading_orient", new QComboBox);
   orient_->addItems({tr("Faces as in the file"), tr("Turn faces that show their back")});
-  join_ = new QComboBox;
-  join_->setObjectName("reading_join");
+  join_ = named("reading_join", new QComboBox,
+                tr("Joins faces of one plane, material and group that share edges: fewer and "
+                   "larger patches"));
   join_->addItems({tr("Usual: joined in glTF and STL"), tr("Join faces of one plane"),
                    tr("Do not join faces")});
-  join_->setToolTip(tr(
-      "Joins faces of one plane, material and group that share edges: fewer and larger patches"));
-  photometric_ = new QCheckBox(tr("Emissive colors are luminances, cd/m²"));
-  photometric_->setObjectName("reading_photometric");
+  photometric_ =
+      named("reading_photometric", new QCheckBox(tr("Emissive colors are luminances, cd/m²")));
   const QString ending = QFileInfo(file).suffix().toLower();
   photometric_->setEnabled(ending == "gltf" || ending == "glb");
   photometric_->setToolTip(tr("glTF only: divided by 683 lm/W instead of read as radiances"));

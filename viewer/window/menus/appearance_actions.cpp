@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QSettings>
 
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -13,11 +14,8 @@ namespace transillum::viewer {
 AppearanceActions::AppearanceActions(QObject* parent) : QObject(parent) {
   const auto add = [this](const char* name, const QString& text, const QString& tip,
                           const char* key) {
-    auto* action = new QAction(text, this);
-    action->setObjectName(QString::fromLatin1(name));
-    action->setToolTip(tip);
+    auto* action = make_action(this, name, text, tip, QKeySequence(QString::fromLatin1(key)));
     action->setCheckable(true);
-    action->setShortcut(QKeySequence(QString::fromLatin1(key)));
     connect(action, &QAction::toggled, this, &AppearanceActions::apply);
     return action;
   };

@@ -9,16 +9,14 @@
 
 #include "model/command_text.h"
 #include "solve/settings_panel.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
 CommandActions::CommandActions(const WindowFrame& frame) : QObject(&frame.window), frame_(frame) {
   const auto add = [this](const char* name, const QString& text, const char* key,
                           const QString& tip) {
-    auto* action = new QAction(text, this);
-    action->setObjectName(QString::fromLatin1(name));
-    action->setShortcut(QKeySequence(QString::fromLatin1(key)));
-    action->setToolTip(tip);
+    auto* action = make_action(this, name, text, tip, QKeySequence(QString::fromLatin1(key)));
     action->setEnabled(false);
     return action;
   };
