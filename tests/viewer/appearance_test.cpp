@@ -22,7 +22,7 @@
 #include "widgets/full_screen.h"
 #include "widgets/theme.h"
 #include "window/base/dock_layouts.h"
-#include "window/menus/key_list.h"
+#include "window/menus/help_pages.h"
 
 namespace transillum::viewer::appearance_test {
 

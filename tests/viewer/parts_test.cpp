@@ -19,7 +19,7 @@
 
 #include "colors/color_scale.h"
 #include "lessons/session_file.h"
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "open_scene.h"
 #include "patches/parts_panel.h"
 #include "patches/patch_table.h"

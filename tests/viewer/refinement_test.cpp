@@ -18,7 +18,7 @@
 #include "lessons/lesson.h"
 #include "lessons/page_control.h"
 #include "model/command_text.h"
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "scene/color_controls.h"
 #include "solve/round_panel.h"
 #include "solved_window.h"

@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "open_scene.h"
 #include "solved_window.h"
 #include "transillum/errors.h"
@@ -32,8 +32,7 @@
 #include "window/files/color_export_dialog.h"
 #include "window/files/export_actions.h"
 #include "window/files/file_actions.h"
-#include "window/files/reading_dialog.h"
-#include "window/files/reading_memory.h"
+#include "window/files/reading.h"
 
 namespace transillum::viewer::scene_files_test {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "colors/neutral_light.h"
-#include "model/linear_values.h"
+#include "model/snapshot_values.h"
 
 namespace transillum::viewer {
 
@@ -98,11 +98,9 @@ void ColorChoice::set_mode(ColorMode mode) {
 }
 
 void ColorChoice::set_map(ColorMap map) {
-  if (map == map_) {
-    return;
+  if (std::exchange(map_, map) != map) {
+    change();
   }
-  map_ = map;
-  change();
 }
 
 bool& ColorChoice::logarithmic_choice() {
@@ -121,11 +119,9 @@ void ColorChoice::set_logarithmic(bool logarithmic) {
 }
 
 void ColorChoice::set_range_rule(RangeRule rule) {
-  if (rule == range_rule_) {
-    return;
+  if (std::exchange(range_rule_, rule) != rule) {
+    change();
   }
-  range_rule_ = rule;
-  change();
 }
 
 void ColorChoice::widen_from(double low, double high) {
@@ -144,11 +140,9 @@ void ColorChoice::set_range(double low, double high) {
 }
 
 void ColorChoice::set_gamma(double gamma) {
-  if (gamma == scale_.gamma) {
-    return;
+  if (std::exchange(scale_.gamma, gamma) != gamma) {
+    change();
   }
-  scale_.gamma = gamma;
-  change();
 }
 
 void ColorChoice::set_exposure(double exposure) {
@@ -161,11 +155,9 @@ void ColorChoice::set_exposure(double exposure) {
 }
 
 void ColorChoice::set_automatic_exposure(bool automatic) {
-  if (automatic == automatic_) {
-    return;
+  if (std::exchange(automatic_, automatic) != automatic) {
+    change();
   }
-  automatic_ = automatic;
-  change();
 }
 
 Rgb ColorChoice::value_at(PatchId i, const Vec3& point) const {

@@ -2,10 +2,11 @@
 #include "colors/color_note.h"
 
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QVBoxLayout>
 
+#include "transillum/at.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
 
@@ -63,6 +64,19 @@ void ColorNote::show_note() {
   replicas_->setVisible(colors_.quantity() == Quantity::error && !colors_.missing().isEmpty() &&
                         colors_.snapshot() && colors_.snapshot()->options.replicas < 2);
   setVisible(!note.isEmpty());
+}
+
+KeptRunLabel::KeptRunLabel(const ColorChoice& colors, QWidget* canvas) : Plate(canvas) {
+  setObjectName("kept_run_label");
+  auto* over = new QVBoxLayout(canvas);
+  over->addWidget(this, 0, Qt::AlignHCenter | Qt::AlignTop);
+  connect(&colors, &ColorChoice::changed, this, [this, &colors] {
+    setVisible(colors.shows_kept_run());
+    if (colors.shows_kept_run()) {
+      const KeptRun& run = at(colors.kept_runs().all(), colors.kept_runs().first());
+      setText(tr("A: %1, while the key is held").arg(run.name));
+    }
+  });
 }
 
 }  // namespace transillum::viewer

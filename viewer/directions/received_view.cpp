@@ -6,15 +6,13 @@
 #include "directions/received_view.h"
 
 #include <QHeaderView>
-#include <QLabel>
 #include <QTableView>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "directions/received_table.h"
+#include "directions/received_light.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"

@@ -5,7 +5,6 @@
 #include "lessons/control_widget.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -36,7 +35,7 @@ ControlWidget::ControlWidget(PageControl control, Focus& focus, MaterialEdits& e
                              QWidget* parent)
     : QWidget(parent), control_(std::move(control)), focus_(focus), edits_(edits) {
   setObjectName("control_" + QString::fromStdString(control_.name));
-  auto* row = make_row(this, {4, 0, 4, 0}, 6);
+  make_row(this, {4, 0, 4, 0}, 6);
   if (control_.kind == PageControl::Kind::option && !control_.slides) {
     make_choice();
   } else {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "colors/color_scale.h"
-#include "model/form_factor_views.h"
+#include "model/snapshot_values.h"
 #include "transillum/function_comparison.h"
 #include "transillum/glossy.h"
 #include "transillum/material_changes.h"

@@ -4,12 +4,10 @@
 // window applies its state.
 #include "lessons/lesson_panel.h"
 
-#include <QAction>
 #include <QApplication>
 #include <QComboBox>
 #include <QDesktopServices>
 #include <QFontInfo>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
@@ -18,9 +16,7 @@
 #include <QTextList>
 #include <QTextTable>
 #include <QTimer>
-#include <QToolButton>
 #include <QUrl>
-#include <QVBoxLayout>
 #include <utility>
 
 #include "lessons/control_widget.h"
@@ -152,8 +148,7 @@ void LessonPanel::make_actions() {
 }
 
 QLayout* LessonPanel::make_buttons() {
-  auto* buttons = new QHBoxLayout;
-  buttons->setSpacing(8);
+  auto* buttons = make_row({}, 8);
   buttons->addWidget(wide_button_for(previous_, Qt::ToolButtonTextBesideIcon), 2);
   buttons->addWidget(page_number_, 1);
   buttons->addWidget(wide_button_for(next_, Qt::ToolButtonTextBesideIcon), 2);

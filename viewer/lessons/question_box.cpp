@@ -4,16 +4,13 @@
 // after Reveal the result of solve_question(), which runs on a worker thread.
 #include "lessons/question_box.h"
 
-#include <QAction>
 #include <QButtonGroup>
 #include <QDoubleValidator>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QRadioButton>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

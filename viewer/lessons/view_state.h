@@ -14,11 +14,9 @@
 #include "model/run_options.h"
 #include "model/solver/goal.h"
 #include "state/algorithm_state.h"
-#include "state/clip_plane.h"
+#include "state/camera_views.h"
 #include "state/focus.h"
-#include "state/initial_view.h"
-#include "state/layout.h"
-#include "state/overlay.h"
+#include "state/view_choices.h"
 #include "transillum/material_changes.h"
 
 namespace transillum::viewer {

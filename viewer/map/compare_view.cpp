@@ -5,10 +5,8 @@
 // patch) and PairPicture (by polygon), and listed by PairTable.
 #include "map/compare_view.h"
 
-#include <QAction>
 #include <QComboBox>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QItemSelectionModel>
 #include <QLabel>
 #include <QPushButton>
@@ -16,14 +14,11 @@
 #include <QStackedWidget>
 #include <QTableView>
 #include <QTimer>
-#include <QToolButton>
-#include <QVBoxLayout>
 #include <utility>
 
-#include "map/difference_picture.h"
+#include "map/difference_pictures.h"
 #include "map/hemicube_view.h"
 #include "map/map_canvas.h"
-#include "map/pair_picture.h"
 #include "map/pair_table.h"
 #include "state/breakpoints.h"
 #include "support/number_text.h"
@@ -284,8 +279,7 @@ QBoxLayout* CompareView::column_of(const Choice& choice) const {
   auto* row = make_row({6, 6, 6, 4}, 4);
   row->addWidget(choice.engine, 1);
   row->addWidget(choice.resolution);
-  auto* column = new QVBoxLayout;
-  column->setSpacing(0);
+  auto* column = make_column({}, 0);
   column->addLayout(row);
   column->addWidget(choice.picture, 1);
   column->addWidget(choice.figures);

@@ -8,9 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "map/corrected_drawing.h"
-#include "map/pixel_view.h"
-#include "map/polygon_label.h"
+#include "map/engine_drawing.h"
+#include "map/polygon_text.h"
 #include "transillum/at.h"
 #include "widgets/theme.h"
 

@@ -2,13 +2,9 @@
 #pragma once
 
 #include <QBrush>
-#include <QImage>
-#include <QPointF>
 #include <QPolygonF>
 #include <QSizeF>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "map/map_picture.h"

@@ -6,22 +6,20 @@
 #include "map/map_view.h"
 
 #include <QButtonGroup>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
 #include <QStackedWidget>
 #include <QTimer>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <utility>
 
 #include "colors/pointer_label.h"
+#include "map/engine_drawing.h"
 #include "map/engine_menu.h"
 #include "map/hemicube_view.h"
 #include "map/map_canvas.h"
 #include "map/phase_pair.h"
-#include "map/pixel_view.h"
-#include "map/row_text.h"
+#include "map/polygon_text.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"

@@ -9,7 +9,6 @@
 #include <QLineEdit>
 #include <QMainWindow>
 #include <QMenu>
-#include <QStatusBar>
 
 #include "widgets/build.h"
 
@@ -52,11 +51,7 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
   show_state();
 }
 
-void CompareActions::add_to(QMenu& menu) const {
-  for (QAction* action : {keep_, show_, difference_}) {
-    menu.addAction(action);
-  }
-}
+void CompareActions::add_to(QMenu& menu) const { menu.addActions({keep_, show_, difference_}); }
 
 void CompareActions::keep_run() {
   if (!colors_.keep_run()) {

@@ -4,8 +4,6 @@
 // times a second at most, on a thread of their own, and only while the panel is visible.
 #include "patches/parts_panel.h"
 
-#include <QAction>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QItemSelectionModel>
 #include <QLabel>
@@ -14,14 +12,12 @@
 #include <QTimer>
 #include <QToolButton>
 #include <QUndoStack>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
 #include "colors/color_scale.h"
-#include "model/form_factor_views.h"
-#include "patches/part_columns.h"
-#include "patches/patch_table.h"
+#include "model/snapshot_values.h"
+#include "patches/table_rows.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
@@ -109,32 +105,17 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
   clear();
 }
 
-PartsPanel::Page PartsPanel::add_page(const QString& title, const char* name) {
-  const Page page{new PatchTable(this), new QTableView, new QLabel};
-  page.caption->setObjectName(QString::fromLatin1(name) + "_caption");
-  page.caption->setWordWrap(true);
-  page.caption->setContentsMargins(10, 4, 10, 4);
-  page.caption->setForegroundRole(QPalette::PlaceholderText);
-  page.view->setObjectName(QString::fromLatin1(name));
-  page.view->setModel(page.table);
-  page.view->setSelectionBehavior(QAbstractItemView::SelectRows);
-  page.view->setSelectionMode(QAbstractItemView::SingleSelection);
-  page.view->setTabKeyNavigation(false);
-  page.view->horizontalHeader()->setSortIndicator(-1, Qt::AscendingOrder);
-  page.view->setSortingEnabled(true);
-  page.view->setContextMenuPolicy(Qt::ActionsContextMenu);
+TablePage PartsPanel::add_page(const QString& title, const char* name) {
   const bool pairs = qstrcmp(name, "exchange_table") == 0;
   const QString name_width = QStringLiteral("Name of it");
-  set_up_figure_table(
-      *page.view, pairs ? QStringList{name_width, name_width}
-                        : QStringList{name_width, QStringLiteral("88888"), QStringLiteral("88.888"),
-                                      QStringLiteral("8.8888"), QStringLiteral("8.8888"),
-                                      QStringLiteral("8.8888")});
-  auto* widget = new QWidget;
-  auto* layout = make_column(widget, {}, 0);
-  layout->addWidget(page.caption);
-  layout->addWidget(page.view, 1);
-  tabs_->addTab(widget, title);
+  const TablePage page =
+      add_table_page(*tabs_, title, name,
+                     pairs ? QStringList{name_width, name_width}
+                           : QStringList{name_width, QStringLiteral("88888"),
+                                         QStringLiteral("88.888"), QStringLiteral("8.8888"),
+                                         QStringLiteral("8.8888"), QStringLiteral("8.8888")});
+  page.view->setTabKeyNavigation(false);
+  page.view->setContextMenuPolicy(Qt::ActionsContextMenu);
   if (!pairs) {
     page.view->addActions({select_, hide_, isolate_, emit_, reflect_});
     connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -186,7 +167,7 @@ QLayout* PartsPanel::make_buttons() {
 void PartsPanel::clear() {
   counter_.clear();
   tables_ = nullptr;
-  for (const Page& page : {groups_, materials_, exchanges_}) {
+  for (const TablePage& page : {groups_, materials_, exchanges_}) {
     page.table->set_contents({}, {});
     page.caption->setText(scene_ ? tr("Adding up powers…")
                                  : tr("Open a scene to list its groups and materials."));
@@ -243,7 +224,7 @@ void PartsPanel::show_tables(std::shared_ptr<const PowerTables> tables) {
   show_state();
 }
 
-void PartsPanel::show_parts(const Page& page, const PowerTable& table, PartsBy by) {
+void PartsPanel::show_parts(const TablePage& page, const PowerTable& table, PartsBy by) {
   PatchRows rows = rows_of_parts(table, tables_->received_known);
   page.table->set_contents(std::move(rows.patches), std::move(rows.columns));
   page.caption->setText(total_text(table, by, tables_->received_known));
@@ -270,7 +251,7 @@ const PartPower* PartsPanel::current() const {
     return nullptr;
   }
   const bool groups = current_kind() == PartsBy::group;
-  const Page& page = groups ? groups_ : materials_;
+  const TablePage& page = groups ? groups_ : materials_;
   const QModelIndex index = page.view->currentIndex();
   if (!index.isValid()) {
     return nullptr;

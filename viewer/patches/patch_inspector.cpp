@@ -2,11 +2,10 @@
 #include "patches/patch_inspector.h"
 
 #include <QLabel>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
-#include "model/linear_values.h"
+#include "model/snapshot_values.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"

@@ -4,7 +4,6 @@
 // times a second at most, and only while the panel is visible.
 #include "patches/patch_table_panel.h"
 
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QItemSelectionModel>
 #include <QLabel>
@@ -13,17 +12,15 @@
 #include <QTabWidget>
 #include <QTableView>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <utility>
 
-#include "model/form_factor_views.h"
-#include "patches/patch_columns.h"
-#include "patches/patch_table.h"
+#include "model/snapshot_values.h"
+#include "patches/table_rows.h"
 #include "support/number_text.h"
 #include "transillum/files.h"
 #include "widgets/build.h"
+#include "widgets/dialogs.h"
 #include "widgets/figure_table.h"
-#include "widgets/save_dialog.h"
 
 namespace transillum::viewer {
 
@@ -56,7 +53,7 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
   layout->addWidget(tabs_, 1);
 
   connect(search_, &QLineEdit::textChanged, this, [this](const QString& text) {
-    for (const Page& page : {all_, partners_}) {
+    for (const TablePage& page : {all_, partners_}) {
       page.table->set_search(text.trimmed());
     }
     mark_selection();
@@ -87,24 +84,8 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
   });
 }
 
-PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char* name) {
-  const Page page{new PatchTable(this), new QTableView, new QLabel};
-  page.caption->setWordWrap(true);
-  page.caption->setContentsMargins(10, 4, 10, 4);
-  page.caption->setForegroundRole(QPalette::PlaceholderText);
-  page.view->setObjectName(QString::fromLatin1(name));
-  page.view->setModel(page.table);
-  page.view->setSelectionBehavior(QAbstractItemView::SelectRows);
-  page.view->setSelectionMode(QAbstractItemView::SingleSelection);
-  page.view->horizontalHeader()->setSortIndicator(-1, Qt::AscendingOrder);
-  page.view->setSortingEnabled(true);
-  set_up_figure_table(*page.view, {});
-
-  auto* widget = new QWidget;
-  auto* layout = make_column(widget, {}, 0);
-  layout->addWidget(page.caption);
-  layout->addWidget(page.view, 1);
-  tabs_->addTab(widget, title);
+TablePage PatchTablePanel::add_page(const QString& title, const char* name) {
+  const TablePage page = add_table_page(*tabs_, title, name, {});
   connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this, page](const QModelIndex& index) {
             // Not in the table of partners: selecting another patch would replace its contents.
@@ -123,7 +104,7 @@ PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char
   return page;
 }
 
-const PatchTablePanel::Page& PatchTablePanel::current() const {
+const TablePage& PatchTablePanel::current() const {
   return tabs_->currentIndex() == 0 ? all_ : partners_;
 }
 
@@ -136,7 +117,7 @@ void PatchTablePanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapsh
 
 void PatchTablePanel::clear() {
   snapshot_ = nullptr;
-  for (const Page& page : {all_, partners_}) {
+  for (const TablePage& page : {all_, partners_}) {
     page.table->set_contents({}, {});
   }
   count_rows();
@@ -179,7 +160,7 @@ void PatchTablePanel::show_partners() {
 }
 
 void PatchTablePanel::mark_selection() {
-  const Page& page = current();
+  const TablePage& page = current();
   const int row = selection_.patch() == no_patch ? -1 : page.table->row_of(selection_.patch());
   if (row < 0) {
     page.view->clearSelection();

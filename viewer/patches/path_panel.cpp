@@ -4,26 +4,23 @@
 // thread while it is visible, and tells the window which paths to draw in the scene.
 #include "patches/path_panel.h"
 
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStringList>
 #include <QTableWidget>
-#include <QVBoxLayout>
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <utility>
 
 #include "colors/color_scale.h"
-#include "model/form_factor_views.h"
-#include "support/column_format.h"
+#include "model/snapshot_values.h"
+#include "support/number_text.h"
 #include "transillum/files.h"
 #include "widgets/build.h"
+#include "widgets/dialogs.h"
 #include "widgets/figure_table.h"
-#include "widgets/save_dialog.h"
 #include "widgets/symbol_tip.h"
 
 namespace transillum::viewer {

@@ -4,9 +4,7 @@
 // shown in color by ColorChoice, as one of its quantities.
 #include "patches/run_panel.h"
 
-#include <QAction>
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLocale>
@@ -15,7 +13,6 @@
 #include <QStandardItemModel>
 #include <QTableWidget>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "model/command_text.h"
@@ -117,8 +114,7 @@ QLayout* RunPanel::make_buttons(QAction& keep, QAction& difference) {
   connect(remove_, &QToolButton::clicked, this, &RunPanel::remove_current);
   auto* row = make_row({8, 4, 8, 0});
   for (QAction* action : {&keep, &difference}) {
-    auto* button = button_for(action);
-    row->addWidget(button);
+    row->addWidget(button_for(action));
   }
   row->addStretch(1);
   row->addWidget(remove_);

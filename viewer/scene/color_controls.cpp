@@ -5,7 +5,6 @@
 #include "scene/color_controls.h"
 
 #include <QAbstractItemView>
-#include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QCoreApplication>
@@ -18,7 +17,6 @@
 #include <QSlider>
 #include <QStackedWidget>
 #include <QStandardItemModel>
-#include <QToolButton>
 #include <algorithm>
 #include <cmath>
 

@@ -9,7 +9,7 @@
 
 #include "model/snapshot.h"
 #include "model/solver/error_runs.h"
-#include "state/initial_view.h"
+#include "state/camera_views.h"
 #include "support/request_worker.h"
 
 class QPainter;

@@ -12,7 +12,6 @@
 #include "colors/color_choice.h"
 #include "scene/linear_surface.h"
 #include "scene/scene_mesh.h"
-#include "scene/smooth_mesh.h"
 #include "state/hidden_patches.h"
 
 namespace transillum::viewer {

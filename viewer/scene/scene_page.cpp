@@ -2,13 +2,10 @@
 #include "scene/scene_page.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 
 #include "colors/color_bar.h"
 #include "colors/color_note.h"
-#include "colors/kept_run_label.h"
 #include "colors/pointer_label.h"
 #include "scene/color_controls.h"
 #include "scene/scene_view.h"
@@ -74,8 +71,7 @@ QWidget* ScenePage::make_scene(Selection& selection, ColorChoice& colors) {
   auto* note = new ColorNote(colors);
   connect(note, &ColorNote::replicas_requested, this, &ScenePage::replicas_requested);
   auto* scene = new QWidget;
-  auto* view_and_bar = new QHBoxLayout;
-  view_and_bar->setSpacing(0);
+  auto* view_and_bar = make_row({}, 0);
   view_and_bar->addWidget(scene_view_, 1);
   auto* bar = new ColorBar(colors);
   connect(bar, &ColorBar::patches_chosen, &selection, &Selection::select_all);

@@ -23,9 +23,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <utility>
 

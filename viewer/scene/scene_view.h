@@ -25,15 +25,12 @@
 #include "scene/patch_surface.h"
 #include "scene/path_glyph.h"
 #include "scene/scene_overlays.h"
-#include "scene/step_glyph.h"
-#include "scene/turn_preview.h"
 #include "state/callout.h"
 #include "state/camera_views.h"
-#include "state/clip_plane.h"
 #include "state/focus.h"
 #include "state/hidden_patches.h"
-#include "state/initial_view.h"
 #include "state/selection.h"
+#include "state/view_choices.h"
 
 class QTimer;
 class QVTKOpenGLNativeWidget;

@@ -4,7 +4,6 @@
 // focus is marked in them.
 #include "solve/convergence_view.h"
 
-#include <QVBoxLayout>
 #include <algorithm>
 #include <numbers>
 

@@ -5,7 +5,6 @@
 #include "solve/progress_line.h"
 
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
 #include <utility>

@@ -7,7 +7,6 @@
 #include <QLineEdit>
 #include <QLocale>
 #include <QSpinBox>
-#include <QVBoxLayout>
 
 #include "widgets/build.h"
 

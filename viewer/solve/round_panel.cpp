@@ -4,7 +4,6 @@
 // comes from snapshots.
 #include "solve/round_panel.h"
 
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QProgressBar>
@@ -12,7 +11,6 @@
 #include <QScrollArea>
 #include <QTableWidget>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "support/number_text.h"
@@ -72,8 +70,7 @@ RoundPanel::RoundPanel(QWidget* parent) : QWidget(parent) {
   // A text that grows must not widen the panel.
   phase_->setWordWrap(true);
   phase_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
+  auto* row = make_row({}, 8);
   row->addWidget(bar_, 1);
   row->addWidget(cancel_);
   auto* layout = make_column(this, {}, 6);

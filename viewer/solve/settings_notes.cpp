@@ -4,9 +4,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
-#include <QLabel>
 #include <QSpinBox>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "solve/settings_panel.h"
@@ -26,8 +24,7 @@ void SettingsPanel::add_glossy_row(QFormLayout& form) {
                      "about M/10; sharper lobes are coarse.</span>"));
   glossy_note_ = named("glossy_note", note_label());
   glossy_note_->hide();
-  auto* column = new QVBoxLayout;
-  column->setSpacing(2);
+  auto* column = make_column({}, 2);
   column->addWidget(glossy_);
   column->addWidget(glossy_note_);
   form.addRow(tr("Glossy"), column);

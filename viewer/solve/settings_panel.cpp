@@ -9,7 +9,6 @@
 #include <QDoubleSpinBox>
 #include <QDoubleValidator>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QLocale>
@@ -20,7 +19,6 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -130,8 +128,7 @@ void SettingsPanel::add_accuracy_row(QFormLayout& form) {
   accuracy_of_->addItems({tr("% RMS"), tr("% largest"), tr("% patch"), tr("% mean")});
   accuracy_of_->setToolTip(tip("accuracy-of"));
   accuracy_of_->setMinimumWidth(60);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(6);
+  auto* row = make_row({}, 6);
   row->addWidget(accuracy_, 1);
   row->addWidget(accuracy_of_, 1);
   form.addRow(tr("Accuracy"), row);
@@ -183,8 +180,7 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
       "a pass takes about one and a half times as long, form factors take nine times the memory"));
   basis_note_ = named("basis_note", note_label());
   basis_note_->hide();
-  auto* basis_column = new QVBoxLayout;
-  basis_column->setSpacing(2);
+  auto* basis_column = make_column({}, 2);
   basis_column->addWidget(basis_);
   basis_column->addWidget(basis_note_);
   form.addRow(tr("B on a patch"), basis_column);
@@ -211,8 +207,7 @@ void SettingsPanel::add_stop_row(QFormLayout& form) {
   stop_value_ = new QStackedWidget;
   stop_value_->addWidget(tolerance_);
   stop_value_->addWidget(iterations_);
-  auto* stop_row = new QHBoxLayout;
-  stop_row->setSpacing(6);
+  auto* stop_row = make_row({}, 6);
   stop_row->addWidget(stop_at_, 3);
   stop_row->addWidget(stop_value_, 2);
   form.addRow(tr("Stop at"), stop_row);
@@ -230,12 +225,10 @@ void SettingsPanel::add_sky_rows(QFormLayout& form) {
   sky_value_->setSpecialValueText(tr("None"));
   sky_value_->setKeyboardTracking(false);
   sky_value_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(6);
+  auto* row = make_row({}, 6);
   row->addWidget(sky_slider_, 3);
   row->addWidget(sky_value_, 3);
-  auto* column = new QVBoxLayout;
-  column->setSpacing(2);
+  auto* column = make_column({}, 2);
   column->addLayout(row);
   sky_note_ = named("sky_note", new QLabel);
   sky_note_->setForegroundRole(QPalette::PlaceholderText);
@@ -373,8 +366,7 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   max_patch_area_->setPlaceholderText(tr("Faces not divided"));
   max_patch_area_->setToolTip(tip("max-patch-area"));
   two_sided_ = named("two_sided", new QCheckBox(tr("Two-sided faces")), tip("two-sided"));
-  auto* area_column = new QVBoxLayout;
-  area_column->setSpacing(2);
+  auto* area_column = make_column({}, 2);
   area_column->addWidget(max_patch_area_);
   form.addRow(tr("Patch area, m²"), area_column);
   forecast_ = named("patch_forecast", note_label(),

@@ -1,10 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "solve/solve_actions.h"
 
-#include <QAction>
 #include <QKeySequence>
-#include <QMenu>
-#include <QToolBar>
+#include <QWidget>
 
 #include "widgets/build.h"
 #include "widgets/theme.h"
@@ -42,16 +40,8 @@ SolveActions::SolveActions(QObject* parent) : QObject(parent) {
   show_state(RunState::empty, true);
 }
 
-void SolveActions::add_to(QMenu& menu) const {
-  for (QAction* action : {run_, pause_, one_direction_, one_iteration_, stop_}) {
-    menu.addAction(action);
-  }
-}
-
-void SolveActions::add_to(QToolBar& bar) const {
-  for (QAction* action : {run_, pause_, one_direction_, one_iteration_, stop_}) {
-    bar.addAction(action);
-  }
+void SolveActions::add_to(QWidget& bar) const {
+  bar.addActions({run_, pause_, one_direction_, one_iteration_, stop_});
 }
 
 void SolveActions::show_state(RunState state, bool at_start) {

@@ -1,9 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "solve/solve_summary.h"
 
-#include <QLabel>
-#include <QVBoxLayout>
-
 #include "support/number_text.h"
 #include "transillum/glossy.h"
 #include "widgets/build.h"

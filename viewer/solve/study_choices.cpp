@@ -8,7 +8,6 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 
 #include "support/number_text.h"
 #include "transillum/errors.h"

@@ -6,13 +6,11 @@
 
 #include <QComboBox>
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTableWidget>
-#include <QVBoxLayout>
 #include <cmath>
 #include <utility>
 
@@ -23,7 +21,7 @@
 #include "transillum/study_files.h"
 #include "widgets/banner.h"
 #include "widgets/build.h"
-#include "widgets/save_dialog.h"
+#include "widgets/dialogs.h"
 
 namespace transillum::viewer {
 
@@ -132,8 +130,7 @@ QWidget* StudyDialog::make_results() {
                 tr("Save the plot as SVG or PNG, or the figures as CSV"));
   save_->setAutoDefault(false);
   connect(save_, &QPushButton::clicked, this, &StudyDialog::choose_file);
-  auto* bar = new QHBoxLayout;
-  bar->setSpacing(12);
+  auto* bar = make_row({}, 12);
   bar->addWidget(error_);
   bar->addWidget(axis_);
   bar->addWidget(phase_, 1);

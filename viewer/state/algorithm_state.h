@@ -2,11 +2,13 @@
 #pragma once
 
 #include <QString>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "model/snapshot.h"
 #include "state/focus.h"
+#include "transillum/map_history.h"
 #include "transillum/map_region.h"
 #include "transillum/transfers.h"
 
@@ -87,5 +89,11 @@ struct RegionState {
 };
 /// None without a probed point.
 std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot& snapshot);
+
+/// The moments T^ab of what the receiver of a step sees of each patch j with which it exchanges
+/// light (ALGORITHM.md 6.12), by j: from the polygons of the inside list. Empty before the first
+/// step, and where the step's patch does not receive.
+std::map<PatchId, TransferMoments> moments_of_step(const MapHistory& history, const Scene& scene,
+                                                   std::int32_t step);
 
 }  // namespace transillum::viewer

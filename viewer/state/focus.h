@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "model/requests/recorded_map.h"
-#include "state/event_filter.h"
-#include "state/step_finder.h"
+#include "state/step_events.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
 

@@ -8,7 +8,6 @@
 #include <QLabel>
 #include <QRegularExpression>
 #include <QStringList>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 

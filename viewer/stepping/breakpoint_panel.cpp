@@ -4,10 +4,8 @@
 // Focus.
 #include "stepping/breakpoint_panel.h"
 
-#include <QAction>
 #include <QComboBox>
 #include <QDoubleValidator>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -16,7 +14,6 @@
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <limits>
 
 #include "support/number_text.h"
@@ -110,8 +107,7 @@ QLayout* BreakpointPanel::make_buttons() {
   connect(remove_, &QToolButton::clicked, this, &BreakpointPanel::remove_current);
   auto* buttons = make_row({8, 4, 8, 0});
   for (QAction* action : {run_back_, run_on_}) {
-    auto* button = button_for(action);
-    buttons->addWidget(button);
+    buttons->addWidget(button_for(action));
   }
   buttons->addStretch(1);
   buttons->addWidget(remove_);
@@ -192,10 +188,7 @@ QLayout* BreakpointPanel::make_join_row() {
   return row;
 }
 
-void BreakpointPanel::add_to(QMenu& menu) const {
-  menu.addAction(run_on_);
-  menu.addAction(run_back_);
-}
+void BreakpointPanel::add_to(QMenu& menu) const { menu.addActions({run_on_, run_back_}); }
 
 void BreakpointPanel::show_run_menu(const QPoint& position) {
   const int row = list_->indexAt(position).row();

@@ -4,9 +4,7 @@
 // the timeline and stepping follow.
 #include "stepping/event_filter_row.h"
 
-#include <QAction>
 #include <QDoubleValidator>
-#include <QHBoxLayout>
 #include <QIntValidator>
 #include <QLabel>
 #include <QLineEdit>
@@ -94,10 +92,7 @@ void EventFilterRow::make_actions() {
   connect(clear_, &QAction::triggered, this, [this] { focus_.set_filter({}); });
 }
 
-void EventFilterRow::add_to(QMenu& menu) const {
-  menu.addAction(filter_);
-  menu.addAction(clear_);
-}
+void EventFilterRow::add_to(QMenu& menu) const { menu.addActions({filter_, clear_}); }
 
 void EventFilterRow::enter() {
   const EventFilter all;

@@ -4,7 +4,6 @@
 // direction or iteration.
 #include "stepping/step_actions.h"
 
-#include <QAction>
 #include <QKeySequence>
 #include <QMenu>
 #include <utility>

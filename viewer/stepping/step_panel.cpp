@@ -8,7 +8,6 @@
 #include <QLabel>
 #include <QTabWidget>
 #include <QTableView>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 

@@ -4,11 +4,8 @@
 // watched. Input: Focus, Watches and snapshots.
 #include "stepping/timeline_bar.h"
 
-#include <QAction>
-#include <QHBoxLayout>
 #include <QMenu>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include "stepping/play_control.h"
 #include "stepping/step_actions.h"

@@ -6,13 +6,11 @@
 #include <QEvent>
 #include <QHeaderView>
 #include <QTreeView>
-#include <QVBoxLayout>
 #include <algorithm>
-#include <utility>
 
 #include "tree/order_bar.h"
-#include "tree/tree_model.h"
-#include "tree/tree_text.h"
+#include "tree/tree_outline.h"
+#include "tree/tree_tables.h"
 #include "widgets/build.h"
 
 namespace transillum::viewer {

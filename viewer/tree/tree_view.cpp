@@ -5,18 +5,15 @@
 #include "tree/tree_view.h"
 
 #include <QHeaderView>
-#include <QLabel>
 #include <QTabWidget>
 #include <QTableView>
-#include <QVBoxLayout>
 #include <algorithm>
-#include <utility>
 
 #include "support/number_text.h"
 #include "tree/order_bar.h"
 #include "tree/tree_browser.h"
-#include "tree/tree_path_table.h"
-#include "tree/tree_text.h"
+#include "tree/tree_outline.h"
+#include "tree/tree_tables.h"
 #include "widgets/build.h"
 #include "widgets/figure_table.h"
 

@@ -2,13 +2,9 @@
 #include "widgets/gloss_slider.h"
 
 #include <QDoubleSpinBox>
-#include <QEvent>
-#include <QHBoxLayout>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
@@ -38,7 +34,7 @@ double value_at_place(double place, bool is_exponent) {
 
 }  // namespace
 
-GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent) {
+GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent), drag_([this] { emit drag_began(); }) {
   title_ = new QLabel;
   slider_ = named("gloss", new QSlider(Qt::Horizontal));
   slider_->setRange(0, gloss_steps);
@@ -50,8 +46,7 @@ GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent) {
   for (QLabel* end : {dull, sharp}) {
     end->setForegroundRole(QPalette::PlaceholderText);
   }
-  auto* row = new QHBoxLayout;
-  row->setSpacing(6);
+  auto* row = make_row({}, 6);
   row->addWidget(dull);
   row->addWidget(slider_, 1);
   row->addWidget(sharp);
@@ -65,32 +60,13 @@ GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent) {
   connect(slider_, &QSlider::valueChanged, this,
           [this](int step) { change(value_at_place(1.0 * step / gloss_steps, is_exponent_)); });
   connect(box_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &GlossSlider::change);
-  slider_->installEventFilter(this);
-  box_->installEventFilter(this);
+  drag_.watch(slider_);
+  drag_.watch(box_);
   show_exponent(0);
 }
 
-bool GlossSlider::eventFilter(QObject* watched, QEvent* event) {
-  const QEvent::Type type = event->type();
-  const bool is_key = type == QEvent::KeyPress || type == QEvent::KeyRelease;
-  if (is_key && static_cast<QKeyEvent*>(event)->isAutoRepeat()) {
-    return false;
-  }
-  if (type == QEvent::MouseButtonPress || type == QEvent::KeyPress) {
-    held_ = true;
-    changed_ = false;
-  } else if (type == QEvent::MouseButtonRelease || type == QEvent::KeyRelease ||
-             type == QEvent::FocusOut) {
-    held_ = false;
-  }
-  return QWidget::eventFilter(watched, event);
-}
-
 void GlossSlider::change(double value) {
-  if (!held_ || !changed_) {
-    emit drag_began();
-  }
-  changed_ = true;
+  drag_.change();
   show_value(value);
   emit moved(value);
 }

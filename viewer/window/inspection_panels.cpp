@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/inspection_panels.h"
 
-#include <QAction>
 #include <QDockWidget>
 #include <QMenu>
 #include <QMenuBar>

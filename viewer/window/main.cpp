@@ -26,7 +26,6 @@
 #include "window/application.h"
 #include "window/base/view_state_applier.h"
 #include "window/command_line.h"
-#include "window/ending_signals.h"
 #include "window/files/file_actions.h"
 #include "window/files/lesson_export.h"
 #include "window/files/screenshot.h"

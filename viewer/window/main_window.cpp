@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/main_window.h"
 
-#include <QAction>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QDragEnterEvent>
@@ -39,7 +38,7 @@
 #include "solve/solve_actions.h"
 #include "solve/solve_summary.h"
 #include "solve/study_dialog.h"
-#include "state/initial_view.h"
+#include "state/camera_views.h"
 #include "stepping/algorithm_view.h"
 #include "stepping/breakpoint_panel.h"
 #include "stepping/event_filter_row.h"
@@ -66,14 +65,10 @@
 #include "window/files/window_session.h"
 #include "window/inspection_panels.h"
 #include "window/layout_memory.h"
-#include "window/light_offer.h"
-#include "window/loading_notice.h"
 #include "window/menus/command_actions.h"
-#include "window/menus/help_dialogs.h"
-#include "window/menus/key_list.h"
+#include "window/menus/help_pages.h"
 #include "window/menus/projector_mode.h"
-#include "window/menus/setting_list.h"
-#include "window/orientation_offer.h"
+#include "window/scene_bars.h"
 #include "window/solve_control.h"
 
 namespace transillum::viewer {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <ctime>
 #include <stdexcept>
-#include <utility>
 
 #include "transillum/at.h"
 #include "transillum/engine.h"

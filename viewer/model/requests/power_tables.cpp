@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 
 namespace transillum::viewer {
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "model/form_factor_views.h"
+#include "model/snapshot_values.h"
 
 namespace transillum::viewer {
 

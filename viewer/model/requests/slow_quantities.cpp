@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "model/requests/slow_quantities.h"
 
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "transillum/refinement.h"
 
 namespace transillum::viewer {

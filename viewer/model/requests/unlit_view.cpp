@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/linear_values.h"
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "transillum/files.h"
 
 namespace transillum::viewer {

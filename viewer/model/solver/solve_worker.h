@@ -9,9 +9,8 @@
 
 #include "model/solver/checkpoint_keeper.h"
 #include "model/solver/goal.h"
-#include "model/solver/kept_form_factors.h"
 #include "model/solver/scene_loading.h"
-#include "model/solver/solve_history.h"
+#include "model/solver/session_snapshot.h"
 #include "model/solver/solve_messages.h"
 #include "transillum/cancellation.h"
 #include "transillum/option_table.h"

@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/base/dock_layouts.h"
 
-#include <QAction>
 #include <QChildEvent>
 #include <QDockWidget>
 #include <QMenu>

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "state/layout.h"
+#include "state/view_choices.h"
 
 class QDockWidget;
 class QMenu;

@@ -11,7 +11,7 @@
 #include "scene/scene_view.h"
 #include "scene/show_menu.h"
 #include "solve/settings_panel.h"
-#include "state/step_finder.h"
+#include "state/step_events.h"
 #include "stepping/algorithm_view.h"
 #include "window/base/dock_layouts.h"
 #include "window/base/notifier.h"

@@ -12,7 +12,6 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
-#include <iterator>
 #include <utility>
 
 #include "support/number_text.h"

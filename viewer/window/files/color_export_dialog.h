@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "model/requests/unlit_view.h"
-#include "state/initial_view.h"
+#include "state/camera_views.h"
 #include "support/newest_result.h"
 #include "transillum/files.h"
 

@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/files/export_actions.h"
 
-#include <QAction>
 #include <QBuffer>
 #include <QFileInfo>
 #include <QInputDialog>
@@ -14,17 +13,17 @@
 
 #include "map/map_canvas.h"
 #include "map/map_view.h"
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "solve/convergence_view.h"
-#include "state/callout_place.h"
-#include "state/initial_view.h"
+#include "state/callout.h"
+#include "state/camera_views.h"
 #include "transillum/errors.h"
 #include "transillum/map_files.h"
 #include "transillum/material_changes.h"
 #include "widgets/build.h"
-#include "widgets/save_dialog.h"
+#include "widgets/dialogs.h"
 #include "window/base/notifier.h"
 #include "window/files/color_export_dialog.h"
 
@@ -86,13 +85,19 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
       map_(map),
       charts_(charts),
       writer_(
-          [this](const FileToWrite& file, const Cancellation&) {
+          *this,
+          [](const FileToWrite& file, const Cancellation&) {
             file.write();
-            report_written(file.path, {});
+            return std::monostate();
           },
-          [this](const FileToWrite& file, const QString& message) {
-            report_written(file.path, message);
-          }) {
+          [this](const FileToWrite& file, const auto& written, const QString& error) {
+            if (written) {
+              frame_.notifier.show_written(file.path);
+            } else {
+              frame_.notifier.show_failure(error);
+            }
+          },
+          CurrentJob::finish) {
   using E = ExportActions;
   add("export_scene", tr("Picture of the scene…"), tr("As PNG, at any scale"), &E::choose_scene);
   add("export_result", tr("Result…"),
@@ -129,11 +134,7 @@ void ExportActions::add(const char* name, const QString& text, const QString& ti
   actions_ << action;
 }
 
-void ExportActions::add_to(QMenu& menu) const {
-  for (QAction* action : actions_) {
-    menu.addAction(action);
-  }
-}
+void ExportActions::add_to(QMenu& menu) const { menu.addActions(actions_); }
 
 void ExportActions::write_scene(const QString& path, int scale) const {
   write_png(path, frame_.page.scene_view()->picture(scale));
@@ -152,9 +153,9 @@ void ExportActions::write_result(const QString& path) {
   }
   check_result_path(path.toStdString());
   const bool complete = frame_.state.runner.state() == RunState::finished;
-  write({path, [path, snapshot, complete] {
-           transillum::write_result(path.toStdString(), solution_of(*snapshot, complete));
-         }});
+  writer_.request({path, [path, snapshot, complete] {
+                     transillum::write_result(path.toStdString(), solution_of(*snapshot, complete));
+                   }});
 }
 
 void ExportActions::write_colors(const QString& path, const DisplayOptions& display) {
@@ -166,9 +167,9 @@ void ExportActions::write_colors(const QString& path, const DisplayOptions& disp
   check_result_path(file);
   check_distinct({file}, snapshot->loaded->scene->files());
   display.validate();
-  write({path, [file, snapshot, display] {
-           transillum::write_result(file, solution_of(*snapshot), display);
-         }});
+  writer_.request({path, [file, snapshot, display] {
+                     transillum::write_result(file, solution_of(*snapshot), display);
+                   }});
 }
 
 void ExportActions::write_scene_file(const QString& path) {
@@ -180,35 +181,15 @@ void ExportActions::write_scene_file(const QString& path) {
   check_writable(file);
   check_distinct({file, materials_file_of(file).string()}, loaded->scene->files());
   const MaterialEdits& edits = frame_.state.relighting.edits();
-  write({path, [file, loaded, changes = edits.changes(), materials = edits.materials()] {
-           if (!loaded->description) {
-             write_obj(file, description_of(*loaded->scene, *materials));
-             return;
-           }
-           SceneDescription description = *loaded->description;
-           change_materials(description, changes);
-           write_obj(file, description);
-         }});
-}
-
-void ExportActions::write(FileToWrite file) {
-  writing_ = true;
-  writer_.request(std::move(file), CurrentJob::finish);
-}
-
-// On the writer's thread.
-void ExportActions::report_written(const QString& path, const QString& failure) {
-  QMetaObject::invokeMethod(
-      this,
-      [this, failure, path] {
-        writing_ = false;
-        if (failure.isEmpty()) {
-          frame_.notifier.show_written(path);
-        } else {
-          frame_.notifier.show_failure(failure);
-        }
-      },
-      Qt::QueuedConnection);
+  writer_.request({path, [file, loaded, changes = edits.changes(), materials = edits.materials()] {
+                     if (!loaded->description) {
+                       write_obj(file, description_of(*loaded->scene, *materials));
+                       return;
+                     }
+                     SceneDescription description = *loaded->description;
+                     change_materials(description, changes);
+                     write_obj(file, description);
+                   }});
 }
 
 void ExportActions::write_map_picture(const QString& path) const {
@@ -273,7 +254,7 @@ void ExportActions::write_chosen(const QString& title, const QString& filter,
   }
   try {
     write(path);
-    if (!writing_) {
+    if (!writing()) {
       frame_.notifier.show_written(path);
     }
   } catch (const std::exception& error) {

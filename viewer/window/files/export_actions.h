@@ -5,9 +5,9 @@
 #include <QObject>
 #include <QString>
 #include <functional>
-#include <memory>
+#include <variant>
 
-#include "support/request_worker.h"
+#include "support/newest_result.h"
 #include "transillum/files.h"
 #include "window/base/window_parts.h"
 
@@ -50,7 +50,7 @@ class ExportActions : public QObject {
   /// For the menu File.
   QAction* color_action() const { return export_colors_; }
   /// Whether a result or a scene is still being written.
-  bool writing() const { return writing_; }
+  bool writing() const { return writer_.busy(); }
   /// The map of the step in focus, as vectors (.svg) or by the other endings of write_map().
   void write_map_picture(const QString& path) const;
   /// The convergence charts as vectors.
@@ -79,16 +79,12 @@ class ExportActions : public QObject {
   ConvergenceView& charts_;
   QList<QAction*> actions_;
   QAction *save_scene_, *export_colors_;
-  bool writing_ = false;
 
   struct FileToWrite {
     QString path;
     std::function<void()> write;
   };
-  void write(FileToWrite file);
-  /// `failure` empty: written.
-  void report_written(const QString& path, const QString& failure);
-  RequestWorker<FileToWrite> writer_;
+  NewestResult<FileToWrite, std::monostate> writer_;
 };
 
 }  // namespace transillum::viewer

@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/files/file_actions.h"
 
-#include <QAction>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -26,14 +25,14 @@
 #include "transillum/json_text.h"
 #include "widgets/banner.h"
 #include "widgets/build.h"
-#include "widgets/save_dialog.h"
+#include "widgets/dialogs.h"
 #include "widgets/theme.h"
 #include "window/base/dock_layouts.h"
 #include "window/base/notifier.h"
 #include "window/base/view_state_applier.h"
 #include "window/base/work_guard.h"
 #include "window/files/first_look.h"
-#include "window/files/reading_dialog.h"
+#include "window/files/reading.h"
 #include "window/files/window_session.h"
 
 namespace transillum::viewer {
@@ -163,9 +162,7 @@ void FileActions::on_scene_shown() {
 void FileActions::add_to(QMenu& menu) const {
   menu.addAction(open_);
   menu.addMenu(recent_menu_);
-  for (QAction* action : {save_session_, reload_, watch_, reading_}) {
-    menu.addAction(action);
-  }
+  menu.addActions({save_session_, reload_, watch_, reading_});
 }
 
 void FileActions::choose() {

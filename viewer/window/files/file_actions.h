@@ -6,12 +6,11 @@
 #include <QString>
 #include <QStringList>
 #include <QTimer>
-#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "window/base/window_parts.h"
-#include "window/files/reading_memory.h"
+#include "window/files/reading.h"
 
 class QAction;
 class QMenu;

@@ -5,11 +5,9 @@
 // the worker, the picture shown is taken once there is room.
 #include "window/files/frame_recorder.h"
 
-#include <QAction>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QMainWindow>
 #include <QMenu>
@@ -23,7 +21,7 @@
 #include "scene/scene_view.h"
 #include "stepping/play_control.h"
 #include "widgets/build.h"
-#include "widgets/save_dialog.h"
+#include "widgets/dialogs.h"
 #include "window/base/notifier.h"
 #include "window/files/export_actions.h"
 
@@ -100,8 +98,7 @@ void FrameRecorder::add_status(const WindowFrame& frame) {
 }
 
 void FrameRecorder::add_to(QMenu& menu) const {
-  menu.addAction(frames_action_);
-  menu.addAction(animation_action_);
+  menu.addActions({frames_action_, animation_action_});
 }
 
 void FrameRecorder::choose_folder() {

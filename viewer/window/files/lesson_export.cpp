@@ -17,7 +17,7 @@
 #include "support/failure_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
-#include "widgets/save_dialog.h"
+#include "widgets/dialogs.h"
 #include "window/base/notifier.h"
 
 namespace transillum::viewer {

@@ -4,7 +4,6 @@
 #include <QObject>
 #include <QTimer>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "lessons/lesson_html.h"

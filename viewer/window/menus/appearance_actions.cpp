@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/menus/appearance_actions.h"
 
-#include <QAction>
 #include <QApplication>
 #include <QMenu>
 #include <QSettings>
@@ -26,10 +25,7 @@ AppearanceActions::AppearanceActions(QObject* parent) : QObject(parent) {
   dark_ = add("dark", tr("Dark"), tr("Light type on dark panels"), "Ctrl+D");
 }
 
-void AppearanceActions::add_to(QMenu& menu) const {
-  menu.addAction(projector_);
-  menu.addAction(dark_);
-}
+void AppearanceActions::add_to(QMenu& menu) const { menu.addActions({projector_, dark_}); }
 
 bool AppearanceActions::projects() const { return projector_->isChecked(); }
 

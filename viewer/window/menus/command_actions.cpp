@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/menus/command_actions.h"
 
-#include <QAction>
 #include <QApplication>
 #include <QClipboard>
 #include <QMainWindow>
@@ -40,11 +39,7 @@ CommandActions::CommandActions(const WindowFrame& frame) : QObject(&frame.window
   });
 }
 
-void CommandActions::add_to(QMenu& menu) const {
-  menu.addAction(solve_);
-  menu.addAction(map_);
-  menu.addAction(step_);
-}
+void CommandActions::add_to(QMenu& menu) const { menu.addActions({solve_, map_, step_}); }
 
 RunOptions CommandActions::options() const {
   const SolverSnapshot& snapshot = *frame_.state.scene.snapshot();
