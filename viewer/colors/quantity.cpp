@@ -11,7 +11,7 @@
 #include "model/snapshot_values.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
-#include "widgets/symbol_tip.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 

@@ -21,7 +21,6 @@
 #include "widgets/build.h"
 #include "widgets/dialogs.h"
 #include "widgets/figure_table.h"
-#include "widgets/symbol_tip.h"
 
 namespace transillum::viewer {
 

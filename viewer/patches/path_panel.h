@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <memory>
 
-#include "model/requests/light_request.h"
+#include "model/requests/slow_quantities.h"
 #include "state/selection.h"
 #include "support/newest_result.h"
 #include "transillum/light_paths.h"

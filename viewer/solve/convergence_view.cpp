@@ -11,7 +11,6 @@
 #include "transillum/bounds.h"
 #include "widgets/build.h"
 #include "widgets/log_chart.h"
-#include "widgets/symbol_tip.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {

@@ -4,7 +4,6 @@
 #include "support/number_text.h"
 #include "transillum/glossy.h"
 #include "widgets/build.h"
-#include "widgets/symbol_tip.h"
 #include "widgets/value_grid.h"
 
 namespace transillum::viewer {

@@ -15,7 +15,6 @@
 #include "widgets/build.h"
 #include "widgets/elided.h"
 #include "widgets/scrolling.h"
-#include "widgets/symbol_tip.h"
 #include "widgets/theme.h"
 #include "widgets/value_grid.h"
 

@@ -73,4 +73,13 @@ inline QVBoxLayout* make_column(const QMargins& margins, int spacing = -1) {
   return make_column(nullptr, margins, spacing);
 }
 
+/// A tool tip that explains a symbol or an equation, with the section of ALGORITHM.md that derives
+/// it on a line of its own.
+/// @param section number of the section, such as "6.1"; empty: none is named
+inline QString symbol_tip(const QString& meaning, const char* section) {
+  return *section
+             ? meaning + QStringLiteral("\nALGORITHM.md, section ") + QString::fromLatin1(section)
+             : meaning;
+}
+
 }  // namespace transillum::viewer

@@ -5,8 +5,8 @@
 
 #include "widgets/full_screen.h"
 #include "window/base/dock_layouts.h"
+#include "window/base/open_scene.h"
 #include "window/base/window_parts.h"
-#include "window/base/work_guard.h"
 #include "window/menus/appearance_actions.h"
 
 class QDockWidget;

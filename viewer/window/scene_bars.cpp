@@ -20,8 +20,8 @@
 #include "widgets/banner.h"
 #include "window/base/dock_layouts.h"
 #include "window/base/notifier.h"
+#include "window/base/open_scene.h"
 #include "window/base/view_state_applier.h"
-#include "window/base/work_guard.h"
 
 namespace transillum::viewer {
 

@@ -15,8 +15,8 @@
 #include "support/number_text.h"
 #include "transillum/patch_count.h"
 #include "window/base/notifier.h"
+#include "window/base/open_scene.h"
 #include "window/base/view_state_applier.h"
-#include "window/base/work_guard.h"
 
 namespace transillum::viewer {
 

@@ -5,7 +5,6 @@
 #include <QElapsedTimer>
 #include <utility>
 
-#include "support/elapsed.h"
 #include "transillum/files.h"
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
@@ -14,6 +13,11 @@
 namespace transillum::viewer {
 
 namespace {
+
+/// Wall time since the timer was started, s.
+double seconds(const QElapsedTimer& timer) {
+  return 1e-9 * static_cast<double>(timer.nsecsElapsed());
+}
 
 QString tr(const char* text) { return QCoreApplication::translate("SceneLoading", text); }
 

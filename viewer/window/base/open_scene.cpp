@@ -2,8 +2,12 @@
 #include "window/base/open_scene.h"
 
 #include <QElapsedTimer>
+#include <QMessageBox>
+#include <QPushButton>
 #include <algorithm>
 #include <utility>
+
+#include "support/number_text.h"
 
 namespace transillum::viewer {
 
@@ -87,6 +91,24 @@ void OpenScene::take_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   runner_.set_refresh_interval(
       std::clamp(static_cast<int>(4 * timer.elapsed()), shortest_ms, longest_ms));
   emit snapshot_shown();
+}
+
+bool WorkGuard::may_lose(QWidget* parent, const QString& what) const {
+  const auto snapshot = scene_.snapshot();
+  const double seconds = snapshot && !scene_.at_start() ? snapshot->statistics.seconds_total : 0;
+  if (!(seconds > long_seconds_)) {
+    return true;
+  }
+  QMessageBox box(QMessageBox::Question, what,
+                  QObject::tr("The solve took %1 so far. It is kept only in results that you "
+                              "export (File → Export).")
+                      .arg(duration_text(seconds)),
+                  QMessageBox::Cancel, parent);
+  box.setObjectName("long_work");
+  const QPushButton* lose = box.addButton(what, QMessageBox::DestructiveRole);
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == lose;
 }
 
 }  // namespace transillum::viewer

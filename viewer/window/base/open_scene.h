@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <QString>
 #include <memory>
 #include <string>
 
@@ -9,6 +10,8 @@
 #include "model/run_options.h"
 #include "model/snapshot.h"
 #include "model/solver/solve_runner.h"
+
+class QWidget;
 
 namespace transillum::viewer {
 
@@ -79,6 +82,26 @@ class OpenScene : public QObject {
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> newest_;  ///< as the solver posted it
   std::shared_ptr<const SolverSnapshot> shown_;   ///< with the light of changed materials
+};
+
+class OpenScene;
+
+/// Asks before a solve that took long is thrown away.
+class WorkGuard {
+ public:
+  /// @param scene must outlive this object
+  explicit WorkGuard(const OpenScene& scene) : scene_(scene) {}
+
+  /// Whether the solve of the open scene may be thrown away: it took less than a minute, or the
+  /// user agrees.
+  /// @param what the button says, such as "Quit"
+  bool may_lose(QWidget* parent, const QString& what) const;
+  /// For tests: the time from which a solve took long.
+  void set_long_seconds(double seconds) { long_seconds_ = seconds; }
+
+ private:
+  const OpenScene& scene_;
+  double long_seconds_ = 60;
 };
 
 }  // namespace transillum::viewer

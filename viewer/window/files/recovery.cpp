@@ -20,7 +20,7 @@
 #include "transillum/json_text.h"
 #include "widgets/banner.h"
 #include "window/base/notifier.h"
-#include "window/base/work_guard.h"
+#include "window/base/open_scene.h"
 #include "window/files/window_session.h"
 
 namespace transillum::viewer {
