@@ -5,7 +5,7 @@
 
 #include "support/number_text.h"
 #include "transillum/at.h"
-#include "transillum/transfer_comparison.h"
+#include "visibility/transfers/transfer_comparison.h"
 #include "widgets/flat_table.h"
 
 namespace transillum::viewer {

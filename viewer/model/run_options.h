@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "options/option_table.h"
 #include "support/json_object.h"
 #include "transillum/material_changes.h"
-#include "transillum/option_table.h"
 
 namespace transillum::viewer {
 

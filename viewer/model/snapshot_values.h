@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/snapshot.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum::viewer {

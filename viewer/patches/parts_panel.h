@@ -9,10 +9,10 @@
 #include "model/requests/power_tables.h"
 #include "model/requests/relighting.h"
 #include "patches/patch_table.h"
+#include "radiosity/analysis/power_table.h"
 #include "state/hidden_patches.h"
 #include "state/selection.h"
 #include "support/newest_result.h"
-#include "transillum/power_table.h"
 
 class QAction;
 class QLayout;

@@ -8,7 +8,7 @@
 
 #include "model/snapshot.h"
 #include "patches/patch_table.h"
-#include "transillum/power_table.h"
+#include "radiosity/analysis/power_table.h"
 
 namespace transillum::viewer {
 

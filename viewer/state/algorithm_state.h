@@ -8,9 +8,9 @@
 
 #include "model/snapshot.h"
 #include "state/focus.h"
-#include "transillum/map_history.h"
-#include "transillum/map_region.h"
 #include "transillum/transfers.h"
+#include "visibility/map/map_history.h"
+#include "visibility/map/map_region.h"
 
 namespace transillum::viewer {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "transillum/map_history.h"
+#include "visibility/map/map_history.h"
 
 namespace transillum::viewer {
 

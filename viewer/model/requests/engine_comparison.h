@@ -7,7 +7,7 @@
 
 #include "model/snapshot.h"
 #include "transillum/cancellation.h"
-#include "transillum/transfer_comparison.h"
+#include "visibility/transfers/transfer_comparison.h"
 
 namespace transillum::viewer {
 

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "model/requests/patch_forecast.h"
 
-#include "transillum/patch_count.h"
+#include "scene/build/patch_count.h"
 
 namespace transillum::viewer {
 

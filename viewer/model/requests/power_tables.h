@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "model/snapshot.h"
-#include "transillum/power_table.h"
+#include "radiosity/analysis/power_table.h"
 
 namespace transillum::viewer {
 

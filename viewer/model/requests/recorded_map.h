@@ -6,7 +6,7 @@
 
 #include "model/snapshot.h"
 #include "transillum/cancellation.h"
-#include "transillum/map_history.h"
+#include "visibility/map/map_history.h"
 
 namespace transillum::viewer {
 

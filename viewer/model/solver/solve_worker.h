@@ -12,8 +12,8 @@
 #include "model/solver/scene_loading.h"
 #include "model/solver/session_snapshot.h"
 #include "model/solver/solve_messages.h"
+#include "options/option_table.h"
 #include "transillum/cancellation.h"
-#include "transillum/option_table.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::viewer {

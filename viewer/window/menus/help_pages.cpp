@@ -8,8 +8,8 @@
 #include <QMenuBar>
 #include <QMessageBox>
 
+#include "options/option_table.h"
 #include "support/number_text.h"
-#include "transillum/option_table.h"
 #include "widgets/dialogs.h"
 #include "widgets/theme.h"
 
