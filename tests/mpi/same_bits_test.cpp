@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // transillum-mpi writes the same bytes as transillum, for any number of processes.
-#include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The engines with exact numbers, against known answers, and all maps against each other
 // (ALGORITHM.md, oracle 7).
-#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,6 @@
 // agreement with passes, which share nothing with them but the scene.
 #include "transillum/pair_form_factors.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <limits>
 #include <numeric>

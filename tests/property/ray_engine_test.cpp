@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The engine rays: counts of lines must agree with the areas of the local map within their
 // statistical errors.
-#include <gmock/gmock.h>
 
 #include <cmath>
 #include <thread>

@@ -1,6 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Form factors by rays and by passes, against formulas and against each other.
-#include <gmock/gmock.h>
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "program_run.h"
+#include "support/program_run.h"
 
 namespace transillum::testing {
 namespace {
@@ -12,24 +12,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-struct InvalidCall {
-  std::vector<std::string> arguments;
-  std::string expected;  ///< part of the message
-};
-
-/// Exit status 2, one line on stderr, nothing on stdout.
-void expect_refused(const std::vector<std::string>& arguments, const std::string& expected) {
-  SCOPED_TRACE(::testing::PrintToString(arguments));
-  ASSERT_NE(expected, "") << "any message would do";
-  const ProgramResult result = run_program(arguments);
-  EXPECT_EQ(result.status, 2);
-  EXPECT_EQ(result.out, "");
-  EXPECT_EQ(line_count(result.err), 1U) << result.err;
-  EXPECT_THAT(result.err, StartsWith("transillum: "));
-  EXPECT_THAT(result.err, HasSubstr(expected));
-}
-
-const InvalidCall invalid_calls[] = {
+const std::vector<Refusal> invalid_calls{
     {{}, "no command given"},
     {{"solv"}, "did you mean \"solve\"?"},
     {{"factor"}, "did you mean \"factors\"?"},
@@ -144,11 +127,7 @@ const InvalidCall invalid_calls[] = {
     {{"solve", "furnace", "furnace"}, "unexpected argument"},
 };
 
-TEST(CliErrors, InvalidArgumentsGiveOneLineAndStatus2) {
-  for (const InvalidCall& call : invalid_calls) {
-    expect_refused(call.arguments, call.expected);
-  }
-}
+TEST(CliErrors, InvalidArgumentsGiveOneLineAndStatus2) { expect_all_refused({}, invalid_calls); }
 
 TEST(CliErrors, InvalidScenesAreRefusedAndOutputFilesKept) {
   const TemporaryFolder folder;
@@ -199,7 +178,7 @@ TEST(CliErrors, HintsNameTheOption) {
 TEST(CliErrors, HintsForDivergenceNameDirectionsAndNormalization) {
   const TemporaryFolder folder;
   const std::string scene = folder / "bright.obj";
-  ASSERT_EQ(run_program({"scene", "furnace", "--out", scene}).status, 0);
+  expect_success({"scene", "furnace", "--out", scene});
   write_text(folder / "bright.mtl", "newmtl glowing\nKd 0.99 0.99 0.99\nKe 1 1 1\n");
   expect_hint({"solve", scene, "-q", "-m", "1"}, 1, "does not converge for M = 1",
               " (try more directions with -m, or --normalize rows)");
@@ -208,7 +187,7 @@ TEST(CliErrors, HintsForDivergenceNameDirectionsAndNormalization) {
 TEST(CliErrors, SceneFileIsNotOverwritten) {
   const TemporaryFolder folder;
   const std::string scene = folder / "furnace.vtp";
-  ASSERT_EQ(run_program({"solve", "furnace", "-m", "8", "-q", "--out", scene}).status, 0);
+  expect_success({"solve", "furnace", "-m", "8", "-q", "--out", scene});
   const std::string before = read_file(scene);
   expect_refused({"solve", scene, "--out", scene}, "would overwrite the input file");
   EXPECT_EQ(read_file(scene), before);

@@ -1,8 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "geometry/form_factor.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <numbers>
 #include <random>

@@ -1,8 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <gmock/gmock.h>
 
-#include "support/scenes.h"
 #include "transillum/picking.h"
+#include "support/scenes.h"
 
 namespace transillum::picking_test {
 namespace {

@@ -3,9 +3,6 @@
 
 // Small scene descriptions and measurements of scenes for the scene tests.
 
-#include <memory>
-#include <string>
-
 #include "support/refusal.h"
 #include "support/temporary_folder.h"
 #include "transillum/scene.h"

@@ -5,7 +5,6 @@
 // are known; furnaces, B = E / (1 - rho); built-ins with raised reflectance, against 4,096 passes.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -9,11 +9,10 @@
 #include <vtkPNGReader.h>
 #include <vtkSmartPointer.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "support/scenes.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"

@@ -19,9 +19,8 @@
 #include <functional>
 #include <random>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
-#include "support/scenes.h"
 #include "transillum/files.h"
 #include "transillum/radiosity.h"
 #include "transillum/solve_session.h"
