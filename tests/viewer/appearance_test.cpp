@@ -19,6 +19,7 @@
 #include "state/watches.h"
 #include "stepping/event_table.h"
 #include "stepping/watch_chart.h"
+#include "test_files.h"
 #include "widgets/full_screen.h"
 #include "widgets/theme.h"
 #include "window/dock_layouts.h"
@@ -318,9 +319,7 @@ class AppearanceTest : public QObject {
       QVERIFY2(page.contains(text), qPrintable(text));
     }
 
-    QFile guide(QStringLiteral(TRANSILLUM_SOURCE "/viewer/USER_GUIDE.md"));
-    QVERIFY(guide.open(QIODevice::ReadOnly));
-    const QString text = QString::fromUtf8(guide.readAll());
+    const QString text = QString::fromUtf8(contents_of(TRANSILLUM_SOURCE "/viewer/USER_GUIDE.md"));
     for (const auto& [key, use] : uses) {
       QVERIFY2(text.contains('`' + key + '`'), qPrintable(key + ": " + use));
     }

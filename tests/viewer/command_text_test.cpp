@@ -2,6 +2,7 @@
 //
 // Commands copied from the window: the program transillum, run with them, finds the same bits.
 #include "model/command_text.h"
+#include "test_files.h"
 
 #include <QClipboard>
 #include <QDir>
@@ -135,9 +136,7 @@ class CommandTextTest : public QObject {
     const QString file = folder.filePath("map.json");
     QVERIFY(
         !output_of(copied(solved, "copy_step") + " --out " + file + " && echo written").isEmpty());
-    QFile written(file);
-    QVERIFY(written.open(QIODevice::ReadOnly));
-    const QJsonArray polygons = QJsonDocument::fromJson(written.readAll())["polygons"].toArray();
+    const QJsonArray polygons = QJsonDocument::fromJson(contents_of(file))["polygons"].toArray();
     const VisibilityMap shown =
         map_after(focus.map()->record(),
                   focus.position().step - (step >= 0 && phase == static_cast<int>(Phase::before)));
