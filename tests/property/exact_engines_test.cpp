@@ -8,6 +8,7 @@
 #include <random>
 #include <thread>
 
+#include "support/canceled.h"
 #include "support/scenes.h"
 #include "support/stopping.h"
 #include "transillum/engine.h"
@@ -94,9 +95,7 @@ TEST_P(ExactEngines, StopImmediatelyWhenCanceled) {
   const auto scene = load_scene("cornell-box");
   const TransferEngine engine =
       make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(engine({0, 0, 1}, cancellation), Canceled);
+  EXPECT_THROW(engine({0, 0, 1}, testing::canceled()), Canceled);
 }
 
 TEST_P(ExactEngines, StopQuicklyWhenCanceledDuringAPass) {

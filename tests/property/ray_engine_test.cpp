@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "support/canceled.h"
 #include "support/pair_areas.h"
 #include "support/scenes.h"
 #include "transillum/engine.h"
@@ -274,9 +275,7 @@ TEST(RayEngine, CanBeCanceledAndChecksTheNumberOfLines) {
     EXPECT_THROW(make_engine(Engine::rays, scene, nullptr, {.lines_per_patch = lines}), InputError);
   }
   const TransferEngine rays = make_engine(Engine::rays, scene, nullptr);
-  Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(rays({0, 0, 1}, cancellation), Canceled);
+  EXPECT_THROW(rays({0, 0, 1}, testing::canceled()), Canceled);
 }
 
 /// Rows are normalized by the sums of the same lines, so the furnace is exact for any lines.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <string>
 
+#include "support/form_factor_rows.h"
 #include "transillum/at.h"
 #include "transillum/light_paths.h"
 #include "transillum/material_changes.h"
@@ -17,17 +18,11 @@
 namespace transillum::adjoint_test {
 namespace {
 
+using testing::form_factors_of;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr double tight = 1e-13;
-
-FormFactors form_factors_of(const std::shared_ptr<const Scene>& scene,
-                            const SolveOptions& options) {
-  RadiositySolver solver(scene, options);
-  solver.advance(RadiositySolver::Until::finished);
-  return solver.form_factors();
-}
 
 double luminance(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 

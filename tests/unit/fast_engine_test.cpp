@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "scene/build/closed_surface.h"
+#include "support/canceled.h"
 #include "support/map_on_failure.h"
 #include "support/scenes.h"
 #include "support/stopping.h"
@@ -431,9 +432,7 @@ TEST(FastEngine, CutsAlongEdgesThatContinueOneAnother) {
 
 TEST(FastEngine, ThrowsWhenCanceled) {
   const Fast fast(load_scene("sphere-flake"));
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(fast.run({0, 0, 1}, cancellation), Canceled);
+  EXPECT_THROW(fast.run({0, 0, 1}, testing::canceled()), Canceled);
 }
 
 TEST(FastEngine, StopsQuicklyWhenCanceledDuringAPass) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "support/canceled.h"
 #include "support/refusal.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
@@ -112,9 +113,7 @@ TEST(FirstShot, IsIncludedBeforeTheFirstPass) {
     EXPECT_TRUE(solver.radiosity()[k] ==
                 scene->exitance(i) + scene->reflectance(i) * light->irradiance[k]);
   }
-  Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(RadiositySolver(scene, options, {}, cancellation), Canceled);
+  EXPECT_THROW(RadiositySolver(scene, options, {}, testing::canceled()), Canceled);
 }
 
 TEST(FirstShot, OptionsAreParsedAndChecked) {

@@ -16,6 +16,7 @@
 #include "io/factors/factor_formats.h"
 #include "io/factors/npy_array.h"
 #include "io/factors/zip_archive.h"
+#include "support/form_factor_rows.h"
 #include "support/program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
@@ -32,12 +33,6 @@ using test::refusal;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-FormFactors of_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& options) {
-  RadiositySolver solver(scene, options);
-  solver.advance(RadiositySolver::Until::finished);
-  return solver.form_factors();
-}
-
 void expect_equal(const FormFactors& a, const FormFactors& b) {
   EXPECT_TRUE(a.row_begin == b.row_begin);
   EXPECT_TRUE(a.source == b.source);
@@ -46,12 +41,8 @@ void expect_equal(const FormFactors& a, const FormFactors& b) {
 
 std::vector<double> row_sums(const FormFactors& f) {
   std::vector<double> sums;
-  for (std::size_t i = 0; i + 1 < f.row_begin.size(); ++i) {
-    double sum = 0;
-    for (std::size_t k = f.row_begin[i]; k < f.row_begin[i + 1]; ++k) {
-      sum += f.value[k];
-    }
-    sums.push_back(sum);
+  for (PatchId i = 0; i + 1 < std::ssize(f.row_begin); ++i) {
+    sums.push_back(row_sum(f, i));
   }
   return sums;
 }
@@ -72,7 +63,7 @@ class FormFactorFiles : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::shared_ptr<const Scene> scene_ = load_scene("cornell-box");
-  FormFactors form_factors_ = of_passes(scene_, {.directions = 16});
+  FormFactors form_factors_ = form_factors_of(scene_, {.directions = 16});
 };
 
 TEST_F(FormFactorFiles, AreReadBackBitForBit) {
@@ -238,7 +229,7 @@ TEST_F(FormFactorFiles, OfAnotherSceneAreRefused) {
 TEST_F(FormFactorFiles, OfASceneInWhichAnObjectHasMovedAreRefused) {
   const auto scene = box_in_cube(4, 1).scene();
   const auto other = box_in_cube(4, 1, [](const Vec3& p) { return p + Vec3{0.05, 0, 0}; }).scene();
-  const FormFactors form_factors = of_passes(scene, {.directions = 16});
+  const FormFactors form_factors = form_factors_of(scene, {.directions = 16});
   for (const char* name : {"f.npz", "f.mtx"}) {
     write_form_factors(path(name), *scene, form_factors);
     StoredFormFactors stored = read_form_factors(path(name));
@@ -301,7 +292,7 @@ double share_below(const Scene& scene, const FormFactors& all, double threshold)
 /// Rows and reciprocity of a closed scene stay, and only tiny form factors go.
 TEST_F(FormFactorFiles, DroppingKeepsRowSumsAndReciprocity) {
   const auto scene = load_scene("cornell-box", {.max_patch_area = 0.05});
-  const FormFactors all = of_passes(scene, {.directions = 64});
+  const FormFactors all = form_factors_of(scene, {.directions = 64});
   const double threshold = 2e-3;
   const DroppedFormFactors rest = drop_small_form_factors(*scene, all, threshold);
   EXPECT_GT(rest.dropped, all.size() / 20);
@@ -316,7 +307,7 @@ TEST_F(FormFactorFiles, DroppingKeepsRowSumsAndReciprocity) {
 /// such row made all of the matrix stay.
 TEST_F(FormFactorFiles, DroppingGoesOnWhereSomeRowsCannotBeBalanced) {
   const auto scene = load_scene("cornell-box", {.max_patch_area = 0.05});
-  const FormFactors all = of_passes(scene, {.directions = 64});
+  const FormFactors all = form_factors_of(scene, {.directions = 64});
   for (const double threshold : {0.03, 0.05, 0.1}) {
     const DroppedFormFactors rest = drop_small_form_factors(*scene, all, threshold);
     EXPECT_GT(rest.dropped, 2 * all.size() / 3) << threshold;

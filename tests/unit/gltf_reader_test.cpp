@@ -27,15 +27,10 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 SceneDescription read(const File& file, const ReadOptions& options = {}) {
-  const test::TemporaryFolder folder;
-  return describe_scene(folder.write("a.glb", file.glb()), options);
+  return test::read_scene("a.glb", file.glb(), options);
 }
 std::string refusal_of(const std::string& text, const std::string& name = "a.gltf") {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.write(name, text);
-  const std::string message = test::refusal([&] { (void)describe_scene(path); });
-  const std::size_t found = message.find(name);
-  return found == std::string::npos ? message : message.substr(found);
+  return test::scene_refusal(name, text);
 }
 const Material& material_of(const SceneDescription& d, std::size_t face) {
   return d.materials[static_cast<std::size_t>(d.face_material[face])];

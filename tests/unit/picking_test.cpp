@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 
 #include "transillum/picking.h"
+#include "support/canceled.h"
 #include "support/scenes.h"
 
 namespace transillum::picking_test {
@@ -68,9 +69,7 @@ TEST(Picker, HitsTwoSidedFacesOnTheSideOfTheRay) {
 
 TEST(Picker, CanBeCanceled) {
   const auto scene = load_scene("sphere-flake:levels=1");
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(Picker(scene, cancellation), Canceled);
+  EXPECT_THROW(Picker(scene, testing::canceled()), Canceled);
 }
 
 TEST(Picker, IsAccurateFromFarAway) {

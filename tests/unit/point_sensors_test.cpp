@@ -9,6 +9,7 @@
 #include <random>
 
 #include "geometry/form_factor.h"
+#include "support/form_factor_rows.h"
 #include "support/program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
@@ -23,14 +24,6 @@ namespace {
 using test::refusal;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-double row_sum(const FormFactors& f, std::size_t i) {
-  double sum = 0;
-  for (std::size_t k = f.row_begin[i]; k < f.row_begin[i + 1]; ++k) {
-    sum += f.value[k];
-  }
-  return sum;
-}
 
 Vec3 random_unit(std::mt19937& random) {
   std::normal_distribution<double> normal;
@@ -73,13 +66,13 @@ TEST(PointSensors, InClosedRoomsRowsSumToOne) {
       turned.push_back({turn(s.position + 1e-9 * s.normal), normalized(turn(s.normal))});
     }
     const FormFactors f = sensor_form_factors(scene, turned);
-    for (std::size_t i = 0; i < turned.size(); ++i) {
+    for (PatchId i = 0; i < std::ssize(turned); ++i) {
       EXPECT_NEAR(row_sum(f, i), 1, 1e-7) << i;
     }
   }
   const FormFactors on_surfaces =
       sensor_form_factors(*room().scene(), std::span(sensors).subspan(60));
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (PatchId i = 0; i < 3; ++i) {
     EXPECT_NEAR(row_sum(on_surfaces, i), 1, 1e-12) << i;
   }
 }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "support/canceled.h"
 #include "support/program_run.h"
 #include "support/scenes.h"
 #include "transillum/bounds.h"
@@ -384,11 +385,9 @@ TEST(ReferenceCache, ReportsThatAReferenceCannotBeStored) {
 TEST(ReferenceCache, StoresNothingWhenTheSolveIsCanceled) {
   const TemporaryFolder folder;
   const ReferenceCache cache(folder / "cache");
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(find_or_solve_reference(cache, box().scene, box().tree, reference_options(8), {},
-                                       cancellation),
-               Canceled);
+  EXPECT_THROW(
+      find_or_solve_reference(cache, box().scene, box().tree, reference_options(8), {}, canceled()),
+      Canceled);
   EXPECT_FALSE(cache.find(*box().scene, reference_options(8)));
 }
 
