@@ -26,18 +26,12 @@ using Until = RadiositySolver::Until;
 
 std::shared_ptr<const Scene> box() { return load_scene("cornell-box"); }
 
-bool same_bits(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Rgb& x, const Rgb& y) {
-    return x.r == y.r && x.g == y.g && x.b == y.b;
-  });
-}
-
 /// Everything that a finished solve leads to, but for times.
 void expect_same(const RadiositySolver& a, const RadiositySolver& b) {
-  EXPECT_TRUE(same_bits(a.radiosity(), b.radiosity()));
-  EXPECT_TRUE(same_bits(a.irradiance(), b.irradiance()));
-  EXPECT_TRUE(same_bits(a.sky_irradiance(), b.sky_irradiance()));
-  EXPECT_TRUE(same_bits(a.error_estimate().standard_error, b.error_estimate().standard_error));
+  EXPECT_TRUE(a.radiosity() == b.radiosity());
+  EXPECT_TRUE(a.irradiance() == b.irradiance());
+  EXPECT_TRUE(a.sky_irradiance() == b.sky_irradiance());
+  EXPECT_TRUE(a.error_estimate().standard_error == b.error_estimate().standard_error);
   EXPECT_EQ(a.error_estimate().rms_limit, b.error_estimate().rms_limit);
   EXPECT_EQ(a.form_factor_sums(), b.form_factor_sums());
   EXPECT_EQ(a.sky_shares(), b.sky_shares());
@@ -185,7 +179,7 @@ TEST(Checkpoint, AnAccuracyIsReachedByTheSameStages) {
   for (const int events : {1, 10, 24, 40, 90, 150}) {
     SCOPED_TRACE(events);
     const Solution resumed = interrupted_solve(options, events, folder.path() / "a.tck");
-    EXPECT_TRUE(same_bits(whole.radiosity, resumed.radiosity));
+    EXPECT_TRUE(whole.radiosity == resumed.radiosity);
     EXPECT_EQ(whole.accuracy->error, resumed.accuracy->error);
     EXPECT_EQ(whole.accuracy->passes_made, resumed.accuracy->passes_made);
     EXPECT_EQ(whole.accuracy->stages.size(), resumed.accuracy->stages.size());

@@ -148,8 +148,11 @@ TEST(CliRuns, WrongCallsOfCheckpointsAreRefused) {
           "--checkpoint: not used with engine pairs");
   refused({"--checkpoint", folder / "no/a.tck"}, "there is no folder");
   refused({"--checkpoint", folder / "a.csv"}, "given twice");
-  refused({"--checkpoint", folder / "there.tck", "--resume"},
-          "there.tck: it is not a checkpoint of transillum");
+  // The number of patches is told before.
+  const ProgramResult other =
+      run_program(solve(folder / "a.csv", {"--checkpoint", folder / "there.tck", "--resume"}));
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("there.tck: it is not a checkpoint of transillum"));
   EXPECT_EQ(read_file(folder / "there.tck"), "mine");
   EXPECT_THAT(folder.names(), ElementsAre("there.tck"));
 }
@@ -207,8 +210,10 @@ TEST(CliRuns, AStudyGoesOnAfterItsPoints) {
       expect_success(study + Arguments{"--resume", "--out", folder / "b.csv"});
   EXPECT_THAT(again.err, HasSubstr("goes on after 3 points"));
   EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "b.csv"));
-  expect_refused(study + Arguments{"--resume", "--rotations", "2", "--out", folder / "c.csv"},
-                 "rotations is 1 there and 2 here");
+  const ProgramResult other =
+      run_program(study + Arguments{"--resume", "--rotations", "2", "--out", folder / "c.csv"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("rotations is 1 there and 2 here"));
 }
 
 }  // namespace

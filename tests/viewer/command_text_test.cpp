@@ -2,7 +2,6 @@
 //
 // Commands copied from the window: the program transillum, run with them, finds the same bits.
 #include "model/command_text.h"
-#include "test_files.h"
 
 #include <QClipboard>
 #include <QDir>
@@ -16,6 +15,7 @@
 #include <QTemporaryDir>
 
 #include "solved_window.h"
+#include "test_files.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer::command_text_test {

@@ -2,7 +2,6 @@
 //
 // SolveRunner: goals, pausing, restarting, and loading one scene while another is solved.
 #include "model/solve_runner.h"
-#include "test_files.h"
 
 #include <QCoreApplication>
 #include <QElapsedTimer>
@@ -13,6 +12,7 @@
 #include "registered.h"
 #include "support/stopping.h"
 #include "support/wait_until.h"
+#include "test_files.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer::solve_runner_test {

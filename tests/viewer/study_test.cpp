@@ -2,7 +2,6 @@
 //
 // The study dialog and the figures on the number of directions.
 #include "solve/study_dialog.h"
-#include "test_files.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -17,6 +16,7 @@
 #include "solve/study_chart.h"
 #include "solved_window.h"
 #include "support/number_text.h"
+#include "test_files.h"
 #include "transillum/files.h"
 #include "transillum/solve_session.h"
 #include "widgets/banner.h"
