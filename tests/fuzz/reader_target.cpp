@@ -3,6 +3,7 @@
 // the text after a line `%mtl` is the MTL file that it may use as `m.mtl`.
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 
 #include "fuzz/require.h"

@@ -2,6 +2,7 @@
 //
 // transillum-mpi writes the same bytes as transillum, for any number of processes.
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "mpi_run.h"

@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // ALGORITHM.md, oracles 1 and 2: sums of the transfers of closed scenes.
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <map>
 #include <string>

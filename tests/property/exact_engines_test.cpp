@@ -2,6 +2,8 @@
 // The engines with exact numbers, against known answers, and all maps against each other
 // (ALGORITHM.md, oracle 7).
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The recorded history of a direction.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // ALGORITHM.md 6.12: moments of exchanges, for a linear basis. Oracles 1, 2, 5 and 7 for them.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

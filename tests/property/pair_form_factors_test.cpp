@@ -4,6 +4,8 @@
 // agreement with passes, which share nothing with them but the scene.
 #include "transillum/pair_form_factors.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
 #include <numeric>

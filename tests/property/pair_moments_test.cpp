@@ -4,6 +4,8 @@
 // quadrature, closure of the moments, and agreement with passes, which share nothing with pairs but
 // the scene.
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>

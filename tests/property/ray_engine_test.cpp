@@ -2,6 +2,8 @@
 // The engine rays: counts of lines must agree with the areas of the local map within their
 // statistical errors.
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <thread>
 

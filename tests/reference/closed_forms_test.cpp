@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Answers known in closed form (ALGORITHM.md, oracles 3, 4 and 6).
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <numbers>
 

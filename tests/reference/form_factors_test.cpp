@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Form factors by rays and by passes, against formulas and against each other.
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "support/form_factor_rows.h"

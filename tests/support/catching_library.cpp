@@ -2,6 +2,8 @@
 // A library that catches signals while it is loaded, ignored or not, as UCX does.
 #include <signal.h>
 
+#include <initializer_list>
+
 namespace {
 
 [[gnu::constructor]] void catch_signals() {

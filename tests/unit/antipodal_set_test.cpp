@@ -2,6 +2,8 @@
 //
 // Sampling::antipodal: M directions that are even together with their opposites.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

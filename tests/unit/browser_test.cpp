@@ -5,6 +5,8 @@
 // TRANSILLUM_THREE is the folder of the npm package three (`npm install three` makes
 // node_modules/three). TRANSILLUM_PICTURES: a folder for the picture of the room.
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>

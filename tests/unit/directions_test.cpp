@@ -1,5 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>

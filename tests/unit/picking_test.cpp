@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 
 #include "transillum/picking.h"
+
+#include <gtest/gtest.h>
 #include "support/canceled.h"
 #include "support/scenes.h"
 

@@ -3,6 +3,8 @@
 // A solve shared by several members: its results have the bits of a solve alone. The members are
 // threads here; tests/mpi has processes.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
