@@ -5,7 +5,8 @@
 
 #include "transillum/at.h"
 #include "transillum/form_factors.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::testing {
 

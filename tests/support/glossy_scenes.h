@@ -9,7 +9,7 @@
 
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::testing {
 

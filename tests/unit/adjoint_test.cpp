@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <string>
 
+#include "radiosity/form_factors/light_paths.h"
 #include "support/form_factor_rows.h"
 #include "transillum/at.h"
-#include "transillum/light_paths.h"
 #include "transillum/material_changes.h"
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::adjoint_test {

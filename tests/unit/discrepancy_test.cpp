@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sampling/discrepancy.h"
 #include "support/canceled.h"
-#include "transillum/discrepancy.h"
 
 namespace transillum::discrepancy_test {
 namespace {

@@ -16,6 +16,7 @@
 #include "io/factors/factor_formats.h"
 #include "io/factors/npy_array.h"
 #include "io/factors/zip_archive.h"
+#include "radiosity/form_factors/small_form_factors.h"
 #include "support/form_factor_rows.h"
 #include "support/program_run.h"
 #include "support/refusal.h"
@@ -23,8 +24,8 @@
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/pair_form_factors.h"
-#include "transillum/radiosity.h"
-#include "transillum/small_form_factors.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::testing::form_factor_files_test {
 namespace {

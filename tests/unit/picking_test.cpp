@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 
-#include "transillum/picking.h"
+#include "visibility/embree/picking.h"
 
 #include <gtest/gtest.h>
 #include "support/canceled.h"

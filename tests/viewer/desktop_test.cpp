@@ -15,8 +15,8 @@
 
 #include "test_files.h"
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 #include "window_support.h"
 
 namespace transillum::viewer::desktop_test {

@@ -19,9 +19,10 @@
 #include "registered.h"
 #include "transillum/bounds.h"
 #include "transillum/engine.h"
-#include "transillum/picking.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
 #include "transillum/study.h"
+#include "visibility/embree/picking.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer::lesson_numbers_test {

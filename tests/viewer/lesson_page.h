@@ -8,7 +8,9 @@
 #include "lessons/lesson.h"
 #include "transillum/at.h"
 #include "transillum/directions.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::viewer::test {
 

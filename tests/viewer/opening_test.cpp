@@ -10,11 +10,11 @@
 #include <QTimer>
 
 #include "lessons/lesson_panel.h"
+#include "scene/build/patch_count.h"
 #include "scene/color_controls.h"
 #include "scene/welcome_page.h"
 #include "solved_window.h"
 #include "test_files.h"
-#include "transillum/patch_count.h"
 
 namespace transillum::viewer::opening_test {
 
