@@ -18,8 +18,8 @@
 #include "cli/standard_output.h"
 #include "transillum/did_you_mean.h"
 #include "transillum/errors.h"
+#include "transillum/patch_sums.h"
 #include "transillum/scene.h"
-#include "transillum/solver_group.h"
 
 namespace transillum::cli {
 namespace {
@@ -252,7 +252,7 @@ int run_program(int argc, char** argv, void (*report)(std::string_view) noexcept
       flush_results();
     }
     return status;
-  } catch (const MemberFailed&) {
+  } catch (const OtherProcessFailed&) {
     return failed_elsewhere;
   } catch (const InputError& error) {
     report(error.what());

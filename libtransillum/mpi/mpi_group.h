@@ -6,15 +6,16 @@
 #include <functional>
 #include <string>
 
-#include "transillum/solver_group.h"
+#include "process_group.h"
+
 
 namespace transillum::mpi {
 
 class PassRounds;
 
-/// The ranks of MPI as a group of solvers. Waiting leaves the core to others. Only the thread that
+/// The ranks of MPI as a group of processes. Waiting leaves the core to others. Only the thread that
 /// initialized MPI may call it.
-class MpiGroup : public SolverGroup {
+class MpiGroup : public ProcessGroup {
  public:
   /// All ranks; to be called by all. MPI must be initialized until the destructor has run.
   MpiGroup();
@@ -24,17 +25,18 @@ class MpiGroup : public SolverGroup {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  bool run(const GroupPasses& passes) override;
   void complete(std::span<double> values, PatchId patches) override;
   void maxima(std::span<double> values) override;
   void sums(std::span<std::int64_t> values) override;
-  std::vector<std::byte> gather(std::span<const std::byte> bytes) override;
+  void gather(std::span<const std::byte> bytes,
+              const std::function<void(std::span<const std::byte>)>& take) override;
 
   /// What all ranks have sent so far and the most memory that one has used, as a sentence. To be
   /// called by all.
   std::string figures();
 
  private:
+  bool run_messages(const GroupPasses& passes) override;
   void wait(MPI_Request& request);
 
   int rank_ = 0, size_ = 1;

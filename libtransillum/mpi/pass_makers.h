@@ -11,7 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "transillum/solver_group.h"
+#include "process_group.h"
+
 
 namespace transillum::mpi {
 

@@ -84,7 +84,7 @@ bool PassRounds::run() {
       if (makers_.error() && reason_ == failed) {
         std::rethrow_exception(makers_.error());
       }
-      throw MemberFailed();
+      throw OtherProcessFailed();
     case canceled:
       throw Canceled();
     case paused:

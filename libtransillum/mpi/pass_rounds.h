@@ -13,11 +13,11 @@
 #include "mpi_waiting.h"
 #include "pass_dealer.h"
 #include "pass_makers.h"
-#include "transillum/solver_group.h"
+#include "process_group.h"
 
 namespace transillum::mpi {
 
-/// The passes of one SolverGroup::run(). They are added in rounds of consecutive passes: when every
+/// The passes of one ProcessGroup::run(). They are added in rounds of consecutive passes: when every
 /// rank has made its part of a round, all exchange what they need of it, while their threads go on
 /// with the next one.
 class PassRounds {
@@ -26,7 +26,7 @@ class PassRounds {
   /// @param unit MPI's type of 16 bytes
   PassRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit, const GroupPasses& passes);
 
-  /// As SolverGroup::run().
+  /// As ProcessGroup::run_messages()
   bool run();
   /// Answers requests and takes passes, so that all threads have some; to be called while this rank
   /// adds passes or waits for others.

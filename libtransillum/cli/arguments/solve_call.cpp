@@ -137,7 +137,7 @@ void check_refinement(const SolveCall& call) {
   for (const char* option : {"--shard", "--factors"}) {
     refuse_unless(false, *call.scene.command, option, "not used with --refine-by");
   }
-  refuse_unless(!processes().group, *call.scene.command, "--refine-by",
+  refuse_unless(!processes().sums, *call.scene.command, "--refine-by",
                 "not available with several processes");
 }
 

@@ -140,7 +140,7 @@ void say_of_lobes(const SolveCall& call, const SolveOptions& options, const Scen
 
 /// Whether several processes share the solve. Otherwise the first does it alone.
 bool is_shared(const SolveCall& call) {
-  return processes().group && call.factors.empty() && takes_directions(call.options().engine) &&
+  return processes().sums && call.factors.empty() && takes_directions(call.options().engine) &&
          !call.options().glossy;
 }
 
@@ -156,7 +156,7 @@ void share_machine(SolveOptions& options) {
 
 PreparedCall prepare_in_all(SolveCall& call, const Cancellation& cancellation) {
   PreparedCall prepared;
-  processes().group->agree([&] { prepared = prepare_call(call, cancellation); });
+  processes().sums->agree([&] { prepared = prepare_call(call, cancellation); });
   share_machine(prepared.options);
   return prepared;
 }
@@ -192,7 +192,7 @@ int run_solve(SolveCall& call) {
       .checkpoint = call.checkpoint,
       .checkpoint_every = call.checkpoint_every,
       .shards = call.shards,
-      .group = shared ? processes().group : nullptr};
+      .sums = shared ? processes().sums : nullptr};
   say_of_lobes(call, options, *prepared.scene);
   Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
                       : takes_directions(options.engine) ? solve_by_passes(job, checkpoint)

@@ -31,7 +31,7 @@ struct SolveJob {
   CheckpointCall checkpoint = {};                ///< file and whether to resume
   double checkpoint_every = 60;                  ///< s
   std::vector<std::string> shards = {};          ///< the passes are read from these
-  std::shared_ptr<SolverGroup> group = nullptr;  ///< processes that share the passes
+  std::shared_ptr<PatchSums> sums = nullptr;     ///< of processes that share the passes
 };
 
 /// Solves by passes, until it has finished or is interrupted.

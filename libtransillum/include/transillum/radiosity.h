@@ -24,9 +24,9 @@
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
 #include "transillum/linear_basis.h"
+#include "transillum/patch_sums.h"
 #include "transillum/scene.h"
 #include "transillum/sky.h"
-#include "transillum/solver_group.h"
 #include "transillum/transfers.h"
 
 namespace TRANSILLUM_API transillum {
@@ -294,10 +294,10 @@ struct SolverParts {
   std::shared_ptr<const DirectLight> shot = nullptr;
   /// Makes the passes, such as an engine that reads them from a file; null: SolveOptions::engine.
   TransferEngine engine = {};
-  /// Processes that solve together. Each has a solver of its own with the same scene and options,
-  /// and all call its functions that are not const, in the same order. The results have the bits of
-  /// a solver without a group. Null: this process alone.
-  std::shared_ptr<SolverGroup> group = nullptr;
+  /// Where the sums over passes are kept; null: all of them in the memory of this process. Of
+  /// several processes, each has a solver of its own with the same scene and options, and all call
+  /// its functions that are not const, in the same order. The results have the same bits.
+  std::shared_ptr<PatchSums> sums = nullptr;
 };
 
 /// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11, or 44 or 45 by its scheme) in steps that can be
@@ -336,12 +336,11 @@ class RadiositySolver {
   /// observed pass, from which the next call continues.
   /// @returns whether the solve is unfinished.
   /// @throws Canceled; NotConvergent, MemoryLimitExceeded (solve_errors.h).
-  /// In a group, where an observer returns false on one member, all pause after the same pass; its
+  /// Of several processes, all pause after the same pass where an observer returns false in one;
   /// observers see the progress, but B only after complete_estimate().
   bool advance(Until until, const Observer& observer = {});
-  /// In a group, makes what the solver returns complete within an observer's call, as it is between
-  /// calls of advance(). To be called by all members, after the same pass. Without a group it does
-  /// nothing.
+  /// Makes what the solver returns complete within an observer's call, as it is between calls of
+  /// advance(). To be called in all processes after the same pass; one process alone need not.
   void complete_estimate() const;
 
   /// The scene.
@@ -354,8 +353,6 @@ class RadiositySolver {
   std::shared_ptr<const BspTree> shared_tree() const;
   /// The options it was constructed with.
   const SolveOptions& options() const;
-  /// The processes that it solves with; null: this one alone.
-  std::shared_ptr<SolverGroup> group() const;
   /// The first shot; all 0 if there is none.
   std::shared_ptr<const DirectLight> direct_light() const;
   /// The current state.
@@ -386,15 +383,16 @@ class RadiositySolver {
   /// @throws std::logic_error unless the solve is finished, its scheme is fixed or
   /// conjugate_gradients, and it has at least 2 replicas.
   void add_replica();
-  /// Writes the state: all that passes and iterations have led to. An observer may call it. In a
-  /// group all members must, after the same pass; member 0 writes the state of all, in the format
-  /// of a solver alone.
+  /// Writes the state: all that passes and iterations have led to. An observer may call it. Of
+  /// several processes all must, after the same pass; the first writes the state of all, in the
+  /// format of one.
   /// @param out binary; its errors are left to the caller.
   void save(std::ostream& out) const;
   /// Sets the state to one that save() wrote in the same version of the library, from a solver with
   /// the same scene and options; the number of threads may differ. The solve then continues to the
   /// same bits. To be called before advance().
-  /// In a group all members must call it, each with the whole state, and then complete_estimate().
+  /// Of several processes all must call it, each with the whole state, and then
+  /// complete_estimate().
   /// @param in binary.
   /// @param size length of the state, bytes.
   /// @throws std::runtime_error where it is damaged or of another scene; the solver may then only
@@ -403,8 +401,8 @@ class RadiositySolver {
   /// F_ij of all pairs, from the kept exchange sums of all passes; in the semi-iterative scheme, of
   /// all iterations. Of Basis::linear those of constant functions, which alone do not give its B.
   /// @throws std::runtime_error where no iteration is finished or one is unfinished, or where they
-  /// were not kept or exceed the memory limit. In a group all members must call it; it returns them
-  /// on member 0, and empty rows on the others.
+  /// were not kept or exceed the memory limit. Of several processes all must call it; it returns
+  /// them in the first, and empty rows in the others.
   FormFactors form_factors() const;
   /// sum_j F_ij, one per patch, from the passes done so far; 1 within eps(M)/pi where i is
   /// enclosed.

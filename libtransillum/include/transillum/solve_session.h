@@ -16,10 +16,10 @@
 #include "transillum/engine.h"
 #include "transillum/export.h"
 #include "transillum/glossy.h"
+#include "transillum/patch_sums.h"
 #include "transillum/radiosity.h"
 #include "transillum/refinement.h"
 #include "transillum/scene.h"
-#include "transillum/solver_group.h"
 
 namespace TRANSILLUM_API transillum {
 
@@ -34,8 +34,8 @@ struct SolveRequest {
   std::shared_ptr<const BspTree> tree = nullptr;      ///< of `scene`; built if null
   std::shared_ptr<const DirectLight> shot = nullptr;  ///< of `scene`; shot if null
   TransferEngine engine = {};                         ///< makes the passes; options.engine if null
-  std::shared_ptr<SolverGroup> group = nullptr;  ///< as for RadiositySolver; null: this process
-  bool keep_form_factors = false;                ///< as RadiositySolver::keep_form_factors()
+  std::shared_ptr<PatchSums> sums = nullptr;          ///< as for RadiositySolver
+  bool keep_form_factors = false;                     ///< as RadiositySolver::keep_form_factors()
   /// Called with the finished share of a preparation, 0 to 1, on any thread, one at a time.
   std::function<void(Preparation, double)> preparing = {};
 };
@@ -63,8 +63,8 @@ class SolveSession {
 
   /// Makes what the passes of the next stage start from: the tree, the first shot, the solver.
   /// advance() does it where it was not called. If it fails, it may be called again.
-  /// @throws InputError, Canceled, std::runtime_error where there is too little memory. In a group
-  /// all members must call it.
+  /// @throws InputError, Canceled, std::runtime_error where there is too little memory. Of
+  /// several processes all must call it.
   void prepare();
   /// Whether prepare() has been called for the present stage: the functions below that return what
   /// the solver has require it.
@@ -107,8 +107,8 @@ class SolveSession {
   const std::shared_ptr<const Scene>& scene() const;
   /// The BSP tree of scene(); null before prepare().
   const std::shared_ptr<const BspTree>& tree() const;
-  /// The processes that solve together; null: this one alone.
-  const std::shared_ptr<SolverGroup>& group() const;
+  /// Where sums over passes are kept; never null.
+  const std::shared_ptr<PatchSums>& sums() const;
   /// Whether a round of refinement follows the present solve.
   bool in_rounds() const;
   /// The rounds that are finished.
@@ -166,11 +166,11 @@ class SolveSession {
 /// @param options of the solve run.
 /// @param observer as for SolveSession::advance(); returning false ends the solve.
 /// @param cancellation checked throughout.
-/// @param group as for RadiositySolver.
+/// @param sums as for RadiositySolver.
 /// @throws InputError; Canceled before the first pass; NotConvergent, std::runtime_error
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const SolveSession::Observer& observer = {}, const Cancellation& cancellation = {},
-               const std::shared_ptr<SolverGroup>& group = nullptr);
+               const std::shared_ptr<PatchSums>& sums = nullptr);
 
 /// A refined scene and how it was reached.
 struct Refinement {

@@ -44,6 +44,7 @@ namespace transillum {}
 #include "transillum/light_paths.h"
 #include "transillum/option_table.h"
 #include "transillum/option_values.h"
+#include "transillum/patch_sums.h"
 #include "transillum/power_table.h"
 #include "transillum/radiosity.h"
 #include "transillum/refinement.h"
@@ -53,7 +54,6 @@ namespace transillum {}
 #include "transillum/shares.h"
 #include "transillum/sky.h"
 #include "transillum/solve_session.h"
-#include "transillum/solver_group.h"
 
 // Directions and what is proven or measured about them.
 #include "transillum/bounds.h"

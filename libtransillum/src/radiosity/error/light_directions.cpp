@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 
 #include "radiosity/light_sources.h"
 #include "radiosity/ratio.h"
@@ -142,10 +141,7 @@ void LightDirections::add(const std::vector<Transfer>& exchanges) {
 }
 
 void LightDirections::complete(const PatchShare& share) {
-  static_assert(std::is_standard_layout_v<Light> && sizeof(Light) == 3 * sizeof(double));
-  if (share.group != nullptr) {
-    share.group->complete({&lights_.front().sum, 3 * lights_.size()}, share.patches);
-  }
+  share.complete(lights_);
 }
 
 /// The variance of what a pair contributes to B is proportional to w squares = w sum² / n.

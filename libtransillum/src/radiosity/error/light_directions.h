@@ -21,7 +21,7 @@ class LightDirections {
 
   /// Adds a pass along a direction that is new.
   void add(const std::vector<Transfer>& exchanges);
-  /// Completes the sums of all patches, in a group; to be called before mean().
+  /// Completes the sums of all patches; to be called before mean().
   void complete(const PatchShare& share);
   /// With n = (sum c)² / sum c² directions per pair of patch and source, the mean of n, each
   /// weighted by what the pair contributes to the variance of B. 0 without light.

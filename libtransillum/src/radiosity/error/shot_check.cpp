@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "radiosity/channel_sums.h"
 #include "transillum/at.h"
@@ -87,12 +86,7 @@ void ShotCheck::add(const Transfers& transfers) {
   }
 }
 
-void ShotCheck::complete() {
-  static_assert(std::is_standard_layout_v<Row> && sizeof(Row) == 9 * sizeof(double));
-  if (share_.group != nullptr && !rows_.empty()) {
-    share_.group->complete({&rows_.front().received, 9 * rows_.size()}, share_.patches);
-  }
-}
+void ShotCheck::complete() { share_.complete(rows_); }
 
 /// The most light that a patch can receive along a direction, W.
 double ShotCheck::most_of(PatchId i) const {

@@ -21,7 +21,7 @@ class ShotCheck {
 
   /// Adds a pass along a direction that is new; it serves its opposite too.
   void add(const Transfers& transfers);
-  /// Completes the sums of all patches, in a group; to be called before disagreement().
+  /// Completes the sums of all patches; to be called before disagreement().
   void complete();
 
   struct Disagreement {

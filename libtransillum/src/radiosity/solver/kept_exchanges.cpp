@@ -107,7 +107,7 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
 }
 
 ExchangeSums KeptExchanges::empty_sums(std::uint64_t memory) const {
-  return {patches_ * static_cast<PatchId>(per_patch_), two_way_, memory, cancellation_};
+  return {unknown_share_, two_way_, memory, cancellation_};
 }
 
 void KeptExchanges::add_replica() {
@@ -132,34 +132,21 @@ void KeptExchanges::check_available() const {
 }
 
 ExchangeSums::Run KeptExchanges::make_run(const Transfers& transfers) const {
-  ExchangeSums::Run run = sums_.front().make_run(per_patch_ > 1 ? exchanges_of_unknowns(transfers)
-                                                                : transfers.exchanges);
-  if (share_.group != nullptr && !two_way_) {
-    std::erase_if(run,
-                  [this](const Transfer& t) { return !unknown_share_.owned.contains(t.receiver); });
-  }
-  return run;
+  return sums_.front().make_run(per_patch_ > 1 ? exchanges_of_unknowns(transfers)
+                                               : transfers.exchanges);
 }
 
 void KeptExchanges::add(std::size_t r, ExchangeSums::Run run) {
   sums_[r].add(std::move(run));
   // Where one replica does not fit, the others are of no use.
   if (!available()) {
-    for (ExchangeSums& part : sums_) {
-      part.drop();
-    }
-    if (share_.group == nullptr) {
-      check_available();
-    }
+    drop();
   }
 }
 
-void KeptExchanges::agree_dropped(bool dropped) {
-  if (dropped) {
-    for (ExchangeSums& part : sums_) {
-      part.drop();
-    }
-    check_available();
+void KeptExchanges::drop() {
+  for (ExchangeSums& part : sums_) {
+    part.drop();
   }
 }
 
@@ -168,23 +155,19 @@ void KeptExchanges::complete() {
   count();
 }
 
-void KeptExchanges::merge() {
+void KeptExchanges::prepare_to_save() {
   for (ExchangeSums& part : sums_) {
-    part.merge();
+    part.prepare_to_save();
   }
 }
 
 void KeptExchanges::count() {
-  if (share_.group == nullptr) {
-    return;
-  }
-  std::int64_t owned = 0;
+  std::int64_t size = 0;
   for (const ExchangeSums& part : sums_) {
-    owned +=
-        static_cast<std::int64_t>(part.size_of_rows(unknown_share_.first(), unknown_share_.last()));
+    size += static_cast<std::int64_t>(part.size_of_share());
   }
-  share_.group->sums({&owned, 1});
-  size_of_group_ = static_cast<std::size_t>(owned);
+  share_.sums->sums({&size, 1});
+  kept_elsewhere_ = size - static_cast<std::int64_t>(own_size());
 }
 
 void KeptExchanges::add_areas(const Transfers& transfers) {
@@ -215,7 +198,7 @@ std::size_t KeptExchanges::own_size() const {
 }
 
 ExchangeSums KeptExchanges::joined() const {
-  ExchangeSums joined = empty_sums(~std::uint64_t{0});
+  ExchangeSums joined(unknown_share_.patches, two_way_, ~std::uint64_t{0}, cancellation_);
   for (const ExchangeSums& part : sums_) {
     ExchangeSums::Run run;
     run.reserve(part.size());
@@ -233,7 +216,7 @@ ExchangeSums KeptExchanges::joined() const {
 FormFactors KeptExchanges::form_factors(const RadiosityIterate& iterate,
                                         const VisibleAreaSums& areas) const {
   const std::optional<ExchangeSums> all_replicas =
-      sums_.size() > 1 || share_.group != nullptr ? std::optional(joined()) : std::nullopt;
+      sums_.size() > 1 || !share_.is_all() ? std::optional(joined()) : std::nullopt;
   const ExchangeSums& sums = all_replicas ? *all_replicas : sums_.front();
   FormFactors result = empty_rows(sums, static_cast<std::size_t>(patches_), per_patch_, two_way_);
   std::vector<std::size_t> next(result.row_begin.begin(), result.row_begin.end() - 1);

@@ -59,10 +59,8 @@ void PassStatistics::add(const Pass& pass) {
 }
 
 void PassStatistics::complete_errors() {
-  if (share_.group != nullptr) {
-    share_.group->maxima(std::span(quadrature_errors_).subspan(complete_errors_));
-    complete_errors_ = quadrature_errors_.size();
-  }
+  share_.sums->maxima(std::span(quadrature_errors_).subspan(complete_errors_));
+  complete_errors_ = quadrature_errors_.size();
 }
 
 void PassStatistics::complete() {

@@ -6,9 +6,9 @@
 
 #include "radiosity/error/light_directions.h"
 #include "radiosity/error/shot_check.h"
-#include "radiosity/exchange/pass_runner.h"
 #include "radiosity/exchange/visible_area_sums.h"
 #include "transillum/first_shot.h"
+#include "transillum/patch_sums.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
@@ -31,9 +31,9 @@ class PassStatistics {
   /// Adds the first pass along a direction.
   void add(const Pass& pass);
 
-  /// Makes quadrature_errors() those of all patches, in a group.
+  /// Makes quadrature_errors() those of all patches.
   void complete_errors();
-  /// Completes what is summed per patch, in a group.
+  /// Completes what is summed per patch.
   void complete();
 
   /// Of the current set of directions.
@@ -63,7 +63,7 @@ class PassStatistics {
   std::size_t per_patch_;
   VisibleAreaSums areas_;
   std::vector<double> quadrature_errors_;
-  std::size_t complete_errors_ = 0;  ///< number of them that are of all patches, in a group
+  std::size_t complete_errors_ = 0;  ///< number of them that are of all patches
   std::vector<double> facing_area_;  ///< per patch: projected area over all passes, both directions
   std::vector<double> back_seen_;    ///< per patch: of that, seen by receivers from its back
   std::vector<double> uncovered_;    ///< per patch: of that, with no patch above

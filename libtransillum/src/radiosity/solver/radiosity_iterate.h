@@ -47,7 +47,7 @@ class RadiosityIterate {
   /// Gathers along the directions of one pass.
   /// @param transfers their coverages are those of the share's patches
   void add(const Transfers& transfers);
-  /// Completes what passes have gathered, in a group. Before it only the values of the share's own
+  /// Completes what passes have gathered. Before it only the values of the share's own
   /// patches are right.
   void complete();
   /// From now on `sums`, finished and of the same directions, stand for the passes so far. For the

@@ -26,7 +26,7 @@ class StartRemainder {
   void begin();
   /// Gathers along the directions of one pass.
   void add(const Transfers& transfers);
-  /// Completes what passes have gathered, in a group.
+  /// Completes what passes have gathered.
   void complete();
   /// Ends an iteration which led to `whole`.
   void finish(const RadiosityIterate& whole);

@@ -7,7 +7,7 @@
 // moments, those of the coverages follow the coverages, and each exchange is followed by its own. A
 // patch faces omega or -omega, so mostly one Coverage says both: a negative projected area stands
 // for the backward one.
-#include "radiosity/exchange/pass_messages.h"
+#include "pass_messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 
 #include "transillum/at.h"
 
-namespace transillum {
+namespace transillum::mpi {
 namespace {
 
 constexpr std::size_t unit = 16;  ///< of message sizes, bytes
@@ -82,7 +82,7 @@ class Reader {
 bool is_empty(const Coverage& coverage) { return coverage.projected == 0 && coverage.covered == 0; }
 
 /// The member that owns each patch.
-std::vector<std::uint32_t> owners_of(const SolverGroup& group, PatchId patches) {
+std::vector<std::uint32_t> owners_of(const PatchSums& group, PatchId patches) {
   std::vector<std::uint32_t> owners(static_cast<std::size_t>(patches));
   for (int r = 0; r < group.size(); ++r) {
     const PatchRange range = group.range_of(r, patches);
@@ -94,7 +94,7 @@ std::vector<std::uint32_t> owners_of(const SolverGroup& group, PatchId patches) 
 
 /// Where the exchanges whose receivers each member owns begin; then the end of all. Exchanges are
 /// sorted by receiver.
-std::vector<std::size_t> slices_of(const std::vector<Transfer>& exchanges, const SolverGroup& group,
+std::vector<std::size_t> slices_of(const std::vector<Transfer>& exchanges, const PatchSums& group,
                                    PatchId patches) {
   std::vector<std::size_t> slices{0};
   for (int r = 0; r < group.size(); ++r) {
@@ -113,7 +113,7 @@ struct Crossing {
 };
 
 std::vector<Crossing> crossings_of(const std::vector<Transfer>& exchanges,
-                                   const std::vector<std::size_t>& slices, const SolverGroup& group,
+                                   const std::vector<std::size_t>& slices, const PatchSums& group,
                                    PatchId patches) {
   const std::vector<std::uint32_t> owners = owners_of(group, patches);
   std::vector<Crossing> crossings;
@@ -229,7 +229,7 @@ void read_coverages(Reader& reader, const Header& header, std::size_t patches,
 
 }  // namespace
 
-GroupMessages split(const Pass& pass, const SolverGroup& group, PatchId patches) {
+GroupMessages split(const Pass& pass, const PatchSums& group, PatchId patches) {
   const auto members = static_cast<std::size_t>(group.size());
   const std::vector<Transfer>& exchanges = pass.transfers.exchanges;
   const std::vector<std::size_t> slices = slices_of(exchanges, group, patches);
@@ -296,4 +296,4 @@ std::uint64_t expected_message_bytes(PatchId patches) {
   return static_cast<std::uint64_t>(patches) * (sizeof(Coverage) + 3 * sizeof(Transfer));
 }
 
-}  // namespace transillum
+}  // namespace transillum::mpi

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // A TBB pipeline of three filters: number the passes, make them in parallel, add them in order.
-#include "radiosity/exchange/pass_runner.h"
+#include "radiosity/exchange/sums_in_memory.h"
 
 #include <oneapi/tbb/parallel_pipeline.h>
 
@@ -95,20 +95,21 @@ class PipelineOrder {
   char source_ = 0, sink_ = 0;  ///< addresses that represent the serial filters
 };
 
-}  // namespace
-
-void PassRunner::run(int first, int last, const std::function<Pass(int)>& make,
-                     const std::function<bool(int, Pass)>& add) const {
-  Slots slots(static_cast<std::size_t>(2 * threads_));
+/// Makes passes on several threads and adds them in order, until `add` returns false: passes under
+/// way, at most two per thread, are still added. An exception of either is rethrown here, after the
+/// passes before it have been added.
+template <class Make, class Add>
+void run_pipeline(const PassLoop& loop, const Make& make, const Add& add) {
+  Slots slots(static_cast<std::size_t>(2 * loop.threads));
   PipelineOrder order(slots);
   std::atomic<bool> going{true};
-  int next = first;
+  int next = loop.first;
   const auto next_pass = [&](tbb::flow_control& control) {
-    if (next < last && going) {
+    if (next < loop.last && going) {
       return next++;
     }
     control.stop();
-    return last;
+    return loop.last;
   };
   const auto make_pass = [&](int k) { slots.of(k) = make(k); };
   const auto add_pass = [&](int k) {
@@ -118,12 +119,42 @@ void PassRunner::run(int first, int last, const std::function<Pass(int)>& make,
   };
   using enum tbb::filter_mode;
   const auto pipeline =
-      tbb::make_filter<void, int>(serial_in_order, order.source(next_pass, last)) &
+      tbb::make_filter<void, int>(serial_in_order, order.source(next_pass, loop.last)) &
       tbb::make_filter<int, int>(parallel, order.parallel(make_pass)) &
       tbb::make_filter<int, void>(serial_in_order, order.sink(add_pass));
-  WorkerThreads workers(threads_);
+  WorkerThreads workers(loop.threads);
   order.around(
       [&] { workers.arena().execute([&] { tbb::parallel_pipeline(slots.count(), pipeline); }); });
+}
+
+}  // namespace
+
+bool SumsInMemory::run(const PassLoop& loop) {
+  bool going = true;
+  const auto make = [&loop](int k) {
+    Pass pass = loop.make(k);
+    loop.prepare(k, pass);
+    return pass;
+  };
+  const auto add = [&](int k, Pass pass) {
+    loop.add(k, std::move(pass));
+    loop.settle();
+    if (!loop.observe(k)) {
+      going = false;
+    }
+    return going;
+  };
+  if (loop.last - loop.first == 1) {
+    add(loop.first, make(loop.first));
+  } else {
+    run_pipeline(loop, make, add);
+  }
+  return going;
+}
+
+const std::shared_ptr<PatchSums>& sums_in_memory() {
+  static const std::shared_ptr<PatchSums> sums = std::make_shared<SumsInMemory>();
+  return sums;
 }
 
 }  // namespace transillum

@@ -15,7 +15,7 @@
 #include "transillum/solve_errors.h"
 #include "transillum/solve_session.h"
 
-namespace transillum::solver_group_test {
+namespace transillum::process_group_test {
 namespace {
 
 using testing::run_in_group;
@@ -64,11 +64,11 @@ Outcome outcome_of(const Solution& solution) {
   return outcome;
 }
 
-Outcome solved(const SolveOptions& options, const std::shared_ptr<SolverGroup>& group = nullptr) {
+Outcome solved(const SolveOptions& options, const std::shared_ptr<PatchSums>& group = nullptr) {
   if (options.goal.is_set()) {
     return outcome_of(solve(box(), options, {}, {}, group));
   }
-  RadiositySolver solver(box(), options, {.group = group});
+  RadiositySolver solver(box(), options, {.sums = group});
   std::vector<double> changes;
   while (solver.advance(Until::iteration, [&](const RadiositySolver& watched) {
     const auto& now = watched.estimate_changes();
@@ -109,7 +109,7 @@ void expect_bits_of_one(const SolveOptions& options) {
   for (const int members : {1, 2, 3, 7}) {
     SCOPED_TRACE(members);
     std::mutex one_at_a_time;
-    const auto errors = run_in_group(members, [&](const std::shared_ptr<SolverGroup>& group) {
+    const auto errors = run_in_group(members, [&](const std::shared_ptr<PatchSums>& group) {
       const Outcome outcome = solved(options, group);
       const std::lock_guard lock(one_at_a_time);
       expect_same(outcome, expected, group->rank());
@@ -120,7 +120,7 @@ void expect_bits_of_one(const SolveOptions& options) {
   }
 }
 
-TEST(SolverGroup, HasTheBitsOfOneSolver) {
+TEST(ProcessGroup, HasTheBitsOfOneSolver) {
   expect_bits_of_one({.directions = 64});
   expect_bits_of_one({.directions = 64, .threads = 2});
   expect_bits_of_one({.directions = 65, .two_way = false});
@@ -128,7 +128,7 @@ TEST(SolverGroup, HasTheBitsOfOneSolver) {
   expect_bits_of_one({.directions = 3});
 }
 
-TEST(SolverGroup, HasTheBitsOfOneSolverWithReplicasAndNormalizations) {
+TEST(ProcessGroup, HasTheBitsOfOneSolverWithReplicasAndNormalizations) {
   expect_bits_of_one({.directions = 64, .replicas = 4});
   expect_bits_of_one({.directions = 64, .normalize = Normalization::rows});
   expect_bits_of_one({.directions = 64, .normalize = Normalization::symmetric, .replicas = 2});
@@ -138,7 +138,7 @@ TEST(SolverGroup, HasTheBitsOfOneSolverWithReplicasAndNormalizations) {
   expect_bits_of_one(sky);
 }
 
-TEST(SolverGroup, HasTheBitsOfOneSolverInEveryScheme) {
+TEST(ProcessGroup, HasTheBitsOfOneSolverInEveryScheme) {
   expect_bits_of_one({.directions = 128, .scheme = Scheme::growing});
   expect_bits_of_one(
       {.directions = 32, .scheme = Scheme::semi_iterative, .averaged_iterations = 9});
@@ -149,24 +149,24 @@ TEST(SolverGroup, HasTheBitsOfOneSolverInEveryScheme) {
                       .replicas = 2});
 }
 
-TEST(SolverGroup, HasTheBitsOfOneSolverWithAGoal) {
+TEST(ProcessGroup, HasTheBitsOfOneSolverWithAGoal) {
   SolveOptions options;
   options.goal.accuracy = 0.05;
   expect_bits_of_one(options);
 }
 
-TEST(SolverGroup, DropsFormFactorsOnAllMembers) {
+TEST(ProcessGroup, DropsFormFactorsOnAllMembers) {
   SolveOptions options{.directions = 64, .iterations = 3, .memory = 1};
   expect_bits_of_one(options);
   options.iterations = 0;
   options.scheme = Scheme::conjugate_gradients;
-  const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
+  const auto errors = run_in_group(3, [&](const std::shared_ptr<PatchSums>& group) {
     EXPECT_THROW(solved(options, group), MemoryLimitExceeded);
   });
   EXPECT_EQ(errors, std::vector<std::exception_ptr>(3));
 }
 
-TEST(SolverGroup, KeepsAShareOfTheFormFactors) {
+TEST(ProcessGroup, KeepsAShareOfTheFormFactors) {
   const SolveOptions options{.directions = 256, .iterations = 1};
   RadiositySolver alone(box(), options);
   alone.advance(Until::finished);
@@ -174,17 +174,17 @@ TEST(SolverGroup, KeepsAShareOfTheFormFactors) {
   SolveOptions limited = options;
   limited.memory = static_cast<std::uint64_t>(alone.statistics().form_factors) * 16 * 2;
   EXPECT_FALSE(solved(limited).statistics.kept_form_factors);
-  const auto errors = run_in_group(4, [&](const std::shared_ptr<SolverGroup>& group) {
+  const auto errors = run_in_group(4, [&](const std::shared_ptr<PatchSums>& group) {
     EXPECT_TRUE(solved(limited, group).statistics.kept_form_factors);
   });
   EXPECT_EQ(errors, std::vector<std::exception_ptr>(4));
 }
 
-TEST(SolverGroup, IsCanceledTogetherAndGoesOn) {
+TEST(ProcessGroup, IsCanceledTogetherAndGoesOn) {
   const SolveOptions options{.directions = 256};
-  const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
+  const auto errors = run_in_group(3, [&](const std::shared_ptr<PatchSums>& group) {
     const Cancellation cancellation;
-    RadiositySolver solver(box(), options, {.group = group}, cancellation);
+    RadiositySolver solver(box(), options, {.sums = group}, cancellation);
     EXPECT_THROW(solver.advance(Until::finished,
                                 [&](const RadiositySolver& watched) {
                                   if (group->rank() == 1 && watched.progress().direction == 20) {
@@ -208,11 +208,11 @@ TEST(SolverGroup, IsCanceledTogetherAndGoesOn) {
   EXPECT_EQ(errors, std::vector<std::exception_ptr>(3));
 }
 
-TEST(SolverGroup, PausesTogether) {
+TEST(ProcessGroup, PausesTogether) {
   const SolveOptions options{.directions = 64};
   const Outcome expected = solved(options);
-  const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
-    RadiositySolver solver(box(), options, {.group = group});
+  const auto errors = run_in_group(3, [&](const std::shared_ptr<PatchSums>& group) {
+    RadiositySolver solver(box(), options, {.sums = group});
     EXPECT_TRUE(solver.advance(Until::finished, [&](const RadiositySolver& watched) {
       return group->rank() != 2 || watched.progress().direction != 10;
     }));
@@ -226,7 +226,7 @@ TEST(SolverGroup, PausesTogether) {
   EXPECT_EQ(errors, std::vector<std::exception_ptr>(3));
 }
 
-TEST(SolverGroup, CompletesEstimatesForObservers) {
+TEST(ProcessGroup, CompletesEstimatesForObservers) {
   const SolveOptions options{.directions = 64, .replicas = 2};
   std::vector<Rgb> expected;
   RadiositySolver alone(box(), options);
@@ -234,8 +234,8 @@ TEST(SolverGroup, CompletesEstimatesForObservers) {
     expected = watched.progress().direction == 11 ? watched.solution().radiosity : expected;
     return true;
   });
-  const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
-    RadiositySolver solver(box(), options, {.group = group});
+  const auto errors = run_in_group(3, [&](const std::shared_ptr<PatchSums>& group) {
+    RadiositySolver solver(box(), options, {.sums = group});
     solver.advance(Until::iteration, [&](const RadiositySolver& watched) {
       if (watched.progress().direction == 11) {
         watched.complete_estimate();
@@ -247,13 +247,13 @@ TEST(SolverGroup, CompletesEstimatesForObservers) {
   EXPECT_EQ(errors, std::vector<std::exception_ptr>(3));
 }
 
-TEST(SolverGroup, IsSavedAsOneSolverAndRestoredByAnyNumber) {
+TEST(ProcessGroup, IsSavedAsOneSolverAndRestoredByAnyNumber) {
   for (const bool two_way : {true, false}) {
     const SolveOptions options{.directions = 64, .two_way = two_way, .replicas = 2};
     const Outcome expected = solved(options);
     std::string state;
-    const auto saving = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
-      RadiositySolver solver(box(), options, {.group = group});
+    const auto saving = run_in_group(3, [&](const std::shared_ptr<PatchSums>& group) {
+      RadiositySolver solver(box(), options, {.sums = group});
       solver.advance(Until::finished, [](const RadiositySolver& watched) {
         return watched.progress().direction != 20;
       });
@@ -264,8 +264,8 @@ TEST(SolverGroup, IsSavedAsOneSolverAndRestoredByAnyNumber) {
       }
     });
     EXPECT_EQ(saving, std::vector<std::exception_ptr>(3));
-    const auto finish = [&](const std::shared_ptr<SolverGroup>& group) {
-      RadiositySolver solver(box(), options, {.group = group});
+    const auto finish = [&](const std::shared_ptr<PatchSums>& group) {
+      RadiositySolver solver(box(), options, {.sums = group});
       std::istringstream in(state);
       solver.restore(in, state.size());
       solver.complete_estimate();
@@ -280,18 +280,18 @@ TEST(SolverGroup, IsSavedAsOneSolverAndRestoredByAnyNumber) {
   }
 }
 
-TEST(SolverGroup, FailsTogether) {
-  const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
+TEST(ProcessGroup, FailsTogether) {
+  const auto errors = run_in_group(3, [&](const std::shared_ptr<PatchSums>& group) {
     group->agree([&] {
       if (group->rank() == 1) {
         throw std::out_of_range("one");
       }
     });
   });
-  EXPECT_THROW(std::rethrow_exception(errors[0]), MemberFailed);
+  EXPECT_THROW(std::rethrow_exception(errors[0]), OtherProcessFailed);
   EXPECT_THROW(std::rethrow_exception(errors[1]), std::out_of_range);
-  EXPECT_THROW(std::rethrow_exception(errors[2]), MemberFailed);
+  EXPECT_THROW(std::rethrow_exception(errors[2]), OtherProcessFailed);
 }
 
 }  // namespace
-}  // namespace transillum::solver_group_test
+}  // namespace transillum::process_group_test
