@@ -45,13 +45,13 @@ struct PatchShare {
   template <class Value>
   void complete(std::vector<Value>& values) const {
     if (!values.empty()) {
-      sums->complete(doubles_of(values), patches);
+      sums->complete({reinterpret_cast<double*>(values.data()), doubles_in(values)}, patches);
     }
   }
   /// As PatchSums::check_same()
   template <class Value>
-  void check_same(std::vector<Value> values) const {
-    sums->check_same(doubles_of(values));
+  void check_same(const std::vector<Value>& values) const {
+    sums->check_same({reinterpret_cast<const double*>(values.data()), doubles_in(values)});
   }
   /// The lists of all processes, in their order, in process 0; nothing in the others.
   template <class Value>
@@ -78,10 +78,9 @@ struct PatchShare {
 
  private:
   template <class Value>
-  static std::span<double> doubles_of(std::vector<Value>& values) {
+  static std::size_t doubles_in(const std::vector<Value>& values) {
     static_assert(std::is_standard_layout_v<Value> && sizeof(Value) % sizeof(double) == 0);
-    return {reinterpret_cast<double*>(values.data()),
-            values.size() * (sizeof(Value) / sizeof(double))};
+    return values.size() * (sizeof(Value) / sizeof(double));
   }
 };
 

@@ -25,11 +25,10 @@ constexpr double tolerances_of_power = 10;
 IterationHistory::IterationHistory(const SolverInput& input, const RadiosityIterate& first)
     : unknowns_(*input.unknowns),
       options_(input.options),
-      remainder_(ReflectedLight(unknowns_.exitance, unknowns_.per_patch), unknowns_.area,
-                 unknowns_.reflectance, unknowns_.per_patch),
+      remainder_(unknowns_.light(), unknowns_.area, unknowns_.reflectance, unknowns_.per_patch),
       b_(first.b()),
       h_(first.h()),
-      mean_(input.options, ReflectedLight(unknowns_.exitance, unknowns_.per_patch)),
+      mean_(input.options, unknowns_.light()),
       start_(input) {
   set_means();
 }

@@ -47,31 +47,6 @@ FormFactors empty_rows(const ExchangeSums& sums, std::size_t patches, std::size_
   return result;
 }
 
-/// The exchanges between unknowns.
-std::vector<Transfer> exchanges_of_unknowns(const Transfers& transfers) {
-  std::vector<Transfer> exchanges;
-  exchanges.reserve(9 * transfers.exchanges.size());
-  for (std::size_t k = 0; k < transfers.exchanges.size();) {
-    // By receiver, its functions, then source, as in Transfers::exchanges.
-    const PatchId receiver = transfers.exchanges[k].receiver;
-    std::size_t end = k;
-    while (end < transfers.exchanges.size() && transfers.exchanges[end].receiver == receiver) {
-      ++end;
-    }
-    for (PatchId a = 0; a < 3; ++a) {
-      for (std::size_t n = k; n < end; ++n) {
-        for (PatchId b = 0; b < 3; ++b) {
-          exchanges.push_back(
-              {3 * receiver + a, 3 * transfers.exchanges[n].source + b,
-               transfers.moments[n].of(static_cast<std::size_t>(a), static_cast<std::size_t>(b))});
-        }
-      }
-    }
-    k = end;
-  }
-  return exchanges;
-}
-
 /// The memory limit less what replicas take besides their sums.
 std::uint64_t memory_for_sums(const SolverInput& input) {
   const std::uint64_t limit = memory_limit(input.options.memory);
@@ -132,8 +107,14 @@ void KeptExchanges::check_available() const {
 }
 
 ExchangeSums::Run KeptExchanges::make_run(const Transfers& transfers) const {
-  return sums_.front().make_run(per_patch_ > 1 ? exchanges_of_unknowns(transfers)
-                                               : transfers.exchanges);
+  if (per_patch_ == 1) {
+    return sums_.front().make_run(transfers.exchanges);
+  }
+  std::vector<Transfer> exchanges;
+  exchanges.reserve(per_patch_ * per_patch_ * transfers.exchanges.size());
+  for_each_exchange(transfers, per_patch_,
+                    [&](const Transfer& t, PatchId, PatchId) { exchanges.push_back(t); });
+  return sums_.front().make_run(exchanges);
 }
 
 void KeptExchanges::add(std::size_t r, ExchangeSums::Run run) {

@@ -17,7 +17,6 @@ PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLig
     : scene_(scene),
       two_way_(two_way),
       share_(share),
-      per_patch_(per_patch),
       areas_(scene.patches().size(), per_patch),
       facing_area_(scene.patches().size()),
       back_seen_(scene.patches().size()),
@@ -26,7 +25,7 @@ PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLig
       shot_(scene, shot, share) {}
 
 void PassStatistics::begin_set() {
-  areas_ = VisibleAreaSums(facing_area_.size(), per_patch_);
+  areas_ = VisibleAreaSums(facing_area_.size(), areas_.per_patch);
   quadrature_errors_.clear();
   complete_errors_ = 0;
 }

@@ -60,7 +60,6 @@ class PassStatistics {
   const Scene& scene_;
   bool two_way_;
   PatchShare share_;
-  std::size_t per_patch_;
   VisibleAreaSums areas_;
   std::vector<double> quadrature_errors_;
   std::size_t complete_errors_ = 0;  ///< number of them that are of all patches

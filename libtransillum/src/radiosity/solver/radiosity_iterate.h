@@ -99,8 +99,6 @@ class RadiosityIterate {
   Rgb gathered_irradiance(std::size_t u) const;
   Rgb radiosity(std::size_t u, const Rgb& irradiance) const;
   void set_radiosity(std::size_t u, const Rgb& b);
-  /// As add(), of a linear basis.
-  void add_moments(const Transfers& transfers);
   void gather(const KeptSums& sums);
   /// image += S values, where S is the total of `sums`, a symmetric matrix.
   void add_symmetric_product(const KeptSums& sums, const std::vector<double>& values,
@@ -109,8 +107,10 @@ class RadiosityIterate {
   double row_scale(std::size_t i, double projected, int passes) const;
   /// The factor from uncovered area in `passes` passes to a share of the hemisphere.
   double sky_scale(std::size_t i, double projected, int passes) const;
-  void add_sky(const Transfers& transfers);
-  void add_sky_moments(const Transfers& transfers);
+  /// Adds what one of the directions of a pass leaves uncovered.
+  /// @param moments empty if each patch has one unknown
+  void add_sky(const Vec3& omega, const std::vector<Coverage>& coverages,
+               const std::vector<CoverageMoments>& moments);
   double row_scale(std::size_t i) const { return row_scale(i, projected_[i], passes_); }
 
   const Unknowns& unknowns_;

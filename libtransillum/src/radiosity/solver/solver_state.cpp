@@ -28,7 +28,7 @@ RadiositySolver::Impl::Impl(SolverInput solver_input)
                  input.unknowns->per_patch),
       history(input, whole),
       share(input.share()),
-      light(input.unknowns->exitance, input.unknowns->per_patch) {
+      light(input.unknowns->light()) {
   iteration.directions = plan.directions(0);
   iteration.estimate = whole.b();
 }
@@ -183,8 +183,8 @@ void RadiositySolver::Impl::add_pass(int k, Pass pass) {
 
 EstimateChange RadiositySolver::Impl::update_estimate() {
   EstimateChange result;
-  const std::size_t per_patch = input.unknowns->per_patch;
-  for (std::size_t u = per_patch * share.first(); u < per_patch * share.last(); ++u) {
+  const PatchShare unknowns = share.of_unknowns(input.unknowns->per_patch);
+  for (std::size_t u = unknowns.first(); u < unknowns.last(); ++u) {
     const Rgb value = history.with(u, whole.estimate(u));
     result.change = std::max(result.change, max_abs(value - iteration.estimate[u]));
     const double reflected = max_abs(light.of(u, value));
