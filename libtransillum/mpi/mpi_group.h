@@ -8,13 +8,12 @@
 
 #include "process_group.h"
 
-
 namespace transillum::mpi {
 
 class PassRounds;
 
-/// The ranks of MPI as a group of processes. Waiting leaves the core to others. Only the thread that
-/// initialized MPI may call it.
+/// The ranks of MPI as a group of processes. Waiting leaves the core to others. Only the thread
+/// that initialized MPI may call it.
 class MpiGroup : public ProcessGroup {
  public:
   /// All ranks; to be called by all. MPI must be initialized until the destructor has run.

@@ -13,7 +13,6 @@
 
 #include "process_group.h"
 
-
 namespace transillum::mpi {
 
 /// Threads that make the passes dealt to this rank. Threads: one other thread calls it.

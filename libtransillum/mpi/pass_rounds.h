@@ -17,9 +17,9 @@
 
 namespace transillum::mpi {
 
-/// The passes of one ProcessGroup::run(). They are added in rounds of consecutive passes: when every
-/// rank has made its part of a round, all exchange what they need of it, while their threads go on
-/// with the next one.
+/// The passes of one ProcessGroup::run(). They are added in rounds of consecutive passes: when
+/// every rank has made its part of a round, all exchange what they need of it, while their threads
+/// go on with the next one.
 class PassRounds {
  public:
   /// @param exchange, dealing communicators for this purpose only

@@ -32,25 +32,24 @@ double fingerprint(std::span<const double> values) {
 
 bool ProcessGroup::run(const PassLoop& loop) {
   bool going = true;
-  return run_messages(
-      {.first = loop.first,
-       .last = loop.last,
-       .threads = loop.threads,
-       .bytes_of_a_pass = expected_message_bytes(loop.patches),
-       .cancellation = loop.cancellation,
-       .make = [&](int k) { return split(loop.make(k), *this, loop.patches); },
-       .add =
-           [&](int k, std::span<const std::byte> message) {
-             Pass pass = joined_pass(message, owned(loop.patches));
-             loop.prepare(k, pass);
-             loop.add(k, std::move(pass));
-             going = loop.observe(k) && going;
-           },
-       .after_round =
-           [&] {
-             loop.settle();
-             return !any(!going);
-           }});
+  GroupPasses passes;
+  passes.first = loop.first;
+  passes.last = loop.last;
+  passes.threads = loop.threads;
+  passes.bytes_of_a_pass = expected_message_bytes(loop.patches);
+  passes.cancellation = loop.cancellation;
+  passes.make = [&](int k) { return split(loop.make(k), *this, loop.patches); };
+  passes.add = [&](int k, std::span<const std::byte> message) {
+    Pass pass = joined_pass(message, owned(loop.patches));
+    loop.prepare(k, pass);
+    loop.add(k, std::move(pass));
+    going = loop.observe(k) && going;
+  };
+  passes.after_round = [&] {
+    loop.settle();
+    return !any(!going);
+  };
+  return run_messages(passes);
 }
 
 void ProcessGroup::check_same(std::span<const double> values) {

@@ -75,8 +75,7 @@ Parts measure(const std::shared_ptr<const Scene>& scene, const std::shared_ptr<c
   Parts parts;
   const SolveOptions options{.directions = passes, .iterations = 2, .threads = 1};
   RadiositySolver solver(
-      scene, options,
-      {.tree = tree, .sums = std::make_shared<LonelyGroup>(size / 2, size, parts)});
+      scene, options, {.tree = tree, .sums = std::make_shared<LonelyGroup>(size / 2, size, parts)});
   solver.advance(RadiositySolver::Until::iteration);
   try {
     parts.iteration = seconds_of(CLOCK_THREAD_CPUTIME_ID,

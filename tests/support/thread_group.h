@@ -56,7 +56,7 @@ class GroupTable {
   }
 
   std::mutex& mutex() { return mutex_; }
-  int next = 0;                           ///< pass to be dealt
+  int next = 0;                                ///< pass to be dealt
   std::map<int, mpi::GroupMessages> messages;  ///< by pass, of one round
 
  private:

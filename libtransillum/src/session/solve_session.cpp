@@ -102,8 +102,7 @@ void SolveSession::Impl::make_solver() {
     return;
   }
   solver.emplace(RadiositySolver(
-      scene, options,
-      {.tree = tree, .shot = shot, .engine = request.engine, .sums = request.sums},
+      scene, options, {.tree = tree, .shot = shot, .engine = request.engine, .sums = request.sums},
       cancellation));
   if (request.keep_form_factors) {
     solver->diffuse()->keep_form_factors();
@@ -338,8 +337,7 @@ Solution SolveSession::solution() const {
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const SolveSession::Observer& observer, const Cancellation& cancellation,
                const std::shared_ptr<PatchSums>& sums) {
-  SolveSession session({.scene = std::move(scene), .options = options, .sums = sums},
-                       cancellation);
+  SolveSession session({.scene = std::move(scene), .options = options, .sums = sums}, cancellation);
   try {
     session.advance(SolveSession::Until::finished, observer);
   } catch (const Canceled&) {

@@ -140,9 +140,7 @@ void LightDirections::add(const std::vector<Transfer>& exchanges) {
   lit_.clear();
 }
 
-void LightDirections::complete(const PatchShare& share) {
-  share.complete(lights_);
-}
+void LightDirections::complete(const PatchShare& share) { share.complete(lights_); }
 
 /// The variance of what a pair contributes to B is proportional to w squares = w sum² / n.
 double LightDirections::mean() const {

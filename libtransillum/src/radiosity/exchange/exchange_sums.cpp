@@ -30,9 +30,10 @@ std::size_t ExchangeSums::size_of_share() const {
   }
   std::size_t size = sums_.begin[share_.last()] - sums_.begin[share_.first()];
   for (const Run& run : waiting_) {
-    size += static_cast<std::size_t>(
-        std::count_if(run.begin(), run.end(),
-                      [this](const Transfer& t) { return share_.owned.contains(t.receiver); }));
+    size +=
+        static_cast<std::size_t>(std::count_if(run.begin(), run.end(), [this](const Transfer& t) {
+          return share_.owned.contains(t.receiver);
+        }));
   }
   return size;
 }

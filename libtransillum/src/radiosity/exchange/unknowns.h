@@ -34,8 +34,8 @@ struct Unknowns {
   std::vector<Rgb> means(const std::vector<Rgb>& values) const;
 };
 
-/// Calls visit(t, a, b) for each exchange and all functions a of its receiver and b of its source: t
-/// is T^ab between their unknowns. Receivers rise.
+/// Calls visit(t, a, b) for each exchange and all functions a of its receiver and b of its source:
+/// t is T^ab between their unknowns. Receivers rise.
 template <class Visit>
 void for_each_exchange(const Transfers& transfers, std::size_t per_patch, Visit visit) {
   const std::vector<Transfer>& exchanges = transfers.exchanges;

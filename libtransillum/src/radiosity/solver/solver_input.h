@@ -19,9 +19,9 @@ int expected_directions(const SolveOptions& options);
 /// What a solve starts from; constant once constructed, so any thread may read it.
 struct SolverInput {
   std::shared_ptr<const Scene> scene;
-  SolveOptions options;       ///< validated
-  Cancellation requested;     ///< set from outside
-  int threads = 1;            ///< options.threads, or the number of cores
+  SolveOptions options;                     ///< validated
+  Cancellation requested;                   ///< set from outside
+  int threads = 1;                          ///< options.threads, or the number of cores
   std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
   std::shared_ptr<const BspTree> tree;
   TransferEngine engine;

@@ -83,21 +83,20 @@ bool RadiositySolver::Impl::advance_passes(int last, const RadiositySolver& self
     iteration.seconds = seconds_before + wall;
   };
   const int known = plan.renews() ? 0 : statistics.areas().passes;
-  const PassLoop loop{
-      .first = passes_done(),
-      .last = last,
-      .threads = input.threads,
-      .patches = share.patches,
-      .cancellation = input.requested,
-      .make = [&](int k) { return make_pass(k, known); },
-      .prepare = [&](int k, Pass& pass) { prepare_pass(k, known, pass); },
-      .add =
-          [&](int k, Pass pass) {
-            add_pass(k, std::move(pass));
-            iteration.seconds = seconds_before + seconds_since(start);
-          },
-      .settle = [&] { settle(); },
-      .observe = [&](int) { return !observer || observer(self); }};
+  PassLoop loop;
+  loop.first = passes_done();
+  loop.last = last;
+  loop.threads = input.threads;
+  loop.patches = share.patches;
+  loop.cancellation = input.requested;
+  loop.make = [&](int k) { return make_pass(k, known); };
+  loop.prepare = [&](int k, Pass& pass) { prepare_pass(k, known, pass); };
+  loop.add = [&](int k, Pass pass) {
+    add_pass(k, std::move(pass));
+    iteration.seconds = seconds_before + seconds_since(start);
+  };
+  loop.settle = [&] { settle(); };
+  loop.observe = [&](int) { return !observer || observer(self); };
   try {
     const bool going = share.sums->run(loop);
     add_times();
