@@ -67,7 +67,7 @@ struct PassLoop {
 class OtherProcessFailed : public std::runtime_error {
  public:
   /// Without further details: the other process has them.
-  OtherProcessFailed() : std::runtime_error("another process of the solve has failed") {}
+  OtherProcessFailed() : std::runtime_error("another process of the group has failed") {}
 };
 
 /// Where the sums over the passes of a solve are kept. Each process runs the same RadiositySolver
