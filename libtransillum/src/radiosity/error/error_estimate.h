@@ -9,8 +9,8 @@
 
 namespace transillum {
 
-/// The error of `b` from the spread of replicas. Lists are of unknowns: with a linear basis, the
-/// standard errors are those of the means of patches, and RMS errors those of the functions.
+/// The error of `b` from the spread of replicas. Lists are of unknowns; standard errors are those of
+/// the means of patches, RMS errors those of all unknowns.
 /// @param replicas B of each, at least two
 ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
                              const std::vector<std::vector<Rgb>>& replicas);

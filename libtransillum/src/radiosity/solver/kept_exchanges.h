@@ -13,8 +13,8 @@
 namespace transillum {
 
 /// The exchanges of all passes, summed and kept within the memory limit, so that later iterations
-/// need no passes: one ExchangeSums per replica, or one. Their rows and sources are unknowns: with
-/// a linear basis, an exchange of two patches has nine entries.
+/// need no passes: one ExchangeSums per replica, or one. Their rows and sources are unknowns: with n
+/// per patch, an exchange of two patches has n² entries.
 class KeptExchanges {
  public:
   /// @param renews whether each iteration has its own directions; exchanges are then kept only

@@ -16,8 +16,7 @@ namespace transillum {
 using KeptSums = std::vector<const ExchangeSums*>;
 
 /// B and H of one set of directions, iteration by iteration (eq. 11): of all passes, or of one
-/// replica's passes. Areas as in VisibleAreaSums. All lists and indices are those of unknowns,
-/// which are patches but with a linear basis.
+/// replica's passes. Areas as in VisibleAreaSums. All lists and indices are those of unknowns.
 class RadiosityIterate {
  public:
   /// Keeps a reference to `unknowns`. The light of the first shot is added to H, and the exitance
