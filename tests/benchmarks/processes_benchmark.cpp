@@ -18,7 +18,8 @@
 #include "block_schedule.h"
 #include "measure.h"
 #include "process_group.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::benchmarks {
 namespace {

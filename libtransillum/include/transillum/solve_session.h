@@ -17,9 +17,11 @@
 #include "transillum/export.h"
 #include "transillum/glossy.h"
 #include "transillum/patch_sums.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
 #include "transillum/refinement.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace TRANSILLUM_API transillum {
 

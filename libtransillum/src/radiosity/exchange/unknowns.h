@@ -7,8 +7,9 @@
 
 #include "radiosity/reflected_light.h"
 #include "transillum/first_shot.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/transfers.h"
 
 namespace transillum {
