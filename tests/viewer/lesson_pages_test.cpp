@@ -461,7 +461,8 @@ QString name_of_color(const QColor& color) {
 /// Labels of engines are in the library's table.
 QStringList texts_of_the_viewer() {
   QStringList texts,
-      names{QStringLiteral(TRANSILLUM_SOURCE "/libtransillum/src/visibility/engine_table.cpp")};
+      names{QStringLiteral(TRANSILLUM_SOURCE
+                           "/libtransillum/src/visibility/engines/engine_table.cpp")};
   for (QDirIterator files(QStringLiteral(TRANSILLUM_SOURCE "/viewer"), {"*.cpp"}, QDir::Files,
                           QDirIterator::Subdirectories);
        files.hasNext();) {
