@@ -66,8 +66,8 @@ VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& 
   if (call.is_exact()) {
     return exact_map(call, *scene, *tree, cancellation);
   }
-  const PixelMap pixels = pixel_map(call.engine(), scene, tree, call.direction, call.receiver,
-                                    call.scene.run.solve.engine_options, cancellation);
+  const PixelMap pixels = pixel_map({call.engine(), call.scene.run.solve.engine_options}, *scene,
+                                    *tree, call.direction, call.receiver, cancellation);
   VisibilityMap map = drawn_in_pixels(*scene, pixels);
   if (call.difference) {
     mark_differences(pixels, exact_map(call, *scene, *tree, cancellation), map, cancellation);

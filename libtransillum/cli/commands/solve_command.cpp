@@ -240,12 +240,12 @@ int run_shard(SolveCall& call) {
   try {
     const auto tree = build_tree(*scene, cancellation, display, options.threads);
     display.begin("passes");
-    write_shard(call.out.front(), scene, options, tree, *call.share,
-                stored_arguments(*call.scene.command), cancellation, [&](int count) {
-                  done = count;
-                  display.show_rate("passes", count / static_cast<double>(passes), passes,
-                                    "passes");
-                });
+    const auto show = [&](int count) {
+      done = count;
+      display.show_rate("passes", count / static_cast<double>(passes), passes, "passes");
+    };
+    write_shard(call.out.front(), scene, options, tree,
+                {*call.share, stored_arguments(*call.scene.command), show}, cancellation);
   } catch (const Canceled&) {
     throw NothingToSave(
         fmt::format("{} of {} passes were made, but a shard has all of its share: nothing is saved",

@@ -295,13 +295,13 @@ int run(const StudyCall& call) {
   const std::vector<std::string> names = names_of(options.series);
   PointSaver saver(call.checkpoint, *context.scene, options, reference_options);
   const Study study = run_study(
-      context.scene, context.tree, options, reference,
+      context.scene, context.tree, options, {reference, saver.done()},
       [&](const StudyProgress& now) {
         context.display.show(fmt::format("{}, {} passes", names[now.series], now.directions),
                              now.share, rate_text(now.passes_per_second, now.seconds_left));
         saver.update(now.points);
       },
-      context.cancellation, saver.done());
+      context.cancellation);
   context.display.clear();
   saver.save();
   if (study.points.empty()) {

@@ -71,7 +71,7 @@ class LobeFunction {
 /// Threads: immutable, so any number of threads may read it.
 class GlossyLight {
  public:
-  struct Data;  ///< what it consists of; private to the library
+  struct Data;  ///< its values; defined inside the library
   /// For GlossySolver.
   explicit GlossyLight(std::shared_ptr<const Data> data);
 

@@ -164,20 +164,26 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
                                  const std::function<void(const SolveProgress&)>& observer = {},
                                  const Cancellation& cancellation = {});
 
+/// What a study compares with, and what is already done.
+struct StudyStart {
+  std::span<const Rgb> reference;  ///< of solve_reference()
+  /// Points of an earlier call with the same arguments, in the order of StudyProgress::points; they
+  /// are not solved again.
+  std::span<const StudyPoint> done = {};
+};
+
 /// Solves every series for every M, small M first, and compares with the reference.
 /// @param scene the scene.
 /// @param tree BSP tree of `scene`, used by all solves.
 /// @param options series, values of M and common settings.
-/// @param reference of solve_reference().
+/// @param start the reference, and points of an earlier call.
 /// @param observer if set, called after every pass and every point.
 /// @param cancellation when set, the points done so far are returned.
-/// @param done points of an earlier call with the same arguments, in the order of
-/// StudyProgress::points; they are not solved again.
 /// @throws InputError, std::runtime_error
 Study run_study(const std::shared_ptr<const Scene>& scene,
                 const std::shared_ptr<const BspTree>& tree, const StudyOptions& options,
-                const std::vector<Rgb>& reference, const StudyObserver& observer = {},
-                const Cancellation& cancellation = {}, std::span<const StudyPoint> done = {});
+                const StudyStart& start, const StudyObserver& observer = {},
+                const Cancellation& cancellation = {});
 
 /// The points of one series, by M.
 std::vector<StudyPoint> points_of(const Study& study, std::size_t series);

@@ -55,9 +55,7 @@ class Scene:
             _indices(faces),
             np.asarray(reflectance, dtype=np.float64),
             np.asarray(exitance, dtype=np.float64),
-            two_sided,
-            max_patch_area,
-            patches,
+            (two_sided, max_patch_area, patches),
             name,
         )
         _warn(self._core)
@@ -156,7 +154,7 @@ def load(
     default_reflectance: of faces without a material.
     """
     core = _core.load(
-        str(spec), two_sided, max_patch_area, patches, scale, join, default_reflectance
+        str(spec), (two_sided, max_patch_area, patches), (scale, join, default_reflectance)
     )
     _warn(core)
     return Scene._of(core)

@@ -273,15 +273,15 @@ class OpenShards {
 
 void write_shard(const std::filesystem::path& file, const std::shared_ptr<const Scene>& scene,
                  const SolveOptions& options, const std::shared_ptr<const BspTree>& tree,
-                 const Share& share, const std::vector<std::string>& notes,
-                 const Cancellation& cancellation, const std::function<void(int)>& progress) {
-  check_can_be_shared(options, share);
-  const Json head = {
-      {"run", run_identity(*scene, options)}, {"share", share.text()}, {"notes", notes}};
+                 const ShardOptions& shard, const Cancellation& cancellation) {
+  check_can_be_shared(options, shard.share);
+  const Json head = {{"run", run_identity(*scene, options)},
+                     {"share", shard.share.text()},
+                     {"notes", shard.notes}};
   write_sealed(file, shard_kind, head, [&](std::ostream& out) {
     int done = 0;
     make_passes(
-        scene, options, tree, share,
+        scene, options, tree, shard.share,
         [&](int number, const Transfers& transfers) {
           std::ostringstream bytes;
           StateOutput pass(bytes), length(out);
@@ -292,8 +292,8 @@ void write_shard(const std::filesystem::path& file, const std::shared_ptr<const 
           if (!out) {
             throw std::ios::failure("writing failed");
           }
-          if (progress) {
-            progress(++done);
+          if (shard.progress) {
+            shard.progress(++done);
           }
         },
         cancellation);

@@ -237,7 +237,7 @@ FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& opt
                                       options.threads),
       options.resolution, cancellation);
   return gather_rows(
-      scene.patch_count(), options.threads, hemicube_batch, memory_limit(options.memory),
+      {scene.patch_count(), options.threads, hemicube_batch, memory_limit(options.memory)},
       [&shared] { return HemicubeRows(shared); }, cancellation, progress);
 }
 

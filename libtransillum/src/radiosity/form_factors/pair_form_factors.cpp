@@ -100,7 +100,7 @@ FormFactors counted_pair_form_factors(const Scene& scene, const PairOptions& opt
   const auto show = [&](double rows) { progress(rows * (2 - rows)); };
   // Both triangles take twice the memory, beside the upper one.
   const FormFactors upper = gather_rows(
-      scene.patch_count(), options.threads, pair_batch, memory_limit(options.memory) / 3,
+      {scene.patch_count(), options.threads, pair_batch, memory_limit(options.memory) / 3},
       [&] { return UpperRows(exchange, cancellation, integrated); }, cancellation,
       progress ? std::function<void(double)>(show) : std::function<void(double)>());
   return both_ways(scene, upper);

@@ -103,7 +103,7 @@ FormFactors pair_moment_factors(const Scene& scene, const PairOptions& options,
   const auto show = [&](double rows) { progress(rows * (2 - rows)); };
   // Both triangles take twice the memory, beside the upper one.
   const FormFactors upper = gather_rows(
-      scene.patch_count(), options.threads, moment_batch, memory_limit(options.memory) / 3,
+      {scene.patch_count(), options.threads, moment_batch, memory_limit(options.memory) / 3},
       [&] { return UpperMoments(exchange, bases, cancellation, integrated); }, cancellation,
       progress ? std::function<void(double)>(show) : std::function<void(double)>());
   return moments_both_ways(scene, upper);

@@ -101,13 +101,17 @@ class ExactView {
   static constexpr LineId low_x = -2, low_y = -3, high_x = -4, high_y = -5, halving_line = -6;
 
   using Real = long double;
+  struct LineName {
+    LineId id;
+    PointId from, to;  ///< grid points that define the line, in its direction, or made_by_cut
+  };
   /// A directed line. The polygon of an edge lies on its left: dx y - dy x + c > 0.
   struct Edge {
     Real dx, dy, c;
     Real length;  ///< |dx| + |dy|
     Real slack;   ///< bound on the apparent distance from the line, by rounding, of a point on it
     LineId line;
-    PointId from, to;  ///< grid points that define the line, in its direction, or made_by_cut
+    PointId from, to;  ///< as of LineName
   };
   /// Twice an index in edges_, plus 1 if the edge runs against its line.
   using EdgeRef = std::int32_t;
@@ -144,8 +148,8 @@ class ExactView {
   void start_query(std::int32_t fragment, const GridPoint& origin);
   void load_corners(const ProjectedFragments::Fragment& fragment, Polygon& polygon) const;
   void load_edges(const ProjectedFragments::Fragment& fragment, Polygon& polygon);
-  EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from, PointId to);
-  EdgeRef add_edge(const GridLine& through, LineId line, PointId from, PointId to);
+  EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineName line);
+  EdgeRef add_edge(const GridLine& through, LineName line);
   GridLine bin_line(LineId line) const;
   GridLine grid_line(const Edge& edge) const;
   const Edge& edge_of(EdgeRef ref) const { return at(edges_, ref >> 1); }
