@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "base/text_file.h"
-#include "io/content_hash.h"
 #include "io/factors/factor_formats.h"
 #include "io/file_ending.h"
 #include "transillum/at.h"
@@ -101,8 +100,8 @@ void check_areas(const Scene& scene, const StoredFormFactors& stored) {
 
 }  // namespace
 
-std::string hash_of_polygons(const Scene& scene) {
-  ContentHash hash;
+std::string hash_of_polygons(const Scene& scene, ContentHash::Method method) {
+  ContentHash hash(method);
   hash.add_polygons(scene);
   return hash.digits();
 }
@@ -184,7 +183,8 @@ void check_form_factors(const Scene& scene, const StoredFormFactors& stored) {
   } else {
     check_areas(scene, stored);
   }
-  if (!stored.polygons.empty() && stored.polygons != hash_of_polygons(scene)) {
+  if (!stored.polygons.empty() &&
+      stored.polygons != hash_of_polygons(scene, ContentHash::method_of(stored.polygons))) {
     throw InputError(
         fmt::format("{}: the form factors are of other polygons than those of {}: their areas are "
                     "the same, but corners have moved",

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/content_hash.h"
 #include "transillum/form_factor_files.h"
 
 namespace transillum {
@@ -27,8 +28,9 @@ StoredFormFactors read_factors_mtx(const std::string& name, std::string_view tex
 /// @throws InputError where a dense matrix would be too large
 void write_factors_view3d(std::ostream& out, const Scene& scene, const FormFactors& form_factors);
 
-/// The hash by which a file knows the polygons of its scene again.
-std::string hash_of_polygons(const Scene& scene);
+/// The hash by which a file identifies the polygons of its scene.
+std::string hash_of_polygons(const Scene& scene,
+                             ContentHash::Method method = ContentHash::Method::xxh3);
 
 /// An entry of a matrix in any order.
 struct FactorEntry {

@@ -174,7 +174,7 @@ class OpenShards {
  public:
   explicit OpenShards(std::size_t patches) : patches_(patches) {}
 
-  void add(const std::string& name, const Json& identity, const Cancellation& cancellation) {
+  void add(const std::string& name, const RunIdentity& identity, const Cancellation& cancellation) {
     auto file = std::make_unique<Shard>(SealedFile(name, shard_kind));
     check_identity(file->file, identity);
     const ShardInfo info = info_of(file->file);
@@ -275,7 +275,7 @@ void write_shard(const std::filesystem::path& file, const std::shared_ptr<const 
                  const SolveOptions& options, const std::shared_ptr<const BspTree>& tree,
                  const ShardOptions& shard, const Cancellation& cancellation) {
   check_can_be_shared(options, shard.share);
-  const Json head = {{"run", run_identity(*scene, options)},
+  const Json head = {{"run", run_identity(*scene, options).json},
                      {"share", shard.share.text()},
                      {"notes", shard.notes}};
   write_sealed(file, shard_kind, head, [&](std::ostream& out) {
@@ -311,7 +311,7 @@ TransferEngine engine_of_shards(const std::vector<std::string>& files, const Sce
   }
   const auto patches = static_cast<std::size_t>(scene.patch_count());
   auto shards = std::make_shared<OpenShards>(patches);
-  const Json identity = run_identity(scene, options);
+  const RunIdentity identity = run_identity(scene, options);
   for (const std::string& file : files) {
     shards->add(file, identity, cancellation);
   }
