@@ -1,8 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "cli/arguments/option_arguments.h"
 
-#include <algorithm>
-
 #include "transillum/errors.h"
 
 namespace transillum::cli {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <functional>
-#include <memory>
 #include <ostream>
 
 #include "cli/arguments/option_values.h"

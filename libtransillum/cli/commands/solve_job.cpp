@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "cli/interruption.h"
 #include "cli/messages.h"

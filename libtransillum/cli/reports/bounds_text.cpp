@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
 

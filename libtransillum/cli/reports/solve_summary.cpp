@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cli/arguments/scene_options.h"
 #include "cli/messages.h"

@@ -3,7 +3,6 @@
 // Tables of choices, checked by the compiler.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string_view>
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/choice.h"
-#include "transillum/at.h"
 #include "transillum/errors.h"
 
 namespace transillum {

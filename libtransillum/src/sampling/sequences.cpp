@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <boost/random/sobol.hpp>
 #include <cmath>
 #include <numbers>

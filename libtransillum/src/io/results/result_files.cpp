@@ -9,7 +9,6 @@
 #include "io/clean_text.h"
 #include "io/file_ending.h"
 #include "io/results/result_writers.h"
-#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 

@@ -1,8 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Results as text: CSV, PLY and OBJ. data/FILES.md lists their columns and properties.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "io/results/result_writers.h"

@@ -8,7 +8,6 @@
 
 #include "base/text_file.h"
 #include "io/text_buffer.h"
-#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/sensor_files.h"
 

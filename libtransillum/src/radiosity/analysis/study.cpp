@@ -20,7 +20,6 @@
 #include "radiosity/linear_solution.h"
 #include "radiosity/norms.h"
 #include "radiosity/reflected_light.h"
-#include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
 #include "transillum/form_factor_solve.h"

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "scene/build/description_check.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"

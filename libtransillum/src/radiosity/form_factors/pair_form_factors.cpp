@@ -6,7 +6,6 @@
 #include "base/memory_limit.h"
 #include "radiosity/form_factors/counted_pairs.h"
 #include "radiosity/form_factors/form_factor_rows.h"
-#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pairs/patch_exchange.h"
 

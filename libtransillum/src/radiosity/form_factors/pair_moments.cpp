@@ -5,7 +5,6 @@
 
 #include "base/memory_limit.h"
 #include "radiosity/form_factors/form_factor_rows.h"
-#include "transillum/at.h"
 #include "transillum/linear_basis.h"
 #include "visibility/pairs/patch_exchange.h"
 

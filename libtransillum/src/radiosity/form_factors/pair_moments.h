@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
 #include "radiosity/form_factors/counted_pairs.h"
 #include "transillum/cancellation.h"

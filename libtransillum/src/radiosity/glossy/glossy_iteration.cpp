@@ -21,7 +21,6 @@
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
-#include "transillum/at.h"
 #include "transillum/solve_errors.h"
 
 namespace transillum {

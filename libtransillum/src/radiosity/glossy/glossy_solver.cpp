@@ -3,8 +3,6 @@
 // The public class of glossy solves, and what they report.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "radiosity/channel_sums.h"
 #include "radiosity/glossy/glossy_iteration.h"
 #include "radiosity/ratio.h"

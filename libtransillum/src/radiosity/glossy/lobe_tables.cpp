@@ -17,7 +17,6 @@
 #include "base/for_each_index.h"
 #include "base/seconds_since.h"
 #include "radiosity/glossy/lobe_vectors.h"
-#include "transillum/at.h"
 #include "transillum/glossy.h"
 
 namespace transillum {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/for_each_index.h"
 #include "radiosity/orientation/surface_rays.h"

@@ -5,7 +5,6 @@
 // what was repaired. Faces without area are removed, non-planar ones split into triangles, large
 // ones refined (SceneOptions::max_patch_area).
 
-#include <span>
 #include <string>
 #include <vector>
 

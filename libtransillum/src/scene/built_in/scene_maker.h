@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/choice.h"
-#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/fast/fast_engine.h"
 #include "visibility/map/map_engines.h"

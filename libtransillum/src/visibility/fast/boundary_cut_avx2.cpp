@@ -7,7 +7,6 @@
 #if defined(__x86_64__)
 #include <immintrin.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 

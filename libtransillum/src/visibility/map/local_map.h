@@ -21,8 +21,6 @@
 #include <iterator>
 #include <limits>
 #include <optional>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "transillum/at.h"
