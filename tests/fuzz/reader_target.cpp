@@ -8,11 +8,11 @@
 
 #include "fuzz/require.h"
 #include "fuzz/scene_checks.h"
-#include "scene/read/obj_reader.h"
 #include "support/temporary_folder.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/scene.h"
 
 namespace transillum::fuzz {
 namespace {
@@ -23,7 +23,7 @@ constexpr std::string_view separator = "\n%mtl\n";
 void check_written(const test::TemporaryFolder& folder, const SceneDescription& description) {
   const std::filesystem::path path = folder.path() / "written.obj";
   write_obj(path, description);
-  const SceneDescription again = read_obj(path);
+  const SceneDescription again = describe_scene(path.string());
   require(again.points == description.points, "points read back");
   require(again.corners == description.corners && again.face_begin == description.face_begin,
           "faces read back");
@@ -36,7 +36,7 @@ void check_written(const test::TemporaryFolder& folder, const SceneDescription& 
 }
 
 void check_file(const test::TemporaryFolder& folder, const std::string& path) {
-  const SceneDescription description = read_obj(path);
+  const SceneDescription description = describe_scene(path);
   const Scene scene(description);
   check(scene);
   check_written(folder, description);

@@ -5,29 +5,19 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 
 #include "base/text_file.h"
 #include "scene/build/joining.h"
-#include "scene/read/gltf/gltf_reader.h"
-#include "scene/read/obj_reader.h"
-#include "scene/read/off_reader.h"
-#include "scene/read/ply_reader.h"
-#include "scene/read/radiance_reader.h"
-#include "scene/read/stl_reader.h"
-#include "scene/read/view3d_reader.h"
-#include "scene/read/vtk/vtk_reader.h"
-#include "scene/read/vtk/vtp_reader.h"
+#include "scene/read/scene_readers.h"
 
 namespace transillum {
 namespace {
 
-using Reader = SceneDescription (*)(const std::filesystem::path&, const ReadOptions&,
-                                    const Cancellation&);
-
 struct Format {
   const char* ending;
   const char* name;
-  Reader read;
+  SceneReader* read;
   bool has_triangles_only = false;
   bool joins_by_itself = false;
 };
@@ -44,6 +34,15 @@ constexpr Format formats[] = {
     {".vtp", "VTK PolyData", read_vtp},
     {".vtk", "legacy VTK PolyData", read_vtk},
 };
+
+SceneDescription read(const Format& format, const std::string& path, const ReadOptions& options,
+                      const Cancellation& cancellation) {
+  try {
+    return format.read(path, options, cancellation);
+  } catch (const std::bad_alloc&) {
+    throw InputError(path + ": not enough memory");
+  }
+}
 
 const Format* format_of(const std::string& path) {
   const std::string ending = lower_case(std::filesystem::path(path).extension().string());
@@ -74,14 +73,14 @@ SceneDescription read_scene_file(const std::string& path, const ReadOptions& opt
   if (format == nullptr) {
     throw InputError(path + ": not a scene file");
   }
-  SceneDescription read = format->read(path, options, cancellation);
+  SceneDescription faces = read(*format, path, options, cancellation);
   if (format->joins_by_itself || !options.join.value_or(format->has_triangles_only)) {
-    return read;
+    return faces;
   }
-  SceneDescription joined = join_faces(read, cancellation).description;
-  if (joined.face_count() < read.face_count()) {
+  SceneDescription joined = join_faces(faces, cancellation).description;
+  if (joined.face_count() < faces.face_count()) {
     joined.notes.push_back(
-        fmt::format("{}: {} faces joined to {}", path, read.face_count(), joined.face_count()));
+        fmt::format("{}: {} faces joined to {}", path, faces.face_count(), joined.face_count()));
   }
   return joined;
 }

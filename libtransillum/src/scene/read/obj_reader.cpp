@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // OBJ files: tinyobjloader splits them into vertices, faces and uses of materials, but each line is
 // checked before, and all numbers are read here, as the nearest doubles.
-#include "scene/read/obj_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include <cmath>
 #include <functional>
 #include <istream>
-#include <new>
 #include <set>
 
 #include "base/invariant.h"
@@ -413,11 +412,7 @@ class ObjReader {
 
 SceneDescription read_obj(const std::filesystem::path& path, const ReadOptions& options,
                           const Cancellation& cancellation) {
-  try {
-    return ObjReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return ObjReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

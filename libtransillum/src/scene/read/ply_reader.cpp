@@ -3,7 +3,7 @@
 // A PLY file is a header, which names elements and their properties, and then their values. Every
 // count that it states is checked against what is left of the file before memory is allocated.
 // (decisions/0056-readers-of-formats.md)
-#include "scene/read/ply_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
-#include <new>
 #include <optional>
 
 #include "base/text_file.h"
@@ -520,11 +519,7 @@ class PlyReader {
 
 SceneDescription read_ply(const std::filesystem::path& path, const ReadOptions& options,
                           const Cancellation& cancellation) {
-  try {
-    return PlyReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return PlyReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

@@ -4,7 +4,7 @@
 // lists of arguments, each after its length: texts, whole numbers (always 0) and numbers. A word
 // that begins with a quote ends with the same quote and may hold blanks; one that begins with #
 // begins a comment, which ends with its line.
-#include "scene/read/radiance_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,6 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <new>
 #include <numbers>
 #include <optional>
 
@@ -262,11 +261,7 @@ class RadianceReader {
 
 SceneDescription read_radiance(const std::filesystem::path& path, const ReadOptions& options,
                                const Cancellation& cancellation) {
-  try {
-    return RadianceReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return RadianceReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

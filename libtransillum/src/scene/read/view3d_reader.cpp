@@ -5,7 +5,7 @@
 // the number of its base, that of the surface that it is combined with, its emissivity and its
 // name. In the format 3a, a surface has a shape instead of vertices, and the next line has the
 // origin of its plane, azimuth and tilt in degrees, and the shape in the plane.
-#include "scene/read/view3d_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,6 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <new>
 #include <numbers>
 #include <optional>
 
@@ -429,11 +428,7 @@ class View3dReader {
 
 SceneDescription read_view3d(const std::filesystem::path& path, const ReadOptions& options,
                              const Cancellation& cancellation) {
-  try {
-    return View3dReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return View3dReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

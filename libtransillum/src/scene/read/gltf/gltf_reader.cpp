@@ -3,7 +3,7 @@
 // From the nodes of a glTF file to faces. Triangles are read with one material each as the file has
 // them; after they are joined, each face gets rho and E, averaged over its triangles where textures
 // or colors of vertices make them differ.
-#include "scene/read/gltf/gltf_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <new>
 #include <set>
 
 #include "scene/build/description_check.h"
@@ -525,11 +524,7 @@ class GltfReader {
 
 SceneDescription read_gltf(const std::filesystem::path& path, const ReadOptions& options,
                            const Cancellation& cancellation) {
-  try {
-    return GltfReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return GltfReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum
