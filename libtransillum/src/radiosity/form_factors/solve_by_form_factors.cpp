@@ -14,7 +14,7 @@
 #include "base/worker_threads.h"
 #include "radiosity/form_factors/form_factor_input.h"
 #include "radiosity/form_factors/jacobi.h"
-#include "radiosity/form_factors/pair_moments.h"
+#include "radiosity/form_factors/pair_matrix.h"
 #include "radiosity/linear_solution.h"
 #include "radiosity/ratio.h"
 #include "radiosity/two_sided.h"
@@ -66,9 +66,7 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
   statistics.directions = pairs.points;
   IntegratedPairs integrated{0};
   FormFactors form_factors =
-      options.basis == Basis::linear
-          ? pair_moment_factors(scene, pairs, cancellation, progress, integrated)
-          : counted_pair_form_factors(scene, pairs, cancellation, progress, integrated);
+      pair_matrix(scene, pairs, options.basis, cancellation, progress, integrated);
   statistics.integrated_pairs = integrated;
   return form_factors;
 }
@@ -142,6 +140,21 @@ std::vector<LinearPart> linear_parts_of(const std::vector<Rgb>& coefficients) {
     parts.push_back({coefficients[u + 1], coefficients[u + 2]});
   }
   return parts;
+}
+
+/// The form factors of constant functions, T^00 / A_i.
+FormFactors factors_of_means(const FormFactors& of_unknowns) {
+  FormFactors means;
+  means.row_begin.push_back(0);
+  for (std::size_t u = 0; u + 1 < of_unknowns.row_begin.size(); u += linear_unknowns) {
+    for (std::size_t k = of_unknowns.row_begin[u]; k < of_unknowns.row_begin[u + 1];
+         k += linear_unknowns) {
+      means.source.push_back(of_unknowns.source[k] / static_cast<PatchId>(linear_unknowns));
+      means.value.push_back(of_unknowns.value[k]);
+    }
+    means.row_begin.push_back(means.source.size());
+  }
+  return means;
 }
 
 /// The iteration with `form_factors`, with a linear basis those of all unknowns; sets all but what

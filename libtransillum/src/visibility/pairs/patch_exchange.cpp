@@ -435,22 +435,6 @@ void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
 }
 
 void ExchangeFinder::for_each_after(
-    PatchId i, const std::function<void()>& tick,
-    const std::function<void(PatchId j, const PatchExchange&)>& visit) const {
-  for_each_range_after(i, [&](PatchId begin, PatchId end, const Numbers* among) {
-    for (PatchId j = begin; j < end; ++j) {
-      if (tick) {
-        tick();
-      }
-      const PatchExchange exchange = between(i, j, among, false, tick);
-      if (exchange.area > 0) {
-        visit(j, exchange);
-      }
-    }
-  });
-}
-
-void ExchangeFinder::for_each_moments_after(
     PatchId i, const std::vector<LinearBasis>& bases, const std::function<void()>& tick,
     const std::function<void(PatchId j, const PatchExchange&, const TransferMoments&)>& visit)
     const {
@@ -461,7 +445,8 @@ void ExchangeFinder::for_each_moments_after(
       }
       const PatchExchange exchange = between(i, j, among, false, tick);
       if (exchange.area > 0) {
-        TransferMoments moments = moments_between(i, j, bases, among, tick);
+        TransferMoments moments =
+            bases.empty() ? TransferMoments() : moments_between(i, j, bases, among, tick);
         moments.of(0, 0) = exchange.area;
         visit(j, exchange, moments);
       }

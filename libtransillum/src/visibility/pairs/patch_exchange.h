@@ -52,16 +52,13 @@ class ExchangeFinder {
   /// Past thousands of blockers, one pair takes minutes.
   /// @param tick if set, called often, on this thread; may throw to abandon the query.
   PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {}) const;
-  /// Calls visit(j, exchange) for the patches j > i with which i exchanges light, in order. Faster
-  /// than pair by pair: blockers are first found for all patches of a face, and no error is
-  /// estimated.
-  void for_each_after(PatchId i, const std::function<void()>& tick,
-                      const std::function<void(PatchId j, const PatchExchange&)>& visit) const;
-  /// The same with moments for a linear basis: T^ab(i,j) over all directions, T^00 being the area
-  /// of for_each_after(), to the bit. The others are found by points of the smaller patch, also
-  /// where nothing blocks; of the larger one exactly.
-  /// @param bases of all patches
-  void for_each_moments_after(
+  /// Calls visit(j, exchange, moments) for the patches j > i with which i exchanges light, in
+  /// order. Faster than pair by pair: blockers are first found for all patches of a face, and no
+  /// error is estimated. The moments are T^ab(i,j) over all directions, T^00 being the area. The
+  /// others are found by points of the smaller patch, also where nothing blocks; of the larger one
+  /// exactly.
+  /// @param bases of all patches; empty: T^00 alone is found
+  void for_each_after(
       PatchId i, const std::vector<LinearBasis>& bases, const std::function<void()>& tick,
       const std::function<void(PatchId j, const PatchExchange&, const TransferMoments&)>& visit)
       const;
