@@ -16,8 +16,7 @@
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_files.h"
-#include "transillum/hemicube.h"
-#include "transillum/pair_form_factors.h"
+#include "transillum/form_factor_solve.h"
 #include "transillum/small_form_factors.h"
 
 namespace transillum::cli {
@@ -42,52 +41,27 @@ FormFactors gather_by_rays(const FactorsCall& call, const Scene& scene,
                              [&](double share) { display.show("tracing rays", share); });
 }
 
-HemicubeOptions hemicube_options(const FactorsCall& call) {
-  HemicubeOptions options;
-  if (call.passes().engine_options.resolution > 0) {
-    options.resolution = call.passes().engine_options.resolution;
-  }
-  options.memory = call.passes().memory;
-  options.threads = call.passes().threads;
-  return options;
-}
-
 FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
                            const Cancellation& cancellation, ProgressDisplay& display) {
-  HemicubeOptions options = hemicube_options(call);
-  return hemicube_form_factors(scene, options, cancellation,
+  return hemicube_form_factors(scene, hemicube_options(call.passes()), cancellation,
                                [&](double share) { display.show("drawing hemicubes", share); });
-}
-
-PairOptions pair_options(const FactorsCall& call) {
-  PairOptions options;
-  if (call.passes().engine_options.points > 0) {
-    options.points = call.passes().engine_options.points;
-  }
-  options.memory = call.passes().memory;
-  options.threads = call.passes().threads;
-  return options;
 }
 
 FormFactors compute_pairs(const FactorsCall& call, const Scene& scene,
                           const Cancellation& cancellation, ProgressDisplay& display) {
   display.begin("computing pairs");
-  return pair_form_factors(scene, pair_options(call), cancellation, [&](double share) {
+  return pair_form_factors(scene, pair_options(call.passes()), cancellation, [&](double share) {
     const double patches = scene.patch_count();
     display.show_rate("computing pairs", share, patches * (patches - 1) / 2, "pairs");
   });
 }
 
-SolveOptions pass_options(const FactorsCall& call) {
-  SolveOptions options = call.passes();
-  options.iterations = 1;
-  return options;
-}
-
 FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
                        const Cancellation& cancellation, ProgressDisplay& display) {
   const auto tree = build_tree(*scene, cancellation, display, call.passes().threads);
-  RadiositySolver solver(scene, pass_options(call), {.tree = tree}, cancellation);
+  SolveOptions options = call.passes();
+  options.iterations = 1;
+  RadiositySolver solver(scene, options, {.tree = tree}, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
     display.show_passes("", watched.progress());
     return true;
@@ -114,7 +88,7 @@ void check_options(const FactorsCall& call) {
   refuse_unless(engine == Engine::rays, *call.scene.command, "--rays",
                 "used only with engine rays");
   if (engine == Engine::hemicube) {
-    hemicube_options(call).validate();
+    hemicube_options(call.passes()).validate();
   }
   if (engine != Engine::rays) {
     refuse_unused(call.scene, {call.scene.run});

@@ -6,12 +6,19 @@
 
 #include "transillum/cancellation.h"
 #include "transillum/export.h"
+#include "transillum/hemicube.h"
+#include "transillum/pair_form_factors.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
 namespace TRANSILLUM_API transillum {
 
 /// Checks options for solve_by_form_factors().
+/// The options of hemicube_form_factors() that a solve has.
+HemicubeOptions hemicube_options(const SolveOptions& options);
+/// The options of pair_form_factors() that a solve has.
+PairOptions pair_options(const SolveOptions& options);
+
 /// @throws InputError where solve_by_form_factors() would.
 void check_form_factor_options(const SolveOptions& options);
 

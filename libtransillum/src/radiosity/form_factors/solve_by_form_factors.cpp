@@ -19,34 +19,12 @@
 #include "radiosity/ratio.h"
 #include "radiosity/two_sided.h"
 #include "transillum/errors.h"
-#include "transillum/hemicube.h"
-#include "transillum/pair_form_factors.h"
 #include "transillum/study.h"
 
 namespace transillum {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-HemicubeOptions hemicube_options(const SolveOptions& options) {
-  HemicubeOptions hemicubes;
-  if (options.engine_options.resolution > 0) {
-    hemicubes.resolution = options.engine_options.resolution;
-  }
-  hemicubes.memory = options.memory;
-  hemicubes.threads = options.threads;
-  return hemicubes;
-}
-
-PairOptions pair_options(const SolveOptions& options) {
-  PairOptions pairs;
-  if (options.engine_options.points > 0) {
-    pairs.points = options.engine_options.points;
-  }
-  pairs.memory = options.memory;
-  pairs.threads = options.threads;
-  return pairs;
-}
 
 /// Computes the form factors, with a linear basis those of all unknowns, and sets the figures that
 /// differ between the engines.
@@ -219,6 +197,22 @@ double difference(const Solution& a, const Solution& b) {
 }
 
 }  // namespace
+
+HemicubeOptions hemicube_options(const SolveOptions& options) {
+  HemicubeOptions hemicubes{.memory = options.memory, .threads = options.threads};
+  if (options.engine_options.resolution > 0) {
+    hemicubes.resolution = options.engine_options.resolution;
+  }
+  return hemicubes;
+}
+
+PairOptions pair_options(const SolveOptions& options) {
+  PairOptions pairs{.memory = options.memory, .threads = options.threads};
+  if (options.engine_options.points > 0) {
+    pairs.points = options.engine_options.points;
+  }
+  return pairs;
+}
 
 void check_form_factor_options(const SolveOptions& options) {
   options.validate();
