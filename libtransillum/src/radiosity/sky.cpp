@@ -21,8 +21,7 @@ constexpr std::array sky_models{
 
 template <>
 const Choices& choices_of<SkyModel>() {
-  static const Choices choices = texts_of<sky_models>("model of the sky");
-  return choices;
+  return texts_of<sky_models>("model of the sky");
 }
 
 double Sky::relative_radiance(const Vec3& omega) const {

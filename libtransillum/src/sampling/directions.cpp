@@ -46,8 +46,7 @@ constexpr std::array samplings{
 
 template <>
 const Choices& choices_of<Sampling>() {
-  static const Choices choices = texts_of<samplings>("sampling");
-  return choices;
+  return texts_of<samplings>("sampling");
 }
 
 template <>

@@ -293,8 +293,7 @@ constexpr std::array axes{
 
 template <>
 const Choices& choices_of<StudyAxis>() {
-  static const Choices choices = texts_of<axes>("axis");
-  return choices;
+  return texts_of<axes>("axis");
 }
 
 LineChart study_chart(const std::string& scene, const std::vector<StudySeries>& series,

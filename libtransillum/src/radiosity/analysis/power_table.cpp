@@ -107,8 +107,7 @@ constexpr std::array kinds_of_parts{
 
 template <>
 const Choices& choices_of<PartsBy>() {
-  static const Choices choices = texts_of<kinds_of_parts>("kind of parts");
-  return choices;
+  return texts_of<kinds_of_parts>("kind of parts");
 }
 
 PowerTable power_table(const Solution& solution, PartsBy by, const FormFactors* form_factors,

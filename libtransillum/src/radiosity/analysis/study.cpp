@@ -294,8 +294,7 @@ constexpr std::array error_measures{
 
 template <>
 const Choices& choices_of<ErrorMeasure>() {
-  static const Choices choices = texts_of<error_measures>("error");
-  return choices;
+  return texts_of<error_measures>("error");
 }
 
 SolveOptions reference_options(int passes) {

@@ -26,8 +26,7 @@ constexpr std::array orders{
 
 template <>
 const Choices& choices_of<PaintersOrder>() {
-  static const Choices choices = texts_of<orders>("painter's order");
-  return choices;
+  return texts_of<orders>("painter's order");
 }
 
 namespace {

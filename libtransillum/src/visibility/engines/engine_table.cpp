@@ -100,8 +100,7 @@ const EngineTraits& traits_of(Engine engine) { return at(all_engines, engine); }
 
 template <>
 const Choices& choices_of<Engine>() {
-  static const Choices choices = texts_of<all_engines>("engine");
-  return choices;
+  return texts_of<all_engines>("engine");
 }
 
 bool takes_directions(Engine engine) { return traits_of(engine).takes_directions; }
