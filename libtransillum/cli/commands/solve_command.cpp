@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -17,10 +18,8 @@
 #include "cli/output_files.h"
 #include "cli/processes.h"
 #include "cli/progress_display.h"
-#include "cli/reports/power_report.h"
-#include "cli/reports/solve_summary.h"
+#include "cli/reports/summaries.h"
 #include "cli/standard_output.h"
-#include "cli/wall_clock.h"
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"
@@ -29,6 +28,12 @@
 
 namespace transillum::cli {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// The table of --by, on standard output unless a result is there.
 void print_powers(const SolveCall& call, const Solution& solution) {
@@ -164,7 +169,7 @@ PreparedCall prepare_in_all(SolveCall& call, const Cancellation& cancellation) {
 }  // namespace
 
 int run_solve(SolveCall& call) {
-  const auto start = WallClock::now();
+  const auto start = Clock::now();
   const bool shared = is_shared(call);
   if (!shared && !is_first_process()) {
     return success;
@@ -234,7 +239,7 @@ int run_shard(SolveCall& call) {
   ProgressDisplay display(call.quiet);
   const auto scene = load_input_scene(call.scene, outputs, cancellation,
                                       options.sky.is_set() ? Light::sky : Light::required);
-  const auto start = WallClock::now();
+  const auto start = Clock::now();
   const int passes = (options.directions - call.share->number) / call.share->of + 1;
   int done = 0;
   try {

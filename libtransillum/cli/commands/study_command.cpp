@@ -16,7 +16,7 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
-#include "cli/reports/study_summary.h"
+#include "cli/reports/summaries.h"
 #include "cli/standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"

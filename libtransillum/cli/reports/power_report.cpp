@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The table that `transillum solve --by` prints.
-#include "cli/reports/power_report.h"
+#include "cli/reports/summaries.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "cli/reports/study_summary.h"
+#include "cli/reports/summaries.h"
 
 #include <fmt/format.h>
 
