@@ -37,6 +37,8 @@ std::string_view trimmed(std::string_view text);
 std::string_view unquoted(std::string_view text);
 /// With A to Z as a to z; other letters stay.
 std::string lower_case(std::string_view text);
+/// The extension in lower case: `.csv` of `RESULT.CSV`.
+std::string lower_case_ending(const std::filesystem::path& path);
 /// The words between blanks, the first `most` of them.
 void split_words(std::string_view text, std::vector<std::string_view>& words,
                  std::size_t most = std::string_view::npos);

@@ -7,10 +7,10 @@
 #include <ostream>
 #include <sstream>
 
+#include "base/text_file.h"
 #include "io/clean_text.h"
 #include "io/drawing/cairo_surface.h"
 #include "io/drawing/chart_painter.h"
-#include "io/file_ending.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/line_chart.h"

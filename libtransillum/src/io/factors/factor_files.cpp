@@ -9,7 +9,6 @@
 
 #include "base/text_file.h"
 #include "io/factors/factor_formats.h"
-#include "io/file_ending.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"

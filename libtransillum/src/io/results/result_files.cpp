@@ -6,8 +6,8 @@
 #include <ostream>
 #include <utility>
 
+#include "base/text_file.h"
 #include "io/clean_text.h"
-#include "io/file_ending.h"
 #include "io/results/result_writers.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"

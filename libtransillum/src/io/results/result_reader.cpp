@@ -14,8 +14,8 @@
 #include <tuple>
 #include <type_traits>
 
+#include "base/text_file.h"
 #include "io/clean_text.h"
-#include "io/file_ending.h"
 #include "io/results/result_figures.h"
 #include "scene/read/vtk/vtp_file.h"
 #include "transillum/at.h"

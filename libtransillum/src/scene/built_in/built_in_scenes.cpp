@@ -63,7 +63,7 @@ const std::vector<BuiltIn>& registry() {
 
 /// The file name's ending in lower case if it consists of letters: ".obj", but not "=2.5".
 std::string file_ending(const std::string& spec) {
-  const std::string ending = lower_case(std::filesystem::path(spec).extension().string());
+  const std::string ending = lower_case_ending(spec);
   for (const char c : ending) {
     if (c != '.' && (c < 'a' || c > 'z')) {
       return {};

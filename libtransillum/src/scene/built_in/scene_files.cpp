@@ -45,7 +45,7 @@ SceneDescription read(const Format& format, const std::string& path, const ReadO
 }
 
 const Format* format_of(const std::string& path) {
-  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
+  const std::string ending = lower_case_ending(path);
   const auto* const found =
       std::find_if(std::begin(formats), std::end(formats),
                    [&](const Format& format) { return format.ending == ending; });
