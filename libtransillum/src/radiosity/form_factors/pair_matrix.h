@@ -8,6 +8,7 @@
 #include "transillum/cancellation.h"
 #include "transillum/form_factors.h"
 #include "transillum/pair_form_factors.h"
+#include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
 namespace transillum {
