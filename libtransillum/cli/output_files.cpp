@@ -23,6 +23,14 @@ void check_output_files(const std::vector<std::string>& files) {
   check_distinct(files, {});
 }
 
+void write_output(const std::string& file, const std::function<void(std::ostream&)>& write) {
+  if (file.empty() || is_standard_output(file)) {
+    print_results(write);
+  } else {
+    write_file_whole(file, write);
+  }
+}
+
 namespace {
 
 void keep_first(std::exception_ptr& kept) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ std::vector<std::string> given_files(std::vector<std::string> files);
 /// Checks before a long computation that each file is writable and given once.
 /// @throws InputError
 void check_output_files(const std::vector<std::string>& files);
+
+/// Writes to a file, or results to standard output where its name is empty or `-`.
+void write_output(const std::string& file, const std::function<void(std::ostream&)>& write);
 
 /// Runs all of these, even if some fail, then rethrows the first error: results that took long are
 /// not lost because one of several files cannot be written. A pipe without a reader comes last.

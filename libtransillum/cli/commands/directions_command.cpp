@@ -76,10 +76,8 @@ int run(const DirectionsCall& call) {
   if (call.stats->count() > 0) {
     measure(call, samples, outputs);
   }
-  if (!given_files({call.out}).empty()) {
-    write_directions_csv(call.out, samples);
-  } else if (call.stats->count() == 0 || is_standard_output(call.out)) {
-    print_results([&](std::ostream& out) { write_directions_csv(out, samples); });
+  if (call.stats->count() == 0 || !call.out.empty()) {
+    write_output(call.out, [&](std::ostream& out) { write_directions_csv(out, samples); });
   }
   return success;
 }

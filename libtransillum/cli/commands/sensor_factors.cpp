@@ -34,14 +34,6 @@ std::vector<Rgb> radiosity_of(const std::string& file, const Scene& scene,
   return std::move(result.radiosity);
 }
 
-void write(const std::string& file, const std::function<void(std::ostream&)>& write_to) {
-  if (is_standard_output(file)) {
-    print_results(write_to);
-  } else {
-    write_file_whole(file, write_to);
-  }
-}
-
 }  // namespace
 
 void add_sensor_options(CLI::App& command, SensorCall& call) {
@@ -94,13 +86,13 @@ int run_sensors(const SensorCall& call, const RunInput& scene_input, const std::
   std::vector<std::function<void()>> writers;
   if (!out.empty() || call.irradiance.empty()) {
     writers.emplace_back([&] {
-      write(out.empty() ? "-" : out,
-            [&](std::ostream& stream) { write_sensor_factors_csv(stream, form_factors); });
+      write_output(out,
+                   [&](std::ostream& stream) { write_sensor_factors_csv(stream, form_factors); });
     });
   }
   if (!call.irradiance.empty()) {
     writers.emplace_back([&] {
-      write(call.irradiance, [&](std::ostream& stream) {
+      write_output(call.irradiance, [&](std::ostream& stream) {
         write_sensor_irradiance_csv(stream, sensors, form_factors,
                                     sensor_irradiance(form_factors, radiosity));
       });

@@ -201,12 +201,11 @@ void report_failures(const Study& study, const std::vector<std::string>& names) 
 void write_outputs(const StudyCall& call, const StudyOptions& options, const Study& study,
                    const Scene& scene) {
   std::vector<std::function<void()>> writers;
-  if (is_standard_output(call.out)) {
+  if (!call.out.empty()) {
     writers.emplace_back([&] {
-      print_results([&](std::ostream& out) { write_study_csv(out, options.series, study); });
+      write_output(call.out,
+                   [&](std::ostream& out) { write_study_csv(out, options.series, study); });
     });
-  } else if (!call.out.empty()) {
-    writers.emplace_back([&] { write_study_csv(call.out, options.series, study); });
   }
   for (const std::string& file : call.plots) {
     writers.emplace_back([&] {

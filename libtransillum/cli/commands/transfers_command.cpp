@@ -42,11 +42,7 @@ int run(const TransfersCall& call) {
   const TransferEngine engine = make_engine(options.engine, scene, tree, options.engine_options);
   const Transfers transfers = engine(call.direction, cancellation);
   progress.clear();
-  if (call.out.empty() || is_standard_output(call.out)) {
-    print_results([&](std::ostream& out) { write_transfers_csv(out, transfers); });
-  } else {
-    write_transfers_csv(call.out, transfers);
-  }
+  write_output(call.out, [&](std::ostream& out) { write_transfers_csv(out, transfers); });
   return success;
 }
 

@@ -122,28 +122,12 @@ bool is_result_file(const std::filesystem::path& path);
 /// @throws Canceled
 Solution read_result(const std::filesystem::path& path, const Cancellation& cancellation = {});
 
-/// @name Transfer tables
-/// @{
-
 /// Columns receiver,source,area; source -1: nothing above, or a back side. Direction omega only.
 void write_transfers_csv(std::ostream& out, const Transfers& transfers);
-void write_transfers_csv(const std::filesystem::path& path, const Transfers& transfers);
-/// @}
-/// @name Form-factor tables
-/// @{
-
 /// Columns i,j,F; rows sorted by i, then j.
 void write_form_factors_csv(std::ostream& out, const FormFactors& form_factors);
-void write_form_factors_csv(const std::filesystem::path& path, const FormFactors& form_factors);
-/// @}
-/// @name Direction tables
-/// @{
-
 /// Columns u,v,x,y,z.
 void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>& directions);
-void write_directions_csv(const std::filesystem::path& path,
-                          const std::vector<DirectionSample>& directions);
-/// @}
 
 /// Writes options and statistics of a solve run as JSON. The options of the scene come from the
 /// scene of `solution`.
