@@ -8,7 +8,6 @@
 
 #include "io/clean_text.h"
 #include "io/maps/map_drawing.h"
-#include "io/maps/map_labels.h"
 #include "io/maps/map_writers.h"
 #include "io/text_buffer.h"
 #include "transillum/errors.h"
