@@ -13,7 +13,6 @@
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pixels/counted_transfers.h"
-#include "visibility/pixels/newell_order.h"
 #include "visibility/pixels/painter.h"
 #include "visibility/pixels/pixel_engines.h"
 #include "visibility/pixels/zbuffer.h"

@@ -3,7 +3,7 @@
 // Newell, Newell and Sancha's depth sort of a scene's pieces along one direction. Heights are
 // measured along omega from the transillumination plane; outlines are tested in integer grid
 // coordinates (PixelGrid). Piece numbers are indexes into Scene::pieces().
-#include "visibility/pixels/newell_order.h"
+#include "visibility/pixels/painter.h"
 
 #include <fmt/format.h>
 
