@@ -11,7 +11,6 @@
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
 #include "cli/reports/bounds_report.h"
-#include "cli/standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 

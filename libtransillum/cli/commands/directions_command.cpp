@@ -11,7 +11,6 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/reports/direction_statistics.h"
-#include "cli/standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 

@@ -12,7 +12,6 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
-#include "cli/standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_files.h"

@@ -13,7 +13,6 @@
 #include "cli/interruption.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
-#include "cli/standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/point_sensors.h"

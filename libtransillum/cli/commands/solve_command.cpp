@@ -19,7 +19,6 @@
 #include "cli/processes.h"
 #include "cli/progress_display.h"
 #include "cli/reports/summaries.h"
-#include "cli/standard_output.h"
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"

@@ -17,7 +17,6 @@
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
 #include "cli/reports/summaries.h"
-#include "cli/standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/reference_cache.h"

@@ -11,7 +11,6 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
-#include "cli/standard_output.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
