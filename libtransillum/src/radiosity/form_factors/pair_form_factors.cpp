@@ -11,7 +11,9 @@
 #include "base/memory_limit.h"
 #include "radiosity/form_factors/form_factor_rows.h"
 #include "radiosity/form_factors/pair_matrix.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/exact_form_factors.h"
 #include "transillum/linear_basis.h"
 #include "visibility/pairs/patch_exchange.h"
 
@@ -130,6 +132,25 @@ FormFactors pair_matrix(const Scene& scene, const PairOptions& options, Basis ba
       [&] { return UpperRows(exchange, bases, n * n, cancellation, integrated); }, cancellation,
       progress ? std::function<void(double)>(show) : std::function<void(double)>());
   return both_ways(scene, upper, n);
+}
+
+std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
+                                       const Cancellation& cancellation,
+                                       const std::function<void(double)>& progress) {
+  const ExchangeFinder exchange(scene, cancellation);
+  const double area = scene.patch(i).area;
+  std::vector<double> factors(scene.patches().size());
+  const std::function<void()> check = [&] { cancellation.throw_if_canceled(); };
+  for (PatchId j = 0; j < scene.patch_count(); ++j) {
+    check();
+    if (j != i) {
+      at(factors, j) = exchange(i, j, check).area / area;
+    }
+    if (progress && j % 64 == 0) {
+      progress(static_cast<double>(j) / scene.patch_count());
+    }
+  }
+  return factors;
 }
 
 }  // namespace transillum
