@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "io/content_hash.h"
-#include "io/results/options_json.h"
+#include "io/results/result_writers.h"
 
 namespace transillum {
 namespace {

@@ -14,7 +14,6 @@
 #include <numbers>
 #include <utility>
 
-#include "base/free_memory.h"
 #include "base/memory_limit.h"
 #include "base/seconds_since.h"
 #include "radiosity/exchange/pass_plan.h"

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/free_memory.h"
+#include "base/memory_limit.h"
 #include "scene/build/patch_builder.h"
 #include "scene/build/refinement.h"
 #include "transillum/errors.h"
