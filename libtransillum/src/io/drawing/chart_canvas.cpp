@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "io/clean_text.h"
+#include "io/text.h"
 
 namespace transillum {
 namespace {

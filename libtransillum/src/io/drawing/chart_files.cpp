@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "base/text_file.h"
-#include "io/clean_text.h"
 #include "io/drawing/cairo_surface.h"
 #include "io/drawing/chart_painter.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/line_chart.h"

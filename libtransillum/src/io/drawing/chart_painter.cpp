@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/clean_text.h"
 #include "io/drawing/chart_canvas.h"
+#include "io/text.h"
 
 namespace transillum {
 namespace {

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "io/clean_text.h"
 #include "io/maps/map_drawing.h"
 #include "io/maps/map_writers.h"
-#include "io/text_buffer.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 
 namespace transillum {

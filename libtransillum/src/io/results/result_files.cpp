@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/text_file.h"
-#include "io/clean_text.h"
 #include "io/results/result_writers.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 

@@ -15,8 +15,8 @@
 #include <type_traits>
 
 #include "base/text_file.h"
-#include "io/clean_text.h"
 #include "io/results/result_figures.h"
+#include "io/text.h"
 #include "scene/read/vtk/vtp_file.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"

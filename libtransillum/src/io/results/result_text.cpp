@@ -5,7 +5,7 @@
 
 #include "io/results/result_writers.h"
 #include "io/results/srgb.h"
-#include "io/text_buffer.h"
+#include "io/text.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/text_file.h"
-#include "io/text_buffer.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 #include "transillum/sensor_files.h"
 

@@ -5,6 +5,7 @@
 
 #include <iterator>
 #include <ostream>
+#include <string>
 #include <utility>
 
 namespace transillum {
@@ -35,5 +36,12 @@ class TextBuffer {
   std::ostream& out_;
   fmt::memory_buffer buffer_;
 };
+
+/// `text` as valid UTF-8: invalid bytes become U+FFFD, control characters become blanks. For names
+/// of files, scenes and materials, which may contain any bytes.
+std::string clean_text(const std::string& text);
+
+/// clean_text() with &, <, > and " escaped, for XML content and attributes.
+std::string xml_text(const std::string& text);
 
 }  // namespace transillum

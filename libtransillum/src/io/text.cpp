@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "io/clean_text.h"
+#include "io/text.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
