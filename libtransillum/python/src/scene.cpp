@@ -40,10 +40,9 @@ ScenePtr load(const std::string& spec, const Division& division, const Reading& 
   ReadOptions read;
   std::tie(read.scale, read.join, read.default_reflectance) = reading;
   read.validate();
-  const Cancellation cancellation;
-  return run_interruptibly(
-      [&] { return make_scene(describe_scene(spec, read, cancellation), division, cancellation); },
-      [] {}, [&] { cancellation.cancel(); });
+  return run_cancelably([&](const Cancellation& cancellation) {
+    return make_scene(describe_scene(spec, read, cancellation), division, cancellation);
+  });
 }
 
 /// The rows of an array (n, 3) or of one row for all n.
@@ -91,9 +90,9 @@ ScenePtr build(const Array<double>& points, const std::vector<std::vector<PointI
     }
     description.add_face(faces[f], static_cast<int>(description.materials.size()) - 1);
   }
-  const Cancellation cancellation;
-  return run_interruptibly([&] { return make_scene(description, division, cancellation); }, [] {},
-                           [&] { cancellation.cancel(); });
+  return run_cancelably([&](const Cancellation& cancellation) {
+    return make_scene(description, division, cancellation);
+  });
 }
 
 /// Corners of all outlines, and where each begins.
