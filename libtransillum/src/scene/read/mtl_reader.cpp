@@ -12,7 +12,7 @@
 
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
-#include "scene/read/reflectance_limit.h"
+#include "scene/read/face_materials.h"
 
 namespace transillum {
 namespace {

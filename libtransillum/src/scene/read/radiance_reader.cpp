@@ -19,7 +19,7 @@
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
 #include "scene/build/warnings.h"
-#include "scene/read/reflectance_limit.h"
+#include "scene/read/face_materials.h"
 #include "transillum/errors.h"
 
 namespace transillum {

@@ -20,7 +20,7 @@
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
 #include "scene/build/warnings.h"
-#include "scene/read/reflectance_limit.h"
+#include "scene/read/face_materials.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 

@@ -16,10 +16,10 @@
 #include "scene/build/description_check.h"
 #include "scene/build/joining.h"
 #include "scene/build/warnings.h"
+#include "scene/read/face_materials.h"
 #include "scene/read/gltf/gltf_expansion.h"
 #include "scene/read/gltf/gltf_file.h"
 #include "scene/read/gltf/gltf_materials.h"
-#include "scene/read/reflectance_limit.h"
 #include "transillum/at.h"
 
 namespace transillum {

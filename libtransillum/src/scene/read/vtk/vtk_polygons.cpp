@@ -17,7 +17,6 @@
 #include "scene/build/description_check.h"
 #include "scene/build/warnings.h"
 #include "scene/read/face_materials.h"
-#include "scene/read/reflectance_limit.h"
 #include "scene/read/texture_average.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
