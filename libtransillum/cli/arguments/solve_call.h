@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#pragma once
-
 // The options of `solve`, which `merge` has in the shards that it reads.
+#pragma once
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -52,5 +51,12 @@ void complete(SolveCall& call);
 int run_solve(SolveCall& call);
 /// Makes the passes of call.share and writes them; returns the exit status.
 int run_shard(SolveCall& call);
+
+/// The arguments that a command was given, such that they can be parsed again; without those of
+/// runs, outputs and machines (add_output_options(), --checkpoint, --resume, --shard).
+std::vector<std::string> stored_arguments(const CLI::App& command);
+
+/// The options that a command was given, without its positional arguments.
+std::vector<std::string> given_options(const CLI::App& command);
 
 }  // namespace transillum::cli

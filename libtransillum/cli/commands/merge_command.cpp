@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "cli/arguments/solve_call.h"
-#include "cli/arguments/stored_arguments.h"
 #include "cli/commands/commands.h"
 #include "transillum/errors.h"
 #include "transillum/shard_files.h"

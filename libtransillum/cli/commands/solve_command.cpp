@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "cli/arguments/solve_call.h"
-#include "cli/arguments/stored_arguments.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/solve_job.h"
 #include "cli/interruption.h"

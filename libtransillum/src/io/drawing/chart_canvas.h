@@ -60,4 +60,9 @@ class ChartCanvas {
   std::string font_;
 };
 
+/// Paints `chart` at the origin of `cairo`.
+/// @param width, height of the chart, in user units of `cairo`
+/// @returns the plot's area in the same units
+ChartArea paint_chart(cairo_t* cairo, const LineChart& chart, double width, double height);
+
 }  // namespace transillum

@@ -9,7 +9,7 @@
 
 #include "base/text_file.h"
 #include "io/drawing/cairo_surface.h"
-#include "io/drawing/chart_painter.h"
+#include "io/drawing/chart_canvas.h"
 #include "io/text.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"

@@ -8,7 +8,6 @@
 
 #include "base/for_each_index.h"
 #include "base/seconds_since.h"
-#include "radiosity/form_factors/form_factor_input.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "radiosity/norms.h"
 #include "transillum/at.h"

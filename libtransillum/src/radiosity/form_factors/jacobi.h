@@ -10,8 +10,23 @@
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
 #include "transillum/radiosity.h"
+#include "transillum/scene.h"
 
 namespace transillum {
+
+/// Checks what is solved with given form factors.
+/// @param patch_materials index into `materials` for each patch; empty: Patch::material
+/// @throws InputError where a list does not fit the scene or a material is out of range
+void check_form_factor_input(const Scene& scene, const FormFactors& form_factors,
+                             const std::vector<Material>& materials,
+                             std::span<const std::int32_t> patch_materials);
+
+/// @throws InputError unless `patch` is one of the scene's.
+void check_receiver(const Scene& scene, PatchId patch);
+
+/// The material of a patch, from lists that check_form_factor_input() has accepted.
+const Material& material_of_patch(const Scene& scene, const std::vector<Material>& materials,
+                                  std::span<const std::int32_t> patch_materials, PatchId patch);
 
 /// Jacobi iteration of B_i = E_i + rho_i H_i, H_i = sum_j F_ij B_j (eq. 11). Rows are computed in
 /// parallel; the result does not depend on the number of threads.

@@ -15,7 +15,6 @@
 #include <queue>
 #include <utility>
 
-#include "radiosity/form_factors/form_factor_input.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"

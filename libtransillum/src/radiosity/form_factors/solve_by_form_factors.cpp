@@ -12,7 +12,6 @@
 
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
-#include "radiosity/form_factors/form_factor_input.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "radiosity/form_factors/pair_matrix.h"
 #include "radiosity/linear_solution.h"
