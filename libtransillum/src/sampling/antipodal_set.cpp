@@ -7,7 +7,6 @@
 // projected areas of axis-parallel patches.
 //
 // Only +, -, *, / and square roots are used, which IEEE 754 defines to the last bit.
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -2,7 +2,6 @@
 //
 // Lays out a LineChart (title, legend, axes, plot) and paints it, from the background to the
 // labels. Lengths are in user units of the Cairo context, y downward.
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -3,7 +3,6 @@
 // Results as glTF 2.0, for Blender and viewers on the web: triangles with a linear color per corner
 // (COLOR_0), or with a light map and its coordinates (TEXCOORD_0), and a material without lighting
 // (KHR_materials_unlit), a node per group. Input: the convex pieces of the patches.
-
 #include <algorithm>
 #include <array>
 #include <cstring>
