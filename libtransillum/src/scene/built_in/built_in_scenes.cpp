@@ -10,7 +10,7 @@
 #include "scene/build/joining.h"
 #include "scene/build/precision.h"
 #include "scene/built_in/built_in_makers.h"
-#include "scene/built_in/scene_files.h"
+#include "scene/read/scene_readers.h"
 #include "transillum/did_you_mean.h"
 #include "transillum/scene.h"
 

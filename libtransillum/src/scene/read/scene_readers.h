@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "transillum/scene.h"
 
@@ -55,5 +56,10 @@ SceneReader read_vtp;
 
 /// The same of a legacy .vtk file, ASCII or binary, versions 1 to 5.
 SceneReader read_vtk;
+
+/// Reads a file whose name ends as one of scene_formats(), and joins its faces as `options` say.
+/// @throws InputError, Canceled
+SceneDescription read_scene_file(const std::string& path, const ReadOptions& options,
+                                 const Cancellation& cancellation);
 
 }  // namespace transillum
