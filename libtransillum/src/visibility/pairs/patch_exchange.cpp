@@ -18,7 +18,6 @@
 #include "visibility/pairs/point_view.h"
 #include "visibility/pairs/refined_cells.h"
 #include "visibility/pairs/shaft.h"
-#include "visibility/pairs/smooth_cells.h"
 
 namespace transillum {
 namespace {

@@ -9,7 +9,7 @@
 #include "transillum/cancellation.h"
 #include "visibility/pixels/outlines.h"
 #include "visibility/pixels/patch_heights.h"
-#include "visibility/pixels/visibility_sink.h"
+#include "visibility/pixels/pixel_grid.h"
 
 namespace transillum {
 
