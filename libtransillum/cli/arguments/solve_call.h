@@ -34,7 +34,6 @@ struct SolveCall {
   const SolveOptions& options() const { return scene.run.solve; }
 };
 
-/// All options of `solve`.
 void add_solve_options(CLI::App& command, SolveCall& call);
 /// Those that say what is written, and how much memory and how many threads are used: the only ones
 /// that `merge` has itself.

@@ -67,7 +67,6 @@ OrderedJson errors_json(const DirectionStatistics& s, const std::vector<double>&
   return json;
 }
 
-/// Measures the set.
 DirectionStatistics measure_directions(const SolveOptions& set,
                                        const std::vector<DirectionSample>& samples,
                                        std::shared_ptr<const Scene> scene,

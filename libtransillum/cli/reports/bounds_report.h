@@ -73,7 +73,6 @@ using BoundsTask = std::function<void(const std::string&)>;
 BoundsReport make_bounds_report(const BoundsOptions& options, const BoundsTask& begin,
                                 const Cancellation& cancellation);
 
-/// The report as text.
 std::string text_of(const BoundsReport& report);
 /// Writes the report as JSON.
 void write_bounds_report(const std::string& path, const BoundsReport& report);

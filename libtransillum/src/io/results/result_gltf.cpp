@@ -49,7 +49,6 @@ Triple color_of(const Rgb& b, double exposure) {
   return {channel(b.r), channel(b.g), channel(b.b)};
 }
 
-/// The colors of a patch.
 class PatchColors {
  public:
   PatchColors(const Solution& solution, PatchId i, double exposure)

@@ -63,7 +63,6 @@ struct SparseList {
   }
 };
 
-/// A pass as it is stored.
 struct StoredPass {
   std::int32_t number = 0;
   Vec3 direction;

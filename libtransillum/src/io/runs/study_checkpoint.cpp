@@ -20,7 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* study_kind = "study";
 
-/// A point as it is stored.
 struct StoredPoint {
   StudyPoint point;
 

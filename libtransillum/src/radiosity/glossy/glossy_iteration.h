@@ -66,7 +66,6 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   /// @throws std::runtime_error where what is kept of them by direction does not fit into memory
   void find_glossy(GlossyLight::Data& data);
   void check_radiance_memory(std::size_t patches, std::size_t directions) const;
-  /// Forgets all passes.
   void forget_passes();
   /// One iteration, or of its passes only the next; returns false where the observer did, or
   /// where passes are left.

@@ -11,7 +11,6 @@
 namespace transillum {
 namespace {
 
-/// State of the callbacks.
 struct CallbackState {
   const ObjEvents& events;
   std::vector<int> indices;  ///< of one face, kept to save allocations
