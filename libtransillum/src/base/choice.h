@@ -3,6 +3,7 @@
 // Tables of choices, checked by the compiler.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string_view>
 

@@ -2,6 +2,7 @@
 #include "scene/built_in/built_in_makers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
