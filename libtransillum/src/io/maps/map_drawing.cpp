@@ -131,10 +131,10 @@ std::string empty_map_reason(const Scene& scene, const VisibilityMap& map) {
 std::vector<PlacedLabel> place_labels(const std::vector<MapLabel>& labels,
                                       const MapTransform& transform, double left, double width) {
   constexpr double shift = 16, line = 1.4 * label_size, letter = 0.65 * label_size;
-  struct Box {
+  struct LabelBox {
     double begin, end, base;
   };
-  std::vector<Box> taken;
+  std::vector<LabelBox> taken;
   std::vector<PlacedLabel> placed;
   for (const MapLabel& label : labels) {
     const Vec2 point = transform.to_pixels(label.point);
@@ -143,9 +143,9 @@ std::vector<PlacedLabel> place_labels(const std::vector<MapLabel>& labels,
     const auto letters = std::count_if(label.text.begin(), label.text.end(),
                                        [](char c) { return (c & 0xc0) != 0x80; });
     const double room = letter * static_cast<double>(letters);
-    Box box{to_left ? beside - room : beside, to_left ? beside : beside + room,
+    LabelBox box{to_left ? beside - room : beside, to_left ? beside : beside + room,
             std::max(point.y - shift, line)};
-    const auto hides = [&box](const Box& other) {
+    const auto hides = [&box](const LabelBox& other) {
       return box.begin < other.end && other.begin < box.end &&
              std::abs(box.base - other.base) < line;
     };
