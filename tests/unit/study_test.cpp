@@ -333,7 +333,7 @@ TEST(ReferenceCache, RejectsDamagedFiles) {
   cache.store(scene, options, box().reference);
   const std::string file = cache.file_of(scene, options);
   const std::string good = read_file(file);
-  ASSERT_EQ(good.size(), 24 * box().reference.size() + 88);
+  ASSERT_EQ(good.size(), 24 * box().reference.size() + 98);
   for (const std::size_t at : {std::size_t{0}, std::size_t{30}, good.size() / 2, good.size() - 1}) {
     std::string damaged = good;
     damaged[at] = static_cast<char>(damaged[at] ^ 1);
