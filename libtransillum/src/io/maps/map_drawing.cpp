@@ -144,7 +144,7 @@ std::vector<PlacedLabel> place_labels(const std::vector<MapLabel>& labels,
                                        [](char c) { return (c & 0xc0) != 0x80; });
     const double room = letter * static_cast<double>(letters);
     LabelBox box{to_left ? beside - room : beside, to_left ? beside : beside + room,
-            std::max(point.y - shift, line)};
+                 std::max(point.y - shift, line)};
     const auto hides = [&box](const LabelBox& other) {
       return box.begin < other.end && other.begin < box.end &&
              std::abs(box.base - other.base) < line;
