@@ -15,12 +15,12 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/reports/report_text.h"
+#include "sampling/discrepancy.h"
 #include "transillum/bounds.h"
-#include "transillum/discrepancy.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::cli {
 namespace {

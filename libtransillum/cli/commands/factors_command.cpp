@@ -12,11 +12,11 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
+#include "radiosity/form_factors/small_form_factors.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_files.h"
 #include "transillum/form_factor_solve.h"
-#include "transillum/small_form_factors.h"
 
 namespace transillum::cli {
 namespace {

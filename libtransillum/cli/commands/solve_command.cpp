@@ -18,11 +18,11 @@
 #include "cli/processes.h"
 #include "cli/progress_display.h"
 #include "cli/reports/summaries.h"
+#include "io/runs/shard_files.h"
+#include "options/option_table.h"
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"
-#include "transillum/option_table.h"
-#include "transillum/shard_files.h"
 
 namespace transillum::cli {
 namespace {

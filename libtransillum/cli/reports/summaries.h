@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "transillum/power_table.h"
-#include "transillum/radiosity.h"
+#include "radiosity/analysis/power_table.h"
+#include "transillum/solution.h"
 #include "transillum/study.h"
 
 namespace transillum::cli {

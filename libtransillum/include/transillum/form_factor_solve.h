@@ -8,8 +8,9 @@
 #include "transillum/export.h"
 #include "transillum/hemicube.h"
 #include "transillum/pair_form_factors.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace TRANSILLUM_API transillum {
 

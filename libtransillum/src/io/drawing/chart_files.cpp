@@ -10,10 +10,10 @@
 #include "base/text_file.h"
 #include "io/drawing/cairo_surface.h"
 #include "io/drawing/chart_canvas.h"
+#include "io/drawing/line_chart.h"
 #include "io/text.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/line_chart.h"
 
 namespace transillum {
 namespace {

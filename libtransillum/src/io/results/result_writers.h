@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
 #include "transillum/run_options.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "base/text_file.h"
+#include "io/results/sensor_files.h"
 #include "io/text.h"
 #include "transillum/errors.h"
-#include "transillum/sensor_files.h"
 
 namespace transillum {
 namespace {

@@ -5,8 +5,8 @@
 #include <ostream>
 
 #include "io/results/result_writers.h"
+#include "options/option_table.h"
 #include "transillum/files.h"
-#include "transillum/option_table.h"
 
 namespace transillum {
 namespace {

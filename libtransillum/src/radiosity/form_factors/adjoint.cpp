@@ -14,7 +14,7 @@
 #include "base/for_each_index.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 namespace {

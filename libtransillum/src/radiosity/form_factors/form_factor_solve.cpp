@@ -13,7 +13,6 @@
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/relight.h"
-#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {

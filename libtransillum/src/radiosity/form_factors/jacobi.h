@@ -9,8 +9,8 @@
 #include "transillum/cancellation.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

@@ -13,7 +13,6 @@
 #include "radiosity/form_factors/pair_matrix.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
-#include "transillum/exact_form_factors.h"
 #include "transillum/linear_basis.h"
 #include "visibility/pairs/patch_exchange.h"
 

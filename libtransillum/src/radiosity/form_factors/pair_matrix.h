@@ -8,8 +8,8 @@
 #include "transillum/cancellation.h"
 #include "transillum/form_factors.h"
 #include "transillum/pair_form_factors.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 

@@ -20,7 +20,7 @@
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "transillum/pixel_map.h"
 #include "visibility/pixels/patch_heights.h"
 #include "visibility/pixels/pixel_grid.h"
+#include "visibility/pixels/pixel_map.h"
 #include "visibility/pixels/processed_fragments.h"
 
 namespace transillum {
