@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "transillum/errors.h"
 #include "transillum/scene.h"
-#include "transillum/solve_errors.h"
 
 namespace transillum::cli {
 

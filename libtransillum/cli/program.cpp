@@ -10,13 +10,13 @@
 #include <algorithm>
 #include <new>
 
+#include "base/did_you_mean.h"
 #include "cli/arguments/help_format.h"
 #include "cli/commands/commands.h"
 #include "cli/interruption.h"
 #include "cli/messages.h"
 #include "cli/processes.h"
 #include "cli/standard_output.h"
-#include "transillum/did_you_mean.h"
 #include "transillum/errors.h"
 #include "transillum/scene.h"
 #include "transillum/solver_group.h"

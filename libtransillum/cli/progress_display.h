@@ -10,7 +10,7 @@
 
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
 
 namespace transillum::cli {
 

@@ -8,12 +8,12 @@
 #include <regex>
 #include <stdexcept>
 
+#include "io/drawing/study_chart.h"
+#include "options/option_table.h"
+#include "radiosity/analysis/power_table.h"
 #include "transillum/engine.h"
-#include "transillum/option_table.h"
-#include "transillum/pixel_map.h"
-#include "transillum/power_table.h"
 #include "transillum/study.h"
-#include "transillum/study_files.h"
+#include "visibility/pixels/pixel_map.h"
 
 namespace transillum::manual {
 namespace {

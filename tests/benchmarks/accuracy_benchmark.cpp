@@ -16,12 +16,12 @@
 #include <string>
 #include <utility>
 
+#include "io/drawing/line_chart.h"
 #include "measure.h"
 #include "support/scenes.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/form_factors.h"
-#include "transillum/line_chart.h"
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 #include "transillum/study.h"
 

@@ -17,7 +17,8 @@
 
 #include "block_schedule.h"
 #include "measure.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::benchmarks {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "measure.h"
 #include "transillum/engine.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
 
 namespace transillum::benchmarks {
 namespace {

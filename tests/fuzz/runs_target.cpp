@@ -13,9 +13,9 @@
 #include <string_view>
 
 #include "fuzz/require.h"
+#include "io/runs/shard_files.h"
 #include "transillum/checkpoint.h"
 #include "transillum/errors.h"
-#include "transillum/shard_files.h"
 
 namespace transillum::fuzz {
 namespace {

@@ -18,7 +18,6 @@
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/form_factor_solve.h"
-#include "transillum/solve_errors.h"
 #include "transillum/study.h"
 
 namespace transillum::accuracy_test {

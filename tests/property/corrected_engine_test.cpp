@@ -9,12 +9,13 @@
 #include "support/scenes.h"
 #include "support/transfer_difference.h"
 #include "transillum/at.h"
-#include "transillum/corrected_map.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
-#include "transillum/transfer_comparison.h"
+#include "visibility/fast/corrected_map.h"
+#include "visibility/transfers/transfer_comparison.h"
 
 namespace transillum::corrected_engine_test {
 namespace {

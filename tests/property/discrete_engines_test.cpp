@@ -10,7 +10,8 @@
 #include "transillum/at.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::discrete_engines_test {

@@ -18,7 +18,9 @@
 #include "transillum/at.h"
 #include "transillum/directions.h"
 #include "transillum/errors.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::glossy_test {

@@ -8,12 +8,12 @@
 #include <numbers>
 #include <numeric>
 
+#include "radiosity/form_factors/hemicube_image.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
-#include "transillum/exact_form_factors.h"
 #include "transillum/form_factor_solve.h"
-#include "transillum/hemicube_image.h"
+#include "transillum/pair_form_factors.h"
 #include "transillum/solve_session.h"
 #include "visibility/pixels/hemicube.h"
 

@@ -9,7 +9,8 @@
 
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::invariance_test {

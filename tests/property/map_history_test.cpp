@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The queries of a direction's history, against slow, independent computations.
-#include "transillum/map_history.h"
+#include "visibility/map/map_history.h"
 
 #include <gmock/gmock.h>
 

@@ -10,9 +10,9 @@
 
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/map_history.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 #include "transillum/visibility_map.h"
+#include "visibility/map/map_history.h"
 
 namespace transillum::map_record_test {
 namespace {

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Regions of the global visibility map, against a flood fill of a sampled picture.
-#include "transillum/map_region.h"
+#include "visibility/map/map_region.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,6 @@
 
 #include "support/scenes.h"
 #include "transillum/errors.h"
-#include "transillum/exact_form_factors.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/point_sensors.h"

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The number of patches that is predicted is the number made, and a limit of patch areas that is
 // chosen for a number of patches comes near it.
-#include "transillum/patch_count.h"
+#include "scene/build/patch_count.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Maps of the engines zbuffer, painter and rays, and their differences from the exact map.
-#include "transillum/pixel_map.h"
+#include "visibility/pixels/pixel_map.h"
 
 #include <gmock/gmock.h>
 

@@ -10,7 +10,8 @@
 #include "support/scenes.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 #include "transillum/visibility_map.h"
 

@@ -7,12 +7,12 @@
 
 #include <cmath>
 
+#include "radiosity/analysis/function_comparison.h"
+#include "scene/build/division.h"
+#include "scene/build/patch_count.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/division.h"
 #include "transillum/errors.h"
-#include "transillum/function_comparison.h"
-#include "transillum/patch_count.h"
 
 namespace transillum::refinement_test {
 namespace {

@@ -10,13 +10,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "radiosity/analysis/power_table.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/form_factor_solve.h"
-#include "transillum/power_table.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::sky_test {

@@ -10,7 +10,8 @@
 #include "base/power_of_two.h"
 #include "support/scenes.h"
 #include "transillum/form_factor_solve.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 #include "transillum/study.h"
 

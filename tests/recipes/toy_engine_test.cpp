@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "transillum/option_table.h"
+#include "options/option_table.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::toy_engine_test {

@@ -7,7 +7,9 @@
 
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::closed_forms_test {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::directions_needed_test {

@@ -7,7 +7,8 @@
 #include "support/scenes.h"
 #include "transillum/errors.h"
 #include "transillum/form_factors.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::form_factors_test {

@@ -13,9 +13,9 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
-#include "transillum/picking.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 #include "transillum/solve_session.h"
+#include "visibility/embree/picking.h"
 
 namespace transillum::glossy_paths_test {
 namespace {

@@ -11,8 +11,10 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/linear_basis.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
 #include "transillum/sky.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::linear_radiosity_test {

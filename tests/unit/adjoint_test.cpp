@@ -9,10 +9,11 @@
 #include <cmath>
 #include <string>
 
+#include "radiosity/form_factors/light_paths.h"
 #include "transillum/at.h"
-#include "transillum/light_paths.h"
 #include "transillum/material_changes.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::adjoint_test {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "sampling/discrepancy.h"
 #include "transillum/at.h"
-#include "transillum/discrepancy.h"
 
 namespace transillum::antipodal_set_test {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "sampling/discrepancy.h"
 #include "support/scenes.h"
 #include "transillum/bounds.h"
-#include "transillum/discrepancy.h"
 #include "transillum/errors.h"
 
 namespace transillum::bounds_test {

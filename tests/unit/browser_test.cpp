@@ -14,7 +14,7 @@
 #include "program_run.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::testing::browser_test {

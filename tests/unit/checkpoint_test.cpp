@@ -12,10 +12,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "io/runs/study_checkpoint.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
-#include "transillum/study_checkpoint.h"
 
 namespace transillum::checkpoint_test {
 namespace {

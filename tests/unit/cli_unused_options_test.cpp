@@ -4,9 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "options/option_table.h"
 #include "program_run.h"
-#include "transillum/option_table.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::testing {
 namespace {

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "transillum/coplanar_overlap.h"
+#include "visibility/bsp/coplanar_overlap.h"
 
 #include <gmock/gmock.h>
 

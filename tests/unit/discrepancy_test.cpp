@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "transillum/discrepancy.h"
+#include "sampling/discrepancy.h"
 
 namespace transillum::discrepancy_test {
 namespace {

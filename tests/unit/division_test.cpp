@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // divide(): cells, parents, two-sided faces, and that passes of a divided scene add up.
-#include "transillum/division.h"
+#include "scene/build/division.h"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,8 @@
 #include "support/imperfect_scenes.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::division_test {

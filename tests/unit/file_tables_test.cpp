@@ -15,13 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "io/results/sensor_files.h"
+#include "io/results/study_csv.h"
 #include "program_run.h"
 #include "support/scenes.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
-#include "transillum/pixel_map.h"
-#include "transillum/sensor_files.h"
-#include "transillum/study_files.h"
+#include "visibility/pixels/pixel_map.h"
 
 namespace transillum::testing::file_tables_test {
 namespace {

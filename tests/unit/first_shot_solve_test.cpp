@@ -6,7 +6,9 @@
 
 #include "support/scenes.h"
 #include "transillum/errors.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::first_shot_solve_test {

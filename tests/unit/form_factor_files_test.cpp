@@ -17,13 +17,14 @@
 #include "io/factors/npy_array.h"
 #include "io/factors/zip_archive.h"
 #include "program_run.h"
+#include "radiosity/form_factors/small_form_factors.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/pair_form_factors.h"
-#include "transillum/radiosity.h"
-#include "transillum/small_form_factors.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::testing::form_factor_files_test {
 namespace {

@@ -2,7 +2,7 @@
 //
 // check_json(): what it accepts, what it refuses with which message, and that time and memory do
 // not depend on how deep a text is.
-#include "transillum/json_text.h"
+#include "base/json_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

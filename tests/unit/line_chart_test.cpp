@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Line charts: positions of lines in the painted pixels, and the files written.
-#include "transillum/line_chart.h"
+#include "io/drawing/line_chart.h"
 
 #include <gmock/gmock.h>
 

@@ -8,16 +8,16 @@
 #include <map>
 #include <regex>
 
+#include "base/json_text.h"
 #include "base/text_file.h"
+#include "io/drawing/line_chart.h"
+#include "io/results/study_csv.h"
 #include "program_run.h"
 #include "support/comma_locale.h"
 #include "support/refusal.h"
 #include "transillum/files.h"
-#include "transillum/json_text.h"
-#include "transillum/line_chart.h"
 #include "transillum/map_files.h"
 #include "transillum/solve_session.h"
-#include "transillum/study_files.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum::testing::locale_test {

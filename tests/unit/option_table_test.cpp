@@ -2,7 +2,7 @@
 //
 // The table of options and the tables of engines. That all front ends agree is tested with the
 // viewer, which has most of them (viewer/options_agree_test.cpp).
-#include "transillum/option_table.h"
+#include "options/option_table.h"
 
 #include <gmock/gmock.h>
 

@@ -11,7 +11,7 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/form_factor_solve.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::orientation_test {

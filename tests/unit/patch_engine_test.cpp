@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Engines restricted to one patch, against whole passes.
-#include "transillum/patch_engine.h"
+#include "visibility/fast/patch_engine.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "support/scenes.h"
-#include "transillum/picking.h"
+#include "visibility/embree/picking.h"
 
 namespace transillum::picking_test {
 namespace {

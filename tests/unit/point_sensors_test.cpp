@@ -9,13 +9,14 @@
 #include <random>
 
 #include "geometry/form_factor.h"
+#include "io/results/sensor_files.h"
 #include "program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/exact_form_factors.h"
-#include "transillum/radiosity.h"
-#include "transillum/sensor_files.h"
+#include "transillum/pair_form_factors.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::testing::point_sensors_test {
 namespace {

@@ -2,7 +2,7 @@
 //
 // power_table(): sums by group and material against the statistics of the solve, the balance of
 // energy and the furnace.
-#include "transillum/power_table.h"
+#include "radiosity/analysis/power_table.h"
 
 #include <gmock/gmock.h>
 

@@ -7,8 +7,10 @@
 
 #include "support/refusal.h"
 #include "transillum/at.h"
-#include "transillum/radiosity.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 #include "transillum/study.h"
 

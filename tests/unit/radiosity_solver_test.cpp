@@ -12,8 +12,10 @@
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "support/stopping.h"
-#include "transillum/radiosity.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::radiosity_solver_test {

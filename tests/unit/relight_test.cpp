@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/form_factors/light_paths.h"
 #include "transillum/adjoint.h"
 #include "transillum/at.h"
 #include "transillum/engine.h"
-#include "transillum/light_paths.h"
 #include "transillum/material_changes.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::relight_test {
 namespace {

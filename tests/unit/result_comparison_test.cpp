@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // compare_results() and `transillum compare`, on results whose differences are known.
-#include "transillum/result_comparison.h"
+#include "radiosity/analysis/result_comparison.h"
 
 #include <gmock/gmock.h>
 

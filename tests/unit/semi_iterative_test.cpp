@@ -11,7 +11,9 @@
 
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 #include "transillum/study.h"
 

@@ -2,7 +2,7 @@
 //
 // Shards: passes made elsewhere lead to the same bits, and those that do not belong together are
 // refused by name.
-#include "transillum/shard_files.h"
+#include "io/runs/shard_files.h"
 #include "transillum/solve_session.h"
 
 #include <gmock/gmock.h>

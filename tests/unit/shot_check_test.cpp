@@ -8,7 +8,9 @@
 
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::shot_check_test {
 namespace {

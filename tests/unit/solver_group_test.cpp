@@ -11,8 +11,10 @@
 #include <sstream>
 
 #include "support/thread_group.h"
-#include "transillum/radiosity.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::solver_group_test {

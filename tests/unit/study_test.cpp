@@ -13,13 +13,13 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "io/drawing/study_chart.h"
+#include "io/results/reference_cache.h"
 #include "program_run.h"
 #include "support/scenes.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
-#include "transillum/reference_cache.h"
 #include "transillum/solve_session.h"
-#include "transillum/study_files.h"
 
 namespace transillum::testing::study_test {
 namespace {

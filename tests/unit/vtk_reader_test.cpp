@@ -23,7 +23,8 @@
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::testing::vtk_reader_test {

@@ -20,7 +20,7 @@
 #include "state/step_moments.h"
 #include "transillum/at.h"
 #include "transillum/directions.h"
-#include "transillum/map_region.h"
+#include "visibility/map/map_region.h"
 
 namespace transillum::viewer::breakpoints_test {
 

@@ -14,8 +14,8 @@
 #include <algorithm>
 
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 #include "window_support.h"
 
 namespace transillum::viewer::desktop_test {

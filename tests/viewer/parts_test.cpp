@@ -24,8 +24,8 @@
 #include "patches/parts_panel.h"
 #include "patches/patch_table.h"
 #include "patches/path_panel.h"
+#include "radiosity/analysis/power_table.h"
 #include "solved_window.h"
-#include "transillum/power_table.h"
 #include "window/view_state_applier.h"
 #include "window/window_session.h"
 

@@ -13,10 +13,10 @@
 
 #include "lessons/lesson_panel.h"
 #include "map/compare_view.h"
+#include "scene/build/patch_count.h"
 #include "solve/study_dialog.h"
 #include "solved_window.h"
 #include "transillum/first_shot.h"
-#include "transillum/patch_count.h"
 #include "window/first_look.h"
 #include "window/view_state_applier.h"
 

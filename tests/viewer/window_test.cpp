@@ -23,11 +23,11 @@
 #include <set>
 
 #include "lessons/lesson_panel.h"
+#include "scene/build/patch_count.h"
 #include "scene/color_controls.h"
 #include "scene/welcome_page.h"
 #include "solved_window.h"
 #include "transillum/at.h"
-#include "transillum/patch_count.h"
 #include "window/view_state_applier.h"
 
 namespace transillum::viewer::window_test {

@@ -17,7 +17,9 @@
 #include "map/map_canvas.h"
 #include "model/solve_runner.h"
 #include "solved_window.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/visibility_map.h"
 
 namespace {

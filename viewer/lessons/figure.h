@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "transillum/material_changes.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::viewer {
 

@@ -13,10 +13,10 @@
 
 #include "colors/color_scale.h"
 #include "model/form_factor_views.h"
-#include "transillum/function_comparison.h"
+#include "radiosity/analysis/function_comparison.h"
+#include "scene/build/patch_count.h"
 #include "transillum/glossy.h"
 #include "transillum/material_changes.h"
-#include "transillum/patch_count.h"
 #include "transillum/refinement.h"
 #include "transillum/solve_session.h"
 #include "transillum/study.h"

@@ -9,7 +9,7 @@
 #include "lessons/figure.h"
 #include "model/snapshot.h"
 #include "transillum/cancellation.h"
-#include "transillum/map_history.h"
+#include "visibility/map/map_history.h"
 
 namespace transillum::viewer {
 

@@ -8,8 +8,8 @@
 #include <QFileInfo>
 #include <algorithm>
 
+#include "base/json_text.h"
 #include "support/json_object.h"
-#include "transillum/json_text.h"
 
 // Resources of a static library have to be registered explicitly; outside any namespace, as the
 // macro requires.

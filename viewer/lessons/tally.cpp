@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/json_text.h"
 #include "support/json_object.h"
-#include "transillum/json_text.h"
 
 namespace transillum::viewer {
 

@@ -28,7 +28,7 @@
 #include "state/breakpoints.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
-#include "transillum/pixel_map.h"
+#include "visibility/pixels/pixel_map.h"
 #include "widgets/elided.h"
 #include "widgets/engine_text.h"
 #include "widgets/figure_table.h"

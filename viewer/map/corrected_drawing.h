@@ -7,7 +7,7 @@
 
 #include "colors/color_map.h"
 #include "map/map_picture.h"
-#include "transillum/corrected_map.h"
+#include "visibility/fast/corrected_map.h"
 
 namespace transillum::viewer {
 

@@ -16,7 +16,7 @@
 #include "state/map_sketch.h"
 #include "state/selection.h"
 #include "support/request_worker.h"
-#include "transillum/map_region.h"
+#include "visibility/map/map_region.h"
 
 namespace transillum::viewer {
 

@@ -6,7 +6,7 @@
 
 #include "support/column_format.h"
 #include "transillum/at.h"
-#include "transillum/transfer_comparison.h"
+#include "visibility/transfers/transfer_comparison.h"
 
 namespace transillum::viewer {
 

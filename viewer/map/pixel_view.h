@@ -10,8 +10,8 @@
 
 #include "colors/color_map.h"
 #include "map/map_picture.h"
-#include "transillum/corrected_map.h"
-#include "transillum/pixel_map.h"
+#include "visibility/fast/corrected_map.h"
+#include "visibility/pixels/pixel_map.h"
 
 namespace transillum::viewer {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "transillum/option_table.h"
+#include "options/option_table.h"
 
 namespace transillum::viewer {
 

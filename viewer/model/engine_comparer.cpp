@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "radiosity/form_factors/hemicube_image.h"
 #include "transillum/at.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
-#include "transillum/exact_form_factors.h"
-#include "transillum/hemicube_image.h"
+#include "transillum/pair_form_factors.h"
 
 namespace transillum::viewer {
 

@@ -8,7 +8,7 @@
 
 #include "model/snapshot.h"
 #include "support/request_worker.h"
-#include "transillum/transfer_comparison.h"
+#include "visibility/transfers/transfer_comparison.h"
 
 namespace transillum::viewer {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::viewer {
 

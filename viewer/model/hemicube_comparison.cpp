@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "transillum/at.h"
-#include "transillum/exact_form_factors.h"
+#include "transillum/pair_form_factors.h"
 
 namespace transillum::viewer {
 

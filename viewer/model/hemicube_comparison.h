@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/snapshot.h"
-#include "transillum/hemicube_image.h"
+#include "radiosity/form_factors/hemicube_image.h"
 
 namespace transillum::viewer {
 

@@ -3,7 +3,7 @@
 
 #include <QMetaObject>
 
-#include "transillum/patch_count.h"
+#include "scene/build/patch_count.h"
 
 namespace transillum::viewer {
 

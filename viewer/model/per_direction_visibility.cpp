@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "transillum/at.h"
-#include "transillum/patch_engine.h"
+#include "visibility/fast/patch_engine.h"
 
 namespace transillum::viewer {
 

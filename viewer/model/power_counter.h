@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "model/snapshot.h"
+#include "radiosity/analysis/power_table.h"
 #include "support/request_worker.h"
-#include "transillum/power_table.h"
 
 namespace transillum::viewer {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "transillum/option_table.h"
+#include "options/option_table.h"
 
 namespace transillum::viewer {
 

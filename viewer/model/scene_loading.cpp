@@ -5,11 +5,11 @@
 #include <QElapsedTimer>
 #include <utility>
 
+#include "scene/build/patch_count.h"
 #include "support/elapsed.h"
 #include "transillum/files.h"
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
-#include "transillum/patch_count.h"
 
 namespace transillum::viewer {
 

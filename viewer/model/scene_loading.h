@@ -9,8 +9,8 @@
 #include <string>
 
 #include "model/snapshot.h"
+#include "options/option_table.h"
 #include "transillum/cancellation.h"
-#include "transillum/option_table.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::viewer {

@@ -15,9 +15,11 @@
 #include "transillum/bounds.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/glossy.h"
-#include "transillum/picking.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
+#include "visibility/embree/picking.h"
 
 namespace transillum::viewer {
 

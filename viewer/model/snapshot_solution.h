@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/snapshot.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 
 namespace transillum::viewer {
 

@@ -13,8 +13,8 @@
 #include "model/scene_loading.h"
 #include "model/solve_history.h"
 #include "model/solve_messages.h"
+#include "options/option_table.h"
 #include "transillum/cancellation.h"
-#include "transillum/option_table.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::viewer {

@@ -7,7 +7,7 @@
 #include <QMetaObject>
 #include <utility>
 
-#include "transillum/reference_cache.h"
+#include "io/results/reference_cache.h"
 
 namespace transillum::viewer {
 

@@ -4,7 +4,7 @@
 #include <QString>
 
 #include "patches/patch_columns.h"
-#include "transillum/power_table.h"
+#include "radiosity/analysis/power_table.h"
 
 namespace transillum::viewer {
 

@@ -8,9 +8,9 @@
 
 #include "model/power_counter.h"
 #include "model/relighting.h"
+#include "radiosity/analysis/power_table.h"
 #include "state/hidden_patches.h"
 #include "state/selection.h"
-#include "transillum/power_table.h"
 
 class QAction;
 class QLabel;

@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "model/light_request.h"
+#include "radiosity/form_factors/light_paths.h"
 #include "state/selection.h"
 #include "support/newest_result.h"
-#include "transillum/light_paths.h"
 
 class QLabel;
 class QPushButton;

@@ -9,7 +9,7 @@
 
 #include <array>
 
-#include "transillum/light_paths.h"
+#include "radiosity/form_factors/light_paths.h"
 #include "transillum/scene.h"
 
 namespace transillum::viewer {

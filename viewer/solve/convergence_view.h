@@ -4,9 +4,9 @@
 #include <QWidget>
 #include <vector>
 
+#include "io/drawing/line_chart.h"
 #include "model/snapshot.h"
 #include "state/focus.h"
-#include "transillum/line_chart.h"
 
 namespace transillum::viewer {
 

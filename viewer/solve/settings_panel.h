@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "model/run_options.h"
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 
 class QCheckBox;
 class QComboBox;

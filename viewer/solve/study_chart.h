@@ -5,8 +5,8 @@
 #include <QWidget>
 #include <memory>
 
+#include "io/drawing/study_chart.h"
 #include "model/study_runner.h"
-#include "transillum/study_files.h"
 
 namespace transillum::viewer {
 

@@ -16,11 +16,12 @@
 #include <cmath>
 #include <utility>
 
+#include "io/drawing/study_chart.h"
+#include "io/results/study_csv.h"
 #include "solve/study_chart.h"
 #include "solve/study_choices.h"
 #include "support/failure_text.h"
 #include "support/number_text.h"
-#include "transillum/study_files.h"
 #include "widgets/banner.h"
 #include "widgets/save_dialog.h"
 

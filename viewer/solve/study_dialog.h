@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "io/drawing/study_chart.h"
 #include "model/study_runner.h"
-#include "transillum/study_files.h"
 
 class QComboBox;
 class QLabel;

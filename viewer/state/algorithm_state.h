@@ -7,8 +7,8 @@
 
 #include "model/snapshot.h"
 #include "state/focus.h"
-#include "transillum/map_region.h"
 #include "transillum/transfers.h"
+#include "visibility/map/map_region.h"
 
 namespace transillum::viewer {
 

@@ -4,7 +4,7 @@
 #include <QString>
 #include <vector>
 
-#include "transillum/map_history.h"
+#include "visibility/map/map_history.h"
 
 namespace transillum::viewer {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "transillum/map_history.h"
+#include "visibility/map/map_history.h"
 
 namespace transillum::viewer {
 

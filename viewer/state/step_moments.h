@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "transillum/map_history.h"
 #include "transillum/transfers.h"
+#include "visibility/map/map_history.h"
 
 namespace transillum::viewer {
 

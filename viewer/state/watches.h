@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "transillum/map_history.h"
+#include "visibility/map/map_history.h"
 
 class QUndoStack;
 

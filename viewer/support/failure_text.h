@@ -4,7 +4,7 @@
 #include <QString>
 #include <exception>
 
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 
 namespace transillum::viewer {
 

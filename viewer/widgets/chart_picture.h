@@ -4,7 +4,7 @@
 #include <QColor>
 #include <QImage>
 
-#include "transillum/line_chart.h"
+#include "io/drawing/line_chart.h"
 
 class QWidget;
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "transillum/line_chart.h"
+#include "io/drawing/line_chart.h"
 
 namespace transillum::viewer {
 

@@ -6,8 +6,9 @@
 #include <string>
 
 #include "model/run_options.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace CLI {
 class App;

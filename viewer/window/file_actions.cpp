@@ -16,6 +16,7 @@
 #include <string>
 #include <utility>
 
+#include "base/json_text.h"
 #include "lessons/lesson_panel.h"
 #include "lessons/session_file.h"
 #include "scene/scene_page.h"
@@ -23,7 +24,6 @@
 #include "support/failure_text.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
-#include "transillum/json_text.h"
 #include "widgets/banner.h"
 #include "widgets/save_dialog.h"
 #include "widgets/theme.h"

@@ -7,9 +7,9 @@
 #include "colors/color_choice.h"
 #include "model/relighting.h"
 #include "model/snapshot.h"
+#include "radiosity/form_factors/light_paths.h"
 #include "state/hidden_patches.h"
 #include "state/selection.h"
-#include "transillum/light_paths.h"
 
 class QDockWidget;
 class QMenuBar;

@@ -13,11 +13,11 @@
 #include <QStandardPaths>
 #include <QUuid>
 
+#include "base/json_text.h"
 #include "lessons/session_file.h"
 #include "scene/scene_page.h"
 #include "support/failure_text.h"
 #include "transillum/files.h"
-#include "transillum/json_text.h"
 #include "widgets/banner.h"
 #include "window/notifier.h"
 #include "window/window_session.h"

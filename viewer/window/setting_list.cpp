@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/setting_list.h"
 
+#include "options/option_table.h"
 #include "support/number_text.h"
-#include "transillum/option_table.h"
 #include "widgets/page_dialog.h"
 
 namespace transillum::viewer {

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/build/patch_count.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "solve/round_panel.h"
 #include "solve/settings_panel.h"
 #include "solve/solve_actions.h"
 #include "support/number_text.h"
-#include "transillum/patch_count.h"
 #include "window/notifier.h"
 #include "window/view_state_applier.h"
 #include "window/work_guard.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::cli {
 

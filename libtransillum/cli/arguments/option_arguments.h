@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "transillum/option_table.h"
+#include "options/option_table.h"
 
 namespace transillum::cli {
 

@@ -1,10 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "cli/arguments/option_values.h"
 
+#include "options/option_table.h"
+#include "options/option_values.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
-#include "transillum/option_table.h"
-#include "transillum/option_values.h"
 
 namespace transillum::cli {
 namespace {

@@ -11,9 +11,9 @@
 #include "cli/messages.h"
 #include "cli/progress_display.h"
 #include "cli/reports/report_text.h"
+#include "scene/build/patch_count.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/patch_count.h"
 
 namespace transillum::cli {
 namespace {

@@ -11,9 +11,9 @@
 #include "cli/arguments/checkpoint_options.h"
 #include "cli/arguments/color_outputs.h"
 #include "cli/arguments/scene_options.h"
-#include "transillum/power_table.h"
-#include "transillum/radiosity.h"
-#include "transillum/shares.h"
+#include "radiosity/analysis/power_table.h"
+#include "radiosity/solver/shares.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::cli {
 

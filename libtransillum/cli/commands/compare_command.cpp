@@ -12,11 +12,11 @@
 #include "cli/messages.h"
 #include "cli/reports/report_text.h"
 #include "cli/standard_output.h"
+#include "radiosity/analysis/function_comparison.h"
+#include "radiosity/analysis/result_comparison.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/function_comparison.h"
-#include "transillum/result_comparison.h"
 
 namespace transillum::cli {
 namespace {

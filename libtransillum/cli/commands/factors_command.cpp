@@ -13,12 +13,12 @@
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
 #include "cli/standard_output.h"
+#include "radiosity/form_factors/small_form_factors.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_files.h"
 #include "transillum/hemicube.h"
 #include "transillum/pair_form_factors.h"
-#include "transillum/small_form_factors.h"
 
 namespace transillum::cli {
 namespace {

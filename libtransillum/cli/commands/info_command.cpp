@@ -17,9 +17,10 @@
 #include "cli/reports/report_text.h"
 #include "cli/standard_output.h"
 #include "transillum/at.h"
-#include "transillum/coplanar_overlap.h"
 #include "transillum/orientation.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solve_options.h"
+#include "visibility/bsp/coplanar_overlap.h"
 
 namespace transillum::cli {
 namespace {

@@ -18,7 +18,7 @@
 #include "cli/progress_display.h"
 #include "transillum/errors.h"
 #include "transillum/map_files.h"
-#include "transillum/pixel_map.h"
+#include "visibility/pixels/pixel_map.h"
 
 namespace transillum::cli {
 namespace {

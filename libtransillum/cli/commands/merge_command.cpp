@@ -9,8 +9,8 @@
 #include "cli/arguments/solve_call.h"
 #include "cli/arguments/stored_arguments.h"
 #include "cli/commands/commands.h"
+#include "io/runs/shard_files.h"
 #include "transillum/errors.h"
-#include "transillum/shard_files.h"
 
 namespace transillum::cli {
 namespace {

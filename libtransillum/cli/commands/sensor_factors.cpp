@@ -15,11 +15,11 @@
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
 #include "cli/standard_output.h"
+#include "io/results/sensor_files.h"
+#include "radiosity/analysis/result_comparison.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/point_sensors.h"
-#include "transillum/result_comparison.h"
-#include "transillum/sensor_files.h"
 
 namespace transillum::cli {
 namespace {

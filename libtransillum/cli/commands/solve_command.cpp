@@ -21,11 +21,11 @@
 #include "cli/reports/solve_summary.h"
 #include "cli/standard_output.h"
 #include "cli/wall_clock.h"
+#include "io/runs/shard_files.h"
+#include "options/option_table.h"
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"
-#include "transillum/option_table.h"
-#include "transillum/shard_files.h"
 
 namespace transillum::cli {
 namespace {

@@ -10,11 +10,10 @@
 #include "cli/interruption.h"
 #include "cli/messages.h"
 #include "cli/reports/report_text.h"
+#include "io/runs/shard_files.h"
 #include "transillum/errors.h"
 #include "transillum/form_factor_files.h"
 #include "transillum/form_factor_solve.h"
-#include "transillum/shard_files.h"
-#include "transillum/solve_errors.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::cli {

@@ -11,8 +11,9 @@
 #include "transillum/cancellation.h"
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
 #include "transillum/refinement.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::cli {
 

@@ -19,12 +19,13 @@
 #include "cli/progress_display.h"
 #include "cli/reports/study_summary.h"
 #include "cli/standard_output.h"
+#include "io/drawing/study_chart.h"
+#include "io/results/reference_cache.h"
+#include "io/results/study_csv.h"
+#include "io/runs/study_checkpoint.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/reference_cache.h"
 #include "transillum/study.h"
-#include "transillum/study_checkpoint.h"
-#include "transillum/study_files.h"
 
 namespace transillum::cli {
 namespace {

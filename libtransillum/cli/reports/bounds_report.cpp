@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "transillum/discrepancy.h"
+#include "base/json_text.h"
+#include "sampling/discrepancy.h"
 #include "transillum/errors.h"
-#include "transillum/json_text.h"
 
 namespace transillum::cli {
 namespace {

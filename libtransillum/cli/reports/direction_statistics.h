@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "transillum/discrepancy.h"
-#include "transillum/radiosity.h"
+#include "sampling/discrepancy.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::cli {
 

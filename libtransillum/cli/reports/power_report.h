@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "transillum/power_table.h"
+#include "radiosity/analysis/power_table.h"
 
 namespace transillum::cli {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 
 namespace transillum::cli {
 

@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "transillum/export.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 
 namespace TRANSILLUM_API transillum {

@@ -22,4 +22,41 @@ class Canceled : public std::exception {
   const char* what() const noexcept override { return "canceled"; }
 };
 
+/// What the caller can change so that a failed solve succeeds. A front end adds a hint that names
+/// its own option or control for it.
+enum class Remedy {
+  none,                                   ///< no setting is known to help
+  directions,                             ///< SolveOptions::directions, larger
+  directions_or_row_normalization,        ///< that, or Normalization::rows
+  directions_or_symmetric_normalization,  ///< that, or Normalization::symmetric
+  memory,                                 ///< a larger limit, such as SolveOptions::memory
+};
+
+/// A valid solve, or a valid record of a direction, that fails. `what()` is one sentence for the user, without a hint.
+class SolveError : public std::runtime_error {
+ public:
+  /// @param what one sentence for the user.
+  /// @param remedy what would avoid the failure.
+  SolveError(const std::string& what, Remedy remedy) : std::runtime_error(what), remedy_(remedy) {}
+  /// What would avoid the failure.
+  Remedy remedy() const noexcept { return remedy_; }
+
+ private:
+  Remedy remedy_;
+};
+
+/// The iteration does not converge: too few directions for the scene's reflectance.
+class NotConvergent : public SolveError {
+ public:
+  using SolveError::SolveError;
+};
+
+/// Form factors that must be kept, or the record of a direction, take more than the limit that was
+/// given for them (SolveOptions::memory, HemicubeOptions::memory, record_local_map()).
+class MemoryLimitExceeded : public SolveError {
+ public:
+  /// @param what one sentence for the user.
+  explicit MemoryLimitExceeded(const std::string& what) : SolveError(what, Remedy::memory) {}
+};
+
 }  // namespace TRANSILLUM_API transillum

@@ -15,9 +15,9 @@
 #include "transillum/directions.h"
 #include "transillum/export.h"
 #include "transillum/form_factors.h"
-#include "transillum/radiosity.h"
 #include "transillum/run_options.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
 #include "transillum/transfers.h"
 
 namespace TRANSILLUM_API transillum {

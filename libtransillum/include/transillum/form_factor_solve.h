@@ -6,8 +6,9 @@
 
 #include "transillum/cancellation.h"
 #include "transillum/export.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace TRANSILLUM_API transillum {
 

@@ -18,8 +18,10 @@
 #include "transillum/cancellation.h"
 #include "transillum/engine.h"
 #include "transillum/export.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace TRANSILLUM_API transillum {
 

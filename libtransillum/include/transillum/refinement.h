@@ -14,8 +14,8 @@
 #include "transillum/cancellation.h"
 #include "transillum/choice.h"
 #include "transillum/export.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
 
 namespace TRANSILLUM_API transillum {
 

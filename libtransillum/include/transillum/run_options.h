@@ -11,9 +11,9 @@
 
 #include "transillum/export.h"
 #include "transillum/material_changes.h"
-#include "transillum/radiosity.h"
 #include "transillum/refinement.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 
 namespace TRANSILLUM_API transillum {
 

@@ -16,9 +16,11 @@
 #include "transillum/engine.h"
 #include "transillum/export.h"
 #include "transillum/glossy.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
 #include "transillum/refinement.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 #include "transillum/solver_group.h"
 
 namespace TRANSILLUM_API transillum {

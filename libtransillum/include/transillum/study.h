@@ -17,10 +17,11 @@
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
 #include "transillum/choice.h"
+#include "transillum/errors.h"
 #include "transillum/export.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
 #include "transillum/scene.h"
-#include "transillum/solve_errors.h"
+#include "transillum/solve_options.h"
 
 namespace TRANSILLUM_API transillum {
 

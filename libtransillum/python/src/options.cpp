@@ -5,9 +5,9 @@
 #include <set>
 #include <string>
 
-#include "transillum/did_you_mean.h"
+#include "base/did_you_mean.h"
+#include "options/option_table.h"
 #include "transillum/errors.h"
-#include "transillum/option_table.h"
 
 namespace py = pybind11;
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 
 namespace transillum::python {
 

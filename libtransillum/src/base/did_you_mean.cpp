@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "transillum/did_you_mean.h"
+#include "base/did_you_mean.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 //
 // Checks JSON texts with nlohmann's parser, which reports one event per token and builds no
 // document. Its own stack grows by one bit per level.
-#include "transillum/json_text.h"
+#include "base/json_text.h"
 
 #include <fmt/format.h>
 

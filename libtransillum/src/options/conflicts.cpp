@@ -3,8 +3,8 @@
 // Which options exclude each other, and the range of each.
 #include <fmt/format.h>
 
+#include "options/option_table.h"
 #include "transillum/errors.h"
-#include "transillum/option_table.h"
 
 namespace transillum {
 namespace {

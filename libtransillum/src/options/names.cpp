@@ -5,7 +5,7 @@
 
 #include "base/choice.h"
 #include "transillum/at.h"
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "options/option_table.h"
 #include "transillum/errors.h"
-#include "transillum/option_table.h"
 
 namespace transillum {
 namespace {

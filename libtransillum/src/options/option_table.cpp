@@ -2,7 +2,7 @@
 //
 // The only place that knows an option: a line here, and one in conflicts.cpp if it excludes
 // another.
-#include "transillum/option_table.h"
+#include "options/option_table.h"
 
 #include <fmt/format.h>
 
@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "base/memory_limit.h"
+#include "options/option_values.h"
 #include "transillum/errors.h"
 #include "transillum/first_shot.h"
-#include "transillum/option_values.h"
 #include "transillum/study.h"
 
 namespace transillum {

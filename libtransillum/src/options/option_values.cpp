@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "transillum/option_values.h"
+#include "options/option_values.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/unit_vector.h"
 #include "transillum/errors.h"
-#include "transillum/unit_vector.h"
 
 namespace transillum {
 namespace {

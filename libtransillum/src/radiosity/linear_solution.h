@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

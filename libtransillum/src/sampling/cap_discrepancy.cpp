@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "transillum/discrepancy.h"
+#include "sampling/discrepancy.h"
 
 namespace transillum {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "transillum/discrepancy.h"
+#include "sampling/discrepancy.h"
 
 namespace transillum {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "transillum/discrepancy.h"
+#include "sampling/discrepancy.h"
 
 namespace transillum {
 namespace {

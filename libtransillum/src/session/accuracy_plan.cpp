@@ -20,7 +20,6 @@
 #include "radiosity/state_archive.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
-#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {

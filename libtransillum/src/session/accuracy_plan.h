@@ -8,7 +8,9 @@
 #include <iosfwd>
 #include <vector>
 
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 

@@ -14,11 +14,11 @@
 #include "base/choice.h"
 #include "base/seconds_since.h"
 #include "radiosity/channel_sums.h"
+#include "scene/build/division.h"
+#include "scene/build/patch_count.h"
 #include "transillum/at.h"
-#include "transillum/division.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
-#include "transillum/patch_count.h"
 
 namespace transillum {
 namespace {

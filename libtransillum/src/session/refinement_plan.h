@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
-#include "transillum/radiosity.h"
 #include "transillum/refinement.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 

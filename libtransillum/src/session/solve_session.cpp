@@ -13,10 +13,9 @@
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
 #include "radiosity/solver/solver_input.h"
+#include "scene/build/patch_count.h"
 #include "session/session_state.h"
 #include "transillum/errors.h"
-#include "transillum/patch_count.h"
-#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "transillum/line_chart.h"
+#include "io/drawing/line_chart.h"
 
 namespace transillum {
 

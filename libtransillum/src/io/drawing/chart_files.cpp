@@ -10,10 +10,10 @@
 #include "io/clean_text.h"
 #include "io/drawing/cairo_surface.h"
 #include "io/drawing/chart_painter.h"
+#include "io/drawing/line_chart.h"
 #include "io/file_ending.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/line_chart.h"
 
 namespace transillum {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cairo.h>
 
-#include "transillum/line_chart.h"
+#include "io/drawing/line_chart.h"
 
 namespace transillum {
 

@@ -11,7 +11,7 @@
 #include <map>
 
 #include "base/choice.h"
-#include "transillum/study_files.h"
+#include "io/drawing/study_chart.h"
 
 namespace transillum {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "io/results/options_json.h"
 
-#include "transillum/option_table.h"
+#include "options/option_table.h"
 
 namespace transillum {
 

@@ -3,7 +3,7 @@
 // Cache of reference solutions for studies. A file's name is the hash of the scene and of all
 // options that change B; it holds a line with format version and hash, the doubles of B in memory
 // order, and a hash of both.
-#include "transillum/reference_cache.h"
+#include "io/results/reference_cache.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 

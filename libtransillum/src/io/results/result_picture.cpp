@@ -21,7 +21,7 @@
 #include "transillum/errors.h"
 #include "transillum/glossy.h"
 #include "transillum/linear_basis.h"
-#include "transillum/picking.h"
+#include "visibility/embree/picking.h"
 
 namespace transillum {
 namespace {

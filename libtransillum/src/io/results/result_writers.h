@@ -4,7 +4,7 @@
 #include <iosfwd>
 
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

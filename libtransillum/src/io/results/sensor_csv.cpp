@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "base/text_file.h"
+#include "io/results/sensor_files.h"
 #include "io/text_buffer.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
-#include "transillum/sensor_files.h"
 
 namespace transillum {
 namespace {

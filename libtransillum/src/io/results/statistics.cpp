@@ -6,8 +6,8 @@
 #include <ostream>
 
 #include "io/results/options_json.h"
+#include "options/option_table.h"
 #include "transillum/files.h"
-#include "transillum/option_table.h"
 
 namespace transillum {
 namespace {

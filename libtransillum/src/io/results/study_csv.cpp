@@ -3,8 +3,8 @@
 
 #include <ostream>
 
+#include "io/results/study_csv.h"
 #include "transillum/files.h"
-#include "transillum/study_files.h"
 
 namespace transillum {
 

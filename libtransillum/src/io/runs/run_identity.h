@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/runs/sealed_file.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 

@@ -15,10 +15,10 @@
 
 #include "io/runs/run_identity.h"
 #include "io/runs/sealed_file.h"
+#include "io/runs/shard_files.h"
 #include "radiosity/state_archive.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
-#include "transillum/shard_files.h"
 
 namespace transillum {
 

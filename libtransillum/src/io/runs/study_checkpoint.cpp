@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Sealed files with the points of a study.
-#include "transillum/study_checkpoint.h"
+#include "io/runs/study_checkpoint.h"
 
 #include <fmt/format.h>
 

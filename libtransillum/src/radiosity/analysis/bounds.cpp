@@ -12,7 +12,7 @@
 #include <numbers>
 #include <utility>
 
-#include "transillum/discrepancy.h"
+#include "sampling/discrepancy.h"
 #include "transillum/errors.h"
 
 namespace transillum {

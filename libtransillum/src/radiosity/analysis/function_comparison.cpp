@@ -2,7 +2,7 @@
 //
 // The L2 difference of two results whose patches may differ. Input: two Solutions of the same
 // faces, which Patch::face connects.
-#include "transillum/function_comparison.h"
+#include "radiosity/analysis/function_comparison.h"
 
 #include <fmt/format.h>
 

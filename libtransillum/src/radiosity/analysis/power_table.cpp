@@ -2,7 +2,7 @@
 //
 // Sums of power over the patches of groups or materials. Input: a Solution, and form factors for
 // what parts exchange.
-#include "transillum/power_table.h"
+#include "radiosity/analysis/power_table.h"
 
 #include "base/choice.h"
 #include "transillum/at.h"

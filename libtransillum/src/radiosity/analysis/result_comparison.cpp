@@ -2,7 +2,7 @@
 //
 // Compares the radiosity of two results, patch by patch. Input: two Solutions, from solves or from
 // read_result().
-#include "transillum/result_comparison.h"
+#include "radiosity/analysis/result_comparison.h"
 
 #include <fmt/format.h>
 

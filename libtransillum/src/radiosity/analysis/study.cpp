@@ -24,7 +24,6 @@
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
 #include "transillum/form_factor_solve.h"
-#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {

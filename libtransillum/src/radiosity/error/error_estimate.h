@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "transillum/first_shot.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

@@ -9,7 +9,7 @@
 #include "radiosity/light_sources.h"
 #include "radiosity/ratio.h"
 #include "transillum/at.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 namespace {

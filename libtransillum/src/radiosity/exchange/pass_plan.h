@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "transillum/radiosity.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "transillum/first_shot.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 #include "transillum/transfers.h"
 
 namespace transillum {

@@ -14,7 +14,7 @@
 #include "base/for_each_index.h"
 #include "radiosity/form_factors/form_factor_input.h"
 #include "transillum/at.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 namespace {

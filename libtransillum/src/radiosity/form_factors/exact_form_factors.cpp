@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "transillum/exact_form_factors.h"
+#include "transillum/pair_form_factors.h"
 
 #include "transillum/at.h"
 #include "visibility/pairs/patch_exchange.h"

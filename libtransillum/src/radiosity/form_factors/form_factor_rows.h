@@ -11,8 +11,8 @@
 
 #include "base/for_each_index.h"
 #include "transillum/at.h"
+#include "transillum/errors.h"
 #include "transillum/form_factors.h"
-#include "transillum/solve_errors.h"
 
 namespace transillum {
 

@@ -13,7 +13,6 @@
 #include "radiosity/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
-#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {

@@ -15,9 +15,9 @@
 #include "base/memory_limit.h"
 #include "base/power_of_two.h"
 #include "radiosity/form_factors/form_factor_rows.h"
+#include "radiosity/form_factors/hemicube_image.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
-#include "transillum/hemicube_image.h"
 #include "visibility/fast/fast_engine.h"
 #include "visibility/pixels/hemicube.h"
 

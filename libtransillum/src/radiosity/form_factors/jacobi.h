@@ -9,7 +9,7 @@
 #include "transillum/cancellation.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

@@ -4,7 +4,7 @@
 // from patch k to the receiver has a weight, the product of rho and F along it, so that it carries
 // weight * B_k in all: weight * E_k starts at k, and the rest arrives at k from the patches l of
 // row k, each with the weight * rho_k F_kl.
-#include "transillum/light_paths.h"
+#include "radiosity/form_factors/light_paths.h"
 
 #include <fmt/format.h>
 

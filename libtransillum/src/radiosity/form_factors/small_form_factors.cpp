@@ -5,7 +5,7 @@
 //
 // Notation: S_ij = A_i F_ij, symmetric where F is reciprocal; d the scales of rows and columns; w_i
 // the sum of row i of S before.
-#include "transillum/small_form_factors.h"
+#include "radiosity/form_factors/small_form_factors.h"
 
 #include <fmt/format.h>
 

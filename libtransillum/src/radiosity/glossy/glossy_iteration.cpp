@@ -22,7 +22,7 @@
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
 #include "transillum/at.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 namespace {

@@ -10,8 +10,8 @@
 #include "base/worker_threads.h"
 #include "radiosity/glossy/lobe_kernel.h"
 #include "transillum/cancellation.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

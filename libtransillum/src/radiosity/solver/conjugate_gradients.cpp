@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/power_of_two.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 
 namespace {
 

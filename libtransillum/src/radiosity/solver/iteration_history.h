@@ -9,7 +9,8 @@
 #include "radiosity/solver/radiosity_iterate.h"
 #include "radiosity/solver/solver_input.h"
 #include "radiosity/solver/start_remainder.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 

@@ -10,7 +10,8 @@
 #include "radiosity/solver/radiosity_iterate.h"
 #include "radiosity/solver/running_mean.h"
 #include "radiosity/solver/start_remainder.h"
-#include "transillum/radiosity.h"
+#include "transillum/solution.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 

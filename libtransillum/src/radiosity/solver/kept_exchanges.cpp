@@ -14,7 +14,7 @@
 
 #include "base/memory_limit.h"
 #include "transillum/at.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 namespace {

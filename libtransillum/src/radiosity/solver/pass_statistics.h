@@ -9,8 +9,8 @@
 #include "radiosity/exchange/pass_runner.h"
 #include "radiosity/exchange/visible_area_sums.h"
 #include "transillum/first_shot.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

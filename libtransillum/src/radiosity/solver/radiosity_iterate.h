@@ -6,8 +6,8 @@
 #include "radiosity/exchange/exchange_sums.h"
 #include "radiosity/exchange/patch_share.h"
 #include "radiosity/exchange/unknowns.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 #include "transillum/transfers.h"
 
 namespace transillum {

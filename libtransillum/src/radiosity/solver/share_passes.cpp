@@ -9,10 +9,10 @@
 #include "base/worker_threads.h"
 #include "radiosity/exchange/pass_plan.h"
 #include "radiosity/exchange/pass_runner.h"
+#include "radiosity/solver/shares.h"
 #include "radiosity/solver/solver_input.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
-#include "transillum/shares.h"
 
 namespace transillum {
 

@@ -5,7 +5,8 @@
 
 #include "radiosity/exchange/patch_share.h"
 #include "radiosity/exchange/unknowns.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solve_options.h"
 
 namespace transillum {
 

@@ -13,7 +13,7 @@
 #include "radiosity/solver/solver_state.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 namespace {

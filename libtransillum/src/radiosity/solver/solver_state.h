@@ -19,7 +19,8 @@
 #include "radiosity/solver/replicas.h"
 #include "radiosity/solver/solver_input.h"
 #include "radiosity/solver/solver_timing.h"
-#include "transillum/radiosity.h"
+#include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
 
 namespace transillum {
 

@@ -2,7 +2,7 @@
 //
 // Division of chosen patches of a scene. Input: a Scene, whose patches are planar and whose pieces
 // are convex; output: another with the same faces.
-#include "transillum/division.h"
+#include "scene/build/division.h"
 
 #include <fmt/format.h>
 

@@ -12,10 +12,10 @@
 #include <map>
 #include <set>
 
+#include "base/did_you_mean.h"
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
 #include "transillum/at.h"
-#include "transillum/did_you_mean.h"
 #include "transillum/errors.h"
 
 namespace transillum {

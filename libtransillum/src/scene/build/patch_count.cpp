@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The number of patches after refinement, without refining: the parts that PatchBuilder::refine()
 // divides are found once, and their grids are counted for any limit of the area.
-#include "transillum/patch_count.h"
+#include "scene/build/patch_count.h"
 
 #include <fmt/format.h>
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/did_you_mean.h"
 #include "base/text_file.h"
 #include "scene/build/joining.h"
 #include "scene/build/precision.h"
 #include "scene/built_in/built_in_makers.h"
 #include "scene/built_in/scene_files.h"
-#include "transillum/did_you_mean.h"
 #include "transillum/scene.h"
 
 namespace transillum {

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <set>
 
-#include "transillum/did_you_mean.h"
+#include "base/did_you_mean.h"
 #include "transillum/errors.h"
 
 namespace transillum {

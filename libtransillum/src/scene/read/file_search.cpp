@@ -5,8 +5,8 @@
 #include <iterator>
 #include <vector>
 
+#include "base/did_you_mean.h"
 #include "base/text_file.h"
-#include "transillum/did_you_mean.h"
 
 namespace transillum {
 namespace {

@@ -13,6 +13,7 @@
 #include <new>
 #include <set>
 
+#include "base/did_you_mean.h"
 #include "base/invariant.h"
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
@@ -20,7 +21,6 @@
 #include "scene/read/mtl_reader.h"
 #include "scene/read/tinyobj_parser.h"
 #include "transillum/at.h"
-#include "transillum/did_you_mean.h"
 
 namespace transillum {
 namespace {

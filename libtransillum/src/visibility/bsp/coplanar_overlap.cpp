@@ -3,7 +3,7 @@
 // Finds pairs of coplanar patches that overlap, which input files usually contain by mistake.
 // Input: the pieces of a scene, which are compared pairwise by bounding boxes, then by planes, then
 // by clipping. No BSP tree is needed, whose construction may take much longer.
-#include "transillum/coplanar_overlap.h"
+#include "visibility/bsp/coplanar_overlap.h"
 
 #include <algorithm>
 #include <cmath>

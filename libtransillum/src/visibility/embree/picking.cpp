@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "transillum/picking.h"
+#include "visibility/embree/picking.h"
 
 #include <algorithm>
 #include <cmath>

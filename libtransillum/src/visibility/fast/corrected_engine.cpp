@@ -8,7 +8,7 @@
 // more, so that the total area received stays right.
 //
 // The second part of the file compares a pass with the recorded local map (CorrectedMap).
-#include "transillum/corrected_map.h"
+#include "visibility/fast/corrected_map.h"
 
 #include <algorithm>
 #include <cmath>

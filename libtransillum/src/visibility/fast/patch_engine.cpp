@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "transillum/patch_engine.h"
+#include "visibility/fast/patch_engine.h"
 
 #include <utility>
 

@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "transillum/at.h"
-#include "transillum/solve_errors.h"
+#include "transillum/errors.h"
 #include "transillum/visibility_map.h"
 #include "visibility/plane/fragment_projector.h"
 #include "visibility/plane/plane_index.h"

@@ -3,7 +3,7 @@
 // Indexes of a MapRecord, the table of rows that record_local_map() writes for one direction: the
 // rows and sums of each step, and the steps of each patch. Rows are sorted by `made`, the step that
 // made them.
-#include "transillum/map_history.h"
+#include "visibility/map/map_history.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 //      +-----+f+---+
 //      |f f f f| c |
 //      +-------+---+
-#include "transillum/map_region.h"
+#include "visibility/map/map_region.h"
 #include "geometry/polygon_area.h"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 #include "geometry/plane_region.h"
 #include "geometry/polygon_area.h"
 #include "transillum/at.h"
-#include "transillum/pixel_map.h"
+#include "visibility/pixels/pixel_map.h"
 
 namespace transillum {
 namespace {

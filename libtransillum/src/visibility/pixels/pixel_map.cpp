@@ -2,7 +2,7 @@
 //
 // The maps of the engines zbuffer, painter and rays: an item buffer filled through a
 // VisibilitySink, and its conversion to rectangles for pictures and files.
-#include "transillum/pixel_map.h"
+#include "visibility/pixels/pixel_map.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "transillum/transfer_comparison.h"
+#include "visibility/transfers/transfer_comparison.h"
 
 #include <algorithm>
 #include <cmath>

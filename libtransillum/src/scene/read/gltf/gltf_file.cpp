@@ -14,12 +14,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/json_text.h"
 #include "base/text_file.h"
 #include "scene/read/gltf/gltf_expansion.h"
 #include "scene/read/gltf/gltf_outline.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
-#include "transillum/json_text.h"
 
 namespace transillum {
 namespace {

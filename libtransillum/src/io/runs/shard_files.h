@@ -1,0 +1,61 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Passes in files: each run that makes a share of a solve's passes writes a shard; another run
+// reads all of them and has the bits of a solve that made its passes itself
+// (decisions/0062-shards.md).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "radiosity/solver/shares.h"
+#include "transillum/bsp_tree.h"
+#include "transillum/cancellation.h"
+#include "transillum/engine.h"
+#include "transillum/scene.h"
+#include "transillum/solve_options.h"
+
+namespace transillum {
+
+/// What a shard says about itself.
+struct ShardInfo {
+  Share share;        ///< its part of the passes
+  int passes = 0;     ///< of all shares
+  std::string scene;  ///< name of the scene
+  /// What the program that wrote it stored, such as its arguments; the library does not read it.
+  std::vector<std::string> notes;
+};
+
+/// Makes the passes of a share and writes them as a shard, complete or not at all. It takes no more
+/// memory than a few passes.
+/// @param file .tsh by convention.
+/// @param scene, options, tree, share, cancellation as for make_passes().
+/// @param notes as ShardInfo::notes.
+/// @param progress called after each pass with the number done.
+/// @throws InputError, Canceled; std::runtime_error if the file cannot be written
+void write_shard(const std::filesystem::path& file, const std::shared_ptr<const Scene>& scene,
+                 const SolveOptions& options, const std::shared_ptr<const BspTree>& tree,
+                 const Share& share, const std::vector<std::string>& notes = {},
+                 const Cancellation& cancellation = {},
+                 const std::function<void(int)>& progress = {});
+
+/// What a shard says about itself; reads its head only.
+/// @param file a shard.
+/// @throws InputError where it is not one, or of another version of the library
+ShardInfo read_shard_info(const std::filesystem::path& file);
+
+/// An engine that reads the passes from shards, for a RadiositySolver with the same scene and
+/// options. Any number of threads may call it; a pass that no shard has is an InputError.
+/// @param files the shards; all of one solve, each share once.
+/// @param scene the scene.
+/// @param options of the solve.
+/// @param cancellation checked while the files are read and checked.
+/// @throws InputError naming the file that is damaged, cut off, given twice or of another solve, or
+/// the shares that are missing.
+TransferEngine engine_of_shards(const std::vector<std::string>& files, const Scene& scene,
+                                const SolveOptions& options, const Cancellation& cancellation = {});
+
+}  // namespace transillum

@@ -1,0 +1,64 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "transillum/choice.h"
+#include "transillum/form_factors.h"
+#include "transillum/solution.h"
+
+namespace transillum {
+
+/// What the rows of a power table are.
+enum class PartsBy {
+  group,     ///< groups of faces
+  material,  ///< materials
+};
+/// Their names (choice.h).
+template <>
+const Choices& choices_of<PartsBy>();
+
+/// Sums over the patches of a group, of a material or of all. Powers are in W, per channel.
+struct PartPower {
+  std::string name = {};     ///< of the group or material; empty: the patches of no group
+  std::int32_t index = -1;   ///< in Scene::groups() or Scene::materials(); -1: no group, or all
+  std::int64_t patches = 0;  ///< number
+  double area = 0;           ///< m²
+  Rgb emitted = {};          ///< sum A_i E_i
+  Rgb received = {};         ///< sum A_i H_i, of all light
+  Rgb from_sky = {};         ///< the part of it that comes from the sky
+  Rgb absorbed = {};         ///< sum A_i (1 - rho_i) H_i
+  Rgb escaped = {};          ///< sum A_i B_i times the share that meets no patch; 0 if not known
+};
+
+/// Powers by group or by material.
+///
+/// Up to the tolerance of the solve, and the error of row sums (eq. 17) where they are not
+/// normalized, emitted + from_sky = absorbed + escaped in total, if no light meets a back side.
+struct PowerTable {
+  std::vector<PartPower> parts;  ///< those with patches, in the order of the scene; the patches of
+                                 ///< no group come last
+  PartPower total;               ///< over all patches; its name is "total"
+  bool escape_known = false;     ///< Solution::sky_shares is known
+  /// Entry [i][j]: power that leaves part j and arrives directly at part i, sum A_k F_kl B_l over
+  /// their patches, W; empty without form factors.
+  std::vector<std::vector<Rgb>> exchanged;
+};
+
+/// Adds up the powers of a solution. Time: linear in the patches and form factors.
+/// @param solution of a solve, or read from a file.
+/// @param by rows.
+/// @param form_factors of its scene; null: without exchanges.
+/// @param materials E and rho that the solution has, where they are not those of the scene
+/// (relight()); empty: those of the scene.
+/// @param patch_materials index into `materials` for each patch; read with `materials` only.
+/// @throws InputError where the form factors are of another number of patches.
+PowerTable power_table(const Solution& solution, PartsBy by,
+                       const FormFactors* form_factors = nullptr,
+                       std::span<const Material> materials = {},
+                       std::span<const std::int32_t> patch_materials = {});
+
+}  // namespace transillum

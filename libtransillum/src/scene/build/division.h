@@ -1,0 +1,31 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "transillum/cancellation.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// A scene in which some patches of another are divided.
+struct DividedScene {
+  std::shared_ptr<const Scene> scene;  ///< with the patches divided
+  std::vector<PatchId> parent;  ///< of each of its patches, the patch of the other that it is in
+};
+
+/// Number of patches that divide() makes of patch i, if they are not too thin for the precision of
+/// coordinates, in which case it is left whole. Triangles give four similar ones; convex
+/// quadrilaterals two by two cells, or four in a row where they are more than twice as long as
+/// wide; others their convex pieces, or triangles. The other side of a face is not counted.
+int division_count(const Scene& scene, PatchId i);
+/// Divides patches; the others keep their order, faces, groups and materials. Patches on the same
+/// points, such as the two sides of a face, are divided together.
+/// @param patches of `scene`, in any order.
+/// @throws InputError where a Scene cannot have so many patches; Canceled
+DividedScene divide(const Scene& scene, std::span<const PatchId> patches,
+                    const Cancellation& cancellation = {});
+
+}  // namespace transillum
