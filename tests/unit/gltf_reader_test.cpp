@@ -314,9 +314,10 @@ TEST(Gltf, ColorsOfVerticesFilterTheBaseColor) {
 /// A square with a texture over all of it, `image` in its file.
 File textured_square(const json& texture, const json& image, const json& material) {
   File file;
-  file.root["images"] = {image};
-  file.root["textures"] = {texture};
-  file.root["materials"] = {material};
+  // Compilers differ about what {image} makes of one value.
+  file.root["images"] = json::array({image});
+  file.root["textures"] = json::array({texture});
+  file.root["materials"] = json::array({material});
   json primitive = square_in(file, 0);
   primitive["attributes"]["TEXCOORD_0"] =
       file.accessor(file.view<float>({0, 0, 1, 0, 1, 1, 0, 1}), 5126, "VEC2", 4);
