@@ -156,7 +156,7 @@ class GltfDocument {
     if (!uri.empty()) {
       buffer["uri"] = uri;
     }
-    json_["buffers"] = {buffer};
+    json_["buffers"] = nlohmann::json::array({buffer});
     return json_.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
   const std::string& buffer() const { return buffer_; }
