@@ -31,6 +31,7 @@
 #include "transillum/radiosity.h"
 #include "transillum/refinement.h"
 #include "transillum/study.h"
+#include "user_guide.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer::lesson_pages_test {
@@ -621,7 +622,7 @@ class LessonPagesTest : public QObject {
   void names_are_those_of_the_window() {
     const QStringList texts = texts_of_the_viewer();
     QVERIFY(texts.size() > 500);
-    QString all = text_of("viewer/USER_GUIDE.md") + text_of("viewer/LESSON_FORMAT.md");
+    QString all = test::user_guide().join('\n') + text_of("viewer/LESSON_FORMAT.md");
     QVERIFY(names_in(all).size() > 60);
     for (const Lesson& lesson : built_in_lessons()) {
       for (const Lesson::Page& page : lesson.pages) {
