@@ -116,7 +116,7 @@ def write_static(tree: Tree, katex: Path) -> None:
 
 
 def notebook_map(program: str) -> str:
-    """What the notebook's last cell draws, as SVG."""
+    """The map that the notebook's last cell draws, as SVG."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "map.svg"
         subprocess.run([program, "map", "cornell-box", "--patches", "150", "--direction", "0.4,0.3,1",

@@ -19,12 +19,12 @@ SUPERSCRIPT = re.compile(r"(?<![\w`\\/.])([A-Za-z0-9]{1,2})\^(\([^()]*\)|[a-z0-9
 
 
 def anchor_of(title: str) -> str:
-    """Of a heading, as conf.py makes it."""
+    """The anchor of a heading, as conf.py makes it."""
     return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
 
 
 class Tree:
-    """What becomes a page, and where it is."""
+    """The files that become pages, and their places."""
 
     def __init__(self, source: Path, out: Path) -> None:
         self.source = source
@@ -131,7 +131,7 @@ def fenced(block: list[str]) -> list[str]:
 
 
 def with_comments_above(code: list[str]) -> list[str]:
-    """What stands at the ends of wide lines would be scrolled out of sight."""
+    """Moves comments at the ends of wide lines above them, where they are in sight."""
     lines = []
     for line in code:
         command, _, comment = re.sub(r" {2,}# ", "\n", line).partition("\n")

@@ -100,7 +100,7 @@ def write_python(tree: Tree) -> None:
 
 
 def described(node, depth: int, method: bool = False) -> list[str]:
-    """A directive of Sphinx's Python domain, with those of the members of a class."""
+    """A directive of Sphinx's Python domain, with the directives of the members of a class."""
     fence = "`" * depth
     inner: list[str] = docstring(ast.get_docstring(node) or "")
     if isinstance(node, ast.ClassDef):
