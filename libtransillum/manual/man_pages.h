@@ -8,7 +8,7 @@
 
 namespace transillum::manual {
 
-/// What the pages of a program say besides its options.
+/// Texts that the pages of a program contain besides its options.
 struct Introduction {
   std::string version;
   std::string date;                     ///< as 2026-11-23

@@ -18,8 +18,8 @@
 namespace transillum::mpi {
 
 /// The passes of one SolverGroup::run(). They are added in rounds of consecutive passes: when every
-/// rank has made its part of a round, all exchange what they need of it, while their threads go on
-/// with the next one.
+/// rank has made its part of a round, all exchange what they need of it, while their threads
+/// continue with the next one.
 class PassRounds {
  public:
   /// @param exchange, dealing communicators for this purpose only

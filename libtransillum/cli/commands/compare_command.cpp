@@ -79,7 +79,7 @@ std::string comparison_text(const Scene& scene, const ResultComparison& comparis
 }
 
 std::string function_text(const FunctionDifference& difference) {
-  return report_row("L2 of functions", fmt::format("{:.4g} of that of A", difference.l2));
+  return report_row("L2 of functions", fmt::format("{:.4g} of the L2 norm of A", difference.l2));
 }
 
 int exit_status(double worst, const CompareCall& call) {

@@ -18,7 +18,7 @@ namespace {
 struct MergeCall {
   const CLI::App* command = nullptr;
   std::vector<std::string> parts;
-  std::string scene;  ///< instead of the one that the shards name; empty: that one
+  std::string scene;  ///< instead of the one that the shards name, if not empty
   SolveCall outputs;  ///< only add_output_options() and the colors
 };
 
@@ -45,7 +45,7 @@ int merge(const MergeCall& call) {
   CLI::App command("solve");
   add_solve_options(command, solve);
   std::vector<std::string> arguments = solve_arguments(call);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes a vector
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes a vector back to front
   try {
     command.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {

@@ -29,7 +29,7 @@ struct AccuracyGoal {
   double accuracy = 0;              ///< relative error, [0,1); 0: as small as `seconds` allow
   AccuracyOf of = AccuracyOf::rms;  ///< which error
   PatchId patch = 0;                ///< for AccuracyOf::patch
-  double seconds = 0;               ///< wall time of the solve, without loading; 0: not limited
+  double seconds = 0;               ///< wall time of the solve, without loading; 0 sets no limit
 
   /// Whether there is a goal.
   bool is_set() const { return accuracy > 0 || seconds > 0; }
@@ -56,10 +56,10 @@ struct AccuracyStage {
   double error = 0;    ///< relative: the limit of AccuracyGoal::of
 };
 
-/// What a solve with a goal has reached.
+/// The outcome of a solve with a goal.
 struct AccuracyReport {
   AccuracyGoal goal;                  ///< as given
-  std::vector<AccuracyStage> stages;  ///< in order; the last is that of the result
+  std::vector<AccuracyStage> stages;  ///< in order; the last stage made the result
   double error = 0;                   ///< relative: the limit of AccuracyGoal::of, of the result
   bool reached = false;               ///< error <= goal.accuracy, and `trusted`
   bool trusted = false;  ///< light sources were met by at least least_light_directions per replica

@@ -46,7 +46,7 @@ class BspTree {
   };
   /// A point made by a cut: a + t (b - a).
   struct CutPoint {
-    PointId a;  ///< a smaller point number than that of the cut point
+    PointId a;  ///< a point number smaller than the cut point's
     PointId b;  ///< likewise
     double t;   ///< 0 < t < 1
   };

@@ -26,8 +26,8 @@ struct FormFactors {
 /// Options of gather_form_factors().
 struct GatherOptions {
   int rays_per_patch = 1000;  ///< N, 1 … 2^24
-  std::uint64_t seed = 1;     ///< of the random numbers
-  int threads = 0;            ///< 0: all cores; the result does not depend on it
+  std::uint64_t seed = 1;     ///< seed of the random numbers
+  int threads = 0;            ///< 0 uses all cores; the result does not depend on it
 
   /// @throws InputError naming the option and its range.
   void validate() const;

@@ -20,7 +20,7 @@ struct PairOptions {
   int points = EngineOptions::default_points;
   std::uint64_t memory = 0;  ///< limit for the form factors, bytes; 18 per nonzero entry while they
                              ///< are assembled; 0: a quarter of the machine's
-  int threads = 0;           ///< 0: all cores; the result does not depend on it
+  int threads = 0;           ///< 0 uses all cores; the result does not depend on it
 
   /// @throws InputError naming the option and its range.
   void validate() const;

@@ -35,10 +35,10 @@ struct SolveProgress {
   double change = 0;      ///< IterationRecord::change of the last finished iteration
   double seconds_transfers = 0;  ///< wall time of all passes so far
   double passes_per_second = 0;  ///< in the current iteration
-  double seconds_left = 0;       ///< of the current iteration, estimated
+  double seconds_left = 0;       ///< estimated time to the end of the current iteration
   Vec3 last_direction;           ///< omega of the last finished pass
-  /// What is under way. With lobes (GlossySolver), these are scaled before the first iteration, and
-  /// reflect in each after its passes.
+  /// The work under way. With lobes (GlossySolver), these are scaled before the first iteration,
+  /// and reflect in each after its passes.
   enum class Stage { passes, scaling_lobes, reflecting };
   Stage stage = Stage::passes;  ///< the present one
   double stage_share = 0;       ///< finished share of a stage of lobes, 0 to 1
@@ -47,10 +47,11 @@ struct SolveProgress {
 
 /// The parts that a solver starts from. The solver makes each part that is null.
 struct SolverParts {
-  std::shared_ptr<const BspTree> tree = nullptr;  ///< of the scene
+  std::shared_ptr<const BspTree> tree = nullptr;  ///< the scene's tree
   /// Direct light of the scene's small sources, if SolveOptions::first_shot is set.
   std::shared_ptr<const DirectLight> shot = nullptr;
-  /// Makes the passes, such as an engine that reads them from a file; null: SolveOptions::engine.
+  /// Makes the passes, such as an engine that reads them from a file; null means
+  /// SolveOptions::engine.
   TransferEngine engine = {};
   /// Processes that solve together. Each has a solver of its own with the same scene and options,
   /// and all call its functions that are not const, in the same order. The results have the bits of
@@ -159,7 +160,7 @@ class RadiositySolver {
   /// be destroyed.
   void restore(std::istream& in, std::uint64_t size);
   /// F_ij of all pairs, from the kept exchange sums of all passes; in the semi-iterative scheme, of
-  /// all iterations. Of Basis::linear those of constant functions, which alone do not give its B.
+  /// all iterations. With Basis::linear, F_ij of constant functions, which alone do not give its B.
   /// @throws std::runtime_error where no iteration is finished or one is unfinished, or where they
   /// were not kept or exceed the memory limit. In a group all members must call it; it returns them
   /// on member 0, and empty rows on the others.

@@ -31,12 +31,13 @@ enum class Preparation { tree, first_shot };
 /// The scene, the options and the ready-made parts of a solve.
 struct SolveRequest {
   std::shared_ptr<const Scene> scene;                 ///< with the materials to be solved for
-  SolveOptions options = {};                          ///< of each solve
-  std::optional<RefineOptions> refine = {};           ///< of rounds that come first, if any
-  std::shared_ptr<const BspTree> tree = nullptr;      ///< of `scene`; built if null
-  std::shared_ptr<const DirectLight> shot = nullptr;  ///< of `scene`; shot if null
+  SolveOptions options = {};                          ///< options of each solve
+  std::optional<RefineOptions> refine = {};           ///< options of preceding rounds, if any
+  std::shared_ptr<const BspTree> tree = nullptr;      ///< tree of `scene`; built if null
+  std::shared_ptr<const DirectLight> shot = nullptr;  ///< direct light of `scene`; shot if null
   TransferEngine engine = {};                         ///< makes the passes; options.engine if null
-  std::shared_ptr<SolverGroup> group = nullptr;  ///< as for RadiositySolver; null: this process
+  std::shared_ptr<SolverGroup> group =
+      nullptr;  ///< SolverParts::group; null means this process alone
   bool keep_form_factors = false;                ///< as RadiositySolver::keep_form_factors()
   /// Called with the finished share of a preparation, 0 to 1, on any thread, one at a time.
   std::function<void(Preparation, double)> preparing = {};
@@ -46,7 +47,7 @@ struct SolveRequest {
 ///
 /// Without a goal and without rounds it has one stage. With SolveOptions::goal, each stage has more
 /// directions or replicas than the one before, until the error that the replicas show is below the
-/// goal (decisions/0052-accuracy.md); the result is that of the last stage that has finished. With
+/// goal (decisions/0052-accuracy.md); the result comes from the last stage that has finished. With
 /// rounds of refinement, each round is such a solve, and the refined scene is solved last.
 ///
 /// Threads: at most one thread at a time may call it; an observer may read it.
@@ -187,7 +188,7 @@ struct Refinement {
 /// @param options of the solves. Engines that make no passes are refused.
 /// @param refine criterion and limits.
 /// @param observer of the solves; returning false ends the refinement.
-/// @throws InputError, Canceled; those of solve()
+/// @throws InputError, Canceled; exceptions of solve()
 Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                   const RefineOptions& refine, const SolveSession::Observer& observer = {},
                   const Cancellation& cancellation = {});
