@@ -6,7 +6,8 @@
 //   2. No comment, help text or message begins with Of, Those, As, It or What. A question may.
 //   3. "0:", "null:", "none:", "empty:" and "unset:" are followed by a phrase of three words.
 //   4. Words that are not the field's terms are not used.
-//   5. A paragraph of a document has at most three sentences; its lines have at most 100 characters.
+//   5. A paragraph of a document has at most three sentences; its lines have at most 100
+//   characters.
 // Rules 1 and 4 apply to everything, decisions included; 2 and 3 to sources and lessons; 5 to
 // documents. Strings of tests may begin with any word: they quote parts of messages.
 #include <gmock/gmock.h>
@@ -171,8 +172,7 @@ class SourceReader {
 
   void read_raw_string() {
     const std::size_t bracket = std::min(text_.find('(', at_), text_.size() - 1);
-    const std::string mark =
-        ")" + std::string(text_.substr(at_ + 2, bracket - at_ - 2)) + "\"";
+    const std::string mark = ")" + std::string(text_.substr(at_ + 2, bracket - at_ - 2)) + "\"";
     read_until(mark, bracket + 1 - at_);
   }
 
@@ -285,10 +285,9 @@ std::size_t sentence_begin(const std::string& text, std::size_t at) {
 /// "the patch's NOUN"; for "those of", one in the plural.
 bool has_noun(const std::string& before, bool plural) {
   static const std::regex parallel(R"(\b([a-z]+) of\b|(?:\b(?:its|their|whose)|'s) ([a-z]+)\b)");
-  static const std::set<std::string> not_nouns{"that",    "those", "out",  "because", "instead",
-                                               "consist", "each",  "all",  "one",     "both",
-                                               "some",    "most",  "none", "any",     "part",
-                                               "consists", "this",  "many", "two",     "half"};
+  static const std::set<std::string> not_nouns{
+      "that", "those", "out",  "because", "instead", "consist",  "each", "all",  "one", "both",
+      "some", "most",  "none", "any",     "part",    "consists", "this", "many", "two", "half"};
   for (std::sregex_iterator match(before.begin(), before.end(), parallel), end; match != end;
        ++match) {
     const std::string noun = (*match)[1].matched ? match->str(1) : match->str(2);
@@ -305,8 +304,8 @@ void check_nouns(const Passage& passage, const std::string& text, std::vector<Vi
     for (std::size_t at = text.find(words); at != std::string::npos;
          at = text.find(words, at + 1)) {
       const std::size_t end = at + pattern.size();
-      const bool whole = (at == 0 || !is_word(text[at - 1])) &&
-                         (end == text.size() || !is_word(text[end]));
+      const bool whole =
+          (at == 0 || !is_word(text[at - 1])) && (end == text.size() || !is_word(text[end]));
       const std::size_t begin = sentence_begin(text, at);
       if (whole && !has_noun(text.substr(begin, at - begin), pattern == "those of")) {
         found.push_back({passage.lines[at], 1, excerpt(passage, at)});
@@ -330,7 +329,7 @@ void check_beginning(const Passage& passage, const std::string& text, bool any_c
 
 void check_shorthand(const Passage& passage, const std::string& text,
                      std::vector<Violation>& found) {
-  static const std::regex value(R"((^|[(;,.] ?|\n)`?(null|nullptr|0|none|empty|unset)`?: )");
+  static const std::regex value(R"((^|[;,.] |\(|\n)`?(null|nullptr|0|none|empty|unset)`?: )");
   if (text.find(": ") == std::string::npos) {
     return;
   }
@@ -361,9 +360,9 @@ void check_terms(const Passage& passage, const std::string& text, std::vector<Vi
 
 void check_paragraph(const Passage& passage, std::vector<Violation>& found) {
   static const std::regex sentence_end(R"~([.!?][)"*_`]* +[(\["*_`]*[A-Z])~");
-  const auto ends = std::distance(
-      std::sregex_iterator(passage.text.begin(), passage.text.end(), sentence_end),
-      std::sregex_iterator());
+  const auto ends =
+      std::distance(std::sregex_iterator(passage.text.begin(), passage.text.end(), sentence_end),
+                    std::sregex_iterator());
   if (ends > 2) {
     found.push_back({passage.lines.front(), 5,
                      std::to_string(ends + 1) + " sentences: " + excerpt(passage, 0)});

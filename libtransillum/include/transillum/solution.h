@@ -46,9 +46,9 @@ struct IterationRecord {
 /// A solve of an adaptive refinement (refinement.h), after which patches are divided.
 struct RefinementRound {
   std::int64_t patches = 0;  ///< patches of the scene so far
-  /// Root of the sum of squares over patches, relative to the same root for the radiosity of all patches that
-  /// emit nothing: by RefineBy::jump of the jump times the root of the area, by RefineBy::error of
-  /// what the functions of a patch cannot represent
+  /// Root of the sum of squares over patches, relative to the same root for the radiosity of all
+  /// patches that emit nothing: by RefineBy::jump of the jump times the root of the area, by
+  /// RefineBy::error of what the functions of a patch cannot represent
   double figure = 0;
   double seconds = 0;  ///< wall time of the round
 };

@@ -118,8 +118,8 @@ struct StudyPoint {
                                 ///< pairs PairOptions::points
   double rms_error = 0;         ///< RMS over the rotations
   double max_error = 0;         ///< largest over the rotations
-  double bound = 0;  ///< bound of the error in a nearly homogeneous environment, by eq. 37 and
-                     ///< 21; NaN for hemicubes and pairs
+  double bound = 0;             ///< error bound in a nearly homogeneous environment, by eq. 37 and
+                                ///< 21; NaN for hemicubes and pairs
   double seconds = 0;           ///< processor time of passes and iteration, all threads; mean over
                                 ///< the rotations
   /// Why the errors are NaN: too few directions for convergence, or insufficient memory. Empty:

@@ -82,10 +82,8 @@ struct Transfers {
   PassCounts counts;              ///< work done
   /// Moments of each exchange, if EngineOptions::moments; else empty.
   std::vector<TransferMoments> moments = {};
-  std::vector<CoverageMoments> forward_moments =
-      {};  ///< in the order of `forward`; empty without moments
-  std::vector<CoverageMoments> backward_moments =
-      {};  ///< in the order of `backward`; empty without moments
+  std::vector<CoverageMoments> forward_moments = {};   ///< beside `forward`; empty without moments
+  std::vector<CoverageMoments> backward_moments = {};  ///< beside `backward`; the same
 };
 
 /// The closure defect of one direction, omega and -omega together: projected area minus everything

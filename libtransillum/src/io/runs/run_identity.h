@@ -9,8 +9,8 @@
 
 namespace transillum {
 
-/// What two runs must have in common to have the same bits: version, scene, and the options that
-/// results depend on.
+/// Data that two runs must have in common to have the same bits: version, scene, and the options
+/// that results depend on.
 nlohmann::ordered_json run_identity(const Scene& scene, const SolveOptions& options);
 
 /// The options that results depend on: not memory and threads.

@@ -11,7 +11,7 @@ struct FunctionDifference {
   /// (reflected_light()), over the root of ∫ (B - E)² of the reference; 0 where nothing differs,
   /// infinite where only the reference is dark.
   double l2 = 0;
-  double area = 0;  ///< of all patches, m²
+  double area = 0;  ///< area of all patches, m²
 };
 
 /// Compares the radiosity of two results as functions of the point: patches may be finer in one

@@ -25,7 +25,7 @@ namespace {
 
 /// Rows of a table that a task computes.
 constexpr std::size_t rows_per_task = 64;
-/// What the rows of tables may take while these are scaled, all threads together.
+/// Memory limit for the rows of tables while these are scaled, all threads together.
 constexpr std::size_t most_kept_bytes = std::size_t{1} << 28;
 
 /// Equal for patches whose normals differ by rounding, mostly.

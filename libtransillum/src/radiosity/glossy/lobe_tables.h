@@ -72,7 +72,7 @@ class LobeTables {
   double weight() const;
 
   std::vector<Vec3> directions_;
-  std::vector<Lobe> shapes_;  ///< of the kernels
+  std::vector<Lobe> shapes_;  ///< shapes of the kernels
   std::vector<LobeKernel> kernels_;
   std::vector<LobeTable> tables_;
   std::vector<std::size_t> table_of_;              ///< by glossy patch

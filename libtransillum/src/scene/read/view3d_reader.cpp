@@ -133,7 +133,7 @@ class View3dReader {
     char kind = 'S';
     std::int32_t line = 0;
     Polygon outline;
-    std::size_t base = 0, combined = 0;  ///< numbers from 1; 0: none
+    std::size_t base = 0, combined = 0;  ///< numbers from 1; 0 if there is none
     double emissivity = 1;
     std::string name;
   };

@@ -101,7 +101,7 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
     part_begin_[i + 1] = parts_.size();
   }
   for (MergedFace& face : merged_faces(scene)) {
-    // Of two-sided faces, the patches of both sides alternate.
+    // The patches of both sides of a two-sided face alternate.
     if (static_cast<std::size_t>(face.patches.back() - face.patches.front()) + 1 ==
         face.patches.size()) {
       face.outline = scaled(face.outline, scale_);
