@@ -23,7 +23,7 @@ struct Option {
   bool repeats = false;  ///< may be given several times
   std::string description;
   Proposal proposal = Proposal::nothing;
-  std::vector<std::string> choices;  ///< of Proposal::choices
+  std::vector<std::string> choices;  ///< choices for Proposal::choices
   std::vector<std::string> endings;  ///< endings for Proposal::file, such as ".csv"; if empty, any
 
   bool takes_value() const { return !type.empty(); }

@@ -26,7 +26,7 @@ class PassRounds {
   /// @param unit MPI's type of 16 bytes
   PassRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit, const GroupPasses& passes);
 
-  /// As SolverGroup::run().
+  /// The same as SolverGroup::run().
   bool run();
   /// Answers requests and takes passes, so that all threads have some; to be called while this rank
   /// adds passes or waits for others.

@@ -3,13 +3,16 @@
 // Checks five rules of plain English in comments, string literals, lessons and documents:
 //   1. "that of" and "those of" have their noun earlier in the same sentence, in a parallel phrase:
 //      "the area of the patch …, that of the piece", "its area …, that of the piece".
-//   2. No comment, help text or message begins with Of, Those, As, It or What. A question may.
+//   2. No comment, help text or message begins with Of, Those, As, It or What. Questions may, and
+//   so
+//      may names of at most six words without a full stop, except in help texts. After `@param
+//      NAME` any word may follow, since the name is the noun.
 //   3. "0:", "null:", "none:", "empty:" and "unset:" are followed by a phrase of three words.
 //   4. Words that are not the field's terms are not used.
-//   5. A paragraph of a document has at most three sentences; its lines have at most 100
-//   characters.
-// Rules 1 and 4 apply to everything, decisions included; 2 and 3 to sources and lessons; 5 to
-// documents. Strings of tests may begin with any word: they quote parts of messages.
+//   5. A paragraph has at most three sentences; lines have at most 100 characters.
+// Rules 1 and 4 apply everywhere, rules 2 and 3 to sources and lessons. Rule 2 does not apply to
+// strings of tests, which quote parts of messages. Rule 5 applies to documents except decisions:
+// these are records of measurements, written once, one paragraph a line.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -17,6 +20,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -40,7 +44,7 @@ struct Term {
   const char* instead;
 };
 
-const Term terms[] = {
+const std::vector<Term> terms{
     {R"(\bh(ang|angs|anging|ung) together\b)", " together", "be connected"},
     {R"(\b(go|goes|going|gone|went) on\b)", " on", "continue, resume"},
     {R"(\b(leave|leaves|leaving|left) out\b)", " out", "omit"},
@@ -49,7 +53,7 @@ const Term terms[] = {
     {R"(\beven directions\b)", "even dir", "evenly spread directions"},
 };
 
-/// A violation that is meant.
+/// A violation that stays.
 struct Exception {
   const char* file;
   int rule;
@@ -193,10 +197,16 @@ class SourceReader {
   }
 
   void add_to_string(std::string_view character) {
-    const bool ends = character == "\n";
-    passages_.back().add(ends ? " " : character, line_);
-    line_ += ends ? 1 : 0;
-    line_begin_ = ends ? at_ + 1 : line_begin_;
+    if (character != "\n") {
+      passages_.back().add(character, line_);
+      return;
+    }
+    passages_.back().add(" ", line_);
+    ++line_;
+    line_begin_ = at_ + 1;
+    while (at_ + 1 < text_.size() && text_[at_ + 1] == ' ') {
+      ++at_;  // indentation
+    }
   }
 
   void skip_character() {
@@ -264,9 +274,16 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Up to 60 characters of a passage, for a report.
+/// Whether a byte continues a character of UTF-8.
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+/// Up to 60 bytes of a passage, for a report.
 std::string excerpt(const Passage& passage, std::size_t begin) {
-  return std::string(trimmed(std::string_view(passage.text).substr(begin, 60)));
+  std::size_t end = std::min(begin + 60, passage.text.size());
+  while (end < passage.text.size() && continues_character(passage.text[end])) {
+    --end;
+  }
+  return std::string(trimmed(std::string_view(passage.text).substr(begin, end - begin)));
 }
 
 /// Where the sentence begins that contains the character `at`.
@@ -314,15 +331,24 @@ void check_nouns(const Passage& passage, const std::string& text, std::vector<Vi
   }
 }
 
-void check_beginning(const Passage& passage, const std::string& text, bool any_case,
+/// Whether a passage may be a name, such as a heading or the label of a button.
+bool is_name(const std::string& text) {
+  constexpr std::ptrdiff_t most_words = 6;
+  return std::count(text.begin(), text.end(), ' ') < most_words && !text.ends_with('.');
+}
+
+void check_beginning(const Passage& passage, const std::string& text, bool help,
                      std::vector<Violation>& found) {
-  static const std::regex pronoun(R"(^(of|those|as|it|what)(?= [^ ]+ [^ ]))");
-  if (!std::regex_search(text, pronoun, std::regex_constants::match_continuous)) {
+  static const std::regex pronoun("(?:of|those|as|it|what) [^ ]+( )?");
+  std::smatch match;
+  if (!std::regex_search(text, match, pronoun, std::regex_constants::match_continuous) ||
+      (passage.kind == Kind::string && !match[1].matched)) {
     return;
   }
-  const bool question = text.find('?') < text.find(". ");
   const bool capital = std::isupper(static_cast<unsigned char>(passage.text.front())) != 0;
-  if (!question && (capital || any_case)) {
+  const bool question = text.find('?') < text.find(". ");
+  const bool name = passage.kind == Kind::string && !help && is_name(text);
+  if (!question && !name && (capital || help || passage.kind == Kind::comment)) {
     found.push_back({passage.lines.front(), 2, excerpt(passage, 0)});
   }
 }
@@ -345,15 +371,21 @@ void check_shorthand(const Passage& passage, const std::string& text,
 }
 
 void check_terms(const Passage& passage, const std::string& text, std::vector<Violation>& found) {
-  for (const Term& term : terms) {
-    if (text.find(term.rare) == std::string::npos) {
+  static const std::vector<std::regex> patterns = [] {
+    std::vector<std::regex> made;
+    for (const Term& term : terms) {
+      made.emplace_back(term.pattern);
+    }
+    return made;
+  }();
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    if (text.find(terms[k].rare) == std::string::npos) {
       continue;
     }
-    const std::regex pattern(term.pattern);
-    for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end;
+    for (std::sregex_iterator match(text.begin(), text.end(), patterns[k]), end; match != end;
          ++match) {
       const std::size_t at = static_cast<std::size_t>(match->position());
-      found.push_back({passage.lines[at], 4, "\"" + match->str() + "\": say " + term.instead});
+      found.push_back({passage.lines[at], 4, "\"" + match->str() + "\": say " + terms[k].instead});
     }
   }
 }
@@ -383,9 +415,8 @@ void check_width(const std::string& document, std::vector<Violation>& found) {
       continue;
     }
     const std::string shown = std::regex_replace(line, target, "]");
-    const auto width = std::count_if(shown.begin(), shown.end(), [](char c) {
-      return (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // not a continuation byte of UTF-8
-    });
+    const auto width =
+        std::count_if(shown.begin(), shown.end(), [](char c) { return !continues_character(c); });
     if (width > 100 && trimmed(shown).find(' ') != std::string_view::npos) {
       found.push_back({number, 5, std::to_string(width) + " characters"});
     }
@@ -394,43 +425,45 @@ void check_width(const std::string& document, std::vector<Violation>& found) {
 
 /// Which rules hold for a file, and how it is read.
 struct FileType {
-  bool document = false;
-  std::string comment_mark;
-  bool starts = true;         ///< rules 2 and 3 apply
-  bool string_starts = true;  ///< rule 2 applies to strings
-  bool help = false;          ///< rule 2 applies to strings in lower case, too
+  bool document = false;            ///< Markdown; otherwise a source
+  std::string comment_mark = "//";  ///< what comments of a source begin with, if it may have any
+  bool messages = true;             ///< rule 2 applies to strings
+  bool help = false;                ///< rule 2 applies to strings that begin in lower case, too
+  bool decision = false;            ///< rule 5 does not apply
 };
 
-std::vector<Violation> violations_in(const std::string& content, const FileType& type) {
-  std::vector<Violation> found;
-  std::vector<Passage> passages =
-      type.document ? paragraphs_in(content) : SourceReader(content, type.comment_mark).run();
-  for (const Passage& passage : passages) {
+void check_source(const std::string& content, const FileType& type, std::vector<Violation>& found) {
+  for (const Passage& passage : SourceReader(content, type.comment_mark).run()) {
+    const std::string text = lower(passage.text);
+    check_nouns(passage, text, found);
+    if (passage.kind == Kind::comment || type.messages) {
+      check_beginning(passage, text, type.help, found);
+    }
+    check_shorthand(passage, text, found);
+    check_terms(passage, text, found);
+  }
+}
+
+void check_document(const std::string& content, const FileType& type,
+                    std::vector<Violation>& found) {
+  for (const Passage& passage : paragraphs_in(content)) {
     const std::string text = lower(passage.text);
     check_nouns(passage, text, found);
     check_terms(passage, text, found);
-    if (type.document) {
+    if (!type.decision) {
       check_paragraph(passage, found);
-    } else if (type.starts) {
-      check_shorthand(passage, text, found);
-      if (passage.kind == Kind::comment || type.string_starts) {
-        check_beginning(passage, text, passage.kind == Kind::comment || type.help, found);
-      }
     }
   }
-  if (type.document) {
+  if (!type.decision) {
     check_width(content, found);
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Violation& a, const Violation& b) { return a.line < b.line; });
-  return found;
 }
 
-std::vector<std::string> reports(const std::string& content, const FileType& type) {
-  std::vector<std::string> found;
-  for (const Violation& violation : violations_in(content, type)) {
-    found.push_back(violation.text());
-  }
+std::vector<Violation> violations_in(const std::string& content, const FileType& type) {
+  std::vector<Violation> found;
+  type.document ? check_document(content, type, found) : check_source(content, type, found);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Violation& a, const Violation& b) { return a.line < b.line; });
   return found;
 }
 
@@ -441,23 +474,25 @@ bool is_help(const std::string& name) {
   return name.starts_with("libtransillum/cli/") || name.ends_with("option_table.cpp");
 }
 
-/// @returns whether the file is read
-bool type_of(const fs::path& file, const std::string& name, FileType& type) {
+/// How the file is read; nothing if it is not.
+std::optional<FileType> type_of(const fs::path& file, const std::string& name) {
   const std::string extension = file.extension().string();
+  FileType type;
   if (extension == ".md") {
     type.document = true;
-    return true;
+    type.decision = name.starts_with("libtransillum/decisions/0");
+    return type;
   }
-  if (extension == ".h" || extension == ".cpp") {
-    type.comment_mark = "//";
-  } else if (extension == ".py" || extension == ".pyi") {
+  if (extension == ".py" || extension == ".pyi") {
     type.comment_mark = "#";
-  } else if (!name.starts_with("data/lessons/") || extension != ".json") {
-    return false;
+  } else if (extension == ".json" && name.starts_with("data/lessons/")) {
+    type.comment_mark.clear();
+  } else if (extension != ".h" && extension != ".cpp") {
+    return std::nullopt;
   }
-  type.string_starts = !name.starts_with("tests/");
+  type.messages = !name.starts_with("tests/");
   type.help = is_help(name);
-  return true;
+  return type;
 }
 
 /// All files of the repository, without build folders and hidden ones.
@@ -490,33 +525,134 @@ int exception_for(const std::string& name, const Violation& violation) {
 }
 
 TEST(English, FollowsFiveRules) {
-  std::vector<std::string> found;
+  std::ostringstream list;
+  int count = 0;
   std::set<int> used;
   for (const fs::path& file : files_of_repository()) {
-    FileType type;
     const std::string name = file.lexically_relative(repository).generic_string();
-    if (!type_of(file, name, type)) {
+    const std::optional<FileType> type = type_of(file, name);
+    if (!type) {
       continue;
     }
     std::ostringstream content;
     content << std::ifstream(file, std::ios::binary).rdbuf();
-    for (const Violation& violation : violations_in(content.str(), type)) {
+    for (const Violation& violation : violations_in(content.str(), *type)) {
       const int exception = exception_for(name, violation);
       used.insert(exception);
       if (exception < 0) {
-        found.push_back(name + ":" + violation.text());
+        list << name << ':' << violation.text() << '\n';
+        ++count;
       }
     }
   }
-  std::ostringstream list;
-  for (const std::string& violation : found) {
-    list << violation << '\n';
-  }
-  EXPECT_TRUE(found.empty()) << found.size() << " violations\n" << list.str();
+  EXPECT_EQ(count, 0) << list.str();
   for (std::size_t i = 0; i < exceptions.size(); ++i) {
     EXPECT_TRUE(used.contains(static_cast<int>(i)))
         << "exception " << i << " for " << exceptions[i].file << " is no longer needed";
   }
+}
+
+/// The violations in a text, as they are reported after the file's name.
+std::vector<std::string> reports(const std::string& content, const FileType& type = {}) {
+  std::vector<std::string> found;
+  for (const Violation& violation : violations_in(content, type)) {
+    found.push_back(violation.text());
+  }
+  return found;
+}
+
+TEST(English, ReadsCommentsAndStrings) {
+  const std::string source =
+      "// One comment in\n"
+      "// two lines, goes on.\n"
+      "int a = '\"';  ///< a trailing one\n"
+      "               ///< goes on\n"
+      "int b = 1'000;\n"
+      "const char* c = \"one \\\"literal\\\" goes \"\n"
+      "                \"on\";\n"
+      "/* A block goes\n"
+      "   on */ auto d = R\"(raw\n"
+      "goes on)\";\n"
+      "goes(on); goes on;\n";
+  EXPECT_THAT(reports(source), ElementsAre("2: rule 4: \"goes on\": say continue, resume",
+                                           "4: rule 4: \"goes on\": say continue, resume",
+                                           "6: rule 4: \"goes on\": say continue, resume",
+                                           "8: rule 4: \"goes on\": say continue, resume",
+                                           "10: rule 4: \"goes on\": say continue, resume"));
+  EXPECT_THAT(
+      reports("# It runs.\nx = 'goes on'\n\"\"\"What a\nmodule is.\"\"\"\n", {.comment_mark = "#"}),
+      ElementsAre("1: rule 2: It runs.", "2: rule 4: \"goes on\": say continue, resume",
+                  "3: rule 2: What a module is."));
+}
+
+TEST(English, NounsOfThatAndThoseAreFound) {
+  EXPECT_THAT(
+      reports("// Applies those of materials_.\n"
+              "int a;  ///< larger than that of b\n"
+              "// The area of a piece. That of its patch is larger.\n"
+              "int b;  ///< its rows, with that of b\n"
+              "// Reads the row of a file, then those of others.\n"),
+      ElementsAre("1: rule 1: those of materials_.", "2: rule 1: that of b",
+                  "3: rule 1: That of its patch is larger.", "5: rule 1: those of others."));
+  EXPECT_THAT(reports("// The area of a piece is less than that of its patch.\n"
+                      "int a;  ///< the patch's area over that of b\n"
+                      "// The rows of a file, then those of others.\n"),
+              IsEmpty());
+}
+
+TEST(English, PronounsThatBeginAreFound) {
+  EXPECT_THAT(reports("/// What it does.\n"
+                      "int a;  ///< of the file\n"
+                      "int b;  ///< As given.\n"
+                      "tip(\"It opens the scene.\");\n"
+                      "tip(\"of {} patches, {} are seen\");\n"),
+              ElementsAre("1: rule 2: What it does.", "2: rule 2: of the file",
+                          "3: rule 2: As given.", "4: rule 2: It opens the scene."));
+  EXPECT_THAT(reports("option(\"what the map shows\");\n", {.help = true}),
+              ElementsAre("1: rule 2: what the map shows"));
+  EXPECT_THAT(reports("name(\"What lights the selection\");\n"
+                      "ask(\"What does patch i see of patch j?\");\n"
+                      "/// @param size of a page\n"),
+              IsEmpty());
+}
+
+TEST(English, ValuesWithoutAPhraseAreFound) {
+  EXPECT_THAT(reports("int a;  ///< a limit; 0: none\n"
+                      "int b;  ///< empty: it has none of them\n"
+                      "// null: the default, if there is one\n"),
+              ElementsAre("1: rule 3: 0: none", "2: rule 3: empty: it has none of them",
+                          "3: rule 3: null: the default, if there is one"));
+  EXPECT_THAT(reports("int a;  ///< a limit; 0: nothing is limited\n"
+                      "fail(\"face 0: no corners\");\n"),
+              IsEmpty());
+}
+
+TEST(English, OtherTermsAreFound) {
+  EXPECT_THAT(reports("// Parts that hang together are left out, without a word.\n"
+                      "// Found anew along even directions, it went on.\n"),
+              ElementsAre("1: rule 4: \"hang together\": say be connected",
+                          "1: rule 4: \"left out\": say omit",
+                          "1: rule 4: \"without a word\": say silently",
+                          "2: rule 4: \"went on\": say continue, resume",
+                          "2: rule 4: \"anew\": say again, re-",
+                          "2: rule 4: \"even directions\": say evenly spread directions"));
+}
+
+TEST(English, LongParagraphsAndLinesAreFound) {
+  const FileType document{.document = true};
+  const std::string wide(70, 'x'), part = wide + " and " + wide;
+  EXPECT_THAT(reports("# Title\n\nOne. Two. Three.\n\n- One. Two.\n- Three. Four. (See *this*.)\n",
+                      document),
+              IsEmpty());
+  EXPECT_THAT(reports("One. **Two.** Three? Yes!\n", document),
+              ElementsAre("1: rule 5: 4 sentences: One. **Two.** Three? Yes!"));
+  EXPECT_THAT(reports(part + "\n", document), ElementsAre("1: rule 5: 145 characters"));
+  EXPECT_THAT(reports("| " + part + " |\n\n# " + part + "\n\n```\n" + part + "\n```\n\n" + wide +
+                          wide + "\n\n[a link](" + wide + ") and [another](" + wide + ")\n",
+                      document),
+              IsEmpty());
+  EXPECT_THAT(reports("One. Two. Three. Four goes on.\n", {.document = true, .decision = true}),
+              ElementsAre("1: rule 4: \"goes on\": say continue, resume"));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ struct AccuracyStage {
 
 /// The outcome of a solve with a goal.
 struct AccuracyReport {
-  AccuracyGoal goal;                  ///< as given
+  AccuracyGoal goal;                  ///< the goal given
   std::vector<AccuracyStage> stages;  ///< in order; the last stage made the result
   double error = 0;                   ///< relative: the limit of AccuracyGoal::of, of the result
   bool reached = false;               ///< error <= goal.accuracy, and `trusted`

@@ -53,7 +53,7 @@ struct EngineTraits {
   const char* label;                    ///< in a list of choices
   const char* sentence;                 ///< on its method
   Error error = Error::none;            ///< error of its transfers
-  Picture picture = Picture::polygons;  ///< of V
+  Picture picture = Picture::polygons;  ///< form of V
   bool takes_directions = true;         ///< make_engine() accepts it
   bool has_moments = false;             ///< computes Transfers::moments
   bool has_linear_basis = false;        ///< solves with Basis::linear

@@ -15,7 +15,7 @@ namespace TRANSILLUM_API transillum {
 
 /// Options of relight().
 struct RelightOptions {
-  double tolerance = 1e-6;  ///< as SolveOptions::tolerance
+  double tolerance = 1e-6;  ///< see SolveOptions::tolerance
   /// Initial B, W/m², one per patch; E if empty. The closer to the result, the fewer iterations.
   std::span<const Rgb> start = {};
   /// The first shot of the solve run that the form factors come from

@@ -37,7 +37,7 @@ struct SolveRequest {
   std::shared_ptr<const DirectLight> shot = nullptr;  ///< direct light of `scene`; shot if null
   TransferEngine engine = {};                         ///< makes the passes; options.engine if null
   std::shared_ptr<SolverGroup> group = nullptr;       ///< processes; null means this one alone
-  bool keep_form_factors = false;                     ///< as RadiositySolver::keep_form_factors()
+  bool keep_form_factors = false;                     ///< see RadiositySolver::keep_form_factors()
   /// Called with the finished share of a preparation, 0 to 1, on any thread, one at a time.
   std::function<void(Preparation, double)> preparing = {};
 };

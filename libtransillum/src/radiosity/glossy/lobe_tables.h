@@ -22,7 +22,7 @@ struct LobeTable {
   std::size_t kernel = 0;  ///< index of its shape
   Vec3 normal;
   std::vector<double> scale = {}, spread = {};             ///< by pass
-  double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< as GlossyFigures
+  double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< see GlossyFigures
 };
 
 /// Reports on long work: the finished share, 0 to 1, and the number of tables in

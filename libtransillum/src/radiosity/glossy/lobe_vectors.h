@@ -15,7 +15,7 @@ struct LobeRow {
   const double *x, *y, *z, *cosines;  ///< arrays over the directions
   std::size_t count;
   Vec3 a;
-  double cosine;  ///< of `a`
+  double cosine;  ///< cosine of `a`
   double* values;
 };
 

@@ -93,7 +93,7 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
 
   SolveProgress progress() const;
   SolveStatistics solve_statistics() const;
-  /// As RadiositySolver::sky_irradiance()
+  /// The same as RadiositySolver::sky_irradiance()
   std::vector<Rgb> sky_irradiance() const;
   FormFactors form_factors() const;
   ErrorEstimate error_estimate() const;

@@ -96,7 +96,7 @@ double decode(Type type, const std::array<unsigned char, 8>& bytes) {
 struct Property {
   std::string name;
   Type type = Type::float32;
-  std::optional<Type> count;  ///< of lists
+  std::optional<Type> count;  ///< type of the counts of lists
 };
 
 struct Element {

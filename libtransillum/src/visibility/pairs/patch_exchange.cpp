@@ -237,7 +237,7 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
 struct ExchangeFinder::Sampled {
   bool p_is_smaller;
   Outline small, large;
-  const Vec3& normal;  ///< of `small`
+  const Vec3& normal;  ///< normal of `small`
   double size;         ///< radius of `small` over the distance
 
   Sampled(const FacingPolygons& facing, double tolerance)

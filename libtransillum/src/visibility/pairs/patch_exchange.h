@@ -83,7 +83,7 @@ class ExchangeFinder {
   struct Blocker {
     Corners outline;
     double bend;
-    std::vector<PatchId> patches;  ///< as MergedPiece::patches
+    std::vector<PatchId> patches;  ///< equal to MergedPiece::patches
 
     bool is_of(PatchId i) const { return std::binary_search(patches.begin(), patches.end(), i); }
   };
@@ -139,7 +139,7 @@ class ExchangeFinder {
   double tolerance_;  ///< in that unit
   std::vector<PatchId> first_sides_;
   std::vector<Blocker> blockers_;
-  BoxTree tree_;  ///< of blockers_
+  BoxTree tree_;  ///< tree of blockers_
   std::vector<Part> parts_;
   std::vector<std::size_t> part_begin_;
   std::vector<MergedFace> faces_;  ///< faces of consecutive patches

@@ -24,7 +24,7 @@ class VtpFile {
  public:
   /// The type of an array, as the file states it.
   struct Kind {
-    std::string type;  ///< as "Float64"
+    std::string type;  ///< such as "Float64"
     std::size_t components = 1;
   };
 
