@@ -90,8 +90,8 @@ std::string_view trimmed(std::string_view text) {
              : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-/// Finds the comments and string literals of C++, Python or JSON sources. Consecutive comment lines
-/// in one column are one passage, as are literals with only white space between them.
+/// Finds the comments and string literals of C++, Python, CMake or JSON sources. Consecutive
+/// comment lines in one column are one passage, as are literals with only white space between them.
 class SourceReader {
  public:
   /// @param comment_mark what a comment begins with; empty: the language has no comments
@@ -483,7 +483,8 @@ std::optional<FileType> type_of(const fs::path& file, const std::string& name) {
     type.decision = name.starts_with("libtransillum/decisions/0");
     return type;
   }
-  if (extension == ".py" || extension == ".pyi") {
+  if (extension == ".py" || extension == ".pyi" || extension == ".cmake" ||
+      file.filename() == "CMakeLists.txt") {
     type.comment_mark = "#";
   } else if (extension == ".json" && name.starts_with("data/lessons/")) {
     type.comment_mark.clear();
