@@ -27,8 +27,8 @@ const Choices& choices_of<AccuracyOf>();
 /// When a solve is accurate enough.
 struct AccuracyGoal {
   double accuracy = 0;              ///< relative error, [0,1); 0: as small as `seconds` allow
-  AccuracyOf of = AccuracyOf::rms;  ///< which error
-  PatchId patch = 0;                ///< for AccuracyOf::patch
+  AccuracyOf of = AccuracyOf::rms;  ///< the error to limit
+  PatchId patch = 0;                ///< the patch, for AccuracyOf::patch
   double seconds = 0;               ///< wall time of the solve, without loading; 0 sets no limit
 
   /// Whether there is a goal.
@@ -51,7 +51,7 @@ std::string name_of_accuracy(const AccuracyGoal& goal);
 
 /// One run of a solve with a goal.
 struct AccuracyStage {
-  int directions = 0;  ///< M, of all replicas
+  int directions = 0;  ///< M, all replicas together
   int replicas = 0;    ///< 2 or more
   double error = 0;    ///< relative: the limit of AccuracyGoal::of
 };

@@ -90,9 +90,9 @@ std::optional<int> actual_directions_if_homogeneous(const DirectionSetFamily& se
                                                     double accuracy,
                                                     const Cancellation& cancellation = {});
 
-/// Estimate of the M that the bound of eq. 43 requires with the sets' own D*, measured for 1,024
+/// Estimate of the M that the bound of eq. 43 requires with D* of these sets, measured for 1,024
 /// and 16,384 directions and extrapolated as a power of M.
-/// Nothing for antipodal sets, which are even on the sphere, not on the unit square of D*.
+/// Nothing for antipodal sets, which are evenly spread on the sphere, not on the unit square of D*.
 /// @throws Canceled
 std::optional<double> estimated_directions_if_heterogeneous(const DirectionSetFamily& sets,
                                                             double rho, double accuracy,

@@ -37,8 +37,8 @@ class Checkpoint {
   /// call it after the same pass; member 0 writes the file.
   /// @throws std::runtime_error if the file cannot be written; the one before is kept then.
   void save(const SolveSession& session);
-  /// Saves a solve if `interval` has passed since this object was made or last saved, and so long
-  /// that saving takes less than a hundredth of the time.
+  /// Saves a solve if `interval` has passed since this object was made or last saved, and enough
+  /// time that saving takes less than a hundredth of it.
   /// @param session as for save().
   /// @param interval s; 0 saves at every call.
   /// @returns whether it was saved.

@@ -33,7 +33,7 @@ enum class Engine {
 
 /// The properties of an engine. Callers ask these instead of naming engines.
 struct EngineTraits {
-  /// How its transfers are wrong.
+  /// The kind of error in its transfers.
   enum class Error {
     none,         ///< not at all, up to rounding
     statistical,  ///< by chance: its own random numbers
@@ -48,10 +48,10 @@ struct EngineTraits {
     none,       ///< not at all
   };
 
-  Engine value;                         ///< which one
+  Engine value;                         ///< the engine
   const char* name;                     ///< in options and files
   const char* label;                    ///< in a list of choices
-  const char* sentence;                 ///< on its method
+  const char* sentence;                 ///< one sentence on its method
   Error error = Error::none;            ///< error of its transfers
   Picture picture = Picture::polygons;  ///< form of V
   bool takes_directions = true;         ///< make_engine() accepts it

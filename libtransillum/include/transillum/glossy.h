@@ -30,8 +30,8 @@ namespace TRANSILLUM_API transillum {
 Lobe used_lobe(const Material& material);
 /// Whether the lobe of any patch reflects something.
 bool has_lobes(const Scene& scene);
-/// The exponent of the Phong lobe that is about as wide: of LobeShape::ggx, with alpha =
-/// roughness², ln 2 / alpha², which falls to a quarter at the same angle.
+/// The exponent of the Phong lobe that is about as wide. For LobeShape::ggx, with alpha =
+/// roughness², it is ln 2 / alpha²: both lobes fall to a quarter at the same angle.
 double equivalent_exponent(const Lobe& lobe);
 /// Largest equivalent_exponent() that M passes resolve: M/10, ten directions within a lobe.
 double resolved_exponent(int directions);

@@ -125,23 +125,23 @@ class RadiositySolver {
   SolveStatistics statistics() const;
 
   /// B of the last finished iteration, W/m², one per patch; before the first: E, plus the
-  /// contribution of the first shot. Of Basis::linear its mean over the patch.
+  /// contribution of the first shot. With Basis::linear, the mean of B over the patch.
   const std::vector<Rgb>& radiosity() const;
-  /// The linear parts of B, one per patch, of what solution() returns as radiosity; empty for
+  /// The linear parts of the radiosity that solution() returns, one per patch; empty with
   /// Basis::constant.
   std::vector<LinearPart> linear_parts() const;
   /// B of the current iteration, W/m², estimated from the passes done so far; radiosity() between
   /// iterations.
   std::vector<Rgb> running_estimate() const;
-  /// H of the last finished iteration, W/m², one per patch; of Basis::linear its mean over the
-  /// patch.
+  /// H of the last finished iteration, W/m², one per patch; with Basis::linear, the mean of H over
+  /// the patch.
   const std::vector<Rgb>& irradiance() const;
   /// Keeps form factors in the semi-iterative scheme too, from the next pass on. The other schemes
   /// always keep them if SolveOptions::memory suffices.
   void keep_form_factors();
-  /// Continues a finished solve with one replica more, whose set has as many directions as that of
-  /// the last: options().directions and options().replicas increase. radiosity() remains until the
-  /// next iteration is finished.
+  /// Adds one replica, with as many directions as the last, and continues a finished solve:
+  /// options().directions and options().replicas increase. radiosity() remains until the next
+  /// iteration is finished.
   /// @throws std::logic_error unless the solve is finished, its scheme is fixed or
   /// conjugate_gradients, and it has at least 2 replicas.
   void add_replica();
@@ -173,12 +173,12 @@ class RadiositySolver {
   /// 17).
   std::vector<double> sky_shares() const;
   /// Per patch: what it receives from SolveOptions::sky, W/m², from the passes done so far; empty
-  /// without a sky. In the semi-iterative scheme, of the last set of directions.
+  /// without a sky. In the semi-iterative scheme, for the last set of directions.
   std::vector<Rgb> sky_irradiance() const;
-  /// Per patch: share of its visible area, over all passes so far, of which receivers see the back
-  /// side.
+  /// Per patch: share of its visible area of which receivers see the back side, over all passes so
+  /// far.
   std::vector<double> back_seen_shares() const;
-  /// The error estimate from replicas: of radiosity(), or within an iteration of
+  /// The error estimate from replicas: for radiosity(), or within an iteration for
   /// running_estimate().
   ErrorEstimate error_estimate() const;
   /// The result so far: within an iteration the running estimate, else radiosity(); complete once
@@ -199,7 +199,7 @@ class RadiositySolver {
   /// its largest reflected light. Empty between iterations.
   const std::vector<double>& estimate_changes() const;
   /// eps after each pass so far: the largest magnitude of eq. 17 over the patches, which eq. 21
-  /// bounds. In the semi-iterative scheme of the current set of directions only.
+  /// bounds. In the semi-iterative scheme, only for the current set of directions.
   const std::vector<double>& quadrature_errors() const;
 
  private:

@@ -42,7 +42,7 @@ const Choices& choices_of<Scheme>();
 
 /// The properties of a scheme. Callers ask these instead of naming schemes.
 struct SchemeTraits {
-  Scheme value;                    ///< which one
+  Scheme value;                    ///< the scheme
   const char* name;                ///< in options and files
   const char* label;               ///< in a list of choices
   const char* sentence;            ///< which directions an iteration has
@@ -92,14 +92,14 @@ struct SolveOptions {
   double tolerance = 1e-6;
   std::uint64_t memory = 0;  ///< limit for kept form factors, bytes; 0: a quarter of the machine's
   int threads = 0;           ///< 0 uses all cores; the result does not depend on it
-  /// If set, a SolveSession chooses `directions` and `replicas`. A RadiositySolver uses
-  /// those given.
+  /// If set, a SolveSession chooses `directions` and `replicas`. A RadiositySolver uses the
+  /// values given.
   AccuracyGoal goal = {};
   /// Light that enters where nothing is above a patch. Not with engines hemicube and pairs.
   Sky sky = {};
   /// solve(): lobes of materials take part (glossy.h). Requires two_way, Scheme::fixed,
   /// Basis::constant, 1 replica, an engine that takes_directions(), normalization none or rows; no
-  /// first shot, no goal. A RadiositySolver leaves lobes out.
+  /// first shot, no goal. A RadiositySolver ignores lobes.
   bool glossy = false;
 
   /// `sampling`, or default_sampling(two_way).

@@ -30,7 +30,7 @@ enum class Preparation { tree, first_shot };
 
 /// The scene, the options and the ready-made parts of a solve.
 struct SolveRequest {
-  std::shared_ptr<const Scene> scene;                 ///< with the materials to be solved for
+  std::shared_ptr<const Scene> scene;                 ///< has the materials to solve for
   SolveOptions options = {};                          ///< options of each solve
   std::optional<RefineOptions> refine = {};           ///< options of preceding rounds, if any
   std::shared_ptr<const BspTree> tree = nullptr;      ///< tree of `scene`; built if null
@@ -115,20 +115,21 @@ class SolveSession {
   bool in_rounds() const;
   /// The rounds that are finished.
   const std::vector<RefinementRound>& rounds() const;
-  /// The scene as refined so far: scene(), or by RefineBy::error, in a round, that before each
+  /// The scene as refined so far: scene(), or, in a round by RefineBy::error, the scene before each
   /// patch was divided.
   const std::shared_ptr<const Scene>& refined_scene() const;
-  /// The finished stages of a solve with a goal, and whether the last reached it; nothing without.
+  /// The finished stages of a solve with a goal, and whether the last reached it; nothing without
+  /// a goal.
   std::optional<AccuracyReport> accuracy() const;
-  /// Wall time of the present round in this session's functions, with that of the session which
-  /// saved it, s.
+  /// Wall time of the present round in functions of this session, and of the session that saved it,
+  /// s.
   double seconds() const;
 
   /// The solver of the present stage; null where lobes take part.
   const RadiositySolver* diffuse() const;
   /// The solver where lobes take part, else null.
   const GlossySolver* glossy() const;
-  /// The options of the present stage: those of a goal have other numbers of directions.
+  /// The options of the present stage: with a goal, each has its own number of directions.
   const SolveOptions& options() const;
   /// The state of the present stage.
   SolveProgress progress() const;
