@@ -47,7 +47,7 @@ struct Term {
 const std::vector<Term> terms{
     {R"(\bh(ang|angs|anging|ung) together\b)", " together", "be connected"},
     {R"(\b(go|goes|going|gone|went) on\b)", " on", "continue, resume"},
-    {R"(\b(leave|leaves|leaving|left) out\b)", " out", "omit"},
+    {R"(\b(leave|leaves|leaving|left)( \w+){0,2} out\b)", " out", "omit"},
     {R"(\banew\b)", "anew", "again, re-"},
     {R"(\bwithout a word\b)", "a word", "silently"},
     {R"(\beven directions\b)", "even dir", "evenly spread directions"},

@@ -133,9 +133,10 @@ Run add_compare_command(CLI::App& program) {
                         throw InputError(fmt::format("--tolerance: \"{}\" is less than 0", text));
                       }
                     });
-  command.add_flag("--functions", call->functions,
-                   "compare B as functions on the faces, whose patches may differ, as those of "
-                   "--max-patch-area: the L2 norm of the difference");
+  command.add_flag(
+      "--functions", call->functions,
+      "compare B as functions on the faces, also of scenes that differ in their patches "
+      "only, as by --max-patch-area: the L2 norm of the difference");
   command.footer(
       "Differences of B, relative to the reflected light of A: B - E of patches that do not emit,\n"
       "or of all where the others reflect nothing. By group, they are relative to the group's "

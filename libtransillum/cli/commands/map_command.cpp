@@ -173,8 +173,7 @@ Run add_map_command(CLI::App& program) {
   command.get_option("--memory")
       ->description(
           "memory limit for the record of the map's making, such as 2G or 800M (default: a "
-          "quarter of "
-          "the machine's)");
+          "quarter of the machine's)");
   add_parsed_option(
       command, "--size", "PIXELS",
       fmt::format("length of the longer side of .svg and .png (default {})", call->picture.size),

@@ -28,7 +28,7 @@ std::vector<std::string> solve_arguments(const MergeCall& call) {
   const auto is_value = [](const std::string& argument) { return argument.rfind("--", 0) != 0; };
   const auto scene = std::find_if(arguments.begin(), arguments.end(), is_value);
   if (scene == arguments.end()) {
-    throw InputError(fmt::format("{}: it does not say of which scene it is", call.parts.front()));
+    throw InputError(fmt::format("{}: the shard does not name its scene", call.parts.front()));
   }
   if (!call.scene.empty()) {
     *scene = call.scene;

@@ -303,12 +303,12 @@ void add_accuracy(Table& t) {
   t.group = "Accuracy";
   const auto goal = [](auto m) { return solve(&SolveOptions::goal, m); };
   percentage(t.common("accuracy", "P%|X", "a percentage or a number, or none",
-                      "choose M and the replicas so that the error of B is at most that, with 95 % "
+                      "choose M and the replicas so that the error of B is at most this, with 95 % "
                       "confidence"),
              goal(&AccuracyGoal::accuracy));
   Option& of =
       t.add("accuracy-of", "NAME", "a name",
-            "error that the accuracy is about, relative to reflected light, B - E, without patches "
+            "error that the accuracy limits, relative to reflected light, B - E, without patches "
             "that emit: rms, the RMS error over the RMS; max, the largest error over the largest "
             "value; patch:I, the error of patch I; mean, the error of the mean");
   of.choices = {"rms", "max", "patch:I", "mean"};
