@@ -84,7 +84,8 @@ def solve(scene: Scene, *, progress: Union[Progress, None] = None, **options: An
     """Solves B_i = E_i + rho_i sum_j F_ij B_j.
 
     progress: called several times a second with a dict: iteration, direction (passes made in it),
-        passes, passes_per_second, seconds_left, change, stage, stage_share. What it raises ends the solve.
+        passes, passes_per_second, seconds_left, change, stage, stage_share. What it raises ends
+        the solve.
     options: names and values as in options().
     """
     return Solution(_core.solve(scene._core, options, progress), scene)
@@ -98,7 +99,8 @@ def form_factors(
     normalized, A_i F[i, j] = A_j F[j, i].
 
     progress: as for solve().
-    options: names and values as in options() that belong to directions, engine, normalization and memory.
+    options: names and values as in options(), only of directions, engine, normalization and
+        memory.
     """
     return _to_csr(_core.form_factors(scene._core, options, progress), len(scene))
 
@@ -128,15 +130,16 @@ class Run:
 
         With an accuracy, the next stage, with more directions, follows a stage that has ended;
         then radiosity and directions belong to the new stage, and solution() to the last
-        finished one. Returns whether the solve is unfinished. Ctrl-C, and what progress raises, pause it after
-        the pass under way: the next call continues. progress must not read the run.
+        finished one. Returns whether the solve is unfinished. Ctrl-C, and what progress raises,
+        pause it after the pass under way: the next call continues. progress must not read the
+        run.
         """
         return self._core.advance(until, progress)
 
     @property
     def progress(self) -> dict[str, Any]:
-        """iteration, direction, passes, finished, change, passes_per_second, seconds_left; of solves
-        with lobes, stage ("passes", "scaling lobes" or "reflecting") and stage_share, 0 to 1."""
+        """iteration, direction, passes, finished, change, passes_per_second, seconds_left; with
+        lobes also stage ("passes", "scaling lobes" or "reflecting") and stage_share, 0 to 1."""
         return self._core.progress
 
     @property
