@@ -301,7 +301,7 @@ std::size_t sentence_begin(const std::string& text, std::size_t at) {
 /// Whether the words before "that of" or "those of" have a noun for it: in "NOUN of", "its NOUN" or
 /// "the patch's NOUN"; for "those of", one in the plural.
 bool has_noun(const std::string& before, bool plural) {
-  static const std::regex parallel(R"(\b([a-z]+) of\b|(?:\b(?:its|their|whose)|'s) ([a-z]+)\b)");
+  static const std::regex parallel(R"(\b([a-z]+) of\b|(?:\b(?:its|their)|'s) ([a-z]+)\b)");
   static const std::set<std::string> not_nouns{
       "that", "those", "out",  "because", "instead", "consist",  "each", "all",  "one", "both",
       "some", "most",  "none", "any",     "part",    "consists", "this", "many", "two", "half"};

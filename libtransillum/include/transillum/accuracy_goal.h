@@ -17,7 +17,7 @@ enum class AccuracyOf {
   rms,    ///< RMS error of B over RMS of reflected light, over patches and channels
   max,    ///< largest error over the largest reflected light
   patch,  ///< error of one patch over its B - E, as lengths of RGB vectors
-  mean,   ///< error of the area-weighted mean of B over that of B - E, as lengths of RGB vectors
+  mean,  ///< error of the area-weighted mean of B over the mean of B - E, as lengths of RGB vectors
 };
 
 /// The names of the errors (choice.h). The number of a patch follows the name `patch`.

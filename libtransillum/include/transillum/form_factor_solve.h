@@ -35,7 +35,7 @@ Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOp
                                const std::function<void(double)>& progress = {});
 
 /// Solves with given form factors, by the iteration of solve_by_form_factors(). No passes are made:
-/// in the statistics, their number and that of directions is 0.
+/// in the statistics, the numbers of passes and of directions are 0.
 /// @param scene the scene.
 /// @param form_factors of `scene`, as of read_form_factors().
 /// @param options tolerance, iterations and threads apply.

@@ -36,9 +36,9 @@ struct GatherOptions {
 /// Form factors by Monte Carlo ray tracing, for comparison: from every patch, rays with cosine
 /// distribution to the first patch they hit.
 ///
-/// Unbiased; N F_ij is a count of N rays per patch, so its error is about that of a binomial count,
-/// less where the rays are stratified. Of coincident patches the one whose front side faces the ray
-/// is hit.
+/// Unbiased; N F_ij is a count of N rays per patch, so its error is about as large as for a
+/// binomial count, less where the rays are stratified. Of coincident patches the one whose front
+/// side faces the ray is hit.
 /// @param scene the scene.
 /// @param options rays, seed and threads.
 /// @param cancellation checked during computation.

@@ -29,10 +29,10 @@ enum class RefineBy {
 template <>
 const Choices& choices_of<RefineBy>();
 
-/// Per patch: root of the mean square, along its edges, of the jump of its radiosity to that of the
-/// patches beyond them, W/m², as the length of an RGB vector. Light alone is compared: beyond an
-/// edge, the irradiance of the neighbor times the reflectance of the patch, so that neither paint
-/// nor lamps count as jumps. Taken at two points of each edge.
+/// Per patch: root of the mean square, along its edges, of the jump from its radiosity to the
+/// radiosity of the patches beyond them, W/m², as the length of an RGB vector. Light alone is
+/// compared: beyond an edge, the irradiance of the neighbor times the reflectance of the patch, so
+/// that neither paint nor lamps count as jumps. Taken at two points of each edge.
 ///
 /// Neighbors are the patches of the same plane that touch the edge. Where a patch has none of these
 /// they are those that touch it at an angle; where it has none of these either, the jump is the

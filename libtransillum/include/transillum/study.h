@@ -41,7 +41,7 @@ RadiosityError radiosity_error(const Scene& scene, const std::vector<Rgb>& b,
 /// The same for functions: `rms` is the L2 norm of the difference over the L2 norm of the
 /// reference, `max` the largest magnitude of a coefficient's difference over the largest of the
 /// reference.
-/// @param b the coefficients of each patch: its mean, or also those of a LinearPart.
+/// @param b the coefficients of each patch: its mean, or also its LinearPart.
 /// @param reference three coefficients for each patch.
 RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
                               const std::vector<Rgb>& reference);

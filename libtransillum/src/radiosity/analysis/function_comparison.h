@@ -5,7 +5,7 @@
 
 namespace transillum {
 
-/// How far the radiosity of one result is from that of another, as functions on the surfaces.
+/// How much the radiosities of two results differ, as functions on the surfaces.
 struct FunctionDifference {
   /// Root of ∫ |difference|² over channels and the faces where reflected light is measured
   /// (reflected_light()), over the root of ∫ (B - E)² of the reference; 0 where nothing differs,

@@ -13,8 +13,8 @@ namespace transillum {
 struct DroppedFormFactors {
   FormFactors form_factors;  ///< the remaining form factors, rebalanced
   std::size_t dropped = 0;   ///< number of omitted entries
-  /// Sum over i of A_i times the dropped F_ij, over that of all: the share of light that was moved
-  /// to other pairs.
+  /// Sum of A_i F_ij over the dropped entries, over the sum of all: the share of light that was
+  /// moved to other pairs.
   double share = 0;
   /// Number of entries below the threshold that are kept, without which their rows cannot be
   /// balanced.

@@ -35,7 +35,7 @@ std::array<std::int64_t, 4> key_of(std::size_t kernel, const Vec3& normal) {
           rounded(normal.z)};
 }
 
-/// Light of a patch as three planes, each value times that of `factor`.
+/// Light of a patch as three planes, each value times the value of `factor`.
 void set_planes(const Rgb* light, const std::vector<double>& factor, std::vector<double>& planes) {
   const std::size_t count = factor.size();
   planes.resize(3 * count);

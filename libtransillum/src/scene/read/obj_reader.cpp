@@ -308,7 +308,7 @@ class ObjReader {
     }
   }
 
-  /// Replaces the numbers of used names by those of materials.
+  /// Replaces the numbers of used names by the numbers of materials.
   void resolve_materials() {
     std::vector<std::int64_t> faces(used_names_.size());
     std::int64_t without = 0;

@@ -171,7 +171,7 @@ class RadianceReader {
                              in_quotes(name)));
       define(name, add_material({name, {}, {}}));
     } else {
-      // A pattern, a texture or a mixture: its material is that of its modifier.
+      // A pattern, a texture or a mixture: it has the material of its modifier.
       notes_.add("patterns and other modifiers, ignored",
                  fmt::format("{}{} {} is ignored", place(), type, in_quotes(name)));
       define(name, find(modifier));

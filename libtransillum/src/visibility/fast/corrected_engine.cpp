@@ -105,7 +105,7 @@ class CorrectedPass {
     double seen;     ///< the part of it that is treated as visible
   };
 
-  /// Collects the fragments above whose boxes overlap that of fragment k, nearest first.
+  /// Collects the fragments above whose boxes overlap the box of fragment k, nearest first.
   void find_candidates(std::int32_t k) {
     const FragmentWindow window = window_of(at(projected_.boxes, k));
     candidates_.clear();

@@ -26,8 +26,8 @@
 //   done()          remaining_ is empty, or its area is rounding only
 // clang-format on
 //
-// edges_ holds the lines of all edges: [0, kept_edges_) are those of the polygons above, and
-// [kept_edges_, edge_count_) those of the current candidate. They are discarded when the next
+// edges_ holds the lines of all edges: [0, kept_edges_) for the polygons above, and
+// [kept_edges_, edge_count_) for the current candidate. They are discarded when the next
 // candidate is loaded, unless the candidate has cut a polygon: its parts refer to them.
 //
 // Notation: an index is a position in polygons_; a ref is an EdgeRef; k is a corner, and edge k

@@ -24,7 +24,7 @@ struct MergedPiece {
   double bend = 0;               ///< bend of the MergedFace, or of the piece itself, m
   std::vector<PatchId> patches;  ///< patches of this piece; if two-sided, patches of the first side
 };
-/// Convex polygons whose union is that of the scene's patches; they may overlap: those of
+/// Convex polygons with the same union as the scene's patches; they may overlap: the outlines of
 /// merged_faces(), and the pieces of the other patches.
 std::vector<MergedPiece> merged_pieces(const Scene& scene);
 /// Per patch: itself, or for the second side of a two-sided one the first side.
