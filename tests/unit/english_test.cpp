@@ -3,10 +3,9 @@
 // Checks five rules of plain English in comments, string literals, lessons and documents:
 //   1. "that of" and "those of" have their noun earlier in the same sentence, in a parallel phrase:
 //      "the area of the patch …, that of the piece", "its area …, that of the piece".
-//   2. No comment, help text or message begins with Of, Those, As, It or What. Questions may, and
-//   so
-//      may names of at most six words without a full stop, except in help texts. After `@param
-//      NAME` any word may follow, since the name is the noun.
+//   2. No comment, help text or message begins with Of, Those, As, It or What. Questions may; so
+//      may names of at most six words without a full stop, except in help texts. After
+//      `@param NAME` any word may follow, since the name is the noun.
 //   3. "0:", "null:", "none:", "empty:" and "unset:" are followed by a phrase of three words.
 //   4. Words that are not the field's terms are not used.
 //   5. A paragraph has at most three sentences; lines have at most 100 characters.
@@ -461,7 +460,11 @@ void check_document(const std::string& content, const FileType& type,
 
 std::vector<Violation> violations_in(const std::string& content, const FileType& type) {
   std::vector<Violation> found;
-  type.document ? check_document(content, type, found) : check_source(content, type, found);
+  if (type.document) {
+    check_document(content, type, found);
+  } else {
+    check_source(content, type, found);
+  }
   std::stable_sort(found.begin(), found.end(),
                    [](const Violation& a, const Violation& b) { return a.line < b.line; });
   return found;
