@@ -18,8 +18,7 @@ namespace {
 
 // Grid units.
 constexpr double min_width = 2;
-constexpr int max_offset =
-    16;  ///< largest offset of a corner beyond the line of another corner's edge
+constexpr int max_offset = 16;  ///< distance of a corner beyond the line of another corner's edge
 
 /// Share of the squared diagonal of an outline: an outline with less area is a needle.
 constexpr double needle_share = 0x1p-11;
