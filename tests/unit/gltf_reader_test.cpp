@@ -98,7 +98,7 @@ TEST(Gltf, TakesStripsFansAndTrianglesWithoutIndices) {
                 1e-12);
     EXPECT_NEAR(scene.patch(i).normal.z, 1, 1e-12);
   }
-  EXPECT_THAT(d.notes, Contains(HasSubstr("1 meshes of points or lines, left out")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("1 meshes of points or lines, omitted")));
 }
 
 TEST(Gltf, ReadsNumbersOfAllTypesAndSparseOnes) {
@@ -391,7 +391,7 @@ TEST(Gltf, NodesWithoutExtentAreLeftOut) {
     file.add(primitive, node);
     const SceneDescription d = read(file);
     EXPECT_EQ(d.face_count(), 1U);
-    EXPECT_THAT(d.notes, Contains(HasSubstr("1 nodes whose scale is 0, left out")));
+    EXPECT_THAT(d.notes, Contains(HasSubstr("1 nodes whose scale is 0, omitted")));
   }
 }
 

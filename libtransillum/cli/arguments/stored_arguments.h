@@ -7,7 +7,7 @@
 
 namespace transillum::cli {
 
-/// The arguments that a command was given, such that they can be parsed again; without those of
+/// The arguments that a command was given, such that they can be parsed again; without options for
 /// runs, outputs and machines (add_output_options(), --checkpoint, --resume, --shard).
 std::vector<std::string> stored_arguments(const CLI::App& command);
 

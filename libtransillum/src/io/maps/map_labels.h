@@ -11,7 +11,7 @@ namespace transillum {
 /// Where a label is drawn, pixels.
 struct PlacedLabel {
   std::string text;
-  Vec2 point;            ///< what it points at
+  Vec2 point;            ///< the place that it points at
   Vec2 base;             ///< begin of the text on its base line, or its end
   bool ends_at = false;  ///< whether `base` is the end
 };

@@ -127,7 +127,7 @@ class GltfDocument {
     json_["scene"] = 0;
     json_["scenes"] = {{{"nodes", {0}}, {"extras", {{"exposure", exposure}}}}};
     Json root = {{"name", scene.name()}, {"children", Json::array()}};
-    // Of rotation and translation, the rotation applies first.
+    // The rotation applies before the translation.
     if (display.up) {
       root["rotation"] = rotation_to_y(*display.up);
     }
@@ -226,7 +226,7 @@ class GltfDocument {
   }
 
   Json json_;
-  std::string buffer_;  ///< of whole words of 4 bytes
+  std::string buffer_;  ///< whole words of 4 bytes
 };
 
 void write_word(std::ostream& out, std::size_t value) {

@@ -9,14 +9,14 @@
 
 namespace transillum {
 
-/// What two runs must have in common to have the same bits: version, scene, and the options that
-/// results depend on.
+/// Data that two runs must have in common to have the same bits: version, scene, and the options
+/// that results depend on.
 nlohmann::ordered_json run_identity(const Scene& scene, const SolveOptions& options);
 
 /// The options that results depend on: not memory and threads.
 nlohmann::ordered_json run_options(const SolveOptions& options, const SceneOptions& scene_options);
 
-/// Compares the identity in a file's head with that of this run.
+/// Compares the identity in a file's head with the identity of this run.
 /// @throws InputError naming the first difference
 void check_identity(const SealedFile& file, const nlohmann::ordered_json& expected);
 

@@ -60,7 +60,7 @@ Json study_identity(const Scene& scene, const StudyOptions& options,
 struct [[gnu::visibility("hidden")]] StudyCheckpoint::Impl {
   std::filesystem::path file;
   Json identity;
-  std::size_t series, points;  ///< of the whole study
+  std::size_t series, points;  ///< numbers of the whole study
 };
 
 StudyCheckpoint::StudyCheckpoint(std::filesystem::path file, const Scene& scene,

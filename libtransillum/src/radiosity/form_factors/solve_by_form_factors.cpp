@@ -48,7 +48,7 @@ PairOptions pair_options(const SolveOptions& options) {
   return pairs;
 }
 
-/// Computes the form factors, with a linear basis those of all unknowns, and sets the figures that
+/// Computes the form factors, of all unknowns if the basis is linear, and sets the figures that
 /// differ between the engines.
 FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options,
                                  const Cancellation& cancellation,
@@ -88,7 +88,7 @@ std::vector<double> row_sums(const FormFactors& form_factors, std::size_t per_pa
   return sums;
 }
 
-/// Of values of all unknowns those of phi_0.
+/// The values of phi_0 among the values of all unknowns.
 template <class Value>
 std::vector<Value> means_of(std::vector<Value> values, std::size_t per_patch) {
   if (per_patch > 1) {
@@ -144,7 +144,7 @@ std::vector<LinearPart> linear_parts_of(const std::vector<Rgb>& coefficients) {
   return parts;
 }
 
-/// The iteration with `form_factors`, with a linear basis those of all unknowns; sets all but what
+/// The iteration with `form_factors`, of all unknowns if the basis is linear; sets all but what
 /// computing them took.
 Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
                  const SolveOptions& options, const Cancellation& cancellation) {
@@ -286,7 +286,7 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
   PairSolution result{solved(), points, HUGE_VAL, false};
   while (!result.reached && 2 * points <= EngineOptions::largest_points) {
     points *= 2;
-    result.solution.form_factors.reset();  // the memory limit is that of one matrix
+    result.solution.form_factors.reset();  // the memory limit allows one matrix
     Solution finer = solved();
     result.error = difference(result.solution, finer);
     result.solution = std::move(finer);

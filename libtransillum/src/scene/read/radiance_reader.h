@@ -9,7 +9,7 @@ namespace transillum {
 
 /// Reads the polygons of a Radiance scene description (.rad), which are groups by their names.
 /// plastic, metal and trans: rho = color (1 - specularity); light, glow, illum and spotlight: E =
-/// pi times their radiance. Other surfaces and lights are left out and noted.
+/// pi times their radiance. Other surfaces and lights are omitted and noted.
 /// @throws InputError naming the file, the line and what is wrong; for commands (`!`), which are
 /// not run
 /// @throws Canceled

@@ -14,7 +14,7 @@ namespace transillum {
 /// thread that constructed this reports, so that shares never decrease.
 class BuildProgress {
  public:
-  /// Of sorting `polygons`: n times log2 n.
+  /// Work of sorting `polygons`: n times log2 n.
   static std::int64_t work(std::size_t polygons) {
     return static_cast<std::int64_t>(polygons) * std::bit_width(polygons);
   }
