@@ -391,9 +391,11 @@ void check_terms(const Passage& passage, const std::string& text, std::vector<Vi
 
 void check_paragraph(const Passage& passage, std::vector<Violation>& found) {
   static const std::regex sentence_end(R"~([.!?][)"*_`]* +[(\["*_`]*[A-Z])~");
-  const auto ends =
-      std::distance(std::sregex_iterator(passage.text.begin(), passage.text.end(), sentence_end),
-                    std::sregex_iterator());
+  // A bold label at the beginning is a heading.
+  static const std::regex label(R"(^\*\*[^*]+\.\*\* )");
+  const std::string text = std::regex_replace(passage.text, label, "");
+  const auto ends = std::distance(std::sregex_iterator(text.begin(), text.end(), sentence_end),
+                                  std::sregex_iterator());
   if (ends > 2) {
     found.push_back({passage.lines.front(), 5,
                      std::to_string(ends + 1) + " sentences: " + excerpt(passage, 0)});
@@ -410,7 +412,8 @@ void check_width(const std::string& document, std::vector<Violation>& found) {
   for (int number = 1; std::getline(lines, line); ++number) {
     const bool fence = trimmed(line).starts_with("```");
     in_code = in_code != fence;
-    if (in_code || line.size() <= 100 || line[0] == '|' || line[0] == '#') {
+    if (in_code || line.size() <= 100 || line[0] == '|' || line[0] == '#' ||
+        line.starts_with("    ")) {
       continue;
     }
     const std::string shown = std::regex_replace(line, target, "]");
@@ -647,6 +650,8 @@ TEST(English, LongParagraphsAndLinesAreFound) {
   const std::string wide(70, 'x'), part = wide + " and " + wide;
   EXPECT_THAT(reports("# Title\n\nOne. Two. Three.\n\n- One. Two.\n- Three. Four. (See *this*.)\n",
                       document),
+              IsEmpty());
+  EXPECT_THAT(reports("**Label.** One. Two. Three.\n\n    code: " + part + "\n", document),
               IsEmpty());
   EXPECT_THAT(reports("One. **Two.** Three? Yes!\n", document),
               ElementsAre("1: rule 5: 4 sentences: One. **Two.** Three? Yes!"));
