@@ -12,7 +12,7 @@ namespace transillum::cli {
 /// Whether an output is standard output: its name is `-`.
 bool is_standard_output(const std::string& name);
 
-/// Those of the files that have a name and are not standard output.
+/// The files that have a name and are not standard output.
 std::vector<std::string> given_files(std::vector<std::string> files);
 
 /// Checks before a long computation that each file is writable and given once.

@@ -178,7 +178,7 @@ std::string unexpected_argument_text(const CLI::App& command) {
 std::string repeated_option_text(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const auto given = static_cast<int>(option->results().size());
-    const int most = option->get_items_expected_max();  // 0: a flag
+    const int most = option->get_items_expected_max();  // 0 for a flag
     if (most > 0 && given > most) {
       return fmt::format("{}: given {} times, but it has one value", option->get_name(), given);
     }

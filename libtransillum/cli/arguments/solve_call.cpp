@@ -80,7 +80,7 @@ void add_outputs(CLI::App& command, SolveCall& call) {
 void add_runs(CLI::App& command, SolveCall& call) {
   auto* checkpoint = add_checkpoint_options(
       command, call.checkpoint,
-      "save the run in this file every minute and at its end, so that --resume can go on with it");
+      "save the run in this file every minute and at its end, so that --resume can continue it");
   add_parsed_option(
       command, "--checkpoint-every", "S",
       fmt::format("seconds between two saves of --checkpoint (default {:g}); longer "

@@ -27,7 +27,7 @@ struct SolveCall {
   CheckpointCall checkpoint;
   double checkpoint_every = 60;     ///< --checkpoint-every, s
   std::optional<Share> share;       ///< --shard
-  std::vector<std::string> shards;  ///< of `merge`: the passes are read from these
+  std::vector<std::string> shards;  ///< for `merge`: the passes are read from these files
   bool quiet = false;
 
   /// The options of the solve: as given before complete(), checked and complete after it.
@@ -35,8 +35,8 @@ struct SolveCall {
 };
 
 void add_solve_options(CLI::App& command, SolveCall& call);
-/// Those that say what is written, and how much memory and how many threads are used: the only ones
-/// that `merge` has itself.
+/// Options that say what is written, and how much memory and how many threads are used: the only
+/// ones that `merge` has itself.
 void add_output_options(CLI::App& command, SolveCall& call);
 
 /// The output files, checked as far as that can be done before a long computation.

@@ -25,7 +25,7 @@ struct FactorsCall {
   RunInput scene;
   GatherOptions rays;
   SensorCall sensors;
-  double drop = 0;  ///< form factors below it are left out; 0: all are written
+  double drop = 0;  ///< form factors below it are omitted; 0 writes all
   std::string out;
 
   const SolveOptions& passes() const { return scene.run.solve; }
@@ -100,7 +100,7 @@ void check_options(const FactorsCall& call) {
   }
 }
 
-/// Leaves out what --drop says, and prints how much that is.
+/// Omits what --drop says, and prints how much that is.
 FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactors form_factors,
                          const Cancellation& cancellation) {
   if (call.drop == 0) {
@@ -108,7 +108,7 @@ FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactor
   }
   DroppedFormFactors rest = drop_small_form_factors(scene, form_factors, call.drop, cancellation);
   std::string text =
-      fmt::format("{} of {} form factors left out, {:.2g} of all light; the others are rebalanced",
+      fmt::format("{} of {} form factors omitted, {:.2g} of all light; the others are rebalanced",
                   rest.dropped, form_factors.size(), rest.share);
   if (rest.kept > 0) {
     text += fmt::format("; {} below {} are kept, without which their rows cannot be rebalanced",
@@ -187,7 +187,7 @@ void add_methods(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
       });
 }
 
-/// What is written.
+/// Adds the options for what is written.
 void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
   command
       .add_option("-o,--out", call->out,
@@ -196,7 +196,7 @@ void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
                   "output)")
       ->type_name("FILE");
   add_parsed_option(command, "--drop", "F",
-                    "leave out form factors below F, such as 1e-6, and scale the others so that "
+                    "omit form factors below F, such as 1e-6, and scale the others so that "
                     "row sums and reciprocity stay",
                     [call](const std::string& text) {
                       call->drop = parse_number("--drop", text);

@@ -28,7 +28,7 @@ struct MapCall {
   RunInput scene;
   Vec3 direction;
   PatchId receiver = no_patch;
-  std::optional<std::int32_t> step;  ///< number of steps done; unset: all
+  std::optional<std::int32_t> step;  ///< number of steps done; unset means all
   bool difference = false;
   MapPictureOptions picture;
   std::vector<std::string> out;
@@ -172,8 +172,8 @@ Run add_map_command(CLI::App& program) {
   add_options(command, call->scene, {"memory"});
   command.get_option("--memory")
       ->description(
-          "what the record of the map's making may take, such as 2G or 800M (default: a quarter of "
-          "the machine's)");
+          "memory limit for the record of the map's making, such as 2G or 800M (default: a "
+          "quarter of the machine's)");
   add_parsed_option(
       command, "--size", "PIXELS",
       fmt::format("length of the longer side of .svg and .png (default {})", call->picture.size),

@@ -87,7 +87,7 @@ void print_cost(const SolveCall& call, const Checkpoint& checkpoint) {
   }
 }
 
-/// What is needed before a solve begins.
+/// All that is needed before a solve begins.
 struct PreparedCall {
   SolveOptions options;
   std::shared_ptr<const Scene> scene;
@@ -134,7 +134,7 @@ void say_of_lobes(const SolveCall& call, const SolveOptions& options, const Scen
   } else if (present && !call.quiet) {
     const std::string metal = metal_of(scene);
     print_message(
-        "lobes of materials are left out (--glossy: they reflect too" +
+        "lobes of materials are omitted (--glossy: they reflect too" +
         (metal.empty()
              ? ")"
              : fmt::format("; {0} reflects nothing else: try --reflectance '{0}=0.5')", metal)));

@@ -17,7 +17,7 @@
 
 namespace transillum::cli {
 
-/// What all ways of solving need.
+/// All that any way of solving needs.
 struct SolveJob {
   std::shared_ptr<const Scene> scene;
   SolveOptions options;
@@ -28,7 +28,7 @@ struct SolveJob {
   bool form_factors = false;                     ///< wanted in the solution, if they are kept
   bool has_series = false;                       ///< a series gets the result after every iteration
   ResultSeries* series = nullptr;                ///< gets them in the first process
-  int series_every = 0;                          ///< and after so many directions; 0: not
+  int series_every = 0;                          ///< and after so many directions; 0 disables it
   CheckpointCall checkpoint = {};                ///< file and whether to resume
   double checkpoint_every = 60;                  ///< s
   std::vector<std::string> shards = {};          ///< the passes are read from these

@@ -30,7 +30,7 @@ namespace {
 
 struct StudiedEngine {
   Engine engine;
-  int resolution;  ///< 0: that of --resolution; of engine pairs, points, 0: those of --points
+  int resolution;  ///< 0 means the value of --resolution, or, for engine pairs, of --points
 
   friend bool operator==(const StudiedEngine&, const StudiedEngine&) = default;
 };
@@ -62,7 +62,7 @@ struct StudyCall {
     return all;
   }
   bool uses(bool both_ways) const { return both_ways ? two_way || !one_way : one_way; }
-  /// Those given, or random, the paper's, and the default.
+  /// The given ones, or random, the paper's, and the default.
   std::vector<Sampling> samplings() const {
     return given_samplings.empty()
                ? std::vector{Sampling::random, Sampling::hammersley, default_sampling(uses(true))}
@@ -166,7 +166,7 @@ StudyOptions study_options(const StudyCall& call) {
   return options;
 }
 
-/// What all steps of a study share.
+/// Data that all steps of a study share.
 struct StudyContext {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
@@ -233,7 +233,7 @@ class PointSaver {
     checkpoint_.emplace(call.file, scene, options, reference);
     if (can_resume(call)) {
       done_ = points_ = checkpoint_->resume();
-      print_message(fmt::format("{}: goes on after {} points", call.file, done_.size()));
+      print_message(fmt::format("{}: resumes after {} points", call.file, done_.size()));
     }
   }
 
@@ -426,7 +426,7 @@ void add_series_options(CLI::App& command, StudyCall& call) {
 void add_error_options(CLI::App& command, StudyCall& call) {
   command.add_flag_function(
       "--without-sources", [](std::int64_t) {},
-      "no effect: errors are always those of reflected light, without sources");
+      "no effect: errors are always errors of reflected light, without sources");
   add_parsed_option(
       command, "--error", "NAME",
       fmt::format("{}: error in the table and the plots (default rms); the CSV has both",
@@ -487,7 +487,7 @@ Run add_study_command(CLI::App& program) {
                   fmt::join(names_of<StudyAxis>(), " | ")),
       [call](const std::string& text) { call->against = from_name<StudyAxis>(text); });
   add_checkpoint_options(command, call->checkpoint,
-                         "save the points so far in this file, so that --resume can go on");
+                         "save the points so far in this file, so that --resume can continue");
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");
   for (const char* option :
        {"--normalize", "--scheme", "--basis", "--first-shot", "--rotations", "--two-way"}) {

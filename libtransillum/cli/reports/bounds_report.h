@@ -20,7 +20,7 @@ struct BoundsOptions {
   std::optional<double> rho;         ///< default: the scene's, or the paper's eight values
   double accuracy = 0.01;            ///< largest error of B, relative, in the maximum norm
   std::optional<double> size_ratio;  ///< R²/A; default: the scene's, or the paper's 150
-  double tolerance = 1e-6;           ///< of the iteration
+  double tolerance = 1e-6;           ///< tolerance of the iteration
   int directions = 1024;
   DirectionSetFamily sets;
   std::shared_ptr<const Scene> scene;

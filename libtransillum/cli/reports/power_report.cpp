@@ -48,7 +48,7 @@ std::string aligned(const std::vector<Row>& rows) {
   return text;
 }
 
-/// What stands for a part whose name is empty.
+/// Stands for a part whose name is empty.
 const char* unnamed(PartsBy by) { return by == PartsBy::group ? "(no group)" : "(no name)"; }
 
 std::string name_of(const PartPower& part, PartsBy by) {

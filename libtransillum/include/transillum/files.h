@@ -51,11 +51,11 @@ void check_distinct(const std::vector<std::string>& outputs,
 
 /// How radiosity is shown in files for other programs.
 struct DisplayOptions {
-  /// Linear color per radiosity, m²/W, > 0: where B times it is 1, the color is white. Unset:
-  /// automatic_exposure().
+  /// Linear color per radiosity, m²/W, > 0: where B times it is 1, the color is white. If unset,
+  /// automatic_exposure() gives it.
   std::optional<double> exposure = std::nullopt;
-  /// .glb, .gltf: the direction, a unit vector, that becomes their up, +y; unset: +y, coordinates
-  /// stay. .png: the direction that is up in the picture; unset: +z.
+  /// .glb, .gltf: the direction, a unit vector, that becomes their up, +y; if unset, coordinates
+  /// stay. .png: the direction that is up in the picture; +z if unset.
   std::optional<Vec3> up = std::nullopt;
   /// .png: the point in the middle of the picture, m; unset: the center of the scene's bounds.
   std::optional<Vec3> target = std::nullopt;
@@ -66,8 +66,8 @@ struct DisplayOptions {
   /// @throws InputError naming the value and its range.
   void validate() const;
 };
-/// The exposure that makes B white where it exceeds that of 98 % of the area that does not emit (of
-/// all area, where all emits); 1 without light.
+/// The exposure at which B becomes white where it exceeds B on 98 % of the area that does not emit
+/// (of all area, where all emits); 1 without light.
 double automatic_exposure(const Solution& solution);
 
 /// Checks that `path` is writable and ends in .csv, .vtp, .ply, .obj, .glb, .gltf or .png.

@@ -46,7 +46,7 @@ auto run_interruptibly(Body&& body, const std::function<void()>& tick,
   if (reason) {
     try {
       running.get();
-    } catch (...) {  // it was asked to end
+    } catch (...) {  // the thread was asked to end
     }
     std::rethrow_exception(reason);
   }

@@ -21,7 +21,7 @@ std::string with(std::string name, char from, char to) {
   return name;
 }
 
-/// Those that say how a scene is made belong to Scene.
+/// Whether an option belongs to a solve. Options that say how a scene is made belong to Scene.
 bool is_of_solve(const Option& option) {
   return !option.reads_scene && option.group != "Patches" && option.group != "Refinement";
 }

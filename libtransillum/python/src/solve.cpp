@@ -189,7 +189,7 @@ class Run {
         [&] { relay.tell(); }, [&] { going = false; });
   }
 
-  /// What `get` returns of the solver, found without Python's lock.
+  /// Returns `get` of the solver, found without Python's lock.
   template <class Get>
   auto read(Get get) {
     const Use use(busy_);

@@ -47,8 +47,8 @@ class Scene:
             for each face, or an array (faces, 3). Three values for three faces are one color.
         exitance: E, emitted, W/m²; as reflectance.
         two_sided: faces emit and receive on both sides: two patches each, front first.
-        max_patch_area: larger faces are subdivided, m²; 0: none is.
-        patches: subdivides to about so many patches; 0: does not.
+        max_patch_area: larger faces are subdivided, m²; 0 subdivides none.
+        patches: subdivides to about so many patches; 0 subdivides none.
         """
         self._core = _core.build(
             np.asarray(points, dtype=np.float64),
@@ -130,7 +130,7 @@ class Scene:
 
     @property
     def warnings(self) -> list[str]:
-        """What was repaired, and what may be wrong."""
+        """Repairs, and what may be wrong."""
         return self._core.warnings
 
 

@@ -49,7 +49,7 @@ std::optional<double> parse_number(std::string_view word);
 
 /// A logical line of a file: lines joined by a backslash at the end are treated as one.
 struct TextLine {
-  std::int32_t number = 0;  ///< of its first physical line, from 1
+  std::int32_t number = 0;  ///< number of its first physical line, from 1
   std::string_view keyword;
   std::string_view rest;  ///< trimmed
 };

@@ -160,7 +160,7 @@ std::string exact_text(const Rgb& value) {
 
 /// A change of a material, of which there may be several.
 void change(Option& o, MaterialChange (*from_text)(const std::string&)) {
-  o.in_files = false;  // as a list of all changes, in their order
+  o.in_files = false;  // files have a list of all changes, in their order
   o.reads_scene = true;
   o.repeats = true;
   o.parse = [=](RunOptions& options, const std::string& text) {
@@ -308,12 +308,12 @@ void add_accuracy(Table& t) {
   t.group = "Accuracy";
   const auto goal = [](auto m) { return solve(&SolveOptions::goal, m); };
   percentage(t.common("accuracy", "P%|X", "a percentage or a number, or none",
-                      "choose M and the replicas so that the error of B is at most that, with 95 % "
+                      "choose M and the replicas so that the error of B is at most this, with 95 % "
                       "confidence"),
              goal(&AccuracyGoal::accuracy));
   Option& of =
       t.add("accuracy-of", "NAME", "a name",
-            "error that the accuracy is about, relative to reflected light, B - E, without patches "
+            "error that the accuracy limits, relative to reflected light, B - E, without patches "
             "that emit: rms, the RMS error over the RMS; max, the largest error over the largest "
             "value; patch:I, the error of patch I; mean, the error of the mean");
   of.choices = {"rms", "max", "patch:I", "mean"};
@@ -341,9 +341,10 @@ void add_accuracy(Table& t) {
 
 void add_sky(Table& t) {
   t.group = "Sky";
-  Option& sky = t.common("sky", "E[,E,E]", "one number or three, W/m2, or none",
-                         "what escapes from an open scene meets a sky: what an unobstructed patch "
-                         "turned upward receives from it, in W/m2");
+  Option& sky =
+      t.common("sky", "E[,E,E]", "one number or three, W/m2, or none",
+               "light that leaves an open scene meets a sky: irradiance of an unobstructed "
+               "patch turned upward, in W/m2");
   sky.json = Option::Json::numbers;
   sky.zero_is_unset = true;
   sky.unset = "none";
@@ -427,7 +428,7 @@ void add_reading(Table& t) {
                        "lower larger reflectances of a file to R");
   most.json = Option::Json::number;
   most.default_text =
-      fmt::format("lower only those of 1 and more, to {}", ReadOptions::default_max_reflectance);
+      fmt::format("lower only reflectances of 1 and more, to {}", ReadOptions::default_max_reflectance);
   optional(
       most, read(&ReadOptions::max_reflectance), "auto",
       [](const std::string& text) {

@@ -34,7 +34,7 @@ double Sky::relative_radiance(const Vec3& omega) const {
 }
 
 void Sky::validate() const {
-  constexpr double largest = 1e170;  // as of materials
+  constexpr double largest = 1e170;  // the limit of materials
   for (const double value : {exitance.r, exitance.g, exitance.b}) {
     if (!(value >= 0 && value <= largest)) {
       throw InputError(

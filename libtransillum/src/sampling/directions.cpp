@@ -112,7 +112,8 @@ std::vector<int> progressive_order(Sampling sampling, int count) {
     return order;
   }
   // Ranks of the radical inverses: the order in which van der Corput's points fill the interval,
-  // scaled to 0 … count-1 for any count. The base differs from those of the sampling, else prefixes
+  // scaled to 0 … count-1 for any count. The base differs from the bases of the sampling, else
+  // prefixes
   // would cover only a corner of the square.
   const std::uint32_t base = is_spiral(sampling) ? 2 : 3;
   std::vector<std::pair<double, int>> keyed;

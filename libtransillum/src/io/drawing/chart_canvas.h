@@ -12,7 +12,7 @@ namespace transillum {
 
 /// How a text looks.
 struct ChartText {
-  double size;  ///< of the font
+  double size;  ///< size of the font
   ChartColor color;
   bool bold = false;
 };

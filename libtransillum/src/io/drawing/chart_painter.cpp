@@ -120,7 +120,7 @@ class ChartPainter {
   ChartArea plot_;
   std::vector<std::size_t> legend_;      ///< named series
   std::vector<ChartPoint> legend_rows_;  ///< where each begins, y from the first row
-  double legend_left_ = 0;               ///< of a column
+  double legend_left_ = 0;               ///< left edge, where the legend is a column
 };
 
 /// Sets the font size of the legend to the largest that fits; returns the width of its column.

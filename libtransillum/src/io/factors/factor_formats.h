@@ -37,7 +37,7 @@ struct FactorEntry {
   PatchId i, j;
   double value;
 };
-/// The matrix of the entries: sorted, those of one place added up, zeros left out.
+/// The matrix of the entries: sorted, entries of one place added up, zeros omitted.
 /// @throws InputError where a value is not finite or less than 0
 /// @throws Canceled
 FormFactors sorted_factors(const std::string& name, PatchId patches,

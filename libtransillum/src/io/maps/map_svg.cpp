@@ -241,7 +241,7 @@ class SvgFigure {
     return "back side, " + sources_text(polygon.patch);
   }
 
-  /// Which patches a receiver sees, those of largest area first.
+  /// Which patches a receiver sees, by falling area.
   std::string sources_text(PatchId patch) const {
     constexpr std::size_t max_listed = 6;
     const auto [first, last] =

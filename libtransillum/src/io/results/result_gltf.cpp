@@ -124,7 +124,7 @@ class GltfDocument {
     json_["scene"] = 0;
     json_["scenes"] = {{{"nodes", {0}}, {"extras", {{"exposure", exposure}}}}};
     Json root = {{"name", scene.name()}, {"children", Json::array()}};
-    // Of rotation and translation, the rotation applies first.
+    // The rotation applies before the translation.
     if (display.up) {
       root["rotation"] = rotation_to_y(*display.up);
     }
@@ -153,7 +153,7 @@ class GltfDocument {
     if (!uri.empty()) {
       buffer["uri"] = uri;
     }
-    json_["buffers"] = {buffer};
+    json_["buffers"] = nlohmann::json::array({buffer});
     return json_.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
   const std::string& buffer() const { return buffer_; }
@@ -223,7 +223,7 @@ class GltfDocument {
   }
 
   Json json_;
-  std::string buffer_;  ///< of whole words of 4 bytes
+  std::string buffer_;  ///< whole words of 4 bytes
 };
 
 void write_word(std::ostream& out, std::size_t value) {

@@ -42,7 +42,7 @@ Json error_json(const Solution& solution) {
           {"mean_B_standard_error", list_of(error.mean_standard_error)}};
 }
 
-/// What a solve with a goal reached; null without one.
+/// The report of a solve with a goal; null without one.
 Json accuracy_json(const std::optional<AccuracyReport>& report) {
   if (!report) {
     return {};

@@ -20,7 +20,7 @@ RunIdentity run_identity(const Scene& scene, const SolveOptions& options);
 /// The options that results depend on: not memory and threads.
 nlohmann::ordered_json run_options(const SolveOptions& options, const SceneOptions& scene_options);
 
-/// Compares the identity in a file's head with that of this run.
+/// Compares the identity in a file's head with the identity of this run.
 /// @throws InputError naming the first difference
 void check_identity(const SealedFile& file, const RunIdentity& expected);
 

@@ -20,12 +20,13 @@
 
 namespace transillum {
 
-/// What a shard says about itself.
+/// Description of a shard, stored in it.
 struct ShardInfo {
   Share share;        ///< its part of the passes
-  int passes = 0;     ///< of all shares
+  int passes = 0;     ///< passes of all shares
   std::string scene;  ///< name of the scene
-  /// What the program that wrote it stored, such as its arguments; the library does not read it.
+  /// Texts stored by the program that wrote it, such as its arguments; the library does not read
+  /// them.
   std::vector<std::string> notes;
 };
 
@@ -47,7 +48,7 @@ void write_shard(const std::filesystem::path& file, const std::shared_ptr<const 
                  const SolveOptions& options, const std::shared_ptr<const BspTree>& tree,
                  const ShardOptions& shard, const Cancellation& cancellation = {});
 
-/// What a shard says about itself; reads its head only.
+/// Returns the description of a shard; reads its head only.
 /// @param file a shard.
 /// @throws InputError where it is not one, or of another version of the library
 ShardInfo read_shard_info(const std::filesystem::path& file);

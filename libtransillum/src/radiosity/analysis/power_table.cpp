@@ -14,8 +14,8 @@ namespace {
 
 /// Which part each patch is in.
 struct Division {
-  std::vector<std::string> names;     ///< of the parts that have patches
-  std::vector<std::int32_t> indices;  ///< of the parts in the scene; -1: no group
+  std::vector<std::string> names;     ///< names of the parts that have patches
+  std::vector<std::int32_t> indices;  ///< indices of the parts in the scene; -1: no group
   std::vector<std::size_t> of_patch;  ///< index in `names`
 };
 

@@ -60,7 +60,7 @@ RadiosityError relative_error(const std::vector<Rgb>& off, const std::vector<Rgb
   return {root_of_squares(off, unit) / root_of_squares(reflected, unit), max_norm(off) / largest};
 }
 
-/// As on the command line: `zbuffer:256`, or `fast`.
+/// The text on the command line: `zbuffer:256`, or `fast`.
 std::string engine_text(Engine engine, int resolution) {
   return resolution > 0 ? fmt::format("{}:{}", name_of(engine), resolution) : name_of(engine);
 }

@@ -40,16 +40,16 @@ class ExchangeSums {
   void merge();
   /// Merges all passes and sorts the rows; to be called after the last pass.
   void finish();
-  /// Number of entries, those of unmerged passes included.
+  /// Number of entries, unmerged passes included.
   std::size_t size() const { return sums_.source.size() + waiting_size_; }
 
   /// The part of size() that is in rows `first` to `last` - 1.
   std::size_t size_of_rows(std::size_t first, std::size_t last) const;
 
-  /// As visit_state() for a constant object: the sums of all members of a group, each of which
+  /// visit_state() for a constant object: the sums of all members of a group, each of which
   /// gives the rows it owns. Member 0 has the rows of one member at a time in memory.
   void save_in_group(StateOutput& archive, const PatchShare& share) const;
-  /// As visit_state() for one to be changed, but keeps only pairs that the share needs.
+  /// visit_state() for an object to be changed, but keeps only pairs that the share needs.
   void restore_share(StateInput& archive, const PatchShare& share);
 
   /// gathered_i += sum_j entry_ij b_j for all i; `gathered` is as long as `b`. After finish().

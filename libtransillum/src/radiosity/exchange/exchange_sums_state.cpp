@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The state of exchange sums that the members of a group share. In a checkpoint it looks like that
-// of one process, so that any number of processes can go on with it.
+// The state of exchange sums that the members of a group share. In a checkpoint it looks like the
+// state of one process, so that any number of processes can continue with it.
 #include <algorithm>
 #include <type_traits>
 #include <utility>

@@ -18,7 +18,7 @@ namespace transillum {
 struct PatchShare {
   SolverGroup* group = nullptr;
   PatchRange owned;
-  PatchId patches = 0;  ///< of the scene
+  PatchId patches = 0;  ///< patches of the scene
 
   PatchShare(SolverGroup* solver_group, PatchId patch_count)
       : group(solver_group),

@@ -47,7 +47,7 @@ struct HemicubeScene {
   double min_distance;  ///< distances from a plane up to this count as 0, units
   bool fronts_only;     ///< no back side is visible from any front side
   std::vector<Vec3> corners;
-  std::vector<DrawnPiece> pieces;          ///< of coincident pieces, the covering one is last
+  std::vector<DrawnPiece> pieces;          ///< where pieces coincide, the covering one is last
   std::vector<std::size_t> largest_piece;  ///< per patch, in `pieces`
 
   /// Keeps references to the scene and `stop`.

@@ -63,7 +63,7 @@ std::vector<double> row_sums(const FormFactors& form_factors, std::size_t per_pa
   return sums;
 }
 
-/// Of values of all unknowns those of phi_0.
+/// The values of phi_0 among the values of all unknowns.
 template <class Value>
 std::vector<Value> means_of(std::vector<Value> values, std::size_t per_patch) {
   if (per_patch > 1) {
@@ -292,7 +292,7 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
   PairSolution result{solved(), points, HUGE_VAL, false};
   while (!result.reached && 2 * points <= EngineOptions::largest_points) {
     points *= 2;
-    result.solution.form_factors.reset();  // the memory limit is that of one matrix
+    result.solution.form_factors.reset();  // the memory limit allows one matrix
     Solution finer = solved();
     result.error = difference(result.solution, finer);
     result.solution = std::move(finer);

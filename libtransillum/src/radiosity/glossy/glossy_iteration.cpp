@@ -247,7 +247,7 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers, const Observer
   irradiance.swap(received);
   from_sky.swap(sky_light);
   next->arriving.swap(incoming);
-  light = std::move(next);  // frees that of before, unless a solution shares it
+  light = std::move(next);  // frees the previous light, unless a solution shares it
   incoming.assign(light->arriving.size(), Rgb{});
   has_light = true;
   change.change = std::max(change.change, of_lobes.change);

@@ -96,7 +96,7 @@ void GlossySolver::set_materials(const std::vector<Material>& materials,
       s.of_patch.swap(indices);
       throw;
     }
-    data->lobes = nullptr;  // of other patches
+    data->lobes = nullptr;  // they belong to other patches
     s.light = std::move(data);
     s.forget_passes();
   }

@@ -24,7 +24,7 @@ namespace {
 
 /// Rows of a table that a task computes.
 constexpr std::size_t rows_per_task = 64;
-/// What the rows of tables may take while these are scaled, all threads together.
+/// Memory limit for the rows of tables while these are scaled, all threads together.
 constexpr std::size_t most_kept_bytes = std::size_t{1} << 28;
 
 /// Equal for patches whose normals differ by rounding, mostly.
@@ -34,7 +34,7 @@ std::array<std::int64_t, 4> key_of(std::size_t kernel, const Vec3& normal) {
           rounded(normal.z)};
 }
 
-/// Light of a patch as three planes, each value times that of `factor`.
+/// Light of a patch as three planes, each value times the value of `factor`.
 void set_planes(const Rgb* light, const std::vector<double>& factor, std::vector<double>& planes) {
   const std::size_t count = factor.size();
   planes.resize(3 * count);

@@ -21,7 +21,7 @@ struct LobeTable {
   std::size_t kernel = 0;  ///< index of its shape
   Vec3 normal;
   std::vector<double> scale = {}, spread = {};             ///< by pass
-  double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< as GlossyFigures
+  double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< see GlossyFigures
 };
 
 /// Reports on long work: the finished share, 0 to 1, and the number of tables in
@@ -79,7 +79,7 @@ class LobeTables {
   double weight() const;
 
   std::vector<Vec3> directions_;
-  std::vector<Lobe> shapes_;  ///< of the kernels
+  std::vector<Lobe> shapes_;  ///< shapes of the kernels
   std::vector<LobeKernel> kernels_;
   std::vector<LobeTable> tables_;
   std::vector<std::size_t> table_of_;              ///< by glossy patch

@@ -87,7 +87,7 @@ class KeptExchanges {
   std::size_t own_size() const;
   /// Computes size() in a group.
   void count();
-  /// The sum over all replicas; in a group that of all members, on member 0.
+  /// The sum over all replicas; in a group, on member 0, over all members.
   ExchangeSums joined() const;
 
   PatchId patches_;
@@ -97,7 +97,7 @@ class KeptExchanges {
   std::size_t size_of_group_ = 0;
   bool renews_;
   bool requested_ = false;
-  const char* required_by_ = nullptr;  ///< the option that cannot do without; null: none
+  const char* required_by_ = nullptr;  ///< the option that cannot do without; null if there is none
   Cancellation cancellation_;
   std::uint64_t memory_;            ///< limit, bytes
   std::vector<ExchangeSums> sums_;  ///< one per replica

@@ -92,7 +92,7 @@ bool RadiositySolver::Impl::advance_passes(const RadiositySolver& self, const Ob
   }
   bool going = true;
   auto last = Clock::now();
-  // Of the wall time, what all threads together did not spend on adding is the passes'.
+  // Wall time that all threads together did not spend on adding belongs to the passes.
   double wall = 0, adding = -timing.seconds_iterate;
   const auto add_times = [&] {
     adding += timing.seconds_iterate;
@@ -224,7 +224,7 @@ void RadiositySolver::Impl::append_replica() {
 
 double RadiositySolver::Impl::energy_defect() const {
   Rgb received;
-  // The power is that of the means.
+  // The power follows from the means.
   for (std::size_t u = 0; u < whole.gathered().size(); u += input.unknowns->per_patch) {
     received += whole.gathered()[u];
   }

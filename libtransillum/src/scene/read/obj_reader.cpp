@@ -192,7 +192,7 @@ class ObjReader {
     description_.add_face(outline_, current_name_, line_, current_group());
   }
 
-  /// The group of the next face. Groups without faces are left out.
+  /// The group of the next face. Groups without faces are omitted.
   std::int32_t current_group() {
     if (group_ == no_group && !group_name_.empty()) {
       group_ = group_numbers_
@@ -307,7 +307,7 @@ class ObjReader {
     }
   }
 
-  /// Replaces the numbers of used names by those of materials.
+  /// Replaces the numbers of used names by the numbers of materials.
   void resolve_materials() {
     std::vector<std::int64_t> faces(used_names_.size());
     std::int64_t without = 0;
@@ -403,7 +403,7 @@ class ObjReader {
   std::map<std::string, std::int32_t> name_numbers_;
   std::vector<UsedName> used_names_;
   std::int32_t current_name_ = no_name;
-  std::string group_name_;         ///< of the last `g` or `o`; empty: none
+  std::string group_name_;         ///< name in the last `g` or `o`; empty if there is none
   std::int32_t group_ = no_group;  ///< its number, once a face has it
   std::map<std::string, std::int32_t> group_numbers_;
 };

@@ -139,7 +139,7 @@ class OffReader {
     description_.add_face(outline_, material, line_);
   }
 
-  /// Of a color, whose first word this is.
+  /// The material of a color, whose first word this is.
   std::int32_t material_at(std::size_t first) {
     std::array<double, 3> c{};
     bool whole = true;

@@ -94,7 +94,7 @@ double decode(Type type, const std::array<unsigned char, 8>& bytes) {
 struct Property {
   std::string name;
   Type type = Type::float32;
-  std::optional<Type> count;  ///< of lists
+  std::optional<Type> count;  ///< type of the counts of lists
 };
 
 struct Element {
@@ -228,7 +228,7 @@ class PlyReader {
     if (!has_form) {
       fail("the header has no format");
     }
-    // What follows the values of an entry on its line is ignored, if each has a line.
+    // If each entry has a line, text after its values on the line is ignored.
     std::size_t entries = 0;
     for (const Element& element : elements_) {
       entries += element.count;
@@ -497,9 +497,9 @@ class PlyReader {
   const Cancellation& cancellation_;
   const std::string bytes_;
   std::size_t position_ = 0;
-  std::int32_t line_ = 0;  ///< of the header
+  std::int32_t line_ = 0;  ///< line in the header
   Form form_ = Form::ascii;
-  bool has_lines_ = false;  ///< of an ASCII file: every entry has a line
+  bool has_lines_ = false;  ///< in an ASCII file, every entry has a line
   std::vector<Element> elements_;
   SceneDescription description_;
   std::optional<FaceMaterials> materials_;

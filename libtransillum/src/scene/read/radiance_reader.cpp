@@ -154,8 +154,8 @@ class RadianceReader {
     if (type == "polygon") {
       add_polygon(modifier, name);
     } else if (is_one_of(type, surface_types)) {
-      notes_.add("surfaces other than polygons, left out",
-                 fmt::format("{}{} {} is not a polygon; left out", place(), type, in_quotes(name)));
+      notes_.add("surfaces other than polygons, omitted",
+                 fmt::format("{}{} {} is not a polygon; omitted", place(), type, in_quotes(name)));
     } else if (is_one_of(type, light_types)) {
       const Rgb radiance = color(type, name);
       define(name, add_material({name, {}, std::numbers::pi * radiance}));
@@ -170,7 +170,7 @@ class RadianceReader {
                              in_quotes(name)));
       define(name, add_material({name, {}, {}}));
     } else {
-      // A pattern, a texture or a mixture: its material is that of its modifier.
+      // A pattern, a texture or a mixture: it has the material of its modifier.
       notes_.add("patterns and other modifiers, ignored",
                  fmt::format("{}{} {} is ignored", place(), type, in_quotes(name)));
       define(name, find(modifier));
@@ -249,7 +249,7 @@ class RadianceReader {
   const std::string text_;
   std::size_t position_ = 0;
   std::int32_t lines_ended_ = 0;  ///< before position_
-  std::int32_t line_ = 1;         ///< of the last word
+  std::int32_t line_ = 1;         ///< line of the last word
   SceneDescription description_;
   Warnings notes_;
   std::vector<double> numbers_;

@@ -27,7 +27,7 @@ struct PolygonSet {
 
   std::vector<Polygon> polygons;
   std::vector<BspTree::Corner> corners;
-  std::vector<Vec3> places;  ///< of the corners, m
+  std::vector<Vec3> places;  ///< positions of the corners, m
 
   std::size_t size() const { return polygons.size(); }
   void add(const PolygonSet& from, const Polygon& polygon) {

@@ -69,7 +69,7 @@ struct SubtreeTask {
   PolygonSet set;
   std::int32_t parent = BspTree::no_node;  ///< a node, by its number in the parent's Subtree
   bool front = true;                       ///< the side of that node
-  int depth = 1;                           ///< of the subtree's root
+  int depth = 1;                           ///< depth of the subtree's root
   bool peeled = false;                     ///< the one-sided planes have just been used
 };
 
@@ -90,8 +90,8 @@ struct Subtree {
   std::vector<BspTree::Corner> corners;
   std::vector<NewPoint> points;
   std::vector<NewLine> lines;
-  std::vector<SubtreeTask> open;  ///< what remains to be built
-  int depth = 0;                  ///< of the deepest node, from the tree's root
+  std::vector<SubtreeTask> open;  ///< subtrees that remain to be built
+  int depth = 0;                  ///< depth of the deepest node, from the tree's root
 };
 
 /// Builds subtrees top down, without recursion: chooses a plane for a set of polygons, splits those

@@ -156,7 +156,7 @@ void ExactView::load_corners(const ProjectedFragments::Fragment& fragment, Polyg
 }
 
 void ExactView::load_edges(const ProjectedFragments::Fragment& fragment, Polygon& polygon) {
-  const bool plain = outlines_.outlines[fragment.outline].plain;
+  const bool plain = outlines_.outlines[fragment.outline].plain && fragment.changed < 0;
   for (std::uint32_t k = 0; k < polygon.count; ++k) {
     const FragmentOutlines::Corner corner = projected_.corner_of(outlines_, fragment, k);
     if (plain) {
@@ -213,6 +213,8 @@ GridLine ExactView::grid_line(const Edge& edge) const {
   if (edge.line < 0) {
     return bin_line(edge.line);
   }
+  TRANSILLUM_INVARIANT(edge.from != made_by_cut && edge.to != made_by_cut,
+                       "grid points define the line of an edge");
   return {at(projected_.grid.points, edge.from), at(projected_.grid.points, edge.to)};
 }
 

@@ -100,7 +100,7 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
     part_begin_[i + 1] = parts_.size();
   }
   for (MergedFace& face : merged_faces(scene)) {
-    // Of two-sided faces, the patches of both sides alternate.
+    // The patches of both sides of a two-sided face alternate.
     if (static_cast<std::size_t>(face.patches.back() - face.patches.front()) + 1 ==
         face.patches.size()) {
       face.outline = scaled(face.outline, scale_);
@@ -236,7 +236,7 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
 struct ExchangeFinder::Sampled {
   bool p_is_smaller;
   Outline small, large;
-  const Vec3& normal;  ///< of `small`
+  const Vec3& normal;  ///< normal of `small`
   double size;         ///< radius of `small` over the distance
 
   Sampled(const FacingPolygons& facing, double tolerance)

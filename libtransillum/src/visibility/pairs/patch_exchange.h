@@ -26,7 +26,7 @@ struct PatchExchange {
 
 /// Form factors of single pairs of patches, with blockers between them.
 ///
-/// If nothing reaches into the shaft between the two, the form factor is that of the polygons.
+/// If nothing reaches into the shaft between the two, the polygons alone give the form factor.
 /// Otherwise the smaller patch is sampled by points, and the form factor from each point to the
 /// visible part of the larger patch is computed exactly: the error decreases about as the square of
 /// the distance between points, or in proportion to it if a blocker touches the smaller patch. It
@@ -75,16 +75,16 @@ class ExchangeFinder {
   struct Part {
     Corners corners;
     HalfSpace front;
-    double bend;  ///< of the piece
+    double bend;  ///< bend of the piece
   };
   struct Blocker {
     Corners outline;
     double bend;
-    std::vector<PatchId> patches;  ///< as MergedPiece::patches
+    std::vector<PatchId> patches;  ///< equal to MergedPiece::patches
 
     bool is_of(PatchId i) const { return std::binary_search(patches.begin(), patches.end(), i); }
   };
-  /// What two polygons belong to.
+  /// The patches that two polygons belong to.
   struct Sides {
     PatchId of_p, of_q;  ///< first sides
     Bends bends;
@@ -136,10 +136,10 @@ class ExchangeFinder {
   double tolerance_;  ///< in that unit
   std::vector<PatchId> first_sides_;
   std::vector<Blocker> blockers_;
-  BoxTree tree_;  ///< of blockers_
+  BoxTree tree_;  ///< tree of blockers_
   std::vector<Part> parts_;
   std::vector<std::size_t> part_begin_;
-  std::vector<MergedFace> faces_;  ///< of consecutive patches
+  std::vector<MergedFace> faces_;  ///< faces of consecutive patches
 };
 
 }  // namespace transillum

@@ -274,7 +274,7 @@ class NewellOrder {
   const PieceOutlines& outlines_;
   const PatchHeights& heights_;
   const Cancellation& cancellation_;
-  PlaneIndex index_;  ///< of the pieces not in order_ yet
+  PlaneIndex index_;  ///< index of the pieces not in order_ yet
   std::vector<HeightPoint> points_;
   std::vector<PieceState> states_;
   std::vector<std::int32_t> pending_;  ///< stack: each must come after the next

@@ -39,7 +39,7 @@ class PatchHeights {
 
  private:
   struct PatchPlane {
-    double cosine = 0;  ///< n·omega; 0: edge-on
+    double cosine = 0;  ///< n·omega; 0 if edge-on
     double at_origin = 0, along_x = 0, along_y = 0;
     double slack = 0;  ///< bound of a height's rounding error, meters
   };

@@ -119,7 +119,7 @@ class Rectangles {
       : pixels_(pixels), map_(map), cancellation_(cancellation) {}
 
   /// Calls add(patch, rectangle) for all rectangles. of(index) is the patch that a pixel shows;
-  /// pixels that show `nothing` are left out.
+  /// pixels that show `nothing` are omitted.
   template <class Of, class Add>
   void find(PatchId nothing, Of of, Add add) {
     std::map<std::pair<int, PatchId>, Run> open;  // by first column and item

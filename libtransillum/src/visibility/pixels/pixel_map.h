@@ -14,9 +14,9 @@ struct PixelMap {
   static constexpr int default_resolution = 128;   ///< pixels along the longer side
   static constexpr int largest_resolution = 1024;  ///< pixels along the longer side
 
-  PlaneFrame frame;             ///< of the direction
-  Vec2 corner;                  ///< of the first pixel, m along frame.u and frame.v
-  double side = 0;              ///< of a pixel, m
+  PlaneFrame frame;             ///< frame of the direction
+  Vec2 corner;                  ///< corner of the first pixel, m along frame.u and frame.v
+  double side = 0;              ///< side of a pixel, m
   int columns = 0;              ///< pixels along u
   int rows = 0;                 ///< pixels along v
   PatchId receiver = no_patch;  ///< seen from this patch; no_patch: from below the scene

@@ -206,7 +206,7 @@ class RayPass {
                      &packet_hits_);
   }
 
-  /// Sets hits_ to those of line k, sorted from above, each patch once.
+  /// Sets hits_ to the hits of line k, sorted from above, each patch once.
   void sort_hits(std::size_t k) {
     hits_.clear();
     for (const PatchId i : packet_hits_.patches[k]) {
@@ -274,7 +274,7 @@ class RayPass {
   LineGrid::Packet lines_;
   RTCRay16 rays_{};
   PacketHits packet_hits_;
-  std::vector<Hit> hits_;  ///< of one line
+  std::vector<Hit> hits_;  ///< hits of one line
 };
 
 }  // namespace

@@ -93,7 +93,7 @@ class SceneOfPolygons {
       throw InputError(file_.name + ": has no polygons");
     }
     if (file_.other_cells > 0) {
-      notes_.add("notes", fmt::format("{}: {} vertices and lines are no polygons; left out",
+      notes_.add("notes", fmt::format("{}: {} vertices and lines are no polygons; omitted",
                                       file_.name, file_.other_cells));
     }
     materials_->note(notes_, "");

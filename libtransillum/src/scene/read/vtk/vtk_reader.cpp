@@ -140,7 +140,7 @@ class VtkReader {
       fail(in_quotes(words_[0]) + " is neither ASCII nor BINARY");
     }
     require_line("DATASET");
-    if (keyword_ == "field") {  // of the whole file
+    if (keyword_ == "field") {  // fields of the whole file
       read_field();
       require_line("DATASET");
     }
@@ -454,7 +454,7 @@ class VtkReader {
   bool is_binary_ = false, has_points_ = false;
   std::size_t points_ = 0;
   Data data_ = Data::none;
-  std::size_t entries_ = 0;  ///< of each array of data_
+  std::size_t entries_ = 0;  ///< number of entries in each array of data_
   VtkPolygons file_;
 };
 
