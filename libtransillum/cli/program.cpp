@@ -15,8 +15,8 @@
 #include "cli/commands/commands.h"
 #include "cli/interruption.h"
 #include "cli/messages.h"
+#include "cli/output_files.h"
 #include "cli/processes.h"
-#include "cli/standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/patch_sums.h"
 #include "transillum/scene.h"
@@ -178,7 +178,7 @@ std::string unexpected_argument_text(const CLI::App& command) {
 std::string repeated_option_text(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const auto given = static_cast<int>(option->results().size());
-    const int most = option->get_items_expected_max();  // 0: a flag
+    const int most = option->get_items_expected_max();  // 0 for a flag
     if (most > 0 && given > most) {
       return fmt::format("{}: given {} times, but it has one value", option->get_name(), given);
     }

@@ -82,10 +82,13 @@ int leave_together(MPI_Comm comm, int rank, int status) {
         }
       },
       Pauses(20ms));
+  // The checker does not see that wait_for() completes the request.
+  // NOLINTBEGIN(clang-analyzer-optin.mpi.MPI-Checker)
   if (failed && INT_MAX - rank == all[1]) {
     print_kept_message(rank);
   }
   return all[0];
+  // NOLINTEND(clang-analyzer-optin.mpi.MPI-Checker)
 }
 
 int run(int argc, char** argv) {

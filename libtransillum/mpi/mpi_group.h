@@ -30,8 +30,8 @@ class MpiGroup : public ProcessGroup {
   void gather(std::span<const std::byte> bytes,
               const std::function<void(std::span<const std::byte>)>& take) override;
 
-  /// What all ranks have sent so far and the most memory that one has used, as a sentence. To be
-  /// called by all.
+  /// Says what all ranks have sent so far and the most memory that one has used, in a sentence. To
+  /// be called by all.
   std::string figures();
 
  private:
@@ -41,7 +41,7 @@ class MpiGroup : public ProcessGroup {
   int rank_ = 0, size_ = 1;
   MPI_Comm comm_ = MPI_COMM_NULL, dealing_ = MPI_COMM_NULL;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;  ///< 16 bytes
-  PassRounds* rounds_ = nullptr;           ///< of the run under way
+  PassRounds* rounds_ = nullptr;           ///< rounds of the run under way
   std::int64_t sent_in_passes_ = 0, sent_in_sums_ = 0;
 };
 

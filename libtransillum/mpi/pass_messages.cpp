@@ -4,7 +4,7 @@
 //
 // Format, in the byte order and layout of the machine: Header; a Coverage for each patch owned by
 // the receiver, or two; perhaps back_seen of each; the exchanges, in the order of the pass. With
-// moments, those of the coverages follow the coverages, and each exchange is followed by its own. A
+// moments, coverages are followed by their moments, and each exchange is followed by its own. A
 // patch faces omega or -omega, so mostly one Coverage says both: a negative projected area stands
 // for the backward one.
 #include "pass_messages.h"
@@ -21,14 +21,14 @@
 namespace transillum::mpi {
 namespace {
 
-constexpr std::size_t unit = 16;  ///< of message sizes, bytes
+constexpr std::size_t unit = 16;  ///< unit of message sizes, bytes
 
 struct Header {
   Vec3 direction;
   ClosureDefect closure;
   PassCounts counts;
   double projected = 0, covered = 0;
-  std::int64_t exchanges = 0;   ///< of the whole pass
+  std::int64_t exchanges = 0;   ///< exchanges of the whole pass
   std::uint64_t sent = 0;       ///< exchanges in this message
   std::uint32_t two_sided = 0;  ///< forward and backward coverages, one list after the other
   std::uint32_t back_seen = 0;  ///< whether back_seen is there
@@ -109,7 +109,7 @@ std::vector<std::size_t> slices_of(const std::vector<Transfer>& exchanges, const
 /// An exchange whose source is owned by another member than its receiver.
 struct Crossing {
   std::size_t exchange;
-  std::uint32_t owner;  ///< of the source
+  std::uint32_t owner;  ///< owner of the source
 };
 
 std::vector<Crossing> crossings_of(const std::vector<Transfer>& exchanges,
@@ -129,7 +129,7 @@ std::vector<Crossing> crossings_of(const std::vector<Transfer>& exchanges,
   return crossings;
 }
 
-/// What the message to one member looks like, but for its exchanges.
+/// The header of the message to one member, but for its exchanges.
 Header header_for(const Pass& pass, const PatchRange& owned) {
   Header header;
   header.direction = pass.transfers.direction;

@@ -17,16 +17,16 @@
 
 namespace transillum::mpi {
 
-/// The passes of one ProcessGroup::run(). They are added in rounds of consecutive passes: when
-/// every rank has made its part of a round, all exchange what they need of it, while their threads
-/// go on with the next one.
+/// The passes of one PatchSums::run(). They are added in rounds of consecutive passes: when every
+/// rank has made its part of a round, all exchange what they need of it, while their threads
+/// continue with the next one.
 class PassRounds {
  public:
   /// @param exchange, dealing communicators for this purpose only
   /// @param unit MPI's type of 16 bytes
   PassRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit, const GroupPasses& passes);
 
-  /// As ProcessGroup::run_messages()
+  /// The same as PatchSums::run().
   bool run();
   /// Answers requests and takes passes, so that all threads have some; to be called while this rank
   /// adds passes or waits for others.

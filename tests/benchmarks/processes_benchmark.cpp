@@ -4,7 +4,7 @@
 // one process of N is run for real: it makes passes, splits them into messages for N processes and
 // adds those for itself; the others do not exist. From the times of its parts, a simulation of the
 // schedule by which passes are dealt (libtransillum/mpi/block_schedule.h) gives the time of a
-// machine with N cores. RESULTS.md states the assumptions.
+// machine with N cores. decisions/0063-processes.md states the assumptions.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "cli/interruption.h"
 #include "cli/messages.h"
@@ -151,7 +150,7 @@ void resume(SolveSession& session, const SolveJob& job, std::optional<Checkpoint
   const SolveProgress progress = session.progress();
   job.display.clear();
   print_message(fmt::format(
-      "{}: goes on after {} iterations{}, {:.3g} s done", job.checkpoint.file, progress.iteration,
+      "{}: resumes after {} iterations{}, {:.3g} s done", job.checkpoint.file, progress.iteration,
       progress.direction > 0
           ? fmt::format(" and {} of {} passes", progress.direction, progress.passes)
           : "",

@@ -17,7 +17,7 @@
 
 namespace transillum::cli {
 
-/// What all ways of solving need.
+/// All that any way of solving needs.
 struct SolveJob {
   std::shared_ptr<const Scene> scene;
   SolveOptions options;

@@ -30,11 +30,11 @@ enum class Preparation { tree, first_shot };
 
 /// The scene, the options and the ready-made parts of a solve.
 struct SolveRequest {
-  std::shared_ptr<const Scene> scene;                 ///< with the materials to be solved for
-  SolveOptions options = {};                          ///< of each solve
-  std::optional<RefineOptions> refine = {};           ///< of rounds that come first, if any
-  std::shared_ptr<const BspTree> tree = nullptr;      ///< of `scene`; built if null
-  std::shared_ptr<const DirectLight> shot = nullptr;  ///< of `scene`; shot if null
+  std::shared_ptr<const Scene> scene;                 ///< has the materials to solve for
+  SolveOptions options = {};                          ///< options of each solve
+  std::optional<RefineOptions> refine = {};           ///< options of preceding rounds, if any
+  std::shared_ptr<const BspTree> tree = nullptr;      ///< tree of `scene`; built if null
+  std::shared_ptr<const DirectLight> shot = nullptr;  ///< direct light of `scene`; shot if null
   TransferEngine engine = {};                         ///< makes the passes; options.engine if null
   std::shared_ptr<PatchSums> sums = nullptr;          ///< as for RadiositySolver
   bool keep_form_factors = false;                     ///< as RadiositySolver::keep_form_factors()
@@ -46,7 +46,7 @@ struct SolveRequest {
 ///
 /// Without a goal and without rounds it has one stage. With SolveOptions::goal, each stage has more
 /// directions or replicas than the one before, until the error that the replicas show is below the
-/// goal (decisions/0052-accuracy.md); the result is that of the last stage that has finished. With
+/// goal (decisions/0052-accuracy.md); the result comes from the last stage that has finished. With
 /// rounds of refinement, each round is such a solve, and the refined scene is solved last.
 ///
 /// Threads: at most one thread at a time may call it; an observer may read it.
@@ -115,20 +115,21 @@ class SolveSession {
   bool in_rounds() const;
   /// The rounds that are finished.
   const std::vector<RefinementRound>& rounds() const;
-  /// The scene as refined so far: scene(), or by RefineBy::error, in a round, that before each
+  /// The scene as refined so far: scene(), or, in a round by RefineBy::error, the scene before each
   /// patch was divided.
   const std::shared_ptr<const Scene>& refined_scene() const;
-  /// The finished stages of a solve with a goal, and whether the last reached it; nothing without.
+  /// The finished stages of a solve with a goal, and whether the last reached it; nothing without
+  /// a goal.
   std::optional<AccuracyReport> accuracy() const;
-  /// Wall time of the present round in this session's functions, with that of the session which
-  /// saved it, s.
+  /// Wall time of the present round in functions of this session, and of the session that saved it,
+  /// s.
   double seconds() const;
 
   /// The solver of the present stage; null where lobes take part.
   const RadiositySolver* diffuse() const;
   /// The solver where lobes take part, else null.
   const GlossySolver* glossy() const;
-  /// The options of the present stage: those of a goal have other numbers of directions.
+  /// The options of the present stage: with a goal, each has its own number of directions.
   const SolveOptions& options() const;
   /// The state of the present stage.
   SolveProgress progress() const;
@@ -187,7 +188,7 @@ struct Refinement {
 /// @param options of the solves. Engines that make no passes are refused.
 /// @param refine criterion and limits.
 /// @param observer of the solves; returning false ends the refinement.
-/// @throws InputError, Canceled; those of solve()
+/// @throws InputError, Canceled; exceptions of solve()
 Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                   const RefineOptions& refine, const SolveSession::Observer& observer = {},
                   const Cancellation& cancellation = {});

@@ -36,7 +36,7 @@ void save_nowhere(const RadiositySolver& solver) {
 
 struct [[gnu::visibility("hidden")]] Checkpoint::Impl {
   std::filesystem::path file;
-  Json identity;
+  RunIdentity identity;
   Cost cost;
   Clock::time_point saved = Clock::now();
   double seconds_of_last = 0;
@@ -91,7 +91,7 @@ void Checkpoint::save(const SolveSession& session) {
   }
   const std::string plan_bytes = plan_state.str();
   Json head;
-  head["run"] = impl_->identity;
+  head["run"] = impl_->identity.json;
   head["seconds"] = session.seconds();
   head["plan"] = plan ? Json(plan_bytes.size()) : Json();
   std::uint64_t size = 0;

@@ -29,7 +29,7 @@ bool reflects_without_emission(const Scene& scene) {
 /// Light that a source brings to a patch where nothing is between them.
 struct UnmetLight {
   Rgb light;               ///< B of the patch, W/m²
-  double solid_angle = 0;  ///< of the directions along which both overlap, sr
+  double solid_angle = 0;  ///< solid angle of the directions along which both overlap, sr
 };
 
 UnmetLight light_between(const Scene& scene, PatchId receiver, const LightSource& source) {

@@ -36,7 +36,7 @@ class LightDirections {
   }
 
  private:
-  /// Of one pair of patch and source.
+  /// Light from one source on one patch.
   struct Light {
     double sum = 0, squares = 0;  ///< over directions
     double along = 0;             ///< along the direction being added; else 0

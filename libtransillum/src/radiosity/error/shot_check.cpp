@@ -99,7 +99,7 @@ double ShotCheck::error_of(PatchId i) const {
          2;
 }
 
-/// What the errors explain of a difference of two sums over directions, W.
+/// The part that errors explain of a difference of two sums over directions, W.
 double ShotCheck::allowed_of(PatchId i, double received, double shot) const {
   const double variance = std::max(at(rows_, i).squares, shot * most_of(i));
   return deviations * std::sqrt(variance) + 2 * error_of(i) + tolerated * std::max(received, shot);
@@ -129,7 +129,7 @@ ShotCheck::Disagreement ShotCheck::of_power() const {
     const double ratio = row.sent / row.facing;
     const double squares =
         row.sent_squares - 2 * ratio * row.sent_facing + ratio * ratio * row.facing_squares;
-    // Of gaps that no direction happens to meet.
+    // Part by gaps that no direction happens to meet.
     const auto mixed = [](double share) { return std::max(0.0, share * (1 - share)); };
     const double unseen = std::max(mixed(ratio), mixed(shot)) * row.facing_squares;
     seen += weight * ratio;

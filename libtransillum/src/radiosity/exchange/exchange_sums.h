@@ -41,7 +41,7 @@ class ExchangeSums {
   void merge();
   /// Merges all passes and sorts the rows; to be called after the last pass.
   void finish();
-  /// Number of entries, those of unmerged passes included.
+  /// Number of entries, unmerged passes included.
   std::size_t size() const { return sums_.source.size() + waiting_size_; }
 
   /// The part of size() that is in rows of the share.

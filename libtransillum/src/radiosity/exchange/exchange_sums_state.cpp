@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The state of exchange sums, of which several processes may have the rows. In a checkpoint it
-// looks the same for any number of them, so that any number can continue with it.
+// The state of exchange sums that the members of a group share. In a checkpoint it looks like the
+// state of one process, so that any number of processes can continue with it.
 #include <algorithm>
 #include <utility>
 

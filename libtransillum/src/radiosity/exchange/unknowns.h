@@ -20,9 +20,9 @@ namespace transillum {
 ///   b_u = e_u + rho_u (h_u of the shot + 4 / (M A_u) sum_d sum_v T(u,v,omega_d) b_v).
 struct Unknowns {
   std::size_t per_patch;                            ///< 1, or 3
-  std::vector<double> area;                         ///< of its patch: ∫ phi_a², m²
+  std::vector<double> area;                         ///< measure of its patch: ∫ phi_a², m²
   std::vector<Rgb> exitance;                        ///< E_i for phi_0, 0 for the others
-  std::vector<Rgb> reflectance;                     ///< of its patch
+  std::vector<Rgb> reflectance;                     ///< reflectance of its patch
   std::vector<Rgb> shot_exitance, shot_irradiance;  ///< DirectLight's, of phi_0
 
   Unknowns(const Scene& scene, Basis basis, const DirectLight& shot);

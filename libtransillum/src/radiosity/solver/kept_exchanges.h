@@ -77,7 +77,7 @@ class KeptExchanges {
   std::size_t own_size() const;
   /// Computes what size() counts besides own_size().
   void count();
-  /// The sum over all replicas and shares, in the first process.
+  /// The sum over all replicas; in a group, on member 0, over all members.
   ExchangeSums joined() const;
 
   PatchId patches_;
@@ -87,7 +87,7 @@ class KeptExchanges {
   std::int64_t kept_elsewhere_ = 0;  ///< entries of other shares less those also kept here
   bool renews_;
   bool requested_ = false;
-  const char* required_by_ = nullptr;  ///< the option that cannot do without; null: none
+  const char* required_by_ = nullptr;  ///< the option that cannot do without; null if there is none
   Cancellation cancellation_;
   std::uint64_t memory_;            ///< limit, bytes
   std::vector<ExchangeSums> sums_;  ///< one per replica

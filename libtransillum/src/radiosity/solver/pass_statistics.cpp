@@ -89,7 +89,7 @@ void PassStatistics::write_to(SolveStatistics& statistics) const {
   statistics.closure_defect_max = closure_relative_;
   statistics.closure_defect_grazing = closure_grazing_;
   statistics.closure_defect_moments = closure_moments_;
-  // Of a two-sided face, the side counts from which less escapes: not the outside of a sealed room.
+  // The side of a two-sided face counts from which less escapes: not the outside of a sealed room.
   double outside = 0;
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
     if (are_two_sides(scene_, i)) {

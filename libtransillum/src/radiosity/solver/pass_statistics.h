@@ -14,7 +14,7 @@
 
 namespace transillum {
 
-/// What is measured along each direction once: areas, closure, counts and the error of the
+/// Measurements along each direction, made once: areas, closure, counts and the error of the
 /// quadrature of the cosine. Later passes along the same direction are not added again.
 class PassStatistics {
  public:
@@ -26,17 +26,17 @@ class PassStatistics {
                  std::size_t per_patch);
 
   /// Starts another set of directions (semi-iterative scheme): clears areas() and
-  /// quadrature_errors(); all other figures go on over all sets.
+  /// quadrature_errors(); all other figures continue over all sets.
   void begin_set();
   /// Adds the first pass along a direction.
   void add(const Pass& pass);
 
-  /// Makes quadrature_errors() those of all patches.
+  /// Extends quadrature_errors() to all patches, in a group.
   void complete_errors();
   /// Completes what is summed per patch.
   void complete();
 
-  /// Of the current set of directions.
+  /// Areas of the current set of directions.
   const VisibleAreaSums& areas() const { return areas_; }
   /// Entry d: eps (eq. 17) of the first d + 1 passes of the current set, largest over patches.
   const std::vector<double>& quadrature_errors() const { return quadrature_errors_; }

@@ -56,7 +56,7 @@ void RadiosityIterate::begin() {
 }
 
 void RadiosityIterate::begin(const KeptSums& sums) {
-  if (kept_passes_ == 0) {  // of a replica that was just added
+  if (kept_passes_ == 0) {  // for a replica that was just added
     begin();
     return;
   }

@@ -16,7 +16,8 @@ namespace transillum {
 using KeptSums = std::vector<const ExchangeSums*>;
 
 /// B and H of one set of directions, iteration by iteration (eq. 11): of all passes, or of one
-/// replica's passes. Areas as in VisibleAreaSums. All lists and indices are those of unknowns.
+/// replica's passes. Areas as in VisibleAreaSums. All lists and indices refer to unknowns,
+/// which are patches but with a linear basis.
 class RadiosityIterate {
  public:
   /// Keeps a reference to `unknowns`. The light of the first shot is added to H, and the exitance
@@ -28,16 +29,16 @@ class RadiosityIterate {
   /// Memory that an iterate takes, with its mean over iterations.
   static constexpr std::uint64_t bytes_per_unknown = 8 * sizeof(Rgb);
 
-  const std::vector<Rgb>& b() const { return b_; }  ///< of the last finished iteration, W/m²
+  const std::vector<Rgb>& b() const { return b_; }  ///< B of the last finished iteration, W/m²
   const std::vector<Rgb>& h() const { return h_; }  ///< irradiance, W/m²: B = E + rho H
   /// sum_d sum_j A(i,j,omega_d) (B_j - E_j shot) of the iteration under way, W
   const std::vector<Rgb>& gathered() const { return gathered_; }
-  int passes() const { return passes_; }  ///< of the iteration under way
+  int passes() const { return passes_; }  ///< passes of the iteration under way
 
-  /// Sets B to what follows if every patch gathers the irradiance `gathered`, in addition to that
-  /// of the first shot, W/m².
+  /// Sets B to what follows if every patch gathers the irradiance `gathered`, in addition to the
+  /// irradiance of the first shot, W/m².
   void start_from(const Rgb& gathered);
-  /// Sets B to that of `other`.
+  /// Sets B to the B of `other`.
   void start_from(const RadiosityIterate& other);
   /// Begins an iteration with nothing gathered.
   void begin();
@@ -64,7 +65,7 @@ class RadiosityIterate {
   /// The share of what leaves the patch of u that escapes.
   /// @param uncovered, projected, passes as in VisibleAreaSums
   double sky_share(std::size_t u, double uncovered, double projected, int passes) const;
-  /// What u receives from the sky in the passes so far, W/m².
+  /// Irradiance of u from the sky in the passes so far, W/m².
   Rgb sky_irradiance(std::size_t u) const;
   /// Power sent by the part of B that is gathered, in the unit of gathered().
   /// @param column_areas as in VisibleAreaSums, unscaled
@@ -94,7 +95,7 @@ class RadiosityIterate {
  private:
   /// H from what is gathered, the sky included, and B from H.
   Rgb irradiance(std::size_t u, const Rgb& gathered) const;
-  /// What u gathers from patches and sky, W/m².
+  /// Irradiance of u from patches and sky, W/m².
   Rgb gathered_irradiance(std::size_t u) const;
   Rgb radiosity(std::size_t u, const Rgb& irradiance) const;
   void set_radiosity(std::size_t u, const Rgb& b);
@@ -125,8 +126,8 @@ class RadiosityIterate {
   int passes_ = 0;
   std::vector<double> kept_projected_, kept_sky_areas_;
   int kept_passes_ = 0;
-  std::vector<double> scales_;    ///< of rows and columns, if symmetric; else empty
-  std::vector<double> row_sums_;  ///< of the kept sums, scaled; if symmetric
+  std::vector<double> scales_;    ///< scales of rows and columns, if symmetric; else empty
+  std::vector<double> row_sums_;  ///< row sums of the kept sums, scaled; if symmetric
 };
 
 }  // namespace transillum

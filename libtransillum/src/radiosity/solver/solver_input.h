@@ -17,7 +17,7 @@ EngineOptions used_engine_options(const SolveOptions& options);
 /// a goal.
 int expected_directions(const SolveOptions& options);
 
-/// What a solve starts from; constant once constructed, so any thread may read it.
+/// The input of a solve; constant once constructed, so any thread may read it.
 struct SolverInput {
   std::shared_ptr<const Scene> scene;
   SolveOptions options;                     ///< validated

@@ -240,7 +240,7 @@ void RadiositySolver::Impl::append_replica() {
 
 double RadiositySolver::Impl::energy_defect() const {
   Rgb received;
-  // The power is that of the means.
+  // The power follows from the means.
   for (std::size_t u = 0; u < whole.gathered().size(); u += input.unknowns->per_patch) {
     received += whole.gathered()[u];
   }

@@ -34,7 +34,7 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
   IterationHistory history;     ///< finished iterations, and the answer so far
   SolverTiming timing;
   PatchShare share;
-  ReflectedLight light;  ///< of the scene
+  ReflectedLight light;  ///< light reflected in the scene
 
   explicit Impl(SolverInput solver_input);
 
@@ -80,7 +80,7 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
   void finish_iteration();
   /// Continues with one replica more.
   void add_replica();
-  /// As RadiositySolver::save() and restore()
+  /// The same as RadiositySolver::save() and restore()
   void save(std::ostream& out) const;
   void restore(std::istream& in, std::uint64_t size);
   /// Power received against power sent, before rows are scaled (ALGORITHM.md, oracle 4).
@@ -88,7 +88,7 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
 
   SolveProgress progress() const;
   SolveStatistics solve_statistics() const;
-  /// As RadiositySolver::sky_irradiance()
+  /// The same as RadiositySolver::sky_irradiance()
   std::vector<Rgb> sky_irradiance() const;
   FormFactors form_factors() const;
   ErrorEstimate error_estimate() const;

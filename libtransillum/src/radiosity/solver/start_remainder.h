@@ -66,7 +66,7 @@ class StartRemainder {
   Rgb rho_max_;
   std::optional<RadiosityIterate> upper_;
   std::vector<Rgb> left_;
-  std::vector<double> largest_;  ///< of left(), after each iteration followed
+  std::vector<double> largest_;  ///< largest value of left(), after each iteration followed
 };
 
 }  // namespace transillum
