@@ -18,6 +18,7 @@
 #include "transillum/at.h"
 #include "transillum/directions.h"
 #include "transillum/errors.h"
+#include "transillum/radiosity_solver.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 #include "transillum/solve_session.h"

@@ -12,6 +12,7 @@
 #include "support/form_factor_rows.h"
 #include "transillum/at.h"
 #include "transillum/material_changes.h"
+#include "transillum/radiosity_solver.h"
 #include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
 

@@ -61,7 +61,7 @@ TEST(CliAccuracy, ShootsLampsFirst) {
 
 TEST(CliAccuracy, EndsWithTheTime) {
   const ProgramResult result = expect_success({"solve", "furnace", "--seconds", "0.2"});
-  EXPECT_THAT(result.out, HasSubstr("as fits the time, time is up: rms error at most"));
+  EXPECT_THAT(result.out, HasSubstr("within the time given, time is up: rms error at most"));
 }
 
 TEST(CliAccuracy, OfEnginePairsTakesPoints) {

@@ -64,7 +64,7 @@ TEST(CliHelp, VersionIsOneLine) {
 TEST(CliHelp, TheProgramLoadsNeitherVtkNorMpi) {
   RunningProgram listing({}, {}, {}, {}, "export LD_TRACE_LOADED_OBJECTS=1");
   const std::string libraries = listing.wait().out;
-  EXPECT_THAT(libraries, HasSubstr("libtransillum.so"));
+  EXPECT_THAT(libraries, HasSubstr("libembree"));
   EXPECT_THAT(libraries, Not(HasSubstr("vtk")));
   EXPECT_THAT(libraries, Not(HasSubstr("libmpi")));
 }

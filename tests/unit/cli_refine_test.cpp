@@ -61,7 +61,7 @@ TEST(CliRefine, GoesOnFromItsCheckpoint) {
   expect_success(refined + Arguments{"-o", whole, "--checkpoint", checkpoint});
   const ProgramResult again =
       expect_success(refined + Arguments{"-o", resumed, "--checkpoint", checkpoint, "--resume"});
-  EXPECT_THAT(again.err, HasSubstr("goes on after"));
+  EXPECT_THAT(again.err, HasSubstr("resumes after"));
   EXPECT_EQ(read_file(whole), read_file(resumed));
 }
 

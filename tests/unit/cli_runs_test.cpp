@@ -80,7 +80,7 @@ void expect_kills_change_nothing(int kills, const Arguments& options, unsigned s
       wait_for_writing(program, folder);
     }
     program.send(SIGKILL);
-    resumed += program.wait().err.find("goes on after") != std::string::npos ? 1 : 0;
+    resumed += program.wait().err.find("resumes after") != std::string::npos ? 1 : 0;
     // Complete files only, whenever the kill came. Between the calls that name a file and that put
     // it in place of the one before, it has a name of its own.
     for (const std::string& name : folder.names()) {
@@ -125,7 +125,7 @@ TEST(CliRuns, ACheckpointIsSavedAtTheEndAndWhenInterrupted) {
   const ProgramResult whole = expect_success(solve(folder / "a.csv", keep));
   EXPECT_THAT(whole.err, ::testing::ContainsRegex("run.tck: [0-9.]+ [kM]B, saved once in"));
   const ProgramResult again = run_program(solve(folder / "b.csv", keep + Arguments{"--resume"}));
-  EXPECT_THAT(again.err, HasSubstr("goes on after"));
+  EXPECT_THAT(again.err, HasSubstr("resumes after"));
   EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "b.csv"));
 
   const Arguments keep_long{"-m", "100000", "--checkpoint", folder / "long.tck", "--resume"};
@@ -215,7 +215,7 @@ TEST(CliRuns, AStudyGoesOnAfterItsPoints) {
   expect_success(study + Arguments{"--out", folder / "a.csv"});
   const ProgramResult again =
       expect_success(study + Arguments{"--resume", "--out", folder / "b.csv"});
-  EXPECT_THAT(again.err, HasSubstr("goes on after 3 points"));
+  EXPECT_THAT(again.err, HasSubstr("resumes after 3 points"));
   EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "b.csv"));
   const ProgramResult other =
       run_program(study + Arguments{"--resume", "--rotations", "2", "--out", folder / "c.csv"});

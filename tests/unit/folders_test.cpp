@@ -37,6 +37,7 @@ struct Rules {
   std::map<std::string, Names> may_use;             ///< layer → layers
   std::map<std::string, std::string> layer_of;      ///< public header → layer
   std::map<std::string, std::string> listed_twice;  ///< public header → its second layer
+  Names for_programs;                               ///< headers of src that programs may include
 };
 
 /// The words between backquotes in one cell of a table.
@@ -79,6 +80,17 @@ std::vector<std::vector<std::string>> table_below(const fs::path& document,
     }
   }
   return rows;
+}
+
+/// The paths of a table "folder, headers".
+Names read_headers_for_programs(const fs::path& document) {
+  Names paths;
+  for (const auto& row : table_below(document, "### Headers of src for programs")) {
+    for (const std::string& header : quoted_words(row.at(1))) {
+      paths.insert(*quoted_words(row.at(0)).begin() + "/" + header);
+    }
+  }
+  return paths;
 }
 
 /// @param folders heading of a table "folder, what it is, may include"
@@ -134,7 +146,7 @@ std::vector<std::string> folder_violations(const std::vector<Include>& includes,
                                            const Rules& rules) {
   std::vector<std::string> found;
   for (const Include& include : includes) {
-    if (include.path.starts_with("transillum/")) {
+    if (include.path.starts_with("transillum/") || rules.for_programs.contains(include.path)) {
       continue;
     }
     const std::string from = folder_of(include.file), to = folder_of(include.path);
@@ -256,7 +268,8 @@ TEST(Folders, OfTheLibraryIncludeOnlyWhatTheTableAllows) {
 }
 
 TEST(Folders, OfTheViewerIncludeOnlyWhatTheTableAllows) {
-  const Rules rules = read_rules(document, "### Folders of viewer");
+  Rules rules = read_rules(document, "### Folders of viewer");
+  rules.for_programs = read_headers_for_programs(document);
   EXPECT_EQ(keys_of(rules.may_include), folders_with_sources(viewer));
   EXPECT_THAT(folder_violations(includes_below(viewer), rules), IsEmpty());
 }
@@ -283,13 +296,21 @@ TEST(Folders, FilesIncludeOneAnotherWithoutCycles) {
   }
 }
 
-TEST(Folders, TheCommandLineUsesThePublicApiOnly) {
-  const fs::path folder = repository / "libtransillum/cli";
-  for (const Include& include : includes_below(folder)) {
-    EXPECT_TRUE(include.path.starts_with("transillum/") ||
-                fs::exists(folder.parent_path() / include.path))
-        << place(include);
+TEST(Folders, ProgramsUsePublicHeadersAndThoseOfTheTable) {
+  const Names allowed = read_headers_for_programs(document);
+  Names used;
+  for (const fs::path& folder :
+       {repository / "libtransillum/cli", repository / "libtransillum/mpi",
+        repository / "libtransillum/manual", repository / "libtransillum/python", viewer}) {
+    for (const Include& include : includes_below(folder)) {
+      if (allowed.contains(include.path)) {
+        used.insert(include.path);
+      } else if (!include.path.starts_with("transillum/")) {
+        EXPECT_FALSE(fs::exists(sources / include.path)) << place(include);
+      }
+    }
   }
+  EXPECT_EQ(used, allowed);
 }
 
 /// Two classes of one name are one for the linker, which keeps one destructor for both.

@@ -24,6 +24,7 @@
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/pair_form_factors.h"
+#include "transillum/radiosity_solver.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 
@@ -385,7 +386,7 @@ TEST_F(CliFactorFiles, LeavesOutTinyOnesAndNamesWhatIsWrong) {
   const ProgramResult all = run({"factors", "cornell-box", "-m", "32"});
   const ProgramResult rest = run({"factors", "cornell-box", "-m", "32", "--drop", "0.01"});
   EXPECT_LT(line_count(rest.out), line_count(all.out));
-  EXPECT_THAT(rest.err, HasSubstr("form factors left out"));
+  EXPECT_THAT(rest.err, HasSubstr("form factors omitted"));
   refused({"factors", "furnace", "--drop", "1"}, "--drop");
   refused({"factors", "furnace", "--out", "f.txt"}, "must end in .csv");
   run({"factors", "furnace", "-m", "8", "--out", "f.npz"});

@@ -22,6 +22,7 @@
 #include "transillum/radiosity_solver.h"
 #include "transillum/solution.h"
 #include "transillum/study.h"
+#include "user_guide.h"
 #include "visibility/embree/picking.h"
 #include "widgets/theme.h"
 
@@ -418,7 +419,8 @@ QString name_of_color(const QColor& color) {
 /// Labels of engines are in the library's table.
 QStringList texts_of_the_viewer() {
   QStringList texts,
-      names{QStringLiteral(TRANSILLUM_SOURCE "/libtransillum/src/visibility/engine_table.cpp")};
+      names{QStringLiteral(TRANSILLUM_SOURCE
+                           "/libtransillum/src/visibility/engines/engine_table.cpp")};
   for (QDirIterator files(QStringLiteral(TRANSILLUM_SOURCE "/viewer"), {"*.cpp"}, QDir::Files,
                           QDirIterator::Subdirectories);
        files.hasNext();) {
@@ -557,7 +559,7 @@ class LessonNumbersTest : public QObject {
   void names_are_those_of_the_window() {
     const QStringList texts = texts_of_the_viewer();
     QVERIFY(texts.size() > 500);
-    QString all = text_of("viewer/USER_GUIDE.md") + text_of("viewer/LESSON_FORMAT.md");
+    QString all = test::user_guide().join('\n') + text_of("viewer/LESSON_FORMAT.md");
     QVERIFY(names_in(all).size() > 60);
     for (const Lesson& lesson : built_in_lessons()) {
       for (const Lesson::Page& page : lesson.pages) {

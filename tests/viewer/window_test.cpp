@@ -16,6 +16,7 @@
 #include <set>
 
 #include "lessons/lesson_panel.h"
+#include "scene/build/patch_count.h"
 #include "scene/color_controls.h"
 #include "scene/welcome_page.h"
 #include "solved_window.h"
