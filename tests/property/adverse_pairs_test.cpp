@@ -10,7 +10,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <numeric>
 
 #include "support/imperfect_scenes.h"
 #include "support/pair_scenes.h"
@@ -269,7 +268,10 @@ void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int
   const ExchangeFinder exchange(*scene);
   int compared = 0, beyond_three = 0;
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
-    exchange.for_each_after(i, {}, [&](PatchId j, const PatchExchange&) { sums[{i, j}]; });
+    exchange.for_each_after(i, {}, {},
+                            [&](PatchId j, const PatchExchange&, const TransferMoments&) {
+                              sums[{i, j}];
+                            });
   }
   for (const auto& [pair, of_pair] : sums) {
     const auto& [i, j] = pair;

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Checks the documents (*.md) of the source tree: relative links lead to existing files and
-// headings, every decision is in the index, decisions that sources name exist, and the C++ code in
-// the README is that of an example.
+// headings, every decision is in the index and has the form of all, decisions that sources name
+// exist, and the C++ code of the cookbook is in an example. cookbook_test.cpp runs commands.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include <sstream>
 #include <string>
 #include <vector>
+#include "support/temporary_folder.h"
 
 namespace transillum::documents_test {
 namespace {
@@ -24,11 +25,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 fs::path source_folder() { return fs::path(TRANSILLUM_DATA_DIR).parent_path(); }
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// All *.md files, without build folders and hidden ones.
 std::vector<fs::path> documents() {
@@ -48,7 +44,7 @@ std::vector<fs::path> documents() {
 
 /// A document's lines without those in fenced code blocks.
 std::vector<std::string> prose_lines(const fs::path& document) {
-  std::istringstream text(text_of(document));
+  std::istringstream text(test::read_file(document));
   std::vector<std::string> lines;
   bool in_code = false;
   for (std::string line; std::getline(text, line);) {
@@ -125,7 +121,7 @@ TEST(Documents, HaveNoBrokenLinks) {
 
 TEST(Documents, TheIndexOfDecisionsIsComplete) {
   const fs::path folder = source_folder() / "libtransillum/decisions";
-  const std::string index = text_of(folder / "README.md");
+  const std::string index = test::read_file(folder / "README.md");
   int highest = 0;
   std::set<int> numbers;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -136,7 +132,7 @@ TEST(Documents, TheIndexOfDecisionsIsComplete) {
     const int number = std::stoi(name.substr(0, 4));
     const std::string title = "# " + std::to_string(number) + ". ";
     EXPECT_THAT(index, HasSubstr("| [" + std::to_string(number) + "](" + name + ") |"));
-    EXPECT_TRUE(text_of(entry.path()).starts_with(title)) << name;
+    EXPECT_TRUE(test::read_file(entry.path()).starts_with(title)) << name;
     EXPECT_TRUE(numbers.insert(number).second) << "two decisions have the number " << number;
     highest = std::max(highest, number);
   }
@@ -146,6 +142,25 @@ TEST(Documents, TheIndexOfDecisionsIsComplete) {
       EXPECT_TRUE(std::regex_search(gaps, std::regex("\\b" + std::to_string(number) + "\\b")))
           << "number " << number << " is not explained";
     }
+  }
+}
+
+/// Title, question, decision, then anything; parts of a note are paragraphs, not headings.
+TEST(Documents, DecisionsHaveOneForm) {
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(source_folder() / "libtransillum/decisions")) {
+    const std::string name = entry.path().filename().string();
+    if (name == "README.md") {
+      continue;
+    }
+    const std::string text = test::read_file(entry.path());
+    const std::size_t question = text.find("\n**Question.** "),
+                      decision = text.find("\n**Decision");
+    EXPECT_NE(question, std::string::npos) << name << " asks no question";
+    EXPECT_NE(decision, std::string::npos) << name << " decides nothing";
+    EXPECT_LT(question, decision) << name;
+    EXPECT_EQ(text.find("\n## "), std::string::npos) << name << " has headings";
+    EXPECT_EQ(text.find("\nStatus:"), std::string::npos) << name << ": the word is State";
   }
 }
 
@@ -161,7 +176,7 @@ TEST(Documents, DecisionsNamedInSourcesExist) {
       if (extension != ".h" && extension != ".cpp") {
         continue;
       }
-      const std::string text = text_of(entry.path());
+      const std::string text = test::read_file(entry.path());
       for (std::sregex_iterator match(text.begin(), text.end(), reference), end; match != end;
            ++match) {
         ++count;
@@ -175,20 +190,21 @@ TEST(Documents, DecisionsNamedInSourcesExist) {
   EXPECT_GT(count, 5U);
 }
 
-TEST(Documents, CodeInTheReadmeIsThatOfAnExample) {
+TEST(Documents, CppOfTheCookbookIsInAnExample) {
   std::string examples;
   for (const fs::directory_entry& entry :
        fs::directory_iterator(source_folder() / "libtransillum/examples")) {
     if (entry.path().extension() == ".cpp") {
-      examples += text_of(entry.path());
+      examples += test::read_file(entry.path());
     }
   }
-  const std::string readme = text_of(source_folder() / "README.md"), open = "```cpp\n";
+  const std::string cookbook = test::read_file(source_folder() / "libtransillum/COOKBOOK.md");
+  const std::string open = "```cpp\n";
   int count = 0;
-  for (std::size_t begin = readme.find(open); begin != std::string::npos;
-       begin = readme.find(open, begin)) {
+  for (std::size_t begin = cookbook.find(open); begin != std::string::npos;
+       begin = cookbook.find(open, begin)) {
     begin += open.size();
-    const std::string code = readme.substr(begin, readme.find("```", begin) - begin);
+    const std::string code = cookbook.substr(begin, cookbook.find("```", begin) - begin);
     EXPECT_THAT(examples, HasSubstr(code));
     ++count;
   }

@@ -3,6 +3,7 @@
 // Holds the includes of libtransillum and of the viewer to the tables of ARCHITECTURE.md: which
 // folder may include which, and which layer may use the public headers of which. A violation is
 // reported with file and line. Includes must also form no cycle between files.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -36,6 +37,7 @@ struct Rules {
   std::map<std::string, Names> may_use;             ///< layer → layers
   std::map<std::string, std::string> layer_of;      ///< public header → layer
   std::map<std::string, std::string> listed_twice;  ///< public header → its second layer
+  Names for_programs;                               ///< headers of src that programs may include
 };
 
 /// The words between backquotes in one cell of a table.
@@ -78,6 +80,17 @@ std::vector<std::vector<std::string>> table_below(const fs::path& document,
     }
   }
   return rows;
+}
+
+/// The paths of a table "folder, headers".
+Names read_headers_for_programs(const fs::path& document) {
+  Names paths;
+  for (const auto& row : table_below(document, "### Headers of src for programs")) {
+    for (const std::string& header : quoted_words(row.at(1))) {
+      paths.insert(*quoted_words(row.at(0)).begin() + "/" + header);
+    }
+  }
+  return paths;
 }
 
 /// @param folders heading of a table "folder, what it is, may include"
@@ -133,7 +146,7 @@ std::vector<std::string> folder_violations(const std::vector<Include>& includes,
                                            const Rules& rules) {
   std::vector<std::string> found;
   for (const Include& include : includes) {
-    if (include.path.starts_with("transillum/")) {
+    if (include.path.starts_with("transillum/") || rules.for_programs.contains(include.path)) {
       continue;
     }
     const std::string from = folder_of(include.file), to = folder_of(include.path);
@@ -141,7 +154,7 @@ std::vector<std::string> folder_violations(const std::vector<Include>& includes,
     if (row == rules.may_include.end()) {
       found.push_back(place(include) + ": folder " + from + " is not in the table");
     } else if (from != to && !row->second.contains(to)) {
-      found.push_back(place(include) + ": " + from + " may not include " + to);
+      found.push_back(fmt::format("{}: {} may not include {}", place(include), from, to));
     }
   }
   return found;
@@ -204,7 +217,7 @@ class CycleSearch {
     if (const auto edges = edges_.find(unit); edges != edges_.end()) {
       for (const auto& [next, include] : edges->second) {
         if (std::find(path_.begin(), path_.end(), next) != path_.end()) {
-          found_.push_back(include + " closes a cycle through " + next);
+          found_.push_back(fmt::format("{} closes a cycle through {}", include, next));
         } else {
           visit(next);
         }
@@ -255,7 +268,8 @@ TEST(Folders, OfTheLibraryIncludeOnlyWhatTheTableAllows) {
 }
 
 TEST(Folders, OfTheViewerIncludeOnlyWhatTheTableAllows) {
-  const Rules rules = read_rules(document, "### Folders of viewer");
+  Rules rules = read_rules(document, "### Folders of viewer");
+  rules.for_programs = read_headers_for_programs(document);
   EXPECT_EQ(keys_of(rules.may_include), folders_with_sources(viewer));
   EXPECT_THAT(folder_violations(includes_below(viewer), rules), IsEmpty());
 }
@@ -282,13 +296,21 @@ TEST(Folders, FilesIncludeOneAnotherWithoutCycles) {
   }
 }
 
-TEST(Folders, TheCommandLineUsesThePublicApiOnly) {
-  const fs::path folder = repository / "libtransillum/cli";
-  for (const Include& include : includes_below(folder)) {
-    EXPECT_TRUE(include.path.starts_with("transillum/") ||
-                fs::exists(folder.parent_path() / include.path))
-        << place(include);
+TEST(Folders, ProgramsUsePublicHeadersAndThoseOfTheTable) {
+  const Names allowed = read_headers_for_programs(document);
+  Names used;
+  for (const fs::path& folder :
+       {repository / "libtransillum/cli", repository / "libtransillum/mpi",
+        repository / "libtransillum/manual", repository / "libtransillum/python", viewer}) {
+    for (const Include& include : includes_below(folder)) {
+      if (allowed.contains(include.path)) {
+        used.insert(include.path);
+      } else if (!include.path.starts_with("transillum/")) {
+        EXPECT_FALSE(fs::exists(sources / include.path)) << place(include);
+      }
+    }
   }
+  EXPECT_EQ(used, allowed);
 }
 
 /// Two classes of one name are one for the linker, which keeps one destructor for both.

@@ -12,8 +12,8 @@
 #include "base/text_file.h"
 #include "io/drawing/line_chart.h"
 #include "io/results/study_csv.h"
-#include "program_run.h"
 #include "support/comma_locale.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
@@ -74,14 +74,27 @@ std::map<std::string, std::string> files_written(const Solution& solution) {
     write_map(path(name), scene, map);
   }
   write_charts(path("c.svg"), {chart()});
-  write_study_csv(path("study.csv"), {StudySeries{}}, study());
-  write_directions_csv(path("d.csv"), std::vector<DirectionSample>{{}});
+  write_file_whole(path("study.csv"),
+                   [](std::ostream& out) { write_study_csv(out, {StudySeries{}}, study()); });
+  write_file_whole(path("d.csv"), [](std::ostream& out) {
+    write_directions_csv(out, std::vector<DirectionSample>{{}});
+  });
   std::map<std::string, std::string> contents;
   for (const std::string& name : folder.names()) {
     // Cairo numbers the surfaces of a process.
     contents[name] = std::regex_replace(read_file(folder / name), std::regex("surface[0-9]+"), "");
   }
   return contents;
+}
+
+/// Calls `check` in the locale C and in one with a decimal comma.
+void expect_with_and_without_comma(const std::function<void()>& check) {
+  check();
+  const CommaLocale locale;
+  if (!locale.problem().empty()) {
+    GTEST_SKIP() << locale.problem();
+  }
+  check();
 }
 
 TEST(Locale, NumbersBeyondTheRangeOfDouble) {
@@ -108,12 +121,7 @@ TEST(Locale, NumbersBeyondTheRangeOfDouble) {
     EXPECT_EQ(parse_number("." + std::string(400, '0') + "1"), 0);
     EXPECT_EQ(parse_number("1,5"), std::nullopt);
   };
-  check();
-  const CommaLocale locale;
-  if (!locale.problem().empty()) {
-    GTEST_SKIP() << locale.problem();
-  }
-  check();
+  expect_with_and_without_comma(check);
 }
 
 TEST(Locale, FilesAreTheSameWithADecimalComma) {
@@ -121,14 +129,12 @@ TEST(Locale, FilesAreTheSameWithADecimalComma) {
   const Solution solution = solve(scene, SolveOptions{.directions = 16});
   const auto expected = files_written(solution);
   ASSERT_GE(expected.size(), 16U);
-  const CommaLocale locale;
-  if (!locale.problem().empty()) {
-    GTEST_SKIP() << locale.problem();
-  }
-  const auto written = files_written(solution);
-  for (const auto& [name, content] : expected) {
-    EXPECT_TRUE(written.at(name) == content) << name;
-  }
+  expect_with_and_without_comma([&] {
+    const auto written = files_written(solution);
+    for (const auto& [name, content] : expected) {
+      EXPECT_TRUE(written.at(name) == content) << name;
+    }
+  });
 }
 
 TEST(Locale, ErrorsAndParametersAreTheSameWithADecimalComma) {
@@ -140,31 +146,17 @@ TEST(Locale, ErrorsAndParametersAreTheSameWithADecimalComma) {
     EXPECT_THAT(refusal([] { check_json("[1.5e400]", "a.json"); }), HasSubstr("`1.5e400`"));
     EXPECT_EQ(refusal([] { check_json("[1.5]", "a.json"); }), "");
   };
-  check();
-  const CommaLocale locale;
-  if (!locale.problem().empty()) {
-    GTEST_SKIP() << locale.problem();
-  }
-  check();
+  expect_with_and_without_comma(check);
 }
 
 TEST(Locale, TheProgramWritesTheSameWithADecimalComma) {
-  const TemporaryFolder folder;
-  const std::vector<std::string> call = {
-      "solve", "furnace", "-m", "16", "--tolerance", "0.5e-3", "--max-patch-area", "0.25", "--out"};
-  const auto solve_to = [&](const std::string& name) {
-    std::vector<std::string> arguments = call;
-    arguments.push_back(folder / name);
-    const ProgramResult result = run_program(arguments);
-    EXPECT_EQ(result.status, 0) << result.err;
-    return read_file(folder / name);
+  const auto solution = [] {
+    return expect_success({"solve", "furnace", "-q", "-m", "16", "--tolerance", "0.5e-3",
+                           "--max-patch-area", "0.25", "--out", "-"})
+        .out;
   };
-  const std::string expected = solve_to("a.csv");
-  const CommaLocale locale;
-  if (!locale.problem().empty()) {
-    GTEST_SKIP() << locale.problem();
-  }
-  EXPECT_EQ(solve_to("b.csv"), expected);
+  const std::string expected = solution();
+  expect_with_and_without_comma([&] { EXPECT_EQ(solution(), expected); });
 }
 
 }  // namespace

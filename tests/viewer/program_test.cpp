@@ -11,6 +11,7 @@
 #include <csignal>
 
 #include "registered.h"
+#include "test_files.h"
 
 namespace transillum::viewer::program_test {
 
@@ -81,12 +82,6 @@ class Program {
   QProcess process_;
   QStringList arguments_;
 };
-
-void write(const QString& path, const QByteArray& text) {
-  QFile file(path);
-  QVERIFY(file.open(QIODevice::WriteOnly));
-  file.write(text);
-}
 
 }  // namespace
 
@@ -179,7 +174,7 @@ class ProgramTest : public QObject {
     QFETCH(const QByteArray, expected);
     const QTemporaryDir folder;
     const QString session = folder.filePath("s.json"), picture = folder.filePath("a.png");
-    write(session, "{\"show\": {" + show + "}}");
+    test::write_file(session, "{\"show\": {" + show + "}}");
     Program program({session, "--screenshot", picture});
     program.start();
     QCOMPARE(program.status(), 2);
@@ -192,7 +187,7 @@ class ProgramTest : public QObject {
   void a_lesson_that_selects_no_patch_of_its_scene_ends_a_screenshot() {
     const QTemporaryDir folder;
     const QString lesson = folder.filePath("l.json"), picture = folder.filePath("a.png");
-    write(lesson, R"({"title": "T", "pages": [{"text": "x", "show": {
+    test::write_file(lesson, R"({"title": "T", "pages": [{"text": "x", "show": {
                       "scene": "furnace", "options": {"directions": 16}, "select": 99}}]})");
     Program program({"--lesson", lesson, "--screenshot", picture});
     program.start();
@@ -201,6 +196,28 @@ class ProgramTest : public QObject {
     QVERIFY2(errors.contains("select: there is no patch 99; the scene has 0 to 11"),
              errors.constData());
     QVERIFY(!QFile::exists(picture));
+  }
+
+  void commands_of_readme_and_cookbook_show_something() {
+    int count = 0;
+    for (const char* name : {"/README.md", "/libtransillum/COOKBOOK.md"}) {
+      QFile document(QStringLiteral(TRANSILLUM_SOURCE) + name);
+      QVERIFY(document.open(QIODevice::ReadOnly));
+      const QString start = "transillum-viewer ";
+      for (const QString& line : QString::fromUtf8(document.readAll()).split('\n')) {
+        if (!line.startsWith(start)) {
+          continue;
+        }
+        const QTemporaryDir folder;
+        const QString picture = folder.filePath("a.png");
+        Program program(line.mid(start.size()).split(' ') + QStringList{"--screenshot", picture});
+        program.start();
+        QCOMPARE(program.status(120000), 0);
+        QVERIFY2(QFile::exists(picture), qPrintable(line));
+        ++count;
+      }
+    }
+    QVERIFY(count > 0);
   }
 
   void too_many_patches_are_refused() {

@@ -3,10 +3,8 @@
 // Exceptions on the threads of SolveRunner and of the map painter, at each place where they can
 // occur: the program goes on, the user gets a message, and the next request succeeds.
 //
-// Two functions of the library are replaced in this program by ones that first call a hook: one
-// that SolveRunner calls for each snapshot, one that the painter calls for each picture.
-#include <dlfcn.h>
-
+// Two functions of the library are wrapped in this program by ones that first call a hook: one that
+// SolveRunner calls for each snapshot, one that the painter calls for each picture.
 #include <QTest>
 #include <atomic>
 #include <cstdlib>
@@ -48,12 +46,6 @@ class Hook {
 };
 Hook on_snapshot, on_picture;
 
-/// The function of the library that this program replaces.
-template <class Function>
-Function original(const char* symbol) {
-  return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, symbol));
-}
-
 /// Of this thread: allocations that still succeed, and how many fail after those.
 thread_local int allocations_left = -1, failing_allocations = 0;
 std::atomic<bool> allocations_may_fail = false;
@@ -78,23 +70,27 @@ void* operator new(std::size_t size) {
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace transillum {
+// The linker replaces each call of the member functions, whose first argument is `this`, by one of
+// wrapped_…(), and calls them for original_…() (option --wrap).
+using transillum::ErrorEstimate, transillum::MapRecord, transillum::RadiositySolver;
 
-ErrorEstimate RadiositySolver::error_estimate() const {
+ErrorEstimate original_error_estimate(const RadiositySolver* solver) asm(
+    "__real__ZNK10transillum15RadiositySolver14error_estimateEv");
+ErrorEstimate wrapped_error_estimate(const RadiositySolver* solver) asm(
+    "__wrap__ZNK10transillum15RadiositySolver14error_estimateEv");
+ErrorEstimate wrapped_error_estimate(const RadiositySolver* solver) {
   on_snapshot();
-  static const auto next = original<ErrorEstimate (*)(const RadiositySolver*)>(
-      "_ZNK10transillum15RadiositySolver14error_estimateEv");
-  return next(this);
+  return original_error_estimate(solver);
 }
 
-std::vector<std::int32_t> MapRecord::map_after(std::int32_t k) const {
+std::vector<std::int32_t> original_map_after(const MapRecord* record, std::int32_t k) asm(
+    "__real__ZNK10transillum9MapRecord9map_afterEi");
+std::vector<std::int32_t> wrapped_map_after(const MapRecord* record, std::int32_t k) asm(
+    "__wrap__ZNK10transillum9MapRecord9map_afterEi");
+std::vector<std::int32_t> wrapped_map_after(const MapRecord* record, std::int32_t k) {
   on_picture();
-  static const auto next = original<std::vector<std::int32_t> (*)(const MapRecord*, std::int32_t)>(
-      "_ZNK10transillum9MapRecord9map_afterEi");
-  return next(this, k);
+  return original_map_after(record, k);
 }
-
-}  // namespace transillum
 
 using namespace transillum;
 using namespace transillum::viewer;

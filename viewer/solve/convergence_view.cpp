@@ -87,7 +87,7 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
       tr("not propagated: bound of the light that further iterations add, relative to the "
          "reflected light, of all patches or of the dimmest tenth of their area\n"
          "eq. 25: the paper's rule, the largest change of B over the largest B, with E\n"
-         "bound of eq. 25: by the contraction of eq. 22 with eq. 21, from the first change on\n"
+         "eq. 22: bound of that change, by the contraction with eq. 21, from the first change on\n"
          "error of B: its estimate from the replicas, between its limits\n"
          "Click to go to an iteration"),
       "6"));
@@ -136,8 +136,8 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
       {tr("not propagated"), theme::accent, std::move(remainders), true},
       {tr("eq. 25"), theme::good, std::move(changes)},
       averages ? LogChart::Line{tr("error of the mean"), theme::good, std::move(mean_errors)}
-               : LogChart::Line{tr("bound of eq. 25"), theme::good, predicted_changes(snapshot),
-                                false, ChartDashes::dash_dot}};
+               : LogChart::Line{tr("eq. 22"), theme::good, predicted_changes(snapshot), false,
+                                ChartDashes::dash_dot}};
   add_error_band(snapshot, lines);
   iteration_chart_->show_lines(std::move(lines), levels_of(snapshot),
                                std::max(snapshot.options.iterations, 8));
