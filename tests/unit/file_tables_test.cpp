@@ -20,6 +20,7 @@
 #include "support/program_run.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
+#include "transillum/solve_session.h"
 #include "visibility/pixels/pixel_map.h"
 
 namespace transillum::testing::file_tables_test {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/unit_vector.h"
 #include "transillum/transillum.h"
 
 namespace transillum::python {

@@ -8,6 +8,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "interrupt.h"
+#include "scene/build/patch_count.h"
 
 namespace transillum::python {
 namespace {
