@@ -793,7 +793,7 @@ class LessonPagesTest : public QObject {
 
   void from_steps_to_slopes() {
     const Shown steps(10, 1), linear(10, 2), jumps(10, 3), shadows(10, 6);
-    QVERIFY(linear.contains("are those of the page before"));
+    QVERIFY(linear.contains("are the same as on the page before"));
     QCOMPARE(linear.scene->patch_count(), steps.scene->patch_count());
     QVERIFY(linear.page.state.options.solve.basis == Basis::linear);
     SolveOptions constant = linear.page.state.options.solve;
