@@ -96,7 +96,7 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
   return result;
 }
 
-/// B/pi, the same in all directions.
+/// The radiance is B/pi, the same in all directions.
 PatchValues diffuse_radiance(const SolverSnapshot& snapshot) {
   constexpr double share = std::numbers::inv_pi;
   PatchValues result{snapshot.radiosity, {}, snapshot.linear_parts, snapshot.bases};
@@ -274,7 +274,7 @@ QString tip_of(Quantity quantity) {
 
 std::vector<Rgb> last_change(const SolverSnapshot& snapshot) {
   const SolveProgress& progress = snapshot.progress;
-  // Between two iterations: the change of the one just finished.
+  // Between two iterations, this is the change of the one just finished.
   const int before = progress.direction > 0 ? progress.iteration : progress.iteration - 1;
   const auto& kept = snapshot.kept_radiosity;
   if (!has_index(kept, before)) {

@@ -27,10 +27,10 @@ class ReceivedTable : public QAbstractTableModel {
     column_count
   };
 
-  /// Shows those of `lights` that lie on the front side of the patch (positive cosine).
+  /// Shows the entries of `lights` that lie on the front side of the patch (positive cosine).
   /// @param patch_area m²
   void show_lights(const std::vector<ReceivedLight>& lights, double patch_area);
-  /// Emphasizes the rows of this pass; -1: none.
+  /// Emphasizes the rows of this pass; -1 emphasizes no row.
   void set_current_pass(int pass);
   const ReceivedLight& light(int row) const { return at(lights_, row); }
   /// Sum over all rows, W/m².

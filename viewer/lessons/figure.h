@@ -33,7 +33,7 @@ enum class FigureKind {
   radiance,          ///< of patch i toward Figure::eye, luminance, W/(m² sr)
   jump,              ///< of patch i: radiosity_jumps(), W/m²
   projected_area,    ///< of patch i
-  visible_area,      ///< A(i, j, omega), summed over others; those above i, front or back
+  visible_area,      ///< A(i, j, omega), summed over others: patches above i, front or back
   seen,              ///< number of patches j with a visible area, for patch i
   above,             ///< number of patches directly above one of Figure::others
   form_factor,       ///< F_ij, summed over others
@@ -44,7 +44,8 @@ enum class FigureKind {
   estimated_error,   ///< ErrorEstimate::rms
   largest_error,     ///< ErrorEstimate::rms_limit
   light_directions,  ///< SolveStatistics::light_directions per replica
-  covered,  ///< share of B of patches that do not emit whose 95 % interval has the reference
+  covered,  ///< fraction of all B, of patches that do not emit, whose 95 % interval contains the
+            ///< reference
   ratio     ///< of the two figures of Figure::parts
 };
 
@@ -52,18 +53,19 @@ enum class FigureKind {
 struct Figure {
   FigureKind kind = FigureKind::constant;
   double number = 0;            ///< of a constant
-  PatchId patch = no_patch;     ///< i; no_patch: each patch in turn
-  std::vector<PatchId> others;  ///< j; empty: each patch in turn, or all together
+  PatchId patch = no_patch;     ///< i; each patch in turn if it is no_patch
+  std::vector<PatchId> others;  ///< j; if there are none, each patch in turn or all together
   bool all = false;             ///< j: all patches together
-  std::string material;         ///< of `above`: count only patches of this material; empty: all
+  std::string material;         ///< of `above`: count only patches of this material; all if it is
+                                ///< empty
   int iteration = 0;            ///< of the direction, from 0
   int direction = 0;            ///< from 0
   int reference = 0;            ///< passes of the reference of rms_error
   double patch_area = 0;        ///< of function_error: SceneOptions::max_patch_area, m²
-  double reference_area = 0;    ///< of function_error: that of the reference, m²
+  double reference_area = 0;    ///< of function_error: max_patch_area of the reference, m²
   Vec3 eye;                     ///< of a radiance, m
-  std::vector<MaterialChange> changes;  ///< of a radiance: materials other than the scene's
-  SolveOptions solve;         ///< the run: that of the page, with the figure's own changes
+  std::vector<MaterialChange> changes;  ///< of a radiance: changes of the scene's materials
+  SolveOptions solve;         ///< the run of the page, with the figure's own changes
   std::vector<Figure> parts;  ///< of a ratio
 };
 
@@ -77,10 +79,10 @@ Figure figure_from_json(const nlohmann::json& value, const std::string& where,
 /// @throws InputError
 SolveOptions run_from_json(JsonObject& object, const nlohmann::json& page_options,
                            const ViewState& page);
-/// Whether it has one value for each patch, not one for the scene: the patch that it is about is
-/// left out.
+/// Whether the figure has one value for each patch, not one for the scene: the file omits the
+/// patch.
 bool is_per_patch(const Figure& figure);
-/// Whether it is computed at all: anything but a constant.
+/// Whether the figure is computed: true for all but constants.
 bool is_computed(const Figure& figure);
 /// The names of all figures in files.
 std::vector<std::string> figure_names();

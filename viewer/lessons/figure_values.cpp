@@ -23,13 +23,13 @@
 
 namespace transillum::viewer {
 
-/// A solve; finished and with form factors only where a figure needs them.
+/// A solve. It is finished, and has form factors, only where a figure needs them.
 struct FigureValues::Run {
   SolveOptions options;
   RadiositySolver solver;
   FormFactors form_factors = {};
   std::vector<double> jumps = {};
-  /// Where lobes take part, by the changes of materials.
+  /// The solutions of runs in which lobes take part, by the changes of materials.
   std::vector<std::pair<std::vector<MaterialChange>, Solution>> with_lobes = {};
 };
 
@@ -238,8 +238,8 @@ double FigureValues::of_run(const Figure& figure) {
   return figure.kind == FigureKind::estimated_error ? estimate.rms : estimate.rms_limit;
 }
 
-/// The rows of the map that the figure is about: fragments of patch i, or what is directly above
-/// them, or above the patches of `others`.
+/// The rows of the map that the figure is about: fragments of patch i, or the polygons directly
+/// above them or above the patches of `others`.
 std::vector<std::int32_t> FigureValues::rows_of(const Figure& figure) {
   const MapHistory& history = history_of(figure);
   const bool counts = figure.kind == FigureKind::above;

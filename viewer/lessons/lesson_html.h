@@ -17,7 +17,7 @@ namespace transillum::viewer {
 struct ShownPage {
   Lesson::Page page;
   QByteArray picture;                      ///< of the scene, PNG
-  std::shared_ptr<const RecordedMap> map;  ///< of the page's direction; null: without a map
+  std::shared_ptr<const RecordedMap> map;  ///< of the page's direction; null if the page has no map
   std::int32_t step = -1;                  ///< shown first, from 0
   std::vector<Color8> patch_colors;        ///< of the map, one per patch
   std::optional<Solved> solved;            ///< of the page's question
@@ -30,7 +30,7 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
 /// The map of a direction as an SVG element. Each polygon that was ever in V has the steps at which
 /// it was made and consumed (`data-made`, `data-consumed`), so that a script shows any step.
 /// @param step  shown without a script
-/// @param all  false: only the polygons of that step
+/// @param all  whether the element has the polygons of all steps, not only of that step
 /// @param callouts  drawn over it, where they are after that step
 QByteArray map_svg(const RecordedMap& map, std::int32_t step,
                    const std::vector<Color8>& patch_colors, bool all,

@@ -79,14 +79,14 @@ QuestionBox::QuestionBox(Selection& selection, Focus& focus, QWidget* parent)
 
 void QuestionBox::make_actions() {
   reveal_ = make_action(this, "question_reveal", "Ctrl+Return",
-                        tr("Show what the program computes, and whether the prediction is right "
-                           "(Ctrl+Return); again to hide it"));
+                        tr("Show the computed answer and whether the prediction is right, or hide "
+                           "them again (Ctrl+Return)"));
   count_ = make_action(this, "question_count", "Ctrl+Shift+Return",
-                       tr("Add this answer to the tally of the class, and take the next "
+                       tr("Add this answer to the tally of the class and ask again "
                           "(Ctrl+Shift+Return)"));
   count_->setText(tr("Count this answer"));
   reset_ = make_action(this, "question_reset", "",
-                       tr("Set the tally of this question to zero; Ctrl+Z brings it back"));
+                       tr("Set the tally of this question to zero; Ctrl+Z restores it"));
   reset_->setText(tr("Reset the tally"));
   connect(reveal_, &QAction::triggered, this, [this] { solved_ ? ask_again() : reveal(); });
   connect(count_, &QAction::triggered, this, &QuestionBox::count);
@@ -306,7 +306,7 @@ void QuestionBox::show_solved(const Solved& solved) {
   emit then_shown();
 }
 
-// The window shows what the file wants to be seen after Reveal, with the right patch selected.
+// The window shows the state that the file sets for Reveal, with the right patch selected.
 void QuestionBox::select_right() {
   const Question& question = *page_->question;
   const bool of_patches = question.kind == Question::Kind::patch && !solved_->right.empty();
@@ -406,7 +406,7 @@ QString QuestionBox::result_text() const {
     case Question::Kind::patch:
       return solved_->right.empty()
                  ? verdict
-                 : verdict + tr("The program: patch %1, with %2.")
+                 : verdict + tr("The right answer is patch %1, with %2.")
                                  .arg(solved_->right.front())
                                  .arg(value_text(at(solved_->values, solved_->right.front())));
     case Question::Kind::area:
@@ -418,7 +418,7 @@ QString QuestionBox::result_text() const {
   }
   const int percent =
       static_cast<int>(std::lround(100 * overlap(solved_->region, answer_.outline)));
-  return verdict + area + ' ' + tr("Yours overlaps it by %1 %.").arg(percent);
+  return verdict + area + ' ' + tr("Your area overlaps it by %1 %.").arg(percent);
 }
 
 QString QuestionBox::tally_text(const AnswerCounts& counts) const {
@@ -479,7 +479,8 @@ void QuestionBox::show_state() {
                           : tr("Click a patch in the scene or the map"));
   } else if (given_) {
     given_->setText(
-        tr("Click its corners in the map, in order: %1 so far").arg(answer_.outline.size()));
+        tr("Click the corners of the area in the map, in order: %1 so far")
+            .arg(answer_.outline.size()));
     drop_->setEnabled(!solved_ && !answer_.outline.empty());
   }
   show_choices(counts);

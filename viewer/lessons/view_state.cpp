@@ -19,9 +19,10 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int largest_number = std::numeric_limits<int>::max() - 1;  ///< as a step: the last one
+constexpr int largest_number = std::numeric_limits<int>::max() - 1;  ///< as a step, this is the
+                                                                     ///< last one
 
-// The name of an enumerator in files.
+// The name that an enumerator has in files.
 template <class Value>
 struct Name {
   const char* name;
