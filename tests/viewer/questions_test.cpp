@@ -492,7 +492,7 @@ class QuestionsTest : public QObject {
         "answer, with");
     row("scene option", R"({"kind": "number", "ask": "?", "answer":
         {"figure": "iterations", "with": {"max-patch-area": 3}}})",
-        "not those of the scene");
+        "not of the scene");
     row("reference", R"({"kind": "number", "ask": "?", "answer": {"figure": "function-error"}})",
         "reference-area");
     row("within", R"({"kind": "number", "ask": "?", "within": 0, "answer": {"figure": "steps"}})",

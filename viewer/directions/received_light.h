@@ -9,7 +9,7 @@
 
 namespace transillum::viewer {
 
-/// What a patch receives along one direction: one term of the outer sum of eq. 11.
+/// The light that a patch receives along one direction: one term of the outer sum of eq. 11.
 struct ReceivedLight {
   int pass = 0;                  ///< from 0
   bool opposite = false;         ///< along -omega of the pass

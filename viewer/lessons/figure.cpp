@@ -132,7 +132,7 @@ SolveOptions run_from_json(JsonObject& object, const json& page_options, const V
   RunOptions same = page.options;
   same.solve = run.solve;
   if (!(same == run)) {
-    object.fail_at("with", "can change options of the solve, not those of the scene");
+    object.fail_at("with", "can change options of the solve, not of the scene");
   }
   return run.solve;
 }

@@ -14,7 +14,7 @@ namespace transillum::viewer {
 class JsonObject;
 struct ViewState;
 
-/// What a figure is; `i` is Figure::patch, `j` one of Figure::others. Areas are in m², on the
+/// The kind of a figure; `i` is Figure::patch, `j` one of Figure::others. Areas are in m², on the
 /// transillumination plane of Figure::direction unless stated otherwise.
 enum class FigureKind {
   constant,          ///< Figure::number

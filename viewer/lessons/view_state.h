@@ -42,8 +42,8 @@ struct FocusChoice {
   Phase phase = Phase::after;
 };
 
-/// The state of the window, as lessons and session files describe it. Default values are those of
-/// a newly opened window.
+/// The state of the window, as lessons and session files describe it. Default values describe a
+/// newly opened window.
 struct ViewState {
   std::string scene;  ///< file or built-in; the open scene if it is empty
   RunOptions options;

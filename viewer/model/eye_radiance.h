@@ -30,7 +30,8 @@ class EyeRadiance : public QObject {
 
   /// Nothing happens if it is the request of the last call.
   void request(std::shared_ptr<const GlossyLight> light, const Vec3& eye);
-  /// The newest, which may be of an older request; null: none has been computed, or it failed.
+  /// The newest radiance, which may belong to an older request; null if none has been computed or
+  /// the last request failed.
   std::shared_ptr<const RadianceToward> radiance() const { return radiance_; }
   /// Why the last request failed; else empty.
   const QString& error() const { return error_; }

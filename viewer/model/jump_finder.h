@@ -11,7 +11,7 @@
 
 namespace transillum::viewer {
 
-/// By how much B of each patch differs from that of its neighbors.
+/// The difference between B of each patch and B of its neighbors.
 struct PatchJumps {
   std::shared_ptr<const Scene> scene;
   std::vector<double> values;  ///< radiosity_jumps(), W/m², one per patch
@@ -31,7 +31,8 @@ class JumpFinder : public QObject {
   void request(std::shared_ptr<const SolverSnapshot> snapshot);
   /// Releases the snapshot and its jumps; a computation that runs is canceled.
   void clear();
-  /// The newest, which may be of an older snapshot; null: none has been computed, or it failed.
+  /// The newest jumps, which may belong to an older snapshot; null if none have been computed or
+  /// the last request failed.
   std::shared_ptr<const PatchJumps> jumps() const { return jumps_; }
   /// Why the last request failed; else empty.
   const QString& error() const { return error_; }

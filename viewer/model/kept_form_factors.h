@@ -10,9 +10,9 @@
 
 namespace transillum::viewer {
 
-/// The form factors of a stage for its snapshots, from the moment on when they are requested.
+/// The form factors of a stage for its snapshots, as soon as they are requested.
 ///
-/// Threads: request() may be called by any; the others belong to the worker's.
+/// Threads: request() may be called by any thread; the others belong to the worker's thread.
 class KeptFormFactors {
  public:
   /// @returns whether they were not requested before

@@ -15,7 +15,7 @@ namespace transillum::viewer {
 struct LightRequest {
   std::shared_ptr<const LoadedScene> loaded;
   std::shared_ptr<const FormFactors> form_factors;
-  std::shared_ptr<const PatchMaterials> materials;  ///< null: those of the scene
+  std::shared_ptr<const PatchMaterials> materials;  ///< null for the materials of the scene
   PatchId receiver = no_patch;
   double tolerance = 0;  ///< of the solve run
 
@@ -23,7 +23,7 @@ struct LightRequest {
   const std::vector<Material>& material_list() const {
     return materials ? materials->materials : scene().materials();
   }
-  /// Index into material_list() for each patch; empty: Patch::material.
+  /// Index into material_list() for each patch; empty if Patch::material is that index.
   std::span<const std::int32_t> patch_materials() const {
     return materials ? std::span<const std::int32_t>(materials->of_patch)
                      : std::span<const std::int32_t>();
@@ -31,7 +31,7 @@ struct LightRequest {
   friend bool operator==(const LightRequest&, const LightRequest&) = default;
 };
 
-/// None where the snapshot has no form factors or no such patch.
+/// The request for a snapshot; not set where the snapshot has no form factors or no such patch.
 inline std::optional<LightRequest> light_request(const SolverSnapshot& snapshot, PatchId receiver) {
   if (!snapshot.form_factors || receiver < 0 || receiver >= snapshot.loaded->scene->patch_count()) {
     return std::nullopt;

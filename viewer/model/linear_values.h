@@ -14,7 +14,8 @@ namespace transillum::viewer {
 /// @param mean  over the patch
 Rgb value_at(const Rgb& mean, const LinearPart& part, const LinearBasis& basis, const Vec3& point);
 
-/// B at a point of patch i, W/m²; its mean where B is constant on patches. It may be below 0.
+/// B at a point of patch i, W/m², which may be below 0; the mean of the patch where B is constant
+/// on patches.
 Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point);
 
 /// SolveStatistics::negative_corners of the snapshot.

@@ -47,7 +47,7 @@ void MapRecorder::work(const Task& task, const Cancellation& cancellation) {
   deliver(map, {}, task.number);
 }
 
-// On the worker's thread; what it posts runs on the owner's.
+// Runs on the worker's thread; what it posts runs on the owner's thread.
 void MapRecorder::deliver(const std::shared_ptr<const RecordedMap>& map, const QString& error,
                           quint64 number) {
   const auto emit_result = [this, map, error, number] {

@@ -53,7 +53,7 @@ void PowerCounter::clear() {
   delivered_ = newest_;
 }
 
-// On the worker's thread; what it posts runs on the owner's.
+// Runs on the worker's thread; what it posts runs on the owner's thread.
 void PowerCounter::deliver(const Task& task, const std::shared_ptr<const PowerTables>& tables,
                            const QString& error) {
   const auto emit_result = [this, tables, error, number = task.number] {

@@ -41,7 +41,7 @@ class PowerCounter : public QObject {
     std::shared_ptr<const SolverSnapshot> snapshot;
     quint64 number;
   };
-  /// `tables` null: failed with `error`.
+  /// If `tables` is null, the request failed with `error`.
   void deliver(const Task& task, const std::shared_ptr<const PowerTables>& tables,
                const QString& error);
 

@@ -38,7 +38,7 @@ void Relighter::work(const Task& task, const Cancellation& cancellation) {
           {});
 }
 
-// On the worker's thread; what it posts runs on the owner's.
+// Runs on the worker's thread; what it posts runs on the owner's thread.
 void Relighter::deliver(const Task& task, const std::shared_ptr<const RelightResult>& light,
                         const QString& error) {
   const auto emit_result = [this, light, error, number = task.number,

@@ -27,7 +27,7 @@ class Relighter : public QObject {
     std::shared_ptr<const DirectLight> shot;  ///< may be null
     std::shared_ptr<const PatchMaterials> materials;
     std::vector<Rgb> start;  ///< initial B, W/m², one per patch
-    std::vector<Rgb> sky;    ///< what the patches receive from the sky, W/m²; empty: no sky
+    std::vector<Rgb> sky;    ///< what the patches receive from the sky, W/m²; empty without a sky
     double tolerance = 1e-6;
   };
 
@@ -50,7 +50,7 @@ class Relighter : public QObject {
     quint64 number;
   };
   void work(const Task& task, const Cancellation& cancellation);
-  /// `light` null: failed with `error`.
+  /// If `light` is null, the request failed with `error`.
   void deliver(const Task& task, const std::shared_ptr<const RelightResult>& light,
                const QString& error);
 

@@ -11,7 +11,7 @@
 
 namespace transillum::viewer {
 
-/// What light emitted by each patch does to one patch.
+/// The effect that light emitted by each patch has on one patch.
 struct PatchResponse {
   std::shared_ptr<const LoadedScene> loaded;
   PatchId receiver = no_patch;
@@ -27,9 +27,10 @@ class ResponseSolver : public QObject {
  public:
   explicit ResponseSolver(QObject* parent = nullptr);
 
-  /// Solves `request` unless it is that of the last call. The older response remains until then.
+  /// Solves `request` unless it equals the request of the last call. The older response remains
+  /// until then.
   void request(const LightRequest& request);
-  /// The newest; null: none has been solved, or the last request failed.
+  /// The newest response; null if none has been solved or the last request failed.
   std::shared_ptr<const PatchResponse> response() const { return response_; }
   /// Why the last request failed; else empty.
   const QString& error() const { return error_; }

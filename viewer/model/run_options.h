@@ -8,8 +8,8 @@
 
 namespace transillum::viewer {
 
-/// Whether a solve with the options `in_effect` is that of `asked`: a goal that is the same has
-/// chosen directions, replicas and the tolerance.
+/// Whether a solve with the options `in_effect` is the one that `asked` asks for. Directions,
+/// replicas and the tolerance may differ if both have the same goal, which chooses them.
 bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked);
 
 /// Reads options from a lesson or session file. Names as on the command line, without dashes;
@@ -17,7 +17,7 @@ bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked);
 /// are not included.
 /// @throws InputError that begins with `where`
 RunOptions run_options_from_json(const nlohmann::json& value, const std::string& where);
-/// All options of run_options_from_json().
+/// The JSON of all options that run_options_from_json() reads.
 nlohmann::json to_json(const RunOptions& options);
 
 }  // namespace transillum::viewer

@@ -8,8 +8,8 @@
 
 namespace transillum::viewer {
 
-/// A snapshot with the values and figures of the stage of a session. Before its first pass, those
-/// of the result file, if one was opened.
+/// A snapshot with the values and statistics of the present stage of a session. Before the first
+/// pass, it has the values of the result file, if one was opened.
 /// @param session prepared
 /// @param loaded of the session's scene
 SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const LoadedScene> loaded);

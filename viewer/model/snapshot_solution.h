@@ -7,8 +7,8 @@
 namespace transillum::viewer {
 
 /// The solution that a snapshot shows, with the light of changed materials; its scene has the
-/// materials of before the changes. Copies all values: for a worker where there are many patches.
-/// @param complete  the solve has finished; of a result file, what the file says
+/// materials from before the changes. Copies all values: for a worker where there are many patches.
+/// @param complete  whether the solve has finished; ignored for a result file, which says so itself
 Solution solution_of(const SolverSnapshot& snapshot, bool complete = true);
 
 }  // namespace transillum::viewer

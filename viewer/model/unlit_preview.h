@@ -12,24 +12,25 @@
 
 namespace transillum::viewer {
 
-/// What a program that opens an exported result sees: the patch in each pixel, and the exposure.
+/// The picture that a program shows that opens an exported result: the patch in each pixel, and the
+/// exposure.
 struct UnlitView {
   std::shared_ptr<const SolverSnapshot> snapshot;
   QSize size;
-  std::vector<PatchId> patches;   ///< per pixel, rows from the top; no_patch: background
+  std::vector<PatchId> patches;   ///< per pixel, rows from the top; no_patch in the background
   double automatic_exposure = 1;  ///< of the snapshot's radiosity
   std::vector<Vec3> points =
-      {};  ///< per pixel, of its patch, where B is linear on patches; else empty
+      {};  ///< per pixel, on its patch; empty unless B is linear on patches
 
   /// The picture without lighting: a pixel is `exposure` times B, clipped to 1, as sRGB.
   QImage picture(double exposure, QRgb background) const;
-  /// The share of the area, of patches that do not emit, whose mean is clipped to white in a
+  /// The fraction of the area of patches that do not emit whose mean is clipped to white in a
   /// channel.
   double white_share(double exposure) const;
 };
 
 /// Computes an UnlitView by rays, on its own thread; the newest request replaces the others. Back
-/// sides are transparent, as those of the exported triangles.
+/// sides are transparent, as in the exported triangles.
 ///
 /// Threads: the public functions and the signals belong to the thread that created it.
 class UnlitPreview : public QObject {

@@ -12,8 +12,8 @@
 
 namespace transillum::viewer {
 
-/// Computes results on a thread of its own and delivers that of the newest request to the owner's
-/// thread. Results of requests that have been replaced or cleared are dropped.
+/// Computes results on a thread of its own and delivers the result of the newest request to the
+/// owner's thread. Results of requests that have been replaced or cleared are dropped.
 ///
 /// Threads: the functions belong to the owner's thread. What the job uses must outlive this object:
 /// declare it last.
@@ -21,7 +21,7 @@ template <class Request, class Result>
 class NewestResult {
  public:
   using Job = std::function<Result(const Request&, const Cancellation&)>;
-  /// `result` is null where the job failed, with a message for the user in `error`.
+  /// If the job failed, `result` is null and `error` has a message for the user.
   using Deliver = std::function<void(const Request&, std::shared_ptr<const Result> result,
                                      const QString& error)>;
 
@@ -51,7 +51,7 @@ class NewestResult {
     Request request;
     quint64 number;
   };
-  // On the worker's thread; what it posts runs on the owner's.
+  // Runs on the worker's thread; what it posts runs on the owner's thread.
   void post(const Task& task, std::shared_ptr<const Result> result, const QString& error) {
     const auto deliver = [this, task, result = std::move(result), error] {
       if (task.number == newest_) {
