@@ -65,8 +65,8 @@ struct Figure {
   double reference_area = 0;    ///< of function_error: max_patch_area of the reference, m²
   Vec3 eye;                     ///< of a radiance, m
   std::vector<MaterialChange> changes;  ///< of a radiance: changes of the scene's materials
-  SolveOptions solve;         ///< the run of the page, with the figure's own changes
-  std::vector<Figure> parts;  ///< of a ratio
+  SolveOptions solve;                   ///< the run of the page, with the figure's own changes
+  std::vector<Figure> parts;            ///< of a ratio
 };
 
 /// Reads a number, or an object with the key `figure`.

@@ -478,9 +478,8 @@ void QuestionBox::show_state() {
     given_->setText(given ? tr("Your answer: patch %1").arg(answer_.patch)
                           : tr("Click a patch in the scene or the map"));
   } else if (given_) {
-    given_->setText(
-        tr("Click the corners of the area in the map, in order: %1 so far")
-            .arg(answer_.outline.size()));
+    given_->setText(tr("Click the corners of the area in the map, in order: %1 so far")
+                        .arg(answer_.outline.size()));
     drop_->setEnabled(!solved_ && !answer_.outline.empty());
   }
   show_choices(counts);

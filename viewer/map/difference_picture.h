@@ -10,7 +10,7 @@
 namespace transillum::viewer {
 
 /// The map V of a direction, with each patch colored by the share of its projected area that two
-/// engines assign to different patches. White: none; red: a tenth or more.
+/// engines assign to different patches. White stands for 0, red for a tenth or more.
 class DifferencePicture : public QWidget {
  public:
   static constexpr double full_color_at = 0.1;

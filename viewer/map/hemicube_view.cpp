@@ -92,7 +92,7 @@ void HemicubeView::work(const Task& task, const Cancellation& cancellation) {
   post([this, compared, number = task.number] { show_comparison(compared, number, true); });
 }
 
-// On the worker's thread; what it posts runs on the window's.
+// Runs on the worker's thread; what it posts runs on the window's thread.
 void HemicubeView::post_failure(const QString& message, quint64 number) {
   const auto show = [this, message, number] {
     if (number != sent_.number) {

@@ -31,7 +31,7 @@ class HemicubeView : public QWidget {
   void show_scene(Content content);
   void clear();
   bool up_to_date() const { return done_ == sent_.number; }
-  /// What is shown; null if nothing is.
+  /// The comparison that is shown; null if there is none.
   std::shared_ptr<const HemicubeComparison> comparison() const { return comparison_; }
   /// Patch and error, progress, or the reason why nothing is shown.
   QString status_text() const;

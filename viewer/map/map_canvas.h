@@ -47,9 +47,9 @@ class MapCanvas : public QWidget {
   void clear();
   /// Highlights a region of the map shown; nullopt removes the highlight.
   void mark_region(const std::optional<MapRegion>& region);
-  /// Draws a polygon, and the region that it was to match, over the map until the next call.
+  /// Draws a polygon, and the region that it should match, over the map until the next call.
   void show_sketch(const MapSketch& sketch);
-  /// Names what the callouts point at, until the next call.
+  /// Shows these callouts until the next call.
   void show_callouts(const std::vector<Callout>& callouts);
   const std::vector<Callout>& callouts() const { return callouts_; }
   /// Shows the whole map.
@@ -70,13 +70,13 @@ class MapCanvas : public QWidget {
   bool up_to_date() const { return painted_ == sent_.number; }
   /// The patch drawn at a point in logical pixels; no_patch if none.
   PatchId patch_at(const QPointF& position) const;
-  /// The point of that patch, m; none without a patch.
+  /// The point of that patch, m; not set without a patch.
   std::optional<Vec3> patch_point_at(const QPointF& position) const;
   /// The row of the record whose polygon is drawn at a point; MapRecord::no_row if none, or if V
   /// is not drawn exactly.
   std::int32_t row_at(const QPointF& position) const;
-  /// Outlines the polygon of a row of the map shown, and numbers its corners; MapRecord::no_row:
-  /// none.
+  /// Outlines the polygon of a row of the map shown, and numbers its corners; MapRecord::no_row
+  /// outlines nothing.
   void mark_row(std::int32_t row);
   /// The point on the plane, meters, at a point in logical pixels; nullopt without a picture.
   std::optional<Vec2> point_at(const QPointF& position) const;

@@ -35,10 +35,10 @@ struct MapTransform {
   }
 };
 
-/// Which engine's V is drawn: exactly, in the pixels of an engine with has_pixels(), or with the
-/// open shares of engine corrected. (A hemicube has a separate picture: HemicubeView.)
+/// How V is drawn: exactly, in the pixels of an engine with has_pixels(), or with the open shares
+/// of engine corrected. (A hemicube has a separate picture: HemicubeView.)
 struct MapEngineChoice {
-  std::optional<Engine> engine;              ///< nullopt: exact
+  std::optional<Engine> engine;              ///< nullopt draws V exactly
   PaintersOrder order = PaintersOrder::bsp;  ///< of engine painter
   int resolution = 64;                       ///< pixels along the longer side
   bool differences = true;                   ///< mark errors
@@ -65,7 +65,7 @@ struct MapPictureRequest {
   MapTransform transform;  ///< to logical pixels
   QSizeF size;             ///< logical
   double pixel_ratio = 1;
-  PatchId receiver = no_patch;  ///< draw what it sees; no_patch: V
+  PatchId receiver = no_patch;  ///< draw what this patch sees; V if it is no_patch
 };
 
 struct MapPicture {

@@ -14,7 +14,8 @@ class QLabel;
 namespace transillum::viewer {
 
 /// What one patch sees along a direction, polygon by polygon, each in the color of the difference
-/// that two engines have in its pair of patches. Blue: the second finds less; orange: more.
+/// between two engines for its pair of patches. The second engine finds less where it is blue, more
+/// where it is orange.
 class PairPicture : public QWidget {
   Q_OBJECT
 
@@ -26,8 +27,8 @@ class PairPicture : public QWidget {
   /// Shows nothing without a map, a comparison of its direction and a receiver.
   void show(const std::shared_ptr<const RecordedMap>& map,
             std::shared_ptr<const EngineComparison> comparison, PatchId receiver);
-  /// Second minus first over the larger, of the pair of the receiver and `source`, −1 to 1; 0 for
-  /// equal ones.
+  /// Second minus first over the larger, of the pair of the receiver and `source`, −1 to 1; 0 if
+  /// both are equal.
   double share(PatchId source) const;
   PatchId receiver() const { return receiver_; }
   MapCanvas* canvas() const { return canvas_; }

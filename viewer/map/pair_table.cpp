@@ -64,7 +64,7 @@ QVariant PairTable::headerData(int section, Qt::Orientation orientation, int rol
     return {};
   }
   if (role == Qt::ToolTipRole) {
-    return section == of_difference ? tr("What the second engine assigns beyond the first")
+    return section == of_difference ? tr("Area by the second engine minus area by the first")
            : section == of_first    ? tr("A(i, j, ω) by the first engine")
            : section == of_other    ? tr("A(i, j, ω) by the second engine")
                                     : QVariant();

@@ -19,8 +19,7 @@ struct UnlitView {
   QSize size;
   std::vector<PatchId> patches;   ///< per pixel, rows from the top; no_patch in the background
   double automatic_exposure = 1;  ///< of the snapshot's radiosity
-  std::vector<Vec3> points =
-      {};  ///< per pixel, on its patch; empty unless B is linear on patches
+  std::vector<Vec3> points = {};  ///< per pixel, on its patch; empty unless B is linear on patches
 
   /// The picture without lighting: a pixel is `exposure` times B, clipped to 1, as sRGB.
   QImage picture(double exposure, QRgb background) const;

@@ -31,7 +31,7 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
   keep_->setObjectName("keep_run");
   keep_->setShortcut(Qt::Key_K);
   keep_->setToolTip(
-      tr("Keep this result in the list of kept runs; it becomes A, to compare others with (K)"));
+      tr("Keep this result in the list of kept runs as A, to compare other runs with it (K)"));
   show_ = new QAction(tr("Show A (hold key A)"), this);
   show_->setObjectName("show_kept_run");
   show_->setCheckable(true);
@@ -39,7 +39,7 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
   difference_->setObjectName("show_difference");
   difference_->setShortcut(QKeySequence(QStringLiteral("Shift+K")));
   difference_->setCheckable(true);
-  difference_->setToolTip(tr("Color each patch by the difference of the runs (Shift+K)"));
+  difference_->setToolTip(tr("Color each patch by the difference between the runs (Shift+K)"));
   connect(keep_, &QAction::triggered, this, &CompareActions::keep_run);
   connect(show_, &QAction::triggered, &colors_, &ColorChoice::show_kept_run);
   connect(difference_, &QAction::triggered, this, [this](bool checked) {
@@ -64,7 +64,7 @@ void CompareActions::keep_run() {
                     .arg(1e-9 * static_cast<double>(KeptRuns::most_bytes)));
   } else if (const auto* main = qobject_cast<const QMainWindow*>(window_)) {
     main->statusBar()->showMessage(
-        tr("Kept as A, %1: hold key A to show it; Shift+K colors by the difference")
+        tr("%1 is kept as A: hold key A to show it; Shift+K colors by the difference")
             .arg(colors_.kept_runs().all().back().name),
         6000);
   }

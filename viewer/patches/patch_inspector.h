@@ -24,7 +24,7 @@ class PatchInspector : public QWidget {
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
  private:
-  /// Adds a row whose symbol, unit and tip are those of the quantity.
+  /// Adds a row with the symbol, unit and tip of the quantity.
   QLabel* add_quantity(Quantity quantity, const char* name);
   void make_sums();
   void make_coefficients();

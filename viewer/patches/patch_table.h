@@ -40,7 +40,8 @@ class PatchTable : public QAbstractTableModel {
   /// Replaces the contents; order and search stay.
   /// @param columns each with one value per entry of `patches`
   void set_contents(std::vector<PatchId> patches, std::vector<PatchColumn> columns);
-  /// Shows only patches with `text` in a text column, or whose number begins with it; empty: all.
+  /// Shows only patches with `text` in a text column, or whose number begins with it; all patches
+  /// if `text` is empty.
   void set_search(const QString& text);
 
   /// The patch in a shown row.

@@ -113,7 +113,8 @@ PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char
   tabs_->addTab(widget, title);
   connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this, page](const QModelIndex& index) {
-            // Not in the table of partners: selecting another patch would replace its contents.
+            // Does nothing in the table of partners: selecting another patch would replace its
+            // contents.
             if (index.isValid() && page.view->hasFocus() && page.table == all_.table) {
               selection_.select(page.table->patch(index.row()));
             }
@@ -208,7 +209,8 @@ void PatchTablePanel::count_rows() {
   all_.caption->setText(snapshot_ ? count(*all_.table) : tr("Open a scene to list its patches."));
   const PatchId patch = selection_.patch();
   if (!snapshot_ || patch == no_patch) {
-    partners_.caption->setText(tr("Select a patch to list those that it exchanges light with."));
+    partners_.caption->setText(
+        tr("Select a patch to list the patches that it exchanges light with."));
   } else if (!snapshot_->form_factors) {
     partners_.caption->setText(why_no_form_factors(*snapshot_));
   } else {

@@ -122,7 +122,7 @@ QLayout* RunPanel::make_buttons(QAction& keep, QAction& difference) {
   remove_ = new QToolButton;
   remove_->setText(tr("Remove"));
   remove_->setObjectName("remove_run");
-  remove_->setToolTip(tr("Remove the run chosen in the list (Del); Undo brings it back"));
+  remove_->setToolTip(tr("Remove the run chosen in the list (Del); Undo restores it"));
   connect(remove_, &QToolButton::clicked, this, &RunPanel::remove_current);
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 4, 8, 0);
@@ -138,7 +138,8 @@ QLayout* RunPanel::make_buttons(QAction& keep, QAction& difference) {
 
 QLayout* RunPanel::make_choices() {
   second_ = make_choice("run_b", tr("The run whose difference from A is shown"));
-  first_ = make_choice("run_a", tr("Run A: subtracted, and shown while the key A is held"));
+  first_ =
+      make_choice("run_a", tr("Run A, which is subtracted, and shown while the key A is held"));
   auto* row = new QHBoxLayout;
   row->setContentsMargins(10, 0, 8, 2);
   row->setSpacing(6);
@@ -158,7 +159,7 @@ QLayout* RunPanel::make_figures() {
   figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   figures_->setToolTip(
       tr("RMS of the difference of B over RMS of the reflected light of A, without patches that\n"
-         "emit; and the largest magnitude of the difference in a color"));
+         "emit; and the largest magnitude of the difference in a color channel"));
   go_ = new QToolButton;
   go_->setText(tr("Go to the patch"));
   go_->setObjectName("go_to_difference");
@@ -249,7 +250,7 @@ void RunPanel::rename(const QTableWidgetItem& item) {
   const auto k = static_cast<std::size_t>(item.row());
   const QString name = item.text().trimmed();
   if (name.isEmpty()) {
-    // Later: the table still edits the item.
+    // The change is made later: the table still edits the item.
     QMetaObject::invokeMethod(this, &RunPanel::show_list, Qt::QueuedConnection);
     return;
   }

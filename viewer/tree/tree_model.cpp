@@ -161,7 +161,7 @@ QVariant TreeModel::headerData(int section, Qt::Orientation orientation, int rol
     case of_order:
       return pick(tr("Order"),
                   tr("Fragments in and below the plane: processed dark, later ones pale, "
-                     "in the plane yellow; those of the selected patch are marked"));
+                     "in the plane yellow; fragments of the selected patch are marked"));
     default:
       return pick(tr("Fragments"), tr("Number of fragments in and below the plane"));
   }

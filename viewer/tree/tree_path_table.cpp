@@ -13,7 +13,7 @@ namespace transillum::viewer {
 
 void TreePathTable::show_path(std::shared_ptr<const TreeOutline> outline,
                               std::vector<TreeVisit> path, std::int32_t step) {
-  // A reset between its two clicks would lose a double-click.
+  // A reset between two clicks would lose a double-click.
   if (outline == outline_ && step == step_ && path == path_) {
     return;
   }
@@ -100,7 +100,7 @@ QVariant TreePathTable::headerData(int section, Qt::Orientation orientation, int
     case of_order:
       return pick(
           tr("Order"),
-          tr("Fragments in and below the plane in order: the side that ω points to, those in "
+          tr("Fragments in and below the plane in order: the side that ω points to, fragments in "
              "the plane (yellow), the other side"));
     default:
       return pick(tr("Fragments"), tr("Number of fragments in and below the plane"));
