@@ -17,9 +17,9 @@ SelectionActions::SelectionActions(Selection& selection, HiddenPatches& hidden, 
       add("select_face", tr("Select the face"),
           tr("Select all patches that the selected patch's face was divided into"), "Ctrl+Shift+F");
   hide_ = add("hide_selection", tr("Hide the selection"),
-              tr("Leave the selected patches out of the scene's picture"), "H");
+              tr("Do not draw the selected patches in the scene"), "H");
   isolate_ = add("isolate_selection", tr("Isolate the selection"),
-                 tr("Leave all other patches out of the scene's picture"), "I");
+                 tr("Draw only the selected patches in the scene"), "I");
   show_all_ =
       add("show_all", tr("Show all patches"), tr("Show the hidden patches again"), "Shift+H");
   connect(material_, &QAction::triggered, this, [this] {

@@ -19,7 +19,7 @@ class ClipControls : public QWidget {
  public:
   explicit ClipControls(QWidget* parent = nullptr);
 
-  /// None: off.
+  /// The chosen plane; not set if clipping is off.
   std::optional<ClipPlane> choice() const;
   void set_choice(const std::optional<ClipPlane>& clip);
   /// Switches from off to x, y, z and back to off.

@@ -20,7 +20,7 @@ class SceneMesh {
   explicit SceneMesh(std::shared_ptr<const Scene> scene);
 
   vtkPolyData* surface() const { return surface_; }
-  /// Leaves patches out.
+  /// Omits patches.
   /// @param hidden  one per patch
   void leave_out(const std::vector<bool>& hidden);
   /// One color per patch. Changes the cells' colors, never their shape.

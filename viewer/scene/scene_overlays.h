@@ -33,7 +33,7 @@ class SceneOverlays {
   /// @param surface the scene's polygons, to draw their back sides
   /// @param lift meters by which lines are drawn in front of their patches
   void show_scene(std::shared_ptr<const LoadedScene> loaded, vtkPolyData* surface, double lift);
-  /// Leaves the lines of patches out; back sides follow `surface`.
+  /// Omits the lines of patches; back sides follow `surface`.
   /// @param hidden  one per patch
   void leave_out(const std::vector<bool>& hidden);
   void set_shown(Kind kind, bool shown);

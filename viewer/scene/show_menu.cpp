@@ -65,7 +65,7 @@ void ShowMenu::set_linear(bool linear) {
   QAction* smooth = at(overlays_, Overlay::smooth);
   smooth->setEnabled(!linear);
   smooth->setToolTip(
-      linear ? tr("The quantity shown is linear on each patch: nothing is left to interpolate")
+      linear ? tr("The quantity shown is linear on each patch: it is already interpolated")
              : tr("Interpolate colors across patches; the solution is constant on each"));
 }
 

@@ -22,7 +22,7 @@ class SmoothMesh {
   explicit SmoothMesh(const Scene& scene);
 
   vtkPolyData* surface() const { return surface_; }
-  /// Leaves patches of the scene out.
+  /// Omits patches of the scene.
   /// @param hidden  one per patch
   void leave_out(const Scene& scene, const std::vector<bool>& hidden);
   /// One color per patch.

@@ -37,7 +37,7 @@ vtkSmartPointer<vtkActor> actor_on_top(vtkPolyData* data, const QColor& color, d
 
 StepGlyph::StepGlyph(vtkRenderer& renderer)
     : polygon_(vtkSmartPointer<vtkPolyData>::New()), loop_(vtkSmartPointer<vtkPolyData>::New()) {
-  // Depth offsets that put it in front of the whole scene.
+  // Depth offsets that put the glyph in front of the whole scene.
   fill_ = actor_on_top(polygon_, theme::processed, -1e5, renderer);
   fill_->GetProperty()->SetOpacity(0.55);
   fill_->ForceOpaqueOn();  // as in DirectionGlyph

@@ -27,16 +27,16 @@ RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
   by_->addItems({tr("None"), tr("Jumps"), tr("Error")});
   by_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   by_->setMinimumContentsLength(8);
-  by_->setToolTip(
-      tr("Rounds of refinement before the solve: each solves, and divides the patches that are "
-         "worst\nJumps: where B jumps most to neighboring patches\nError: where a solve with every "
-         "patch divided differs most; rounds take about five times as long"));
+  by_->setToolTip(tr(
+      "Rounds of refinement before the solve: each round solves, and divides the worst "
+      "patches\nJumps: patches with the largest jump of B to their neighbors\nError: patches where "
+      "a solve with every patch divided differs most; rounds take about five times as long"));
   patches_ = new QSpinBox;
   patches_->setObjectName("refine_patches");
   patches_->setRange(1, 1 << 24);
   patches_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   patches_->setValue(usual_patches);
-  patches_->setToolTip(tr("The most patches to make"));
+  patches_->setToolTip(tr("Largest number of patches"));
   until_ = new QLineEdit;
   until_->setObjectName("refine_until");
   auto* percent = new QDoubleValidator(0, 99, 6, until_);
@@ -44,8 +44,7 @@ RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
   until_->setValidator(percent);
   until_->setPlaceholderText(tr("No limit"));
   until_->setToolTip(
-      tr("The rounds end when their figure, in percent of B, is this small:\nthe RMS jump, or the "
-         "L2 error"));
+      tr("The rounds end when the RMS jump or the L2 error,\nin percent of B, is this small"));
   limits_ = new QWidget;
   auto* limits = new QFormLayout(limits_);
   limits->setContentsMargins(0, 2, 0, 0);

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Solve settings": bases and lobes, and the notes on what these cannot be combined with.
+// The panel "Solve settings": bases and lobes, and the notes on settings that they cannot be
+// combined with.
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
@@ -21,9 +22,9 @@ void SettingsPanel::add_glossy_row(QFormLayout& form) {
   glossy_->setObjectName("glossy");
   glossy_->setToolTip(tr(
       "<span>Off: all surfaces are diffuse, and reflect ρ only. On: the lobes of materials (MTL: "
-      "Ks with Ns or Pr; glTF: metal and roughness) reflect too, most of it about the mirror "
+      "Ks with Ns or Pr; glTF: metal and roughness) reflect too, mostly near the mirror "
       "direction. Patches then keep light by direction, and look different from each "
-      "point. M directions resolve exponents n up to about M/10; sharper lobes are "
+      "viewpoint. M directions resolve exponents n up to about M/10; sharper lobes are "
       "coarse.</span>"));
   glossy_note_ = new QLabel;
   glossy_note_->setObjectName("glossy_note");

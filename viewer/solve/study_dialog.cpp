@@ -131,7 +131,7 @@ QWidget* StudyDialog::make_results() {
   axis_->setObjectName("study_axis");
   axis_->addItems({tr("Against passes"), tr("Against seconds")});
   axis_->setToolTip(
-      tr("What the error is shown against: the number of passes, or the processor "
+      tr("Show the error against the number of passes, or against the processor "
          "time of passes\nand iteration, which compares engines"));
   connect(axis_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     chart_->set_axis(axis());
@@ -144,7 +144,7 @@ QWidget* StudyDialog::make_results() {
   progress_->setFixedSize(180, 16);
   save_ = new QPushButton(tr("Save…"));
   save_->setObjectName("study_save");
-  save_->setToolTip(tr("Save the plot as SVG or PNG, or the figures as CSV"));
+  save_->setToolTip(tr("Save the plot as SVG or PNG, or the values as CSV"));
   save_->setAutoDefault(false);
   connect(save_, &QPushButton::clicked, this, &StudyDialog::choose_file);
   auto* bar = new QHBoxLayout;

@@ -20,11 +20,11 @@ class ChannelSliders : public QWidget {
   /// @param name  prefix of the object names of its parts: name_red, …, name_together
   ChannelSliders(const char* name, const QString& title, int decimals, QWidget* parent = nullptr);
 
-  /// Emits no signal. `most`: right end of the sliders.
+  /// Emits no signal. `most` is the right end of the sliders.
   void show_value(const Rgb& value, double most);
 
  signals:
-  /// Before the first moved() of a drag, a press or a key, however often it repeats.
+  /// Emitted before the first moved() of a drag, a press or a key, however often it repeats.
   void drag_began();
   void moved(const transillum::Rgb& value);
 
@@ -39,7 +39,7 @@ class ChannelSliders : public QWidget {
   Rgb value_, at_drag_start_;
   double most_ = 1;
   bool held_ = false;     ///< a mouse button or a key is down
-  bool changed_ = false;  ///< since it is
+  bool changed_ = false;  ///< since the press
   QCheckBox* together_;
   std::array<QSlider*, 3> sliders_;
   std::array<QDoubleSpinBox*, 3> boxes_;

@@ -27,7 +27,7 @@ class FullScreen : public QObject {
   bool active() const { return active_; }
 
  signals:
-  /// Before views are hidden, and after all are shown again.
+  /// Emitted before views are hidden, and after all are shown again.
   void beginning();
   void ended();
   /// The user has ended it by the action.

@@ -22,7 +22,7 @@ class GlossSlider : public QWidget {
   void show_roughness(double roughness);
 
  signals:
-  /// Before the first moved() of a drag, a press or a key.
+  /// Emitted before the first moved() of a drag, a press or a key.
   void drag_began();
   /// The exponent or the roughness, whichever is shown.
   void moved(double value);
@@ -36,7 +36,7 @@ class GlossSlider : public QWidget {
 
   bool is_exponent_ = true;
   bool held_ = false;     ///< a mouse button or a key is down
-  bool changed_ = false;  ///< since it is
+  bool changed_ = false;  ///< since the press
   QLabel* title_;
   QSlider* slider_;
   QDoubleSpinBox* box_;
