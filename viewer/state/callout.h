@@ -10,7 +10,7 @@ namespace transillum::viewer {
 
 /// A text that names something in the scene and in the visibility map.
 struct Callout {
-  /// What it points at.
+  /// The kinds of object that a callout points at.
   enum class Anchor {
     patch,      ///< a patch: its center; in the map its largest visible part
     point,      ///< a point of the scene; in the map its projection

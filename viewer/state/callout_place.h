@@ -10,9 +10,9 @@
 
 namespace transillum::viewer {
 
-/// Where a callout points at in the visibility map, meters on the plane: for a patch the middle of
-/// its largest polygon. None where that is not in the map, or for the map as a whole and the
-/// direction.
+/// The point of the visibility map that a callout points at, meters on the plane; for a patch, the
+/// middle of its largest polygon. Not set where that is not in the map, or for the whole map and
+/// the direction.
 /// @param rows  of the map's record: the polygons shown
 /// @param step  whose inside list is meant, from 0
 std::optional<Vec2> place_in_map(const Callout& callout, const RecordedMap& map,

@@ -22,7 +22,7 @@ struct StepEvent {
   std::int32_t step = 0;
   Kind kind = Kind::inserted;
   PatchId below = no_patch;  ///< patch of the polygon that the step processes
-  PatchId above = no_patch;  ///< patch of the cut polygon; no_patch: inserted or edge-on
+  PatchId above = no_patch;  ///< patch of the cut polygon; no_patch if none is cut
   double area = 0;           ///< m²: of the polygon, or of the cut part above it
   int parts = 0;             ///< number of parts of the cut polygon that remain in V
   double pair_area = 0;      ///< events_at_point(): A(below, above) of the direction, m²

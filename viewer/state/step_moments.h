@@ -8,9 +8,9 @@
 
 namespace transillum::viewer {
 
-/// The moments T^ab of what the receiver of a step sees of each patch j with which it exchanges
-/// light (ALGORITHM.md 6.12), by j: from the polygons of the inside list. Empty before the first
-/// step, and where the step's patch does not receive.
+/// The moments T^ab of the area that the receiver of a step sees of each patch j with which it
+/// exchanges light (ALGORITHM.md 6.12), by j. They are computed from the polygons of the inside
+/// list. Empty before the first step, and where the step's patch does not receive.
 std::map<PatchId, TransferMoments> moments_of_step(const MapHistory& history, const Scene& scene,
                                                    std::int32_t step);
 

@@ -189,18 +189,19 @@ QLayout* BreakpointPanel::make_join_row() {
     return result;
   };
   add_ = button("add_breakpoint", tr("Add"), tr("Add a breakpoint with this condition (Return)"));
-  and_ = button("and_condition", tr("And"),
-                tr("Let the breakpoint chosen in the list stop only where this holds too;\n"
-                   "“and” binds more strongly than “or”"));
+  and_ =
+      button("and_condition", tr("And"),
+             tr("Let the breakpoint chosen in the list stop only where this condition holds too;\n"
+                "“and” binds more strongly than “or”"));
   or_ = button("or_condition", tr("Or"),
-               tr("Let the breakpoint chosen in the list stop also where this holds"));
+               tr("Let the breakpoint chosen in the list stop also where this condition holds"));
   stop_at_ = new QSpinBox;
   stop_at_->setObjectName("breakpoint_stop_at");
   stop_at_->setRange(1, Breakpoint::most_hits);
   stop_at_->setKeyboardTracking(false);
   stop_at_->setToolTip(
       tr("The hit of the breakpoint chosen in the list at which a run stops, counted from where "
-         "the run begins.\nThe list tells how often the last run hit each breakpoint."));
+         "the run begins.\nThe list shows how often the last run hit each breakpoint."));
   auto* label = new QLabel(tr("Stop at &hit"));
   label->setBuddy(stop_at_);
   auto* row = new QHBoxLayout;
@@ -238,9 +239,9 @@ void BreakpointPanel::show_run_menu(const QPoint& position) {
   auto* menu = new QMenu(this);
   menu->setObjectName("breakpoint_menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  menu->addAction(tr("Run back to the previous step where this is true"), this,
+  menu->addAction(tr("Run back to the previous step where the breakpoint holds"), this,
                   [this, finder] { focus_.seek(finder, StepOrder::backward); });
-  menu->addAction(tr("Run forward to the next step where this is true"), this,
+  menu->addAction(tr("Run forward to the next step where the breakpoint holds"), this,
                   [this, finder] { focus_.seek(finder, StepOrder::forward); });
   const auto k = static_cast<std::size_t>(row);
   menu->addAction(tr("Remove its last condition"), this,

@@ -109,7 +109,8 @@ QVariant EventTable::headerData(int section, Qt::Orientation orientation, int ro
   }
   if (role == Qt::ToolTipRole && section == of_area) {
     return tr(
-        "On the transillumination plane: of the fragment, or of what it covers of the patch above");
+        "Area on the transillumination plane: of the fragment, or of the part that it covers of "
+        "the patch above");
   }
   if (role == Qt::ToolTipRole && section == of_pair) {
     return tr("Area over which the two patches exchange light along this direction");
