@@ -526,7 +526,7 @@ class SessionFileTest : public QObject {
     QTest::newRow("a lesson") << "lesson_next"
                               << "Begin the lesson";
     QTest::newRow("a kept session") << "restore_session"
-                                    << "Go on";
+                                    << "Continue";
   }
 
   // Each way to lose a long solve asks once; Cancel keeps the solve, the button loses it.

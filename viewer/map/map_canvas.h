@@ -30,7 +30,7 @@ class MapCanvas : public QWidget {
  public:
   explicit MapCanvas(Selection& selection, QWidget* parent = nullptr);
 
-  /// What to draw; the view (where) belongs to the canvas.
+  /// The content to draw; zoom and shift belong to the canvas.
   struct Content {
     std::shared_ptr<const RecordedMap> map;
     std::int32_t step = 0;
@@ -129,7 +129,7 @@ class MapCanvas : public QWidget {
   Selection& selection_;
   Content content_;
   std::optional<MapRegion> region_;
-  std::shared_ptr<const RecordedMap> marked_map_;  ///< that of marked_row_
+  std::shared_ptr<const RecordedMap> marked_map_;  ///< the map of marked_row_
   std::int32_t marked_row_ = MapRecord::no_row;
   MapSketch sketch_;
   std::vector<Callout> callouts_;

@@ -13,9 +13,9 @@ class QLabel;
 
 namespace transillum::viewer {
 
-/// What one patch sees along a direction, polygon by polygon, each in the color of the difference
-/// between two engines for its pair of patches. The second engine finds less where it is blue, more
-/// where it is orange.
+/// The polygons that one patch sees along a direction, each in the color of the difference between
+/// two engines for its pair of patches. The second engine finds less where it is blue, more where
+/// it is orange.
 class PairPicture : public QWidget {
   Q_OBJECT
 

@@ -16,11 +16,11 @@
 namespace transillum::viewer {
 
 /// The edges of the fragments of all patches that `tree` cuts, `lift` meters in front of them.
-/// @param hidden  patches left out, one per patch
+/// @param hidden  whether a patch is omitted, one per patch
 vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& tree, double lift,
                                             const std::vector<bool>& hidden);
 /// A line from the center of each patch along its normal, half as long as the patch is wide.
-/// @param hidden  patches left out, one per patch
+/// @param hidden  whether a patch is omitted, one per patch
 vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene, const std::vector<bool>& hidden);
 
 /// Geometry drawn in addition to the colored patches; computed when it is first shown.

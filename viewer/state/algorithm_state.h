@@ -58,9 +58,9 @@ struct AlgorithmState {
   std::int32_t map_before = 0, inside = 0, outside = 0, map_after = 0;  ///< |V|, |I|, |O|, |V|
   PatchId j = no_patch;  ///< a patch of the inside list: the selected one, else the one with the
                          ///< largest area
-  double area_j = 0;               ///< A(j), m²: sum over its parts in the inside list
-  double weight = 0;               ///< J_d = 4 pi
-  int directions = 0;              ///< M; a two-way pass counts as two
+  double area_j = 0;     ///< A(j), m²: sum over its parts in the inside list
+  double weight = 0;     ///< J_d = 4 pi
+  int directions = 0;    ///< M; a two-way pass counts as two
   std::optional<Rgb> radiosity_j;  ///< B_j(n), W/m²; not set if it was not stored
   std::optional<Rgb> gathered;     ///< summand of line `gather` to B_i(n+1), W/m²
   /// T^ab of i and j, where B is linear on patches; radiosity_j and gathered are then means.

@@ -8,13 +8,13 @@
 
 namespace transillum::viewer {
 
-/// Passes on exceptions that nothing else catches, such as std::bad_alloc in an event handler or
-/// an action, as messages. Without it, they would leave Qt's event loop, which must not happen.
+/// Reports exceptions that nothing else catches, such as std::bad_alloc in an event handler or an
+/// action, as messages. Without it, they would leave Qt's event loop, which must not happen.
 class Application : public QApplication {
  public:
   using QApplication::QApplication;
 
-  /// Called with a message for the user. Unset: exceptions are not caught.
+  /// Called with a message for the user. If it is not set, exceptions are not caught.
   std::function<void(const QString& message)> on_failure;
 
   bool notify(QObject* receiver, QEvent* event) override {

@@ -90,7 +90,7 @@ QLabel* ColorExportDialog::make_picture() {
   palette.setColor(QPalette::WindowText, theme::on_dark);
   picture->setPalette(palette);
   picture->setToolTip(
-      tr("From where the scene is seen now. Colors are linear, without lighting; back sides are "
+      tr("Preview from the current viewpoint. Colors are linear, without lighting; back sides are "
          "transparent"));
   return picture;
 }
@@ -117,16 +117,17 @@ void ColorExportDialog::make_fields(const Vec3& up) {
   exposure_->setValue(1);
   exposure_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   exposure_->setSuffix(tr(" m²/W"));
-  exposure_->setToolTip(tr("A patch whose B times this is 1 or more is white"));
+  exposure_->setToolTip(tr("A patch is white if its B times the exposure is 1 or more"));
   automatic_ = new QCheckBox(tr("automatic"));
   automatic_->setObjectName("color_automatic");
   automatic_->setChecked(true);
-  automatic_->setToolTip(tr("98 % of the area that does not emit is below white"));
+  automatic_->setToolTip(
+      tr("Choose the exposure so that 98 % of the area that does not emit is below white"));
   light_map_ = new QCheckBox(tr("as a light map"));
   light_map_->setObjectName("color_light_map");
-  light_map_->setToolTip(
-      tr("glTF: a picture with texture coordinates, a square of it per patch, instead of a color "
-         "per corner; for programs that ignore colors of corners"));
+  light_map_->setToolTip(tr(
+      "For glTF, write a picture with texture coordinates, with a square for each patch, instead "
+      "of a color per corner; for programs that ignore colors of corners"));
   note_ = new QLabel;
   note_->setObjectName("color_note_of_export");
   note_->setWordWrap(true);

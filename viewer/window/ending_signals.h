@@ -6,8 +6,8 @@
 namespace transillum::viewer {
 
 /// Reports SIGINT, SIGTERM and SIGHUP in the event loop instead of ending the process at once.
-/// Signals that were ignored when the program started stay ignored. The second one of a kind ends
-/// the process.
+/// Signals that were ignored when the program started stay ignored. The second signal of a kind
+/// ends the process.
 ///
 /// Threads: the main thread only. At most one object at a time.
 class EndingSignals : public QObject {
@@ -18,11 +18,11 @@ class EndingSignals : public QObject {
   explicit EndingSignals(QObject* parent = nullptr);
   ~EndingSignals() override;
 
-  /// The first signal received; 0: none.
+  /// The first signal received, or 0.
   int number() const { return number_; }
 
  signals:
-  /// Once, on the first signal.
+  /// Emitted once, on the first signal.
   void received(int number);
 
  private:

@@ -2,7 +2,7 @@
 //
 // Recording of the scene. Pictures of an animation wait in a short queue for the worker, which
 // reduces their colors and compresses them; Play waits for the queue. Where a solve is faster than
-// the worker, the picture shown is taken once there is room.
+// the worker, the picture that is shown when there is room is taken.
 #include "window/frame_recorder.h"
 
 #include <QAction>
@@ -71,7 +71,7 @@ FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play)
   add_status(frame);
   play_.set_gate([this] { return has_room(); });
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] { record(); });
-  // While the newest direction is followed, snapshots already are recorded.
+  // While the newest direction is followed, snapshots are already recorded.
   connect(&frame_.state.focus, &Focus::moved, this, [this] {
     if (!frame_.state.focus.following()) {
       record();
@@ -94,7 +94,7 @@ void FrameRecorder::add_status(const WindowFrame& frame) {
   auto* discard = new QToolButton;
   discard->setText(tr("Cancel"));
   discard->setObjectName("cancel_recording");
-  discard->setToolTip(tr("Throw the animation away"));
+  discard->setToolTip(tr("Discard the animation"));
   auto* row = new QHBoxLayout(status_);
   row->setContentsMargins(0, 0, 6, 0);
   row->addWidget(status_text_);
@@ -231,7 +231,7 @@ void FrameRecorder::record_animated() {
   show_state();
 }
 
-// On the worker's thread. A request that was replaced by another has been served by it.
+// Runs on the worker's thread. A request that was replaced by another has been served by it.
 void FrameRecorder::write_waiting(const AnimationRequest& animation,
                                   const Cancellation& cancellation) {
   while (true) {

@@ -62,7 +62,7 @@ void LightOffer::update() {
   bar.show_message(
       Banner::Kind::offer,
       frame_.state.selection.patch() == no_patch
-          ? tr("No light: the scene is shown in a neutral one. Click a face to make it emit.")
+          ? tr("No light: the scene is shown in neutral light. Click a face to make it emit.")
           : tr("No light: make the selected face, material or group emit."));
 }
 
@@ -103,7 +103,7 @@ void LightOffer::make_emit(const std::string& target) {
   constexpr Rgb white{first_exitance, first_exitance, first_exitance};
   const auto snapshot = frame_.state.scene.snapshot();
   if (snapshot && !snapshot->form_factors_fit && frame_.state.scene.loaded()->description) {
-    // Form factors that exceed the memory limit light nothing: a new solve does.
+    // Form factors that exceed the memory limit cannot give light: only a new solve can.
     if (!frame_.guard.may_lose(&frame_.window, tr("Make it emit"))) {
       return;
     }

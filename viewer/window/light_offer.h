@@ -13,8 +13,8 @@ namespace transillum::viewer {
 class MaterialPanel;
 class ViewStateApplier;
 
-/// The bar above a scene in which nothing emits: says so, and lets the user make the selected face,
-/// its material or its group emit. It is gone once anything emits.
+/// The bar above a scene in which nothing emits. It says so, and lets the user make the selected
+/// face, its material or its group emit. It is hidden once anything emits.
 class LightOffer : public QObject {
   Q_OBJECT
 

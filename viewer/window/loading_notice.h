@@ -8,13 +8,13 @@
 
 namespace transillum::viewer {
 
-/// The bar above the scene while another one is loaded: what is done, how far, and a button that
-/// cancels. The title of the window names the scene that is loaded.
+/// The bar above the scene while another one is loaded. It shows the present task, its progress,
+/// and a button that cancels. The title of the window names the scene that is loaded.
 class LoadingNotice : public QObject {
   Q_OBJECT
 
  public:
-  /// What `parts` refers to must outlive this object.
+  /// The objects that `parts` refers to must outlive this object.
   explicit LoadingNotice(const WindowFrame& frame);
 
  private:
@@ -23,7 +23,7 @@ class LoadingNotice : public QObject {
 
   WindowFrame frame_;
   QString phase_, title_before_, loading_title_;
-  double share_ = -1;  ///< as by SolveRunner::load_progressed()
+  double share_ = -1;  ///< the arguments of SolveRunner::load_progressed()
   QTimer delay_;       ///< a scene that loads at once needs no bar
 };
 

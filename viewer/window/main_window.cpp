@@ -85,7 +85,7 @@ constexpr QSize usual_size(1600, 1000);
 // Title bar and borders are known only once the window is on the screen.
 constexpr QSize room_for_frame(16, 48);
 
-/// The share of light that escapes; unset before the first pass.
+/// The fraction of light that escapes; not set before the first pass.
 std::optional<double> escape_of(const SolverSnapshot& snapshot) {
   const bool any_pass = snapshot.passes_done > 0;
   return any_pass ? std::optional(snapshot.statistics.escaped) : std::nullopt;
@@ -157,7 +157,7 @@ void MainWindow::make_views() {
   });
   notes_ = new QPlainTextEdit;
   notes_->setObjectName("notes");
-  notes_->setPlaceholderText(tr("Your notes. Saved with the session."));
+  notes_->setPlaceholderText(tr("Your notes; they are saved with the session."));
   timeline_ = new TimelineBar(state_.focus, state_.selection, state_.watches, *step_actions_);
   timeline_->lanes()->set_marks(
       [this](const MapHistory& history) { return state_.breakpoints.steps_in(history); });
@@ -284,7 +284,7 @@ void MainWindow::connect_views() {
     // After the layouts have received the new font.
     QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
   });
-  // Later: the window does not know the new least height yet.
+  // The call is made later: the window does not know the new least height yet.
   connect(
       timeline_, &TimelineBar::chart_shown, this,
       [this] {
@@ -309,7 +309,7 @@ void MainWindow::show_title_and_warnings(const LoadedScene& loaded) {
   }
 }
 
-/// Views of the patches begin with other ones.
+/// Views of the patches begin with the new patches.
 void MainWindow::show_patches(const std::shared_ptr<const LoadedScene>& loaded) {
   state_.selection.select(no_patch);
   state_.focus_feed.clear();
@@ -544,7 +544,7 @@ void MainWindow::restore_layout() {
   }
   appearance_.load(settings);  // may show parts of the layout
   if (!fits && settings.contains("window/state")) {
-    // Later: opening the first scene dismisses messages.
+    // The message is shown later: opening the first scene dismisses messages.
     QTimer::singleShot(0, notifier_, [this] {
       notifier_->show_warnings(
           {tr("The saved layout is damaged, or of another version; the usual one is used")});
@@ -600,7 +600,8 @@ void MainWindow::dropEvent(QDropEvent* event) {
     return;
   }
   event->acceptProposedAction();
-  // Later: the program from which it was dragged waits, and opening may ask a question.
+  // The file is opened later: the program from which it was dragged waits, and opening may ask a
+  // question.
   QMetaObject::invokeMethod(
       files_, [this, file] { files_->try_open(file); }, Qt::QueuedConnection);
 }

@@ -36,8 +36,8 @@ bool OpenScene::at_start() const {
 }
 
 bool OpenScene::outlined_by_default() const {
-  // Without outlines, a few large patches of similar brightness cannot be told apart, nor can what
-  // rounds have divided.
+  // Without outlines, large patches of similar brightness cannot be told apart, nor can patches
+  // that rounds have divided.
   constexpr PatchId few_patches = 64;
   return loaded_ && (loaded_->scene->patch_count() <= few_patches || loaded_->whole);
 }

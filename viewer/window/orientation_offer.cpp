@@ -97,13 +97,14 @@ void OrientationOffer::offer() {
   const QString percent = QString::number(std::lround(100 * loaded->back_share));
   if (frame_.state.scene.input().orient) {
     show(State::nothing_to_turn,
-         tr("%1 % of what is seen is the back of a face, also after turning faces. "
-            "Two-sided faces, in the settings, light and receive on both sides.")
+         tr("%1 % of the surface that light meets is the back of faces, even after turning faces. "
+            "Two-sided faces, in the settings, emit and receive on both sides.")
              .arg(percent));
     return;
   }
   show(State::offered,
-       tr("%1 % of what is seen is the back of a face, which neither emits nor reflects.")
+       tr("%1 % of the surface that light meets is the back of faces, which neither emits nor "
+          "reflects.")
            .arg(percent));
 }
 
@@ -118,7 +119,7 @@ void OrientationOffer::preview(const PlanRequest& request, const OrientationPlan
   }
   if (!plan.changes()) {
     show(State::nothing_to_turn,
-         tr("No faces to turn were found. Two-sided faces, in the settings, light and receive on "
+         tr("No faces to turn were found. Two-sided faces, in the settings, emit and receive on "
             "both sides."),
          sentences_of(plan.report));
     return;

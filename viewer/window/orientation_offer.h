@@ -17,8 +17,8 @@ namespace transillum::viewer {
 
 class ViewStateApplier;
 
-/// The bar above a scene of which more than a tenth of what is seen is a back: shows which faces
-/// would be turned, and turns them.
+/// The bar above a scene in which more than a tenth of the surface that light meets is the back of
+/// faces. It shows which faces would be turned, and turns them.
 class OrientationOffer : public QObject {
   Q_OBJECT
 

@@ -20,7 +20,7 @@ namespace {
 struct Unit {
   const char *name, *text;
 };
-// By the names of length_unit_names().
+// The display names of length_unit_names(), in their order.
 constexpr Unit units[] = {{"m", QT_TRANSLATE_NOOP("ReadingDialog", "meters")},
                           {"cm", QT_TRANSLATE_NOOP("ReadingDialog", "centimeters")},
                           {"mm", QT_TRANSLATE_NOOP("ReadingDialog", "millimeters")},
@@ -48,12 +48,14 @@ ReadingDialog::ReadingDialog(const QString& file, const SceneInput& input, QWidg
   join_->addItems({tr("Usual: joined in glTF and STL"), tr("Join faces of one plane"),
                    tr("Do not join faces")});
   join_->setToolTip(tr(
-      "Joins faces of one plane, material and group that share edges: fewer and larger patches"));
+      "Join faces of one plane, material and group that share edges: this makes fewer and larger "
+      "patches"));
   photometric_ = new QCheckBox(tr("Emissive colors are luminances, cd/m²"));
   photometric_->setObjectName("reading_photometric");
   const QString ending = QFileInfo(file).suffix().toLower();
   photometric_->setEnabled(ending == "gltf" || ending == "glb");
-  photometric_->setToolTip(tr("glTF only: divided by 683 lm/W instead of read as radiances"));
+  photometric_->setToolTip(
+      tr("Only for glTF: divide by 683 lm/W instead of reading the values as radiances"));
   fill_units();
 
   auto* form = new QFormLayout;
@@ -63,7 +65,7 @@ ReadingDialog::ReadingDialog(const QString& file, const SceneInput& input, QWidg
   form->addRow(tr("Joining"), join_);
   form->addRow(QString(), photometric_);
   auto* title = new QLabel(tr("How %1 is read").arg(QFileInfo(file).fileName()));
-  auto* note = new QLabel(tr("Remembered for this file."));
+  auto* note = new QLabel(tr("The choice is remembered for this file."));
   note->setForegroundRole(QPalette::PlaceholderText);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   buttons->addButton(tr("Read again"), QDialogButtonBox::AcceptRole)->setDefault(true);

@@ -16,7 +16,7 @@ class ReadingDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param input  shown at first; what the dialog does not ask for stays as it is
+  /// @param input  shown at first; values that the dialog does not ask for stay as they are
   ReadingDialog(const QString& file, const SceneInput& input, QWidget* parent = nullptr);
 
   SceneInput input() const;

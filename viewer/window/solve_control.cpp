@@ -64,7 +64,7 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
   connect(&frame_.state.scene, &OpenScene::opening, this, [this] { awaits_forecast_ = false; });
   connect(&forecast_, &PatchForecast::counted, this, &SolveControl::show_forecast);
   connect(&forecast_, &PatchForecast::failed, this, [this] {
-    // Reading the scene will fail likewise, and say why.
+    // Reading the scene will fail for the same reason, and report it.
     if (std::exchange(awaits_forecast_, false)) {
       open_again();
     }
@@ -117,8 +117,8 @@ void SolveControl::solve_again() {
   }
 }
 
-/// Of the panel, for the open scene. Materials that were changed in the window become those of the
-/// scene: they are solved, estimated, refined and copied as any others.
+/// The options of the panel, for the open scene. Materials that were changed in the window become
+/// materials of the scene: they are solved, estimated, refined and copied like all others.
 RunOptions SolveControl::wanted_options() const {
   RunOptions options = settings_.options();
   options.input = frame_.state.scene.input();
