@@ -38,7 +38,7 @@ struct QuantityTraits {
   const char* symbol;         ///< above the color bar
   const char* unit = "";      ///< empty for a number
   const char* meaning;        ///< one sentence
-  const char* section = "";   ///< of ALGORITHM.md; may be empty
+  const char* section = "";   ///< section of ALGORITHM.md; may be empty
   bool is_light = false;      ///< RGB can be shown in true color
   bool has_channels = false;  ///< RGB differ; else all three are equal
   bool is_signed = false;     ///< values can be negative

@@ -14,7 +14,7 @@ struct ReceivedLight {
   int pass = 0;                  ///< from 0
   bool opposite = false;         ///< along -omega of the pass
   double cosine = 0;             ///< between the patch's normal and the direction
-  double area = 0;               ///< of front sides that the patch sees, m² on the plane
+  double area = 0;               ///< area of front sides that the patch sees, m² on the plane
   Rgb irradiance;                ///< contribution to H of the patch, W/m²
   PatchId brightest = no_patch;  ///< the source of the largest contribution (luminance), if any
 

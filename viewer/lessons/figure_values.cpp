@@ -196,7 +196,7 @@ const Solution& FigureValues::divided(double patch_area, const SolveOptions& opt
   }
   SceneOptions scene_options = loaded_->scene->options();
   scene_options.max_patch_area = 0;
-  if (patch_area > 0) {  // of a file, which may ask for any number of patches
+  if (patch_area > 0) {  // a file may ask for any number of patches
     const Scene whole(*loaded_->description, scene_options, cancellation_);
     check_memory(whole.name(), count_patches(whole, patch_area), options.replicas,
                  options.basis == Basis::linear ? 3 : 1);

@@ -16,11 +16,11 @@ namespace transillum::viewer {
 /// A page of a lesson as the window shows it.
 struct ShownPage {
   Lesson::Page page;
-  QByteArray picture;                      ///< of the scene, PNG
-  std::shared_ptr<const RecordedMap> map;  ///< of the page's direction; null if the page has no map
+  QByteArray picture;                      ///< the scene as PNG
+  std::shared_ptr<const RecordedMap> map;  ///< map of the page's direction; null if it has none
   std::int32_t step = -1;                  ///< shown first, from 0
-  std::vector<Color8> patch_colors;        ///< of the map, one per patch
-  std::optional<Solved> solved;            ///< of the page's question
+  std::vector<Color8> patch_colors;        ///< colors of the map, one per patch
+  std::optional<Solved> solved;            ///< answer to the page's question
 };
 
 /// A lesson as one HTML file that refers to no other: text, pictures, and maps as SVG with a slider

@@ -120,7 +120,7 @@ class LessonPanel : public QWidget {
   MaterialEdits& edits_;
   PageText* text_;
   std::vector<ControlWidget*> controls_;  ///< in the text shown
-  RunOptions options_;                    ///< of the newest snapshot
+  RunOptions options_;                    ///< options of the newest snapshot
   QuestionBox* question_;
   QAction *previous_, *next_, *again_, *open_;
 };

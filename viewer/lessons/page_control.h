@@ -13,16 +13,16 @@ namespace transillum::viewer {
 struct PageControl {
   enum class Kind {
     option,       ///< one of `values` of an option of the solve
-    reflectance,  ///< of a material, group or face: a gray from `low` to `high`
+    reflectance,  ///< gray of a material, group or face, from `low` to `high`
     exitance,     ///< the same, W/m²
-    step,         ///< of the direction shown
-    direction     ///< of the run
+    step,         ///< step of the direction shown
+    direction     ///< direction of the run
   };
   std::string name;  ///< in the text, between braces
   Kind kind = Kind::option;
   std::string target;               ///< the option; or the material, as for change_materials()
-  std::vector<std::string> values;  ///< of an option: at least two JSON texts
-  std::vector<std::string> labels;  ///< of the values
+  std::vector<std::string> values;  ///< values of an option: at least two JSON texts
+  std::vector<std::string> labels;  ///< names of the values
   bool slides = false;              ///< the values are numbers: a slider, else a choice
   double low = 0, high = 1;
 };

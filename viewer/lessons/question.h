@@ -45,9 +45,9 @@ struct Question {
   /// least overlap (the common part over the union).
   double within = 0;
   bool percent = false;             ///< values are shown, and entered, times 100, with " %"
-  std::string unit;                 ///< of the values
+  std::string unit;                 ///< unit of the values
   std::string then;                 ///< Markdown, shown after Reveal; may be empty
-  std::optional<ViewState> reveal;  ///< what Reveal shows; if it is not set, the page stays as it
+  std::optional<ViewState> reveal;  ///< state that Reveal shows; if not set, the page stays as it
                                     ///< is
 };
 
@@ -68,10 +68,11 @@ struct GivenAnswer {
 
 /// The values that the program computed for a question, and the right answers.
 struct Solved {
-  std::vector<double> values;  ///< of choices (NaN: without a value) or of patches; else empty
-  std::vector<int> right;      ///< indices of the right choices, or right patches; ascending
-  double value = 0;            ///< of Question::figure, where it is one number
-  std::vector<std::vector<Vec2>> region;  ///< of an area
+  std::vector<double>
+      values;              ///< values of choices (NaN without a value) or of patches; else empty
+  std::vector<int> right;  ///< indices of the right choices, or right patches; ascending
+  double value = 0;        ///< value of Question::figure, where it is one number
+  std::vector<std::vector<Vec2>> region;  ///< answer to a question for an area
 };
 
 /// Reads the key `question` of a page.

@@ -19,8 +19,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int largest_number = std::numeric_limits<int>::max() - 1;  ///< as a step, this is the
-                                                                     ///< last one
+constexpr int largest_number = std::numeric_limits<int>::max() - 1;  ///< a step of this number is
+                                                                     ///< the last one
 
 // The name that an enumerator has in files.
 template <class Value>

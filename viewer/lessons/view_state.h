@@ -26,8 +26,8 @@ namespace transillum::viewer {
 /// A step of a direction described by its kind: the first such step of the direction.
 enum class StepName {
   exchange,  ///< its fragment exchanges light
-  cut,       ///< it splits a polygon of V
-  event,     ///< it concerns the selected patch
+  cut,       ///< the step splits a polygon of V
+  event,     ///< the step concerns the selected patch
   fullest,   ///< MapRecord::fullest_step()
   polygon,   ///< its fragment is part of the selected patch
 };
@@ -61,7 +61,7 @@ struct ViewState {
   std::optional<bool> logarithmic;  ///< chosen by the quantity if not set
   RangeRule range_rule = RangeRule::automatic;
   std::optional<std::pair<double, double>> range;  ///< ends of the color map; automatic if not set
-  std::optional<double> exposure;                  ///< of true color, EV; automatic if not set
+  std::optional<double> exposure;  ///< exposure of true color, EV; automatic if not set
   double gamma = ColorScale().gamma;
   std::optional<bool> outlines;  ///< the default for the scene if not set
   bool direction_shown = true;

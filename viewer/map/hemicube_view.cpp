@@ -107,7 +107,7 @@ void HemicubeView::post_failure(const QString& message, quint64 number) {
 void HemicubeView::show_comparison(std::shared_ptr<const HemicubeComparison> comparison,
                                    quint64 number, bool last) {
   if (number != sent_.number) {
-    return;  // of an outdated request
+    return;  // the request is outdated
   }
   comparison_ = std::move(comparison);
   if (last) {

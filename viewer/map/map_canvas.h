@@ -57,7 +57,7 @@ class MapCanvas : public QWidget {
   /// Zoom and shift, independent of the size of the canvas, so that canvases can share them.
   struct View {
     double zoom = 1;  ///< relative to the scale at which the whole map fits
-    QPointF shift;    ///< of the center, meters on the plane times `zoom`
+    QPointF shift;    ///< shift of the center, meters on the plane times `zoom`
 
     friend bool operator==(const View&, const View&) = default;
   };

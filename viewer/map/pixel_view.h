@@ -22,7 +22,7 @@ struct PixelView {
   std::int32_t step = 0;
   MapEngineChoice choice;
   VisibilityMap drawn;                    ///< polygons of pixels; empty for engine corrected
-  std::optional<CorrectedMap> corrected;  ///< of engine corrected
+  std::optional<CorrectedMap> corrected;  ///< map of engine corrected
   std::string failure;                    ///< the engine's message; empty on success
   double wrong = 0;  ///< wrong fraction of the area of V or of the pixels; 0 if not requested
 

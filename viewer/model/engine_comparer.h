@@ -72,7 +72,7 @@ class EngineComparer : public QObject {
   };
   void deliver(const Task& task, EngineComparison comparison);
 
-  quint64 number_ = 0;  ///< of the newest request; results of others are dropped
+  quint64 number_ = 0;  ///< number of the newest request; results of others are dropped
   RequestWorker<Task> worker_;
 };
 

@@ -17,7 +17,7 @@ struct LightRequest {
   std::shared_ptr<const FormFactors> form_factors;
   std::shared_ptr<const PatchMaterials> materials;  ///< null for the materials of the scene
   PatchId receiver = no_patch;
-  double tolerance = 0;  ///< of the solve run
+  double tolerance = 0;  ///< tolerance of the solve run
 
   const Scene& scene() const { return *loaded->scene; }
   const std::vector<Material>& material_list() const {

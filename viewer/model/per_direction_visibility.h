@@ -67,7 +67,7 @@ class PerDirectionVisibility : public QObject {
   // Used by the owner's thread only.
   Request request_;
   std::vector<VisibleAreas> found_;
-  quint64 number_ = 0;  ///< of the newest request; results of others are dropped
+  quint64 number_ = 0;  ///< number of the newest request; results of others are dropped
 
   // Used by the worker's thread only.
   TransferEngine engine_;

@@ -27,7 +27,7 @@ class Relighter : public QObject {
     std::shared_ptr<const DirectLight> shot;  ///< may be null
     std::shared_ptr<const PatchMaterials> materials;
     std::vector<Rgb> start;  ///< initial B, W/m², one per patch
-    std::vector<Rgb> sky;    ///< what the patches receive from the sky, W/m²; empty without a sky
+    std::vector<Rgb> sky;    ///< light that the patches receive from the sky, W/m²; may be empty
     double tolerance = 1e-6;
   };
 

@@ -26,15 +26,17 @@ namespace transillum::viewer {
 /// A scene with its BSP tree and ray picker. Immutable, shared by all threads.
 struct LoadedScene {
   std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const SceneDescription> description;  ///< of the scene; null for a result file
+  std::shared_ptr<const SceneDescription>
+      description;  ///< description of the scene; null for a result file
   std::shared_ptr<const BspTree> tree;
   std::shared_ptr<const Picker> picker;
   SceneMeasures measures;
-  double back_share = 0;                   ///< BackShare::share
-  std::shared_ptr<const Solution> stored;  ///< of the result file that was opened; else null
-  std::string file;                        ///< path of the result file
-  double seconds_load = 0;                 ///< wall-clock time of reading
-  double seconds_bsp = 0;                  ///< wall-clock time of building the tree
+  double back_share = 0;  ///< BackShare::share
+  std::shared_ptr<const Solution>
+      stored;               ///< solution of the result file that was opened; else null
+  std::string file;         ///< path of the result file
+  double seconds_load = 0;  ///< wall-clock time of reading
+  double seconds_bsp = 0;   ///< wall-clock time of building the tree
   /// The scene before patches were divided in rounds; null if none were divided.
   std::shared_ptr<const LoadedScene> whole;
 };
@@ -47,7 +49,7 @@ inline std::shared_ptr<const LoadedScene> whole_of(
 
 /// The progress of a refinement; its finished rounds are in SolveStatistics::refinement.
 struct RefinementState {
-  PatchId patches = 0;  ///< of the scene so far
+  PatchId patches = 0;  ///< patches of the scene so far
   bool left = false;    ///< the solve belongs to a round, not yet to the refined scene
 };
 
@@ -85,7 +87,7 @@ struct SolverSnapshot {
   /// The form factors of all passes so far; null until SolveRunner::include_form_factors() was
   /// called and they are assembled.
   std::shared_ptr<const FormFactors> form_factors;
-  std::shared_ptr<const DirectLight> shot;  ///< of the first shot; zeros without one
+  std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
   /// Radiance by direction, of the last finished iteration; null where no lobes take part.
   std::shared_ptr<const GlossyLight> glossy;
   /// E, rho and lobes that radiosity and irradiance were computed with, if they differ from the
@@ -99,13 +101,15 @@ struct SolverSnapshot {
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
   /// The linear parts of B(n) likewise; empty where B is constant on patches.
   std::vector<std::shared_ptr<const std::vector<LinearPart>>> kept_linear_parts;
-  std::vector<double> form_factor_sums;   ///< one per patch; 0 before the first pass
-  std::vector<double> sky_shares;         ///< Solution::sky_shares; 0 before the first pass
-  std::vector<Rgb> sky_irradiance;        ///< Solution::sky_irradiance; empty without a sky
-  std::vector<double> estimate_changes;   ///< of the newest iteration with passes, one per pass
+  std::vector<double> form_factor_sums;  ///< one per patch; 0 before the first pass
+  std::vector<double> sky_shares;        ///< Solution::sky_shares; 0 before the first pass
+  std::vector<Rgb> sky_irradiance;       ///< Solution::sky_irradiance; empty without a sky
+  std::vector<double>
+      estimate_changes;  ///< changes in the newest iteration with passes, one per pass
   std::vector<double> quadrature_errors;  ///< epsilon after each pass
   ErrorEstimate error;                    ///< from replicas; empty without replicas
-  std::vector<ErrorBand> errors;  ///< of B after each finished iteration; empty without replicas
+  std::vector<ErrorBand>
+      errors;  ///< errors of B after each finished iteration; empty without replicas
   /// The number of standard errors in `error` that cannot be trusted. It is 0 for a result file,
   /// which does not say which sources were shot first.
   std::int64_t uncertain_patches = 0;

@@ -38,7 +38,7 @@ class SolveHistory {
 
   int replicas_ = 1;             // the number of replicas whose directions are in
                                  // directions_.front()
-  std::vector<double> changes_;  // of the newest iteration with all its passes
+  std::vector<double> changes_;  // changes of the newest iteration with all its passes
   int changes_iteration_ = 0;
   std::shared_ptr<const std::vector<LinearBasis>> bases_;  // null until they are needed
 };

@@ -49,8 +49,8 @@ class SolveMessages : public QObject {
   void deliver_snapshot();
   void post(std::function<void()> message);
 
-  RunState state_ = RunState::empty;              // as last reported to the window
-  std::shared_ptr<const LoadedScene> announced_;  // of the last signal
+  RunState state_ = RunState::empty;              // the last state reported to the window
+  std::shared_ptr<const LoadedScene> announced_;  // scene of the last signal
 
   std::mutex mutex_;  // guards pending_snapshot_
   std::shared_ptr<const SolverSnapshot> pending_snapshot_;

@@ -88,7 +88,7 @@ class SolveRunner : public SolveMessages {
   bool quit_ = false;
   bool loading_ = false;
   SolveWorker::Run run_;             // the present or failed one
-  Cancellation load_cancellation_;   // of the running or the last load
+  Cancellation load_cancellation_;   // the running or the last load
   Cancellation solve_cancellation_;  // of run_
 
   SolveWorker worker_{*this};

@@ -37,7 +37,7 @@ class SolveWorker {
     Run run;
     std::shared_ptr<const LoadedScene> loaded;  ///< with the patches of the first round
     SolveSession session;
-    Cancellation cancellation;  ///< of the session
+    Cancellation cancellation;  ///< cancels the session
   };
 
   /// @param messages get snapshots, scenes and progress
@@ -102,9 +102,9 @@ class SolveWorker {
   Run run_;                                          // of session_
   std::optional<SolveSession> session_;
   std::optional<Run> unstarted_;  // to be started; session_ is canceled
-  Cancellation cancellation_;     // of session_ or unstarted_
+  Cancellation cancellation_;     // cancels session_ or unstarted_
   bool failed_ = false;           // session_ cannot be continued
-  SolveHistory history_;          // of the present stage
+  SolveHistory history_;          // history of the present stage
   /// The end of the last stage, if the goal has a time limit.
   std::shared_ptr<const SolverSnapshot> stage_result_;
 

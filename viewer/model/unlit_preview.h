@@ -18,7 +18,7 @@ struct UnlitView {
   std::shared_ptr<const SolverSnapshot> snapshot;
   QSize size;
   std::vector<PatchId> patches;   ///< per pixel, rows from the top; no_patch in the background
-  double automatic_exposure = 1;  ///< of the snapshot's radiosity
+  double automatic_exposure = 1;  ///< exposure for the snapshot's radiosity
   std::vector<Vec3> points = {};  ///< per pixel, on its patch; empty unless B is linear on patches
 
   /// The picture without lighting: a pixel is `exposure` times B, clipped to 1, as sRGB.
@@ -38,9 +38,9 @@ class UnlitPreview : public QObject {
  public:
   struct Request {
     std::shared_ptr<const SolverSnapshot> snapshot;
-    Vec3 eye, target, up;    ///< of the camera, m
+    Vec3 eye, target, up;    ///< the camera, m
     double view_angle = 30;  ///< vertical, degrees
-    QSize size;              ///< of the picture, pixels
+    QSize size;              ///< size of the picture, pixels
   };
   explicit UnlitPreview(QObject* parent = nullptr);
 

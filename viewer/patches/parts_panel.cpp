@@ -31,7 +31,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr int parts_interval_ms = 400;
-constexpr int power_column = 2;  // of the table of exchanges
+constexpr int power_column = 2;  // column of the table of exchanges
 constexpr Rgb first_exitance{10, 10, 10}, first_reflectance{0.5, 0.5, 0.5};
 
 QString count_of(std::size_t number, const char* one, const char* several) {

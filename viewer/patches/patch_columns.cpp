@@ -118,7 +118,7 @@ PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i) {
   PatchRows rows;
   double total = 0;
   for (PatchId j = 0; j < scene.patch_count(); ++j) {
-    constexpr double rounding = 1e-13;  // of exchanges along an edge that both share
+    constexpr double rounding = 1e-13;  // for exchanges along a common edge
     if (!(at(from, j) > rounding || at(to, j) > rounding)) {
       continue;
     }

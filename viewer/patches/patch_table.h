@@ -26,7 +26,7 @@ struct PatchColumn {
   Kind kind = Kind::number;
   std::vector<Rgb> values;  ///< one per patch; only red is used, except for channels
   QStringList texts = {};
-  ColumnFormat format = {};  ///< of numbers and channels; set by PatchTable
+  ColumnFormat format = {};  ///< format of numbers and channels; set by PatchTable
 };
 
 /// A table of patches. Sorting and searching permute row indices only, so that tens of thousands of

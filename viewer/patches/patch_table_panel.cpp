@@ -29,7 +29,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr int refresh_interval_ms = 400;
-constexpr int share_column = 4;  // of the table of partners
+constexpr int share_column = 4;  // column of the table of partners
 
 }  // namespace
 
@@ -75,7 +75,7 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
     bool is_number = false;
     const PatchId number = search_->text().trimmed().toInt(&is_number);
     selection_.select(is_number && table.row_of(number) >= 0 ? number : table.patch(0));
-    search_->clear();  // it would filter the table of partners too
+    search_->clear();  // a text would filter the table of partners too
   });
   connect(export_button, &QPushButton::clicked, this, &PatchTablePanel::choose_csv);
   connect(tabs_, &QTabWidget::currentChanged, this, &PatchTablePanel::refresh);

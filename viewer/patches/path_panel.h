@@ -48,7 +48,7 @@ class PathPanel : public QWidget {
     LightRequest light;
     int count = 0;
     std::vector<Rgb> start;
-    std::vector<Rgb> sky;  ///< what each patch receives from a sky; empty without a sky
+    std::vector<Rgb> sky;  ///< light that each patch receives from a sky; may be empty
 
     friend bool operator==(const Request& a, const Request& b) {
       // `start` changes only the time, and the sky's light belongs to the form factors.

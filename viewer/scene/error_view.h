@@ -74,13 +74,13 @@ class ErrorView : public QWidget {
 
   std::function<ViewPoint()> view_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
-  ErrorRuns wanted_;   ///< of a lesson's page
+  ErrorRuns wanted_;   ///< runs of a lesson's page
   ErrorRuns running_;  ///< measured, or being measured
   std::shared_ptr<const LoadedScene> running_scene_;
   std::shared_ptr<const Result> result_;
   bool busy_ = false;
   double share_ = 0;  ///< finished fraction of the passes
-  int number_ = 0;    ///< of the newest job
+  int number_ = 0;    ///< number of the newest job
   QPushButton* button_;
   RequestWorker<Job> worker_;
 };

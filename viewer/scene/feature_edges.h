@@ -52,7 +52,7 @@ class FeatureEdges {
   std::shared_ptr<const LoadedScene> loaded_;
   bool found_ = false;  ///< all_ is of loaded_
   std::vector<FeatureEdge> all_, flat_;
-  std::vector<Color8> flat_colors_;  ///< of the lines, one per edge of flat_
+  std::vector<Color8> flat_colors_;  ///< colors of the lines, one per edge of flat_
   Vec3 eye_;
   bool drawn_ = false;  ///< lines_ is of flat_ and eye_
   vtkSmartPointer<vtkPolyData> lines_;

@@ -41,7 +41,7 @@ class LinearSurface {
 
   std::shared_ptr<const Scene> scene_;
   vtkSmartPointer<vtkPolyData> surface_;
-  vtkSmartPointer<vtkFloatArray> light_;  ///< of each point: red, green, blue, and 1 if it is
+  vtkSmartPointer<vtkFloatArray> light_;  ///< for each point: red, green, blue, and 1 if it is
                                           ///< dimmed
   vtkSmartPointer<vtkPolyDataMapper> mapper_;
   vtkSmartPointer<vtkActor> actor_;

@@ -29,7 +29,7 @@ class SceneMesh {
  private:
   std::shared_ptr<const Scene> scene_;
   vtkSmartPointer<vtkPolyData> surface_;
-  std::vector<PatchId> patches_;  ///< of each cell
+  std::vector<PatchId> patches_;  ///< patch of each cell
   vtkSmartPointer<vtkUnsignedCharArray> colors_;
 };
 

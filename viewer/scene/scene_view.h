@@ -150,7 +150,7 @@ class SceneView : public QWidget {
   std::vector<Color8> patch_colors_;
   Vec3 focus_point_;              ///< center of the part of interest, meters
   double radius_ = 1;             ///< its radius, meters
-  std::optional<Vec3> eye_;       ///< of the newest picture
+  std::optional<Vec3> eye_;       ///< eye of the newest picture
   ViewPoint initial_view_point_;  ///< set by reset_view()
   bool direction_shown_ = true;
   bool antialiased_ = true;

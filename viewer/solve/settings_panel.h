@@ -108,11 +108,10 @@ class SettingsPanel : public QWidget {
   QLabel* basis_note_;  ///< the chosen settings that the basis cannot be combined with
   QCheckBox* glossy_;
   QLabel* glossy_note_;
-  std::optional<double> largest_exponent_;  ///< of the lobes of the open scene; not set without
-                                            ///< lobes
+  std::optional<double> largest_exponent_;  ///< in the open scene; not set without lobes
   QComboBox* stop_at_;
   QStackedWidget* stop_value_;
-  Rgb sky_color_{1, 1, 1};  ///< of the sky; its largest channel is 1
+  Rgb sky_color_{1, 1, 1};  ///< color of the sky; its largest channel is 1
   bool closed_ = false;     ///< no light escapes from the open scene
   QSlider* sky_slider_;
   QDoubleSpinBox* sky_value_;  ///< largest channel of the exitance

@@ -13,7 +13,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double accuracy = 0.01;  ///< of the rows "Directions for 1 %"
+constexpr double accuracy = 0.01;  ///< accuracy of the rows "Directions for 1 %"
 
 }  // namespace
 

@@ -115,7 +115,7 @@ class Breakpoints : public QObject {
 
   std::string scene_;
   std::vector<Breakpoint> list_;
-  std::map<std::string, std::vector<Breakpoint>> other_lists_;  ///< of scenes that are not open
+  std::map<std::string, std::vector<Breakpoint>> other_lists_;  ///< lists of other scenes
   QUndoStack* undo_ = nullptr;
 };
 

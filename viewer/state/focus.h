@@ -23,7 +23,7 @@ namespace transillum::viewer {
 struct RunPosition {
   int iteration = 0;       ///< n, from 0; iteration n computes B(n+1) from B(n)
   int direction = 0;       ///< from 0: number of the pass
-  std::int32_t step = -1;  ///< of the direction, from 0; -1 before the first
+  std::int32_t step = -1;  ///< step of the direction, from 0; -1 before the first
 
   friend auto operator<=>(const RunPosition&, const RunPosition&) = default;
 };

@@ -9,7 +9,7 @@ namespace transillum::viewer {
 struct ViewPoint {
   Vec3 eye, target, up;
   double view_angle = 30;  ///< vertical, degrees
-  double radius = 1;       ///< of the region of interest around `target`, meters
+  double radius = 1;       ///< radius of the region of interest around `target`, meters
 
   friend bool operator==(const ViewPoint&, const ViewPoint&) = default;
 };

@@ -88,8 +88,9 @@ class KeptRuns : public QObject {
   std::vector<KeptRun> runs_;
   std::vector<QString> reasons_;  ///< one per run
   std::shared_ptr<const Scene> scene_;
-  std::shared_ptr<const SolverSnapshot> first_, second_;  ///< as chosen; may have been removed
-  int kept_ = 0;                                          ///< the number of runs ever kept
+  std::shared_ptr<const SolverSnapshot> first_,
+      second_;    ///< chosen by the user; may have been removed
+  int kept_ = 0;  ///< the number of runs ever kept
   QUndoStack* undo_ = nullptr;
 };
 

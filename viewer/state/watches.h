@@ -18,7 +18,7 @@ namespace transillum::viewer {
 struct Watch {
   enum class Kind {
     patch_area,      ///< area of `patch` in V after the step, m²
-    closure_defect,  ///< of the step's receiver, 0 to 1; NaN if the step processes a source
+    closure_defect,  ///< defect of the step's receiver, 0 to 1; NaN if the step has no receiver
     map_size,        ///< number of polygons of V after the step
   };
   Kind kind = Kind::map_size;

@@ -31,7 +31,7 @@ using Kind = Condition::Kind;
 struct Choice {
   Kind kind;
   const char* text;
-  const char* unit;  ///< of the value; null if it has none
+  const char* unit;  ///< unit of the value; null if it has none
   const char* first_value;
 };
 constexpr Choice choices[] = {

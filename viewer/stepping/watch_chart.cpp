@@ -252,7 +252,7 @@ void WatchChart::draw(QPainter& painter, std::size_t k) const {
   const std::vector<double>& values = series_[k].values;
   const QRectF frame = plot();
   QPolygonF line;
-  double column = -1;  // of the last two points
+  double column = -1;  // column of the last two points
   for (std::size_t step = 0; step < values.size(); ++step) {
     if (std::isnan(values[step])) {
       continue;

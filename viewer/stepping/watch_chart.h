@@ -52,7 +52,7 @@ class WatchChart : public QWidget {
   struct Series {
     Watch watch;
     std::vector<double> values;
-    double largest = 0;  ///< of the values
+    double largest = 0;  ///< the largest value
     QToolButton* button;
   };
   void make_menu();

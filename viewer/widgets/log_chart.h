@@ -77,7 +77,7 @@ class LogChart : public QWidget {
   int x_max_ = 1;
   std::optional<int> mark_;
   mutable QImage picture_;  ///< in device pixels; null until it is painted
-  mutable ChartArea area_;  ///< of the plot in the picture, logical pixels
+  mutable ChartArea area_;  ///< area of the plot in the picture, logical pixels
 };
 
 /// Exponents of the powers of ten that enclose all positive values: first < last; [-1, 0] without

@@ -187,7 +187,7 @@ class SvgIcon : public QIconEngine {
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
     if (mode == QIcon::Disabled) {
-      painter->setOpacity(source_.contains('#') ? 0.5 : 1);  // it has colors of its own
+      painter->setOpacity(source_.contains('#') ? 0.5 : 1);  // the icon has its own colors
     }
     QSvgRenderer(colored(source_, color)).render(painter, square);
     painter->restore();

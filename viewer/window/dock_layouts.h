@@ -108,7 +108,7 @@ class DockLayouts : public QObject {
   bool held_ = false;
   QByteArray held_state_;
   bool enlarged_ = false;
-  std::vector<QRect> places_;  ///< of docks_ when the window was painted
+  std::vector<QRect> places_;  ///< places of docks_ when the window was painted
   QString alone_;              ///< argument of show_alone()
   QByteArray before_alone_;    ///< state of the window
 };

@@ -63,7 +63,7 @@ void OpenScene::take_scene(std::shared_ptr<const LoadedScene> loaded) {
 
 void OpenScene::take_patches(std::shared_ptr<const LoadedScene> loaded) {
   if (whole_of(loaded) != whole_of(loaded_)) {
-    return;  // of the scene before
+    return;  // the snapshot is of the previous scene
   }
   loaded_ = std::move(loaded);
   newest_ = shown_ = nullptr;

@@ -30,7 +30,7 @@ class WorkGuard;
 
 /// The state that the views follow and change. It outlives every widget of the window.
 struct SharedState {
-  QUndoStack undo;  ///< of everything that can be undone
+  QUndoStack undo;  ///< commands of everything that can be undone
   Selection selection;
   ColorChoice colors{selection};
   SolveRunner runner;
