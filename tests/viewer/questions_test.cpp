@@ -484,7 +484,7 @@ class QuestionsTest : public QObject {
         R"({"kind": "number", "ask": "?", "answer": {"figure": "radiosity"}})", "one number");
     row("no patch to find", R"({"kind": "patch", "ask": "?", "answer":
         {"largest": {"figure": "radiosity", "patch": 1}}})",
-        "leave out the patch");
+        "omit the patch");
     row("no region", R"({"kind": "area", "ask": "?", "answer": {"figure": "patches"}})",
         "visible-area");
     row("option", R"({"kind": "number", "ask": "?", "answer":
