@@ -43,7 +43,7 @@ std::shared_ptr<const Scene> gray_flake() {
 /// One way of computing B.
 struct Method {
   const char* name;
-  const char* unit;  ///< of the effort
+  const char* unit;  ///< unit of the effort
   int first;         ///< effort of the first run; doubled from run to run
   int repeats;       ///< runs of one effort, with other rotations or seeds
   std::function<Radiosity(const std::shared_ptr<const Scene>&, int effort, int repeat)> radiosity;
@@ -85,14 +85,14 @@ Method pairs() {
           [](const auto& scene, int points, int) { return by_pairs(scene, points); }};
 }
 
-/// What is measured on one scene.
+/// A scene, and the measurements that are made on it.
 struct Case {
   std::string name;
   std::shared_ptr<const Scene> scene;
   std::vector<double> targets;
   double longest;            ///< CPU time of one run, s; methods stop before they exceed it
   int reference_directions;  ///< passes of the reference
-  int reference_points;      ///< of a second reference, by pairs; 0: none
+  int reference_points;      ///< points of a second reference, by pairs; may be 0
   int repeats;
 };
 

@@ -30,7 +30,7 @@ constexpr double bandwidth = 1e9, latency = 5e-6;
 struct Parts {
   std::vector<double> make;  ///< with splitting, s
   double add = 0;            ///< mean, s
-  double bytes = 0;          ///< of the messages of a pass, mean, to all processes
+  double bytes = 0;          ///< bytes of the messages of a pass to all processes, mean
   double kept = 0;           ///< bytes of form factors in one process
   double iteration = 0;      ///< an iteration from kept sums, without messages, s
 };

@@ -243,7 +243,7 @@ class Trial {
       inside += cut.inside_area;
       for (MapPolygon& outside : cut.outside) {
         if (!(area_of(outside) > 0)) {
-          continue;  // as the engines do
+          continue;  // like the engines
         }
         require_left_turns(outside);
         remaining.push_back(std::move(outside));

@@ -27,7 +27,7 @@ using testing::TemporaryFolder;
 using testing::wait_until;
 using Words = std::vector<std::string>;
 
-/// Lines that the program has printed; those of mpirun do not begin like that.
+/// Lines that the program has printed; lines of mpirun begin otherwise.
 Words messages(const std::string& err) {
   Words lines;
   std::istringstream text(err);
@@ -134,7 +134,7 @@ TEST(Failures, InterruptionSavesTheEstimate) {
     ASSERT_TRUE(wait_until([&] { return shows_passes(run); })) << run.err_so_far();
     run.send(signal);
     const auto result = run.wait();
-    // Of the others, mpirun itself ends.
+    // Other signals end mpirun itself.
     EXPECT_EQ(result.status, signal == SIGUSR1 ? 130 : 1) << result.err;
     if (signal == SIGUSR1 || passes_on_last_messages) {
       EXPECT_THAT(result.err, HasSubstr("transillum: interrupted; the results so far are saved"));

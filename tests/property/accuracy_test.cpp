@@ -35,7 +35,7 @@ ScenePtr box_in_a_room() {
 }
 
 /// A room with a lamp, and apart from it a bright box of 10 cm in which light is reflected most
-/// often: what its iteration leaves out exceeds the light in the room.
+/// often: the light that the iteration omits in the box exceeds the light in the room.
 ScenePtr bright_box_beside_a_room() {
   testing::Sketch sketch("bright box");
   const int lamp = sketch.material(0, 1), small_lamp = sketch.material(0, 1e6);
@@ -54,8 +54,8 @@ std::vector<Rgb> truth_by_pairs(const ScenePtr& scene, int points) {
   return solve_by_form_factors(scene, options).radiosity;
 }
 
-/// RMS over channels and the patches that do not emit of the error of B, over that of B - E; over
-/// all patches where all emit.
+/// The RMS of the error of B divided by the RMS of B - E, over channels and the patches that do not
+/// emit; over all patches where all emit.
 double error_of(const Scene& scene, const std::vector<Rgb>& b, const std::vector<Rgb>& truth) {
   double errors[2] = {}, values[2] = {};
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -217,8 +217,8 @@ TEST(Accuracy, OfOtherErrors) {
   EXPECT_THROW(solve(scene, options), InputError);
 }
 
-/// The error of a patch in the room asks for more iterations than that of all patches. More and
-/// more passes were made instead: 3,768 for 744 %, then ten times as many.
+/// The error of a patch in the room requires more iterations than the error of all patches. Once,
+/// more and more passes were made instead: 3,768 for 744 %, then ten times as many.
 TEST(Accuracy, OfADarkPatchAddsIterationsNotPasses) {
   const ScenePtr scene = bright_box_beside_a_room();
   SolveOptions options;
@@ -274,7 +274,8 @@ TEST(Accuracy, OfStarsHoldsWhereItIsTrusted) {
   EXPECT_GE(held, least_share(trusted) * trusted);
 }
 
-/// A time limit ends a solve that could go on; what the goal asks for ends it before.
+/// A time limit ends a solve that could continue; a solve that has reached its accuracy ends
+/// before.
 TEST(Accuracy, EndsWithTheTime) {
   SolveOptions options;
   options.goal.seconds = 0.5;
@@ -390,7 +391,7 @@ TEST(Accuracy, IsCanceledAtOnce) {
   EXPECT_THROW(solve(box_in_a_room(), options, {}, cancellation), Canceled);
 }
 
-/// It pays for a ceiling lamp, and not where all walls emit.
+/// A first shot saves work for a ceiling lamp, but not where all walls emit.
 TEST(Accuracy, FirstShotIsTakenWhereItPays) {
   const Scene box(describe_scene("cornell-box"), {.max_patch_area = 0.01});
   EXPECT_EQ(first_shot_sources(box, first_shot_where_it_pays, 128), find_small_sources(box, 0));
@@ -415,7 +416,7 @@ TEST(Accuracy, LimitsHoldAsOftenAsStated) {
 
 struct CoverageCase {
   const char* spec;
-  double max_patch_area;  ///< m², 0: none
+  double max_patch_area;  ///< m²; 0 for no limit
   double accuracy;
   bool shot;
 };
@@ -432,7 +433,8 @@ TEST_P(NightlyAccuracy, Coverage) {
   CoverageCount count(scene, options, 8192);
   const Coverage stopped = count.of(60, {.accuracy = of.accuracy});
   options.replicas = 4;
-  options.directions = 4 * static_cast<int>(stopped.passes / 5);  // about those of the last stage
+  options.directions = 4 * static_cast<int>(stopped.passes / 5);  // about as many as in the last
+                                                                  // stage
   const Coverage fixed = CoverageCount(scene, options, 8192).of(60, {});
   fmt::print(
       "{}{}, {} %: {:.0f} passes, limits {:.1f} % ({:.1f} % without stopping), intervals "

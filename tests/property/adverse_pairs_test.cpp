@@ -27,7 +27,7 @@ namespace {
 
 using namespace testing;
 
-/// Of faces 0 and 1 of a scene; a bent face may be several patches.
+/// The exchange of faces 0 and 1 of a scene; a bent face may be several patches.
 struct FaceExchange {
   double area = 0;     ///< m²
   double error = 0;    ///< estimate, m²
@@ -54,8 +54,9 @@ FaceExchange exchange_of_faces(const Scene& scene, const ExchangeFinder& exchang
   return sum;
 }
 
-/// What moving corners by as much as the faces are bent, and as the scene's points are welded and
-/// treated as touching, changes at most, m²: ten times that times the size of the smaller face.
+/// The largest change of the exchange, m², when corners move by as much as the faces are bent, and
+/// as the scene's points are welded and treated as touching: ten times this distance times the size
+/// of the smaller face.
 double geometric_error(const PairScene& pair, const Scene& scene, double smaller) {
   double bend = std::max(1e-12 * scene.bounds().diagonal(), 2 * BspTree::thickness(scene));
   bend += pair.p.bend + pair.q.bend;
@@ -244,9 +245,9 @@ TEST(NightlyAdversePairs, AgreeWithDirections) {
 
 /// Every form factor above 1e-4 of a scene, by pairs and by eight rotated sets of directions.
 ///
-/// The error of the sets is at most about that of as many independent directions, whose variance
-/// is known from the squares of the areas. Eight replicas alone do not show it where few directions
-/// meet a pair: sets that all miss it agree with each other.
+/// The error of the sets is at most about the error of as many independent directions, whose
+/// variance is known from the squares of the areas. Eight replicas alone do not show the error
+/// where few directions meet a pair: sets that all miss the pair agree with each other.
 void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int directions) {
   constexpr int replicas = 8;
   struct Sums {
@@ -292,7 +293,7 @@ void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int
         << i << ' ' << j << ": " << found.area << " is not " << of_pair.area;
   }
   EXPECT_GT(compared, scene->patch_count());
-  // Of a normal distribution 0.3 %.
+  // A normal distribution has 0.3 % beyond three deviations.
   EXPECT_LE(beyond_three, 1 + 0.01 * compared) << "of " << compared;
 }
 

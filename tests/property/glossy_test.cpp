@@ -496,7 +496,7 @@ std::vector<Rgb> all_light(const GlossyLight& light) {
 }
 
 /// A solution that was taken within an iteration stays as it was: views read it on other threads
-/// while the solver goes on.
+/// while the solver continues.
 TEST(GlossySolver, ChangesNoSolutionThatItGave) {
   const auto scene = glossy_box();
   SolveOptions options = glossy_options(32);
@@ -556,8 +556,8 @@ TEST(GlossySolver, TellsOfItsStages) {
   EXPECT_EQ(solver.progress().stage, Stage::passes);
 }
 
-/// Canceled while the lobes of other materials are scaled: what there is can be read, and the solve
-/// goes on to the right result.
+/// After a cancellation while the lobes of other materials are scaled, the present light can be
+/// read, and the solve continues to the right result.
 TEST(GlossySolver, CanBeCanceledWhileLobesAreScaled) {
   const auto scene = glossy_box();
   const SolveOptions options = glossy_options(32);

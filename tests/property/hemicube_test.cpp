@@ -132,7 +132,8 @@ TEST(HemicubeFactors, NearerPatchesHideAndBackSidesAbsorb) {
   EXPECT_LT(row_sum(shaded, 0), 0.3);
 }
 
-/// As in the BSP order: of coincident faces, the brighter covers the other, whatever their order.
+/// The brighter of two coincident faces covers the other, whatever their order, like in the BSP
+/// order.
 TEST(HemicubeFactors, ALightCoversTheCeilingAroundIt) {
   for (const bool light_first : {true, false}) {
     Sketch sketch;

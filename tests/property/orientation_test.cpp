@@ -95,7 +95,7 @@ TEST(Orientation, RestoresRandomFaces) {
   }
 }
 
-/// Faces that share no points in memory hang together by equal coordinates.
+/// Faces that share no points in memory are connected by equal coordinates.
 TEST(Orientation, RestoresFacesWithPointsOfTheirOwn) {
   for (const char* spec : scenes) {
     SCOPED_TRACE(spec);

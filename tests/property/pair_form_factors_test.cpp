@@ -246,7 +246,7 @@ TEST(PairSolve, ReportsItsFigures) {
   EXPECT_EQ(s.pairs, 120 * 119 / 2);
   EXPECT_EQ(s.directions, 32);
   EXPECT_LT(s.closure_defect_max, 1e-3);
-  EXPECT_LT(s.energy_defect, 1e-8);  // of the iteration, by its tolerance
+  EXPECT_LT(s.energy_defect, 1e-8);  // the tolerance of the iteration
   EXPECT_NEAR(s.energy_balance, 1, 1e-3);
 }
 

@@ -158,7 +158,7 @@ TEST(PairMoments, FurnaceAndEnergy) {
     EXPECT_LT(std::max(max_abs(part.first), max_abs(part.second)), 1e-3);
   }
   const Solution box = solved(load_scene("cornell-box"), 16, Basis::linear);
-  EXPECT_LT(box.statistics.energy_defect, 1e-8);  // of the iteration, by its tolerance
+  EXPECT_LT(box.statistics.energy_defect, 1e-8);  // the tolerance of the iteration
   EXPECT_NEAR(box.statistics.energy_balance, 1, 5e-3);
   EXPECT_GT(box.statistics.negative_corners, 0);
   EXPECT_TRUE(box.complete && box.statistics.converged);

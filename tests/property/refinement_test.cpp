@@ -113,7 +113,7 @@ double error_of(const std::shared_ptr<const Scene>& scene, Basis basis) {
 
 class RefinementBy : public ::testing::TestWithParam<std::tuple<RefineBy, Basis>> {};
 
-/// As many patches represent the radiosity better where they are chosen.
+/// The same number of patches represents the radiosity better if the patches to divide are chosen.
 TEST_P(RefinementBy, IsBetterThanEvenDivision) {
   const auto [by, basis] = GetParam();
   const Refinement refined =
@@ -168,7 +168,8 @@ TEST(Refinement, EstimatesItsError) {
   const Refinement refined =
       refine(load_scene("cornell-box"), options(), {.by = RefineBy::error, .patches = 200});
   const double error = error_of(refined.scene, Basis::constant);
-  // What a division changes: sqrt(3/4) of an error that falls as h, sqrt(1/2) of one as sqrt(h).
+  // A division changes sqrt(3/4) of an error that falls as h, and sqrt(1/2) of an error that falls
+  // as sqrt(h).
   EXPECT_LT(refined.rounds.back().figure, error);
   EXPECT_GT(refined.rounds.back().figure, 0.6 * error);
   EXPECT_EQ(refined.rounds.back().patches, refined.scene->patch_count());

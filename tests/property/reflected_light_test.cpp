@@ -138,8 +138,8 @@ double mean_error(const Scene& scene, const std::vector<Rgb>& b, const std::vect
       {std::abs(off.r) / light.r, std::abs(off.g) / light.g, std::abs(off.b) / light.b});
 }
 
-/// The area-weighted sum of |b - truth| over that of the truth, over the tenth of the lit area that
-/// reflects least, in the channel where it is largest.
+/// The area-weighted sum of |b - truth| divided by the sum of the truth, over the tenth of the lit
+/// area that reflects least, in the channel where this ratio is largest.
 double error_of_dimmest(const Scene& scene, const std::vector<Rgb>& b,
                         const std::vector<Rgb>& truth) {
   const std::vector<Rgb> light = reflected_light(scene, truth);

@@ -139,8 +139,9 @@ TEST(Sky, BlackPatchesReceiveTheirShareOfIt) {
   }
 }
 
-/// What an unobstructed square receives from the overcast sky: all of it turned up, nothing turned
-/// down, and turned sideways 3/14 + 4 / (7 pi) of it, the integral of L cos over a quarter.
+/// An unobstructed square that faces up receives all light of the overcast sky, and none if it
+/// faces down. If it faces sideways, it receives 3/14 + 4 / (7 pi) of the light, the integral of L
+/// cos over a quarter.
 TEST(Sky, OvercastIlluminatesByTheFormulaOfTheCie) {
   Sketch sketch("squares");
   const int gray = sketch.material(0.5, 0);

@@ -35,7 +35,7 @@ namespace {
 
 using testing::RandomScene;
 
-/// What engines promise, as a share of the patch's area.
+/// The error that engines promise, relative to the patch's area.
 constexpr double promised = 1e-10;
 /// Rounding of sums and products of doubles, as a share of an area.
 constexpr double summed = 1e-14;
@@ -56,7 +56,7 @@ struct Transformed {
                           ///< of; -1: none
   std::function<Vec3(const Vec3&)> turn = [](const Vec3& p) { return p; };  ///< of directions
   double scale = 1;
-  double roundings = 1;  ///< of a coordinate, beside that of the original
+  double roundings = 1;  ///< roundings of a coordinate, in addition to the original
 };
 
 std::vector<int> same_faces(const SceneDescription& description) {
@@ -353,7 +353,7 @@ void expect_near(const char* property, double value, double expected, double bou
                       << bound << ", " << where();
 }
 
-/// Each patch's projection is that of its normal; nothing is less than 0 or covered twice.
+/// The projection of each patch follows from its normal; nothing is less than 0 or covered twice.
 void expect_possible_areas(const TestedScene& tested, const Transfers& transfers,
                            const std::string& engine, bool closed, const std::string& context) {
   const Scene& scene = tested.scene();
@@ -440,7 +440,7 @@ bool has_coincident_faces(const RandomScene& random) {
 }
 
 /// Tests one transformation of a scene along some directions of the original.
-/// @param same whether areas are compared with those of the original
+/// @param same whether areas are compared with the original
 /// @param bends as for TestedScene
 void expect_invariance(const RandomScene& random, const Transformed& changed,
                        const std::vector<Vec3>& directions, bool slow, bool same = true,

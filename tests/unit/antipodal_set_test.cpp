@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Sampling::antipodal: M directions that are even together with their opposites.
+// Sampling::antipodal: M directions that are evenly spread together with their opposites.
 #include <gmock/gmock.h>
 
 #include <algorithm>

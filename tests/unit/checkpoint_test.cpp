@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// A solve that goes on from any of its states has the bits of one that was not interrupted, and
-// files that are not its checkpoint are refused.
+// A solve that continues from any of its states has the bits of a solve that was not interrupted,
+// and files that are not its checkpoint are refused.
 #include "transillum/checkpoint.h"
 
 #include <gmock/gmock.h>
@@ -68,8 +68,8 @@ void expect_same(const RadiositySolver& a, const RadiositySolver& b) {
   }
 }
 
-/// Solves, keeps the state after every `every`-th pass or iteration, and goes on from each of them
-/// with another number of threads.
+/// Solves, keeps the state after every `every`-th pass or iteration, and continues from each of
+/// them with another number of threads.
 void expect_all_states_lead_to_the_same(const std::shared_ptr<const Scene>& scene,
                                         SolveOptions options, int every = 7) {
   options.threads = 2;
@@ -169,7 +169,7 @@ TEST(Checkpoint, AddedReplicasGoOnToo) {
   expect_same(with_one_more(false), with_one_more(true));
 }
 
-/// A solve with a goal, interrupted after `events`, and gone on with from its file.
+/// A solve with a goal, interrupted after `events`, and continued from its file.
 Solution interrupted_solve(const SolveOptions& options, int events, const std::string& file) {
   const auto scene = box();
   int count = 0;

@@ -140,7 +140,7 @@ TEST(CliGlossy, SolvesWithAwkwardLobes) {
   }
 }
 
-/// A lobe that is left out changes no bit.
+/// A lobe that is omitted changes no bit.
 TEST(CliGlossy, DiffuseSolvesIgnoreLobes) {
   const Arguments plain{"solve", "cornell-box", "-q", "-m", "24", "--out", "-"};
   EXPECT_EQ(run_program(shining + Arguments{"--out", "-"}).out, run_program(plain).out);

@@ -1,5 +1,5 @@
-// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The program with little memory, few threads or a full disk: it goes on, or ends with one line.
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later. With little memory,
+// few threads or a full disk, the program continues or ends with one line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -71,7 +71,8 @@ TEST_F(CliMemory, PicturesSucceedOrEndWithOneLine) {
       {"map", "cornell-box", "--direction", "1,2,3", "--out", folder / "m.png"});
 }
 
-/// What a solve takes beyond one that keeps nothing, MB of addresses, and its result.
+/// The memory that a solve takes beyond a solve that keeps nothing, MB of addresses, and its
+/// result.
 class KeptMemory {
  public:
   explicit KeptMemory(std::vector<std::string> solve) : solve_(std::move(solve)) {}

@@ -110,8 +110,8 @@ TEST(Division, DividesBothSidesOfAFaceAlike) {
   }
 }
 
-/// A pass of a divided scene sums to that of the whole: oracle 1 for patches of unequal size, whose
-/// edges share no corners.
+/// The exchanges of a divided scene sum to the exchanges of the whole: oracle 1 for patches of
+/// unequal size, whose edges share no corners.
 TEST(Division, PassesOfUnequalPatchesAddUp) {
   for (const char* spec : {"furnace", "cornell-box", "rooms"}) {
     SCOPED_TRACE(spec);

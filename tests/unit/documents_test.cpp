@@ -2,7 +2,7 @@
 //
 // Checks the documents (*.md) of the source tree: relative links lead to existing files and
 // headings, every decision is in the index, decisions that sources name exist, and the C++ code in
-// the README is that of an example.
+// the README is the code of an example.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -365,7 +365,7 @@ double exact_share(const char* spec) {
   const Fast fast(load_scene(spec));
   PassCounts counts;
   std::vector<Vec3> directions = testing::test_directions(27, 14);
-  directions.erase(directions.begin(), directions.begin() + 7);  // those along edges
+  directions.erase(directions.begin(), directions.begin() + 7);  // the directions along edges
   for (const Vec3& omega : directions) {
     counts += fast.run(omega, {}).counts;
   }

@@ -244,7 +244,7 @@ TEST_F(FormFactorFiles, OfASceneInWhichAnObjectHasMovedAreRefused) {
     StoredFormFactors stored = read_form_factors(path(name));
     EXPECT_EQ(refusal([&] { check_form_factors(*scene, stored); }), "");
     EXPECT_THAT(refusal([&] { check_form_factors(*other, stored); }), HasSubstr("have moved"));
-    stored.polygons.clear();  // as files of other programs
+    stored.polygons.clear();  // like files of other programs
     EXPECT_EQ(refusal([&] { check_form_factors(*other, stored); }), "");
   }
 }
@@ -281,7 +281,8 @@ void expect_balanced(const Scene& scene, const FormFactors& all, const FormFacto
   }
 }
 
-/// A_i times the form factors of pairs of which both are below the threshold, over that of all.
+/// The sum of A_i F_ij over pairs of which both form factors are below the threshold, divided by
+/// the sum over all pairs.
 double share_below(const Scene& scene, const FormFactors& all, double threshold) {
   std::map<std::pair<PatchId, PatchId>, double> by_pair;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {

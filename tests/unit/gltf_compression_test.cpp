@@ -107,7 +107,8 @@ GltfText by_meshopt(const Sheet& sheet, bool sequence = false) {
 
 // Draco ---------------------------------------------------------------------------------------
 
-/// Quantized to 14 bits, unless `bits` is 0; attributes 0: POSITION, 1: texture coordinates.
+/// Quantized to 14 bits, unless `bits` is 0; attribute 0 is POSITION, attribute 1 has the texture
+/// coordinates.
 Bytes by_encoder(const Sheet& sheet, int method, int bits) {
   draco::Mesh mesh;
   const auto count = static_cast<std::uint32_t>(sheet.vertices());
@@ -197,7 +198,7 @@ TEST(GltfCompression, MeshoptimizerGivesTheSceneOfThePlainFile) {
   for (const bool sequence : {false, true}) {
     EXPECT_EQ(triangles_of(read(by_meshopt(sheet, sequence).glb())), expected);
   }
-  // As text, with a placeholder that has no data.
+  // The file is text, with a placeholder that has no data.
   const GltfText file = by_meshopt(sheet);
   const test::TemporaryFolder folder;
   folder.write("a.bin", file.bytes);

@@ -220,7 +220,7 @@ std::string half_image(const test::TemporaryFolder& folder) {
   return path;
 }
 
-/// Of metal (blue) and roughness (green), which are linear: 188 of 255.
+/// The texture has metal (blue) and roughness (green), which are linear: 188 of 255.
 TEST(Gltf, AveragesATextureOfMetalAndRoughness) {
   File file;
   file.root["images"] = {{{"uri", "half.png"}}};
@@ -360,7 +360,8 @@ TEST(Gltf, KtxTexturesGiveTheDefaultReflectance) {
   EXPECT_EQ(material_of(d, 0).reflectance, (Rgb{0.25, 0.125, 0.25}));
   EXPECT_THAT(d.notes, Contains(HasSubstr("texture 0, `wood.ktx2`, is no PNG or JPEG image; "
                                           "reflectance 0.25 is assumed for it")));
-  // Without the texture of how much is metal, nothing is; without that of what emits, nothing does.
+  // Without the texture of metalness, nothing is metal; without the texture of emission, nothing
+  // emits.
   json metal = {
       {"name", "tin"},
       {"pbrMetallicRoughness",
@@ -445,7 +446,7 @@ TEST(Gltf, MessagesDoNotRepeatData) {
   }
 }
 
-// What cannot be read is said before buffers are missed that an extension would make.
+// An unknown extension is reported before the buffers that it would make are missed.
 TEST(Gltf, ExtensionsAreLookedAtBeforeBuffers) {
   File file;
   file.add(square_in(file));

@@ -23,7 +23,8 @@ class GltfText {
                          {"bufferViews", nlohmann::json::array()},
                          {"materials", nlohmann::json::array()}};
   std::string bytes;
-  /// Length of a second buffer without data, as files with compressed views have it; 0: none.
+  /// Length of a second buffer without data, as files with compressed views have it; 0 if there is
+  /// none.
   std::size_t placeholder = 0;
 
   /// Returns the number of the view.

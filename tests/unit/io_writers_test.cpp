@@ -285,7 +285,7 @@ TEST(IoWholeFiles, ALoopOfLinksIsAnError) {
   EXPECT_THAT(folder.names(), ElementsAre("a", "b"));
 }
 
-/// It has no name before it is complete, where the file system can do that.
+/// A file has no name before it is complete, where the file system supports that.
 TEST(IoWholeFiles, AKilledProgramLeavesNoTemporaryFile) {
   const TemporaryFolder folder;
   const int unnamed = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY, 0600);

@@ -52,7 +52,7 @@ Study study() {
 }
 
 /// Reads a scene and a result, and writes every kind of file; returns names and contents. Times in
-/// statistics are those of `solution`.
+/// statistics are taken from `solution`.
 std::map<std::string, std::string> files_written(const Solution& solution) {
   const TemporaryFolder folder;
   write_text(folder / "room.obj", obj);

@@ -60,7 +60,7 @@ TEST(PowerTable, PartsSumToTheStatistics) {
       for (const Rgb& power : table.exchanged[p]) {
         row += power;
       }
-      // What a part receives comes from the parts.
+      // The power that a part receives comes from the parts.
       EXPECT_LE(max_abs(row - table.parts[p].received), 1e-9 * max_abs(row));
       exchanged += row;
     }

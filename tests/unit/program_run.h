@@ -49,11 +49,12 @@ inline const std::string pipe_without_reader = "(pipe without a reader)";
 /// A process of the program `transillum`; its output is stored in files.
 class RunningProgram {
  public:
-  /// @param out file to which standard output is appended, or one of the above; empty:
-  /// ProgramResult::out
+  /// @param out file to which standard output is appended, or one of the above; ProgramResult::out
+  /// if it is empty
   /// @param err the same for standard error and ProgramResult::err
-  /// @param folder where the program runs; empty: the current folder
-  /// @param shell commands of the shell that starts it, such as `ulimit -v 200000`; empty: no shell
+  /// @param folder where the program runs; the current folder if it is empty
+  /// @param shell commands of the shell that starts it, such as `ulimit -v 200000`; without
+  /// commands, no shell runs
   explicit RunningProgram(const std::vector<std::string>& arguments, const std::string& out = {},
                           const std::string& err = {}, const std::string& folder = {},
                           const std::string& shell = {});

@@ -115,7 +115,7 @@ TEST(RadiositySolver, CancelingIsQuick) {
   passes_made = true;
   passes_made.notify_one();
   canceler.join();
-  // Of each thread; sanitizers slow everything down in proportion.
+  // Each thread may take this time; sanitizers slow everything down in proportion.
   EXPECT_LT(stopped - canceled, threads * std::max(testing::longest_stop, 0.2 * pass));
 }
 

@@ -66,7 +66,7 @@ void expect_same(const std::vector<Rgb>& a, const std::vector<Rgb>& b, double to
   }
 }
 
-/// What comes from a sky depends on the geometry only.
+/// The light that comes from a sky depends on the geometry only.
 TEST(Relight, KeepsTheLightOfASky) {
   const SceneDescription description = describe_scene("cornell-box:open=1");
   SceneDescription changed = description;
@@ -382,7 +382,7 @@ TEST(Relight, FormFactorsAreKeptFromTheNextPassOn) {
   EXPECT_THAT(ask, ThrowsMessage<std::runtime_error>(HasSubstr("between iterations")));
   solver.advance(RadiositySolver::Until::iteration);
   const FormFactors kept = solver.form_factors();
-  const std::vector<double> sums = solver.form_factor_sums();  // of the newest iteration
+  const std::vector<double> sums = solver.form_factor_sums();  // sums of the newest iteration
   for (std::size_t i = 0; i < sums.size(); ++i) {
     double sum = 0;
     for (std::size_t k = kept.row_begin[i]; k < kept.row_begin[i + 1]; ++k) {
@@ -400,7 +400,8 @@ TEST(Relight, WithTheScenesOwnMaterialsEqualsTheSolve) {
   expect_same(relit.radiosity, s.radiosity, 1e-9);
 }
 
-/// What the sky gives does not depend on materials, so relighting with it equals a solve under it.
+/// The light of the sky does not depend on materials, so relighting with it equals a solve under
+/// it.
 TEST(Relight, KeepsTheLightOfTheSky) {
   const auto scene = std::make_shared<const Scene>(describe_scene("boards"));
   SolveOptions options{.directions = 64, .tolerance = tight};

@@ -168,7 +168,7 @@ TEST_F(ResultReader, ReadsBothSidesOfRefinedFacesAndTheErrorEstimate) {
   expect_same(read, solution_);
   EXPECT_EQ(read.error.replicas, 2);
   EXPECT_EQ(read.scene->patch(2).face, 0);  // a part of the first face, which is divided
-  // What is read can be written, and read, again.
+  // A result that was read can be written and read again.
   write_result(path_, read);
   expect_same(read_result(path_), solution_);
 }

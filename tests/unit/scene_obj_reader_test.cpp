@@ -65,7 +65,7 @@ TEST(ObjReader, ReadsLobes) {
   EXPECT_EQ(scene.material(1).lobe, d.materials[0].lobe);
 }
 
-/// What files give as Ks and Ns: numbers that are used as they are, and others that are left out.
+/// Files have numbers as Ks and Ns that are used as they are, and others that are ignored.
 TEST(ObjReader, ReadsLobesOfAwkwardFiles) {
   const auto lobe = [](const std::string& lines) {
     return read("mtllib s.mtl\n" + square + "usemtl a\nf 1 2 3\n",

@@ -100,7 +100,7 @@ TEST(Rounding, ExactScenesKeepTheirBits) {
     EXPECT_EQ(without_rounding(description, coordinate_rounding(description.points), {}),
               description.points)
         << spec;
-    // As if it had been printed with six digits, although it was not.
+    // The box looks like it was printed with six digits, although it was not.
     SceneDescription box;
     box.materials = description.materials;
     box.points = {{0, 0, 0}, {1, 0, 0.5}, {1, 1, 0.5}, {0, 1, 0}, {0.25, 0.5, 0.125}};

@@ -183,8 +183,8 @@ TEST(SemiIterative, HasConvergedWhereItSaysSo) {
   }
 }
 
-/// With a few directions per set the error is that of the directions: other sets, other random
-/// ones.
+/// With a few directions per set, most of the error comes from the directions. The test has other
+/// samplings and seeds.
 TEST(SemiIterative, HasConvergedWhereItSaysSoWithFewDirections) {
   for (const Sampling sampling :
        {Sampling::fibonacci, Sampling::random, Sampling::sobol, Sampling::halton}) {

@@ -91,7 +91,8 @@ std::shared_ptr<const Scene> room(double bend) {
   return sketch.scene({.two_sided = true});
 }
 
-/// Most of the light with few directions, a tenth with many, or that of one patch near the lamp.
+/// Most of the light is missing with few directions, a tenth with many, or the light of one patch
+/// near the lamp.
 TEST(ShotCheck, FindsMissingLight) {
   const auto scene = room(1e-7);
   const std::vector<PatchId> sources = find_small_sources(*scene, 0);

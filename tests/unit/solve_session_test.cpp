@@ -153,7 +153,7 @@ TEST(SolveSession, MayBePreparedAgain) {
   expect_same(session.solution(), solved(request));
 }
 
-/// What a time limit ends in the middle of a stage has the result of the stage before.
+/// A session that a time limit ends in the middle of a stage has the result of the previous stage.
 TEST(SolveSession, EndsWithTheTimeInTheMiddleOfAStage) {
   SolveRequest request{.scene = box()};
   request.options.goal.seconds = 1e-6;
@@ -176,7 +176,7 @@ TEST(SolveSession, ShowsItsRoundsAndStages) {
     if (session.rounds().size() > rounds) {
       rounds = session.rounds().size();
       EXPECT_NE(session.scene(), scene);
-      EXPECT_TRUE(session.accuracy()->stages.empty());  // of the next round
+      EXPECT_TRUE(session.accuracy()->stages.empty());  // stages of the next round
     } else {
       EXPECT_EQ(session.scene(), scene);
       EXPECT_GT(session.accuracy()->stages.size(), 0U);

@@ -81,7 +81,7 @@ TEST(Study, ErrorsCountAllPatchesWhereAllEmit) {
   sketch.triangles(4, 0.1, 1, sketch.material(0.5, 3));
   const auto scene = sketch.scene();
   const std::vector<Rgb> reference(4, {5, 5, 5}), b(4, {5.5, 5.5, 5.5});
-  EXPECT_DOUBLE_EQ(radiosity_error(*scene, b, reference).rms, 0.25);  // of B - E = 2
+  EXPECT_DOUBLE_EQ(radiosity_error(*scene, b, reference).rms, 0.25);  // relative to B - E = 2
 }
 
 TEST(Study, RandomErrorDecreasesAsOneOverTheRootAndFibonacciFaster) {

@@ -324,8 +324,8 @@ class AppearanceTest : public QObject {
     for (const auto& [key, use] : uses) {
       QVERIFY2(text.contains('`' + key + '`'), qPrintable(key + ": " + use));
     }
-    // The table of the guide has no other keys than those of the menus, of a saved view, of the
-    // kept run, of the list of kept runs, of the timeline and of the panel Groups.
+    // The table of the guide has only keys of the menus, of a saved view, of the kept run, of the
+    // list of kept runs, of the timeline and of the panel Groups.
     const QStringList others{"Alt+1", "A", "F2", "Del", "←", "→", "Return", "E", "R"};
     static const QRegularExpression quoted(QStringLiteral("`([^`]+)`"));
     int listed = 0;

@@ -397,7 +397,7 @@ class BreakpointsTest : public QObject {
       const bool gathers = lines.back() == CodeLine::gather_region;
       QCOMPARE(gathers, here->kind == StepEvent::Kind::exchange);
       exchanges += gathers;
-      // As in the line of pseudo-code: A(R)/A_i · rho_i/(pi M) · 4 pi · B_j.
+      // The line of pseudo-code says: A(R)/A_i · rho_i/(pi M) · 4 pi · B_j.
       QCOMPARE(state->gathered.has_value(), gathers);
       if (!gathers) {
         continue;

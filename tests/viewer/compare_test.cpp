@@ -218,7 +218,7 @@ class CompareTest : public QObject {
     QVERIFY(panels() == (QSet<QString>{"compare_dock", "timeline_dock"}));
     QVERIFY(wait_for([&] { return shown.window->settled(); }));
     save_picture(*shown.window, "compare-large");
-    // What is kept of the layout is that before.
+    // The kept state of the layout is the state before.
     const QByteArray kept = shown.window->parts().docks.state();
     shown.trigger("compare_large");
     QVERIFY2(wait_for([&] { return dock->size() == usual; }),
@@ -236,7 +236,7 @@ class CompareTest : public QObject {
     shown.trigger("compare_large");
     shown.trigger("compare_large");
     QVERIFY(panels().contains("settings_dock"));
-    // It is a tab of the map's place, also where maps are debugged.
+    // The panel is a tab of the map's place, also where maps are debugged.
     const auto tabs = shown.window->tabifiedDockWidgets(dock);
     QVERIFY(tabs.contains(shown.window->findChild<QDockWidget*>("map_dock")));
     shown.trigger("layout_debug");
@@ -356,7 +356,7 @@ class CompareTest : public QObject {
     QCOMPARE(panel.scene_options().max_patch_area, 0.0);
   }
 
-  // It chooses the directions and replicas; those in effect are no difference.
+  // The accuracy chooses the directions and replicas; the ones in effect are no difference.
   void settings_ask_for_an_accuracy() {
     SettingsPanel panel;
     auto* directions = panel.findChild<QSpinBox*>("directions");

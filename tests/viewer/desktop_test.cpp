@@ -73,7 +73,7 @@ class DesktopTest : public QObject {
 
  private slots:
   void initTestCase() {
-    // A folder of data with our types, beside those of the system.
+    // A folder of data with our types, in addition to the system's.
     const QString data = data_.path();
     QVERIFY(QDir(data).mkpath("mime/packages"));
     QVERIFY(QFile::copy(folder + "org.transillum.Viewer.xml",
@@ -167,7 +167,7 @@ class DesktopTest : public QObject {
       session.write(R"({"show": {"scene": "furnace", "options": {"directions": 8}}})");
     }
     QFile::remove(picture);
-    // As the entry's Exec, with the file for %f.
+    // Runs the entry's Exec, with the file for %f.
     QProcess process;
     process.setProcessChannelMode(QProcess::MergedChannels);
     process.start(TRANSILLUM_VIEWER, {file, "--screenshot", picture});

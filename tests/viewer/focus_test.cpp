@@ -85,7 +85,7 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({0, 3, w.maps[3]->record().fullest_step()}));
   }
 
-  /// Of a run whose first iteration had one direction, the second two, the third all four.
+  /// In the run, the first iteration had one direction, the second two, the third all four.
   void offers_the_directions_that_an_iteration_had() {
     FocusWithMaps w;
     w.focus.set_passes_of_iterations({1, 2, 4});

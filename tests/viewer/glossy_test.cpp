@@ -194,7 +194,7 @@ class GlossyTest : public QObject {
     now->progress.stage = SolveProgress::Stage::scaling_lobes;
     line.show_snapshot(now);
     QCOMPARE(text("phase"), QStringLiteral("Scaling lobes"));
-    // Afterwards, and where it pauses, the line is that of any run.
+    // Afterward, and where the run pauses, the line is the same as in any run.
     line.show_state(RunState::finished);
     QVERIFY(text("phase").startsWith("Converged"));
   }

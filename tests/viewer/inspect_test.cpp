@@ -307,7 +307,7 @@ class InspectTest : public QObject {
     QCOMPARE(patches_seen(), all);
     shown.trigger("isolate_selection");
     QCOMPARE(patches_seen(), QSet<PatchId>{front});
-    shown.trigger("show_smooth");  // the other mesh leaves them out too
+    shown.trigger("show_smooth");  // the other mesh omits them too
     const double background = share_of(shown.picture(), theme::scene_background);
     shown.trigger("show_all");
     const double around = share_of(shown.picture(), theme::scene_background);
@@ -707,7 +707,7 @@ class InspectTest : public QObject {
       test::drag(*canvas, middle, by);
       return shown.scene_view->view_point();
     };
-    const auto tilt = [](const ViewPoint& view) {  // of the horizon in the picture
+    const auto tilt = [](const ViewPoint& view) {  // tilt of the horizon in the picture
       const Vec3 right = normalized(cross(view.target - view.eye, view.up));
       return std::abs(right.z);
     };

@@ -74,7 +74,7 @@ class LessonHtmlTest : public QObject {
   Q_OBJECT
 
  private slots:
-  // The polygons that a browser shows at a step are those of V.
+  // The polygons that a browser shows at a step are the polygons of V.
   void polygons_of_a_map_have_their_steps() {
     const auto scene = load_scene("cornell-box");
     auto loaded = std::make_shared<LoadedScene>();
@@ -100,7 +100,7 @@ class LessonHtmlTest : public QObject {
     }
     QCOMPARE(count(map_svg(map, 9, colors, false), "<polygon"),
              int(map.record().map_after(9).size()));
-    // What the page names is named where it is shown, and only that.
+    // Only the objects that the page names are named, where they are shown.
     const PatchId shown = map.row(map.record().map_after(9).front()).patch;
     const std::vector<Callout> callouts{{"this < that", Callout::Anchor::patch, shown, {}},
                                         {"the same", Callout::Anchor::patch, shown, {}},

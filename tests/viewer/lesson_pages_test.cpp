@@ -400,7 +400,8 @@ struct ColorWord {
   QColor color;
 };
 
-// What the marked tile of lesson 11 shows to an eye at the page's camera, as a mirror would.
+// The color of the lamp that the marked tile of lesson 11 would mirror to an eye at the page's
+// camera.
 QColor color_of_mirrored_lamp() {
   const Shown shown(11, 1);
   const Patch& tile = shown.scene->patch(shown.page.state.selection);
@@ -704,9 +705,9 @@ class LessonPagesTest : public QObject {
     const MapHistory history = sorted.history();
     QVERIFY(sorted.contains("no patch had to be cut in two"));
     QCOMPARE(history.step_count(), sorted.scene->patch_count());
-    QVERIFY(sorted.page.state.options.solve.normalize == Normalization::none);  // as on page 4
+    QVERIFY(sorted.page.state.options.solve.normalize == Normalization::none);  // like on page 4
     QCOMPARE(history.step(0).cut, 0);
-    QVERIFY(!history.step(0).front_facing);  // page 2: it emits
+    QVERIFY(!history.step(0).front_facing);  // page 2: this fragment emits
     const std::int32_t k =
         first_step(history, [](const MapHistory::Step& step) { return step.exchanges > 0; });
     QVERIFY(k > 1 && history.step(k).front_facing);

@@ -266,7 +266,7 @@ class LessonsTest : public QObject {
     const auto anchor = [&taught] { return taught.layer->callouts()[0].anchor; };
     auto* view = taught.window->findChild<SceneView*>();
     QCOMPARE(view->patch_at(anchor().toPoint()), PatchId{16});
-    // It moves with the camera.
+    // The callout moves with the camera.
     const QPointF before = anchor();
     view->view_from_side(Side::top);
     QTRY_VERIFY(anchor() != before);

@@ -247,7 +247,7 @@ class LightTest : public QObject {
     }
   }
 
-  /// The solve was that of the file: B = 0 everywhere, "good enough: error at most 0 %".
+  /// The solve used the materials of the file: B = 0 everywhere, "good enough: error at most 0 %".
   void a_lamp_made_here_is_solved() {
     const Opened opened;
     QVERIFY(opened.ready);

@@ -33,7 +33,7 @@ struct LinearWindow : SolvedWindow {
   explicit LinearWindow(const SolveOptions& options = linear_options)
       : SolvedWindow("cornell-box", options) {
     window->runner.run();
-    scene_view->set_outlines_shown(false);  // also those of the convex pieces of a patch
+    scene_view->set_outlines_shown(false);  // also outlines of the convex pieces of a patch
     ready = ready && settles([this] { return window->runner.state() == RunState::finished; });
   }
 
@@ -67,9 +67,9 @@ struct Compared {
 };
 
 /// Compares pixels inside patches with the colors of B at their points. The point of a pixel is
-/// known to a pixel, and near 0 a gamma is steep: a pixel may have any color of those around it.
+/// known to a pixel, and near 0 a gamma is steep: a pixel may have any of the colors around it.
 /// @param scale  pixels of the picture per pixel of the canvas
-/// @param dimmed  patches that are dimmed; empty: none
+/// @param dimmed  whether each patch is dimmed; empty if none is
 Compared compare(const SceneView& view, const ColorChoice& colors, const QImage& picture,
                  int scale = 1, const std::vector<bool>& dimmed = {}) {
   Compared result;
@@ -148,7 +148,7 @@ class LinearTest : public QObject {
   Q_OBJECT
 
  private slots:
-  // What somebody sees first who has chosen nothing.
+  // The scene that a user sees first who has chosen nothing.
   void cards_of_coarse_scenes_open_soft() {
     auto window = make_window(64);
     const auto open_card = [&](const char* name) {
@@ -177,7 +177,7 @@ class LinearTest : public QObject {
     QVERIFY(open_card("cornell-box"));
     QVERIFY(basis() == Basis::constant);
     QVERIFY(window->snapshot()->options.engine == Engine::zbuffer);
-    // What the user has chosen stays.
+    // The options that the user has chosen stay.
     window->set_options({.directions = 16, .basis = Basis::linear}, {});
     QVERIFY(open_card("rooms"));
     QVERIFY(open_card("furnace"));
@@ -312,7 +312,7 @@ class LinearTest : public QObject {
     QVERIFY(shown.ready);
     auto* smooth = shown.part<QAction>("show_smooth");
     QVERIFY(!smooth->isEnabled() && smooth->toolTip().contains("linear"));
-    // Of the same solve, form factors and H are constant on patches.
+    // Form factors and H of the same solve are constant on patches.
     shown.window->colors.set_quantity(Quantity::irradiance);
     QVERIFY(smooth->isEnabled() && !shown.window->colors.linear());
     shown.scene_view->set_direction_shown(false);

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Random sets of options: the command line of `solve`, that of the viewer, a session, the copied
-// command and the statistics say the same, or all refuse the set for the same reason.
+// Random sets of options: the command lines of `solve` and of the viewer, a session, the copied
+// command and the statistics agree, or all refuse the set for the same reason.
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -27,13 +27,13 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What a front end makes of a set of options.
+/// The options that a front end makes of a set of words, or its refusal.
 struct Outcome {
-  std::string refusal;  ///< empty: accepted
+  std::string refusal;  ///< empty if accepted
   RunOptions options;
 };
 
-/// As the command `solve` parses its options.
+/// Parses options like the command `solve`.
 Outcome by_command_line(const Words& words) {
   Outcome outcome;
   CLI::App app;

@@ -286,7 +286,7 @@ class PartsTest : public QObject {
     QVERIFY(model->isEnabled() && !up->isEnabled());
     model->setCurrentIndex(1);
     QVERIFY(up->isEnabled());
-    QCOMPARE(up->currentText(), QString("+y"));  // as files usually have it
+    QCOMPARE(up->currentText(), QString("+y"));  // the usual vertical of files
     up->setCurrentIndex(0);
     const Sky expected{{100, 100, 100}, SkyModel::cie_overcast, {0, 0, 1}};
     QVERIFY(shown.window().parts().settings.solve_options().sky == expected);

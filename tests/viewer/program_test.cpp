@@ -135,7 +135,7 @@ class ProgramTest : public QObject {
   void damaged_settings_do_not_prevent_a_start_data() {
     QTest::addColumn<QByteArray>("state");
     QTest::newRow("nothing of ours") << QByteArray("abc");
-    // As Qt writes it, damaged so that Qt crashed.
+    // A state that Qt wrote, damaged so that Qt crashed.
     QTest::newRow("Qt's own") << QByteArray::fromBase64(
         "AAAA/wAAAAf9AAAAAwAAAAAAAAFeAAADA/wCAAAACPsAAAAWAGwAZQBzAHMAbwBuAF8AZABvAGMAawAAAAAA");
   }

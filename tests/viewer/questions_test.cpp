@@ -87,7 +87,7 @@ struct Class {
     QVERIFY(wait_for([this] { return box->solved() != nullptr; }));
   }
   int counted(const QString& answer) const { return counts().value(answer); }
-  // As in the file.
+  // The counts in the file.
   QMap<QString, int> counts() const {
     QMap<QString, int> all;
     for (const QString& name : QStringList{folder.filePath("mine.tally.json")}) {
@@ -323,7 +323,7 @@ class QuestionsTest : public QObject {
     room.reveal();
     QVERIFY(room.text("question_result").contains("Right"));
     QVERIFY(room.settles());
-    QVERIFY(room.window->colors.quantity() == Quantity::radiosity);  // as the page reveals
+    QVERIFY(room.window->colors.quantity() == Quantity::radiosity);  // the page reveals it
     QCOMPARE(room.window->selection.patch(), PatchId{12});
     room.action("question_reveal")->trigger();
     QVERIFY(room.settles());

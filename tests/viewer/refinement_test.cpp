@@ -230,7 +230,7 @@ class RefinementTest : public QObject {
     QVERIFY2(watched.failure.contains("engine hemicube"), qPrintable(watched.failure));
   }
 
-  // The rounds are made again; the solve after them goes on where it was.
+  // The rounds are made again; the solve after them continues where it was.
   void goes_on_with_a_checkpoint_of_the_refined_scene() {
     const QTemporaryDir folder;
     const std::string mine = folder.filePath("mine.tck").toStdString();
@@ -252,7 +252,7 @@ class RefinementTest : public QObject {
     WatchedRounds watched;
     watched.runner.resume_from(left.toStdString());
     watched.open(few, choice, {Goal::Kind::passes, 1});
-    // It has more than the one pass that was asked for.
+    // The solve has more than the one pass that was asked for.
     QVERIFY(watched.reaches(
         [](const SolverSnapshot& s) { return !s.refinement.left && s.progress.direction == 25; }));
     QVERIFY(!QFile::exists(left));
@@ -343,7 +343,7 @@ class RefinementTest : public QObject {
     qInfo("canceled in %lld ms", timer.elapsed());
     QCOMPARE(w.window->snapshot()->loaded->scene->patch_count(), 27);
     QVERIFY(w.window->banner_text().isEmpty());
-    // It can be started again.
+    // The refinement can be started again.
     w.part<QSpinBox>("refine_patches")->setValue(60);
     w.part<QPushButton>("restart")->click();
     QVERIFY(w.finishes());
@@ -380,7 +380,7 @@ class RefinementTest : public QObject {
     QCOMPARE(w.window->relighting.edits().changes().size(), std::size_t{1});
     w.start("Jumps", 60);
     QVERIFY(w.finishes());
-    // They are those of the scene now, which is solved and divided with them.
+    // The changed materials now belong to the scene, which is solved and divided with them.
     QVERIFY(w.window->relighting.edits().changes().empty());
     const SolverSnapshot& snapshot = *w.window->snapshot();
     QVERIFY(!snapshot.materials);
@@ -434,7 +434,7 @@ class RefinementTest : public QObject {
     QVERIFY(!panel.differ_from_effect());
     panel.findChild<QSpinBox*>("refine_patches")->setValue(346);
     QVERIFY(panel.differ_from_effect());
-    // That of a result file.
+    // The panel of a result file has no rounds.
     panel.set_scene_fixed(true);
     QVERIFY(!panel.refinement().is_set());
     QVERIFY(!until->isVisibleTo(&panel));

@@ -357,7 +357,7 @@ class SteppingTest : public QObject {
     QCOMPARE(turned.count(), 2);
     QVERIFY(norm(s.scene_view->view_point().eye - before.eye) > 0);
 
-    // Polygons go on into the next direction; a second click stops.
+    // The animation of polygons continues into the next direction; a second click stops it.
     play.set_by(PlayControl::By::polygons);
     focus.go_to({0, 2, 0});
     QVERIFY(wait_for([&] { return window.settled() && play.action()->isEnabled(); }));

@@ -61,7 +61,7 @@ class StudyTest : public QObject {
   void engines_are_compared_against_seconds() {
     const Shown shown("cornell-box");
     const auto* fast = shown.dialog->findChild<QCheckBox*>("study_engine_fast");
-    QVERIFY(fast->isChecked());  // that of the solve
+    QVERIFY(fast->isChecked());  // the engine of the solve
     shown.choose("engine_rays", true);
     shown.choose("random", false);
     shown.study();

@@ -86,8 +86,8 @@ inline bool is_inside(const SceneView& view, const QPoint& point, PatchId patch)
                      [&](const QPoint& offset) { return view.patch_at(point + offset) == patch; });
 }
 
-/// Of points of the scene that are inside of a patch, or of the background: the share of those
-/// whose pixels have the color that `color_of` gives for the patch, or no_patch. 0: no such points.
+/// The fraction of points inside patches, or inside the background, whose pixels have the color
+/// that `color_of` gives for the patch, or no_patch. It is 0 if there are no such points.
 inline double share_in_color(const SceneView& view,
                              const std::function<QColor(PatchId)>& color_of) {
   const QImage picture = view.canvas()->grab().toImage();
@@ -113,8 +113,8 @@ inline double share_in_color(const SceneView& view,
 }
 
 /// The share of points of the scene's picture that have the color of their patch, or of the
-/// background: nearly 1 where the picture is that of these colors, patches and camera. Lines and
-/// the plane of the direction cover some.
+/// background: nearly 1 where the picture has these colors, patches and camera. Lines and the plane
+/// of the direction cover some.
 inline double share_in_own_color(const SceneView& view, const ColorChoice& colors) {
   return share_in_color(view, [&colors](PatchId patch) {
     if (patch == no_patch) {

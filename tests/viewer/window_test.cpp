@@ -211,7 +211,7 @@ class WindowTest : public QObject {
     const ViewPoint after = solved.scene_view->view_point();
     QVERIFY(after.target == before.target);
     QVERIFY(norm(after.eye - before.eye) > 0.1 * norm(before.eye - before.target));
-    // The picture is that of the new camera.
+    // The picture belongs to the new camera.
     QVERIFY(comes_to_rest(*solved.window));
     const double share = share_in_own_color(*solved.scene_view, solved.window->colors);
     QVERIFY2(share > 0.9, qPrintable(QString::number(share)));
