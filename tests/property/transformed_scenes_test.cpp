@@ -54,7 +54,7 @@ struct Transformed {
   SceneDescription description;
   std::vector<int> face;  ///< per face: the same face of the original, or the one that it is a part
                           ///< of; -1: none
-  std::function<Vec3(const Vec3&)> turn = [](const Vec3& p) { return p; };  ///< of directions
+  std::function<Vec3(const Vec3&)> turn = [](const Vec3& p) { return p; };  ///< turns directions
   double scale = 1;
   double roundings = 1;  ///< roundings of a coordinate, in addition to the original
 };

@@ -27,7 +27,7 @@ using Names = std::set<std::string>;
 struct Include {
   std::string file;  ///< path from the include root
   int line;
-  std::string path;  ///< as written
+  std::string path;  ///< path in the directive
 };
 
 /// The includes that the tables of ARCHITECTURE.md allow.

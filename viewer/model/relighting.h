@@ -57,7 +57,7 @@ class Relighting : public QObject {
   std::shared_ptr<const SolverSnapshot> snapshot_;   ///< newest of the solver
   std::shared_ptr<const FormFactors> used_;          ///< form factors of the newest request
   std::shared_ptr<const RelightResult> light_;       ///< null for the solver's light
-  std::shared_ptr<const PatchMaterials> materials_;  ///< of light_
+  std::shared_ptr<const PatchMaterials> materials_;  ///< materials of light_
   std::shared_ptr<const PatchMaterials>
       asked_;  ///< materials of the newest solver_light_requested()
 };

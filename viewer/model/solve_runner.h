@@ -88,8 +88,8 @@ class SolveRunner : public SolveMessages {
   bool quit_ = false;
   bool loading_ = false;
   SolveWorker::Run run_;             // the present or failed one
-  Cancellation load_cancellation_;   // the running or the last load
-  Cancellation solve_cancellation_;  // of run_
+  Cancellation load_cancellation_;   // cancels the running or the last load
+  Cancellation solve_cancellation_;  // cancels run_
 
   SolveWorker worker_{*this};
   std::thread thread_;

@@ -99,7 +99,7 @@ class SolveWorker {
   std::shared_ptr<const LoadedScene> loaded_;        // null if no scene is open
   std::shared_ptr<const PatchMaterials> materials_;  // where lobes take part; null for the
                                                      // materials of the scene
-  Run run_;                                          // of session_
+  Run run_;                                          // options of session_
   std::optional<SolveSession> session_;
   std::optional<Run> unstarted_;  // to be started; session_ is canceled
   Cancellation cancellation_;     // cancels session_ or unstarted_

@@ -67,7 +67,7 @@ class PathPanel : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   bool watched_ = false;
   Request requested_;
-  PatchId receiver_ = no_patch;  ///< of paths_
+  PatchId receiver_ = no_patch;  ///< receiver of paths_
   std::shared_ptr<const LightPaths> paths_;
   QString error_;
   QSpinBox* count_;

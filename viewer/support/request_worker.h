@@ -141,7 +141,7 @@ class RequestWorker {
   std::mutex mutex_;  // guards all below except the thread
   std::condition_variable wake_;
   std::optional<Request> waiting_;
-  Start start_ = Start::at_once;  // of waiting_
+  Start start_ = Start::at_once;  // start of waiting_
   bool quit_ = false;
   Cancellation cancellation_;
   std::thread thread_;
