@@ -98,7 +98,7 @@ class AppearanceTest : public QObject {
       QVERIFY(window.isFullScreen() && solved.scene_view->isVisible());
       QVERIFY(shown("timeline_dock") && shown("lesson_dock") && !shown("map_dock"));
     }
-    // A session that is kept meanwhile has the panels of the window.
+    // A session that is saved during projector mode has the panels of the window.
     const QByteArray kept = window.parts().docks.state();
     const auto* timeline = window.findChild<QDockWidget*>("timeline_dock");
     QVERIFY2(wait_for([&] { return timeline->height() < 0.1 * window.height(); }, 5000),
@@ -231,7 +231,7 @@ class AppearanceTest : public QObject {
     }
   }
 
-  // And of 3 of parts of a picture that must be told apart.
+  // WCAG 2.1 asks for a contrast of 3 between parts of a picture that must be distinguished.
   void the_position_stands_out_from_its_lane_in_both_modes() {
     for (const bool dark : {true, false}) {
       theme::apply(*qApp, {.dark = dark});

@@ -45,7 +45,7 @@ QStringList files() {
   return names;
 }
 
-/// Runs a validator where it is installed. It may complain of `accepted` alone.
+/// Runs a validator where it is installed. It may complain only about `accepted`.
 void validate(const QString& program, const QStringList& arguments, const QString& accepted = {}) {
   if (QStandardPaths::findExecutable(program).isEmpty()) {
     QSKIP(qPrintable(program + " is not installed"));

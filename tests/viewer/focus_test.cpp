@@ -105,7 +105,7 @@ class FocusTest : public QObject {
     QCOMPARE(w.focus.position().direction, 1);
     w.focus.iteration_by(-1);
     QCOMPARE(w.focus.position().direction, 0);
-    // A search reaches directions of later iterations that the earlier ones did not have.
+    // A search reaches directions of later iterations that the earlier iterations did not have.
     w.focus.go_to({0, 0, w.last_step(0)});
     w.requested.clear();
     w.focus.seek([](const MapHistory&, std::int32_t, StepOrder) { return MapHistory::none; },

@@ -255,7 +255,7 @@ class GlossyTest : public QObject {
     }));
     QCOMPARE(w.snapshot().statistics.passes_made, passes);
     QVERIFY(w.shows_radiance_toward_camera());
-    // The same light as of a run with these materials.
+    // The light is the same as in a run with these materials.
     auto scene = load_scene(small_gallery);
     GlossySolver solver(scene, w.snapshot().options);
     solver.set_materials(w.snapshot().materials->materials, w.snapshot().materials->of_patch);

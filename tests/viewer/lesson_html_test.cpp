@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Lessons exported as HTML: the file stands alone, and has the pages, the maps and the answers.
+// Lessons exported as HTML: the file needs no other file, and has the pages, the maps and the
+// answers.
 #include <QAction>
 #include <QFile>
 #include <QProcess>
@@ -151,7 +152,8 @@ class LessonHtmlTest : public QObject {
     QVERIFY(exported.window->banner_text().contains("folder.html"));
   }
 
-  // In a real browser, which ./check does not install: nightly, where one is found.
+  // Uses a real browser, which ./check does not install; the nightly run does it where a browser is
+  // found.
   void a_browser_steps_through_the_map() {
     if (qEnvironmentVariableIsEmpty("TRANSILLUM_BROWSER")) {
       QSKIP("nightly only");
@@ -166,7 +168,7 @@ class LessonHtmlTest : public QObject {
     Exported exported;
     exported.finish();
     QByteArray html = content(exported.path);
-    // Clicks, and writes what is visible then into the title.
+    // The script clicks, and writes the visible polygons into the title.
     html.replace("</body>", R"(<script>
       document.querySelector('.on').click();
       document.title = document.querySelector('output').textContent + ': ' +

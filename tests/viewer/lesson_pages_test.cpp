@@ -758,7 +758,7 @@ class LessonPagesTest : public QObject {
     QVERIFY(rho > 0.59 && rho < 0.61);
   }
 
-  // The figures that a student finds on paper.
+  // The numbers that a student finds on paper.
   void flatland_by_hand() {
     const Shown room(8, 4), slanted(8, 6);
     const Vec3 up = room.omega();
@@ -810,7 +810,7 @@ class LessonPagesTest : public QObject {
     };
     QVERIFY2(mean_jump(tilted) < 0.7 * mean_jump(flat),
              qPrintable(QString("%1, %2").arg(mean_jump(tilted)).arg(mean_jump(flat))));
-    // "Click the patch": the right one is in sight, and has neighbors in its plane.
+    // "Click the patch": the right one is visible, and has neighbors in its plane.
     const Picker picker(steps.scene);
     const Vec3 eye = steps.page.state.camera->eye;
     QVERIFY(jumps.page.state.camera->eye == eye);

@@ -166,7 +166,7 @@ class LessonsTest : public QObject {
     QCOMPARE(window.selection.patch(), PatchId{4});
   }
 
-  // Widgets in the lines of the text, where their names were.
+  // The widgets are in the lines of the text, where their names were.
   void controls_are_in_the_text() {
     Controlled taught;
     QVERIFY(taught.ready);
@@ -243,7 +243,7 @@ class LessonsTest : public QObject {
       QFile file(folder.filePath("map.svg"));
       return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
     };
-    // The top is behind others there.
+    // There, the top is behind other patches.
     QVERIFY(exported_map().contains(">here</text>"));
     const QImage named_map(folder.filePath("map.png"));
     const QPointF anchor = layer->callouts()[0].anchor;
@@ -325,7 +325,7 @@ class LessonsTest : public QObject {
     QTRY_VERIFY(taught.names().isEmpty());
     taught.trigger("lesson_previous");
     QTRY_COMPARE(taught.names().size(), 2);
-    // Not in a scene that the user opens.
+    // The callouts are not shown in a scene that the user opens.
     taught.window->files().open_scene("furnace");
     QTRY_VERIFY(taught.names().isEmpty());
   }

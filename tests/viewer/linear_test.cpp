@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Solves and results whose B is linear on patches, in the window: every pixel of the scene has the
-// color of B at its point, the plate and the inspector tell B at a point and the coefficients.
+// color of B at its point, the plate and the inspector show B at a point and the coefficients.
 #include <QAction>
 #include <QComboBox>
 #include <QLabel>
@@ -62,7 +62,7 @@ constexpr int most_difference = 2;  // rounding
 struct Compared {
   int pixels = 0;    ///< compared
   int largest = 0;   ///< difference of a channel, of 255
-  int others = 0;    ///< pixels of which it is more than most_difference
+  int others = 0;    ///< pixels with a difference of more than most_difference
   int negative = 0;  ///< where B is below 0 in a channel
 };
 
@@ -295,7 +295,7 @@ class LinearTest : public QObject {
     const Compared all = compare(*view, window->colors, view->picture(1));
     QVERIFY2(all.pixels > 500 && all.largest <= most_difference, qPrintable(text_of(all)));
 
-    // Written again, it is the same.
+    // The result is the same after it is written again.
     const QString again = folder.filePath("again.vtp");
     window->findChild<ExportActions*>()->write_result(again);
     QVERIFY(wait_for([&] { return !window->findChild<ExportActions*>()->writing(); }));
@@ -324,7 +324,7 @@ class LinearTest : public QObject {
     QVERIFY(comes_to_rest(*shown.window));
     const int smoothed = spread_within_a_patch(*shown.scene_view, shown.scene_view->picture(1));
     QVERIFY2(smoothed > 10, qPrintable(QString::number(smoothed)));
-    // Linear again: as without it.
+    // For linear functions, the picture is again the same as without smooth shading.
     shown.window->colors.set_quantity(Quantity::radiosity);
     const Compared all =
         compare(*shown.scene_view, shown.window->colors, shown.scene_view->picture(1));

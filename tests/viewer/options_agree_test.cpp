@@ -81,7 +81,7 @@ class Draw {
   double number(double low, double high) {
     return low + (high - low) * static_cast<double>(random_() >> 11U) * 0x1p-53;
   }
-  /// A value of an option, now and then one that it refuses.
+  /// A value of an option; sometimes the option refuses it.
   std::string value_of(const Option& option) {
     if (below(60) == 0) {
       return "-7";
@@ -152,11 +152,11 @@ Words words_of(const std::string& line) {
   return words;
 }
 
-/// Without what a session does not store: of the computer, not of the run.
+/// The options without the ones that a session does not store, which depend on the computer.
 RunOptions stored(RunOptions options) {
   options.solve.memory = 0;
   options.solve.threads = 0;
-  options.input.patches = 0;  // once the scene is loaded, the area says it
+  options.input.patches = 0;  // once the scene is loaded, the area replaces it
   return options;
 }
 

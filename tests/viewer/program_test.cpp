@@ -38,7 +38,7 @@ class Program {
   void start() { process_.start("/bin/sh", arguments_); }
   /// Whether it runs, and a set of its signals in /proc, such as "SigCgt", contains `number`.
   bool has_signal(const QByteArray& set, int number) const {
-    // Before, the process is a copy of this one, with its handlers, then the shell.
+    // Until then, the process is a copy of this one, with its handlers, and then the shell.
     const QFileInfo program(QString("/proc/%1/exe").arg(process_.processId()));
     if (program.canonicalFilePath() != QFileInfo(TRANSILLUM_VIEWER).canonicalFilePath()) {
       return false;
@@ -56,7 +56,7 @@ class Program {
     return false;
   }
   void send(int number) const { ::kill(static_cast<pid_t>(process_.processId()), number); }
-  /// The exit status; -1: killed by a signal, or still running.
+  /// The exit status; -1 if it was killed by a signal or still runs.
   int status(int milliseconds = 60000) {
     if (!process_.waitForFinished(milliseconds) || process_.exitStatus() != QProcess::NormalExit) {
       return -1;
@@ -104,7 +104,7 @@ class ProgramTest : public QObject {
     QFETCH(const int, number);
     Program program({"furnace", "-m", "100000"});
     program.start();
-    // The last that the viewer catches; a library may catch the others earlier.
+    // The last signal that the viewer catches; a library may catch the others earlier.
     QTRY_VERIFY_WITH_TIMEOUT(program.has_signal("SigCgt", SIGTERM), 30000);
     program.send(number);
     QCOMPARE(program.status(), 128 + number);

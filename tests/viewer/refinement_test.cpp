@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Rounds of refinement in the viewer: the runner makes the same ones as refine() of the library,
+// Rounds of refinement in the viewer: the runner makes the same rounds as refine() of the library,
 // the window shows the patches of each, and they are part of sessions, lessons and commands.
 #include "transillum/refinement.h"
 
@@ -297,7 +297,8 @@ class RefinementTest : public QObject {
     QVERIFY(w.text("scene_summary").contains(QString("%1 patches").arg(patches.back())));
     save_picture(*w.window, "refined");
 
-    // The same as the library, with the materials, the tree and the picker of the new patches.
+    // The scene is the same as by the library, with the materials, the tree and the picker of the
+    // new patches.
     const Refinement expected = refine(cornell_box(), few, {RefineBy::jump, 100, 0});
     QVERIFY(w.window->snapshot()->radiosity == solve(expected.scene, few).radiosity);
     const Solution result = solution_of(*w.window->snapshot());
@@ -324,7 +325,7 @@ class RefinementTest : public QObject {
     const RefinedWindow w;
     w.start("Jumps", 20000);
     auto* cancel = w.part<QPushButton>("cancel_rounds");
-    // Far enough for an estimate of the time.
+    // The rounds are advanced enough for an estimate of the time.
     QVERIFY(wait_for([&] {
       const auto snapshot = w.window->snapshot();
       return snapshot && snapshot->statistics.refinement.size() >= 4 && cancel->isVisible();
@@ -460,7 +461,7 @@ class RefinementTest : public QObject {
     QVERIFY(with_option(limits, "refine-by", R"("error")").refine == by(RefineBy::error, 300));
   }
 
-  // Its patches would not be those that the answer is about.
+  // The page would not have the patches that the answer is about.
   void lessons_ask_nothing_about_refined_patches() {
     const char* question =
         R"({"title": "t", "pages": [{"title": "p", "text": "{r}",

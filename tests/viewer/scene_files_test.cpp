@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// How scene files are read (units, orientation), which is remembered for each file, and results
-// exported as colors for other programs, with their preview.
+// The reading of scene files (units, orientation), which is remembered for each file, and the
+// export of results as colors for other programs, with its preview.
 #include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
@@ -255,7 +255,7 @@ class SceneFilesTest : public QObject {
     QVERIFY(std::abs(width(*window) - 0.04) < 1e-12);
     QVERIFY(open_by(*window, {"--units", "m"}));
     QCOMPARE(width(*window), 4.0);
-    // Which is what was chosen last.
+    // The usual reading was chosen last, so nothing is remembered.
     QCOMPARE(window->files().reading().size(), 0);
     QVERIFY(open_by(*window, {}));
     QCOMPARE(width(*window), 4.0);
@@ -284,7 +284,8 @@ class SceneFilesTest : public QObject {
     const auto window = make_window(16);
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(path)});
-    // Over the scene, where a user drops it: the child under the pointer leaves it to the window.
+    // The file is dropped over the scene: the child under the pointer leaves the event to the
+    // window.
     auto* under = window->childAt(window->rect().center());
     QVERIFY(under);
     QDragEnterEvent enter(QPoint(5, 5), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);

@@ -96,7 +96,7 @@ class ScreenshotTest : public QObject {
     QFile page(path);
     QVERIFY(page.open(QIODevice::ReadOnly));
     QCOMPARE(page.readAll().count("<section>"), 2);
-    // A folder in its place.
+    // A folder has the name of the file.
     QVERIFY(QDir(folder.path()).mkdir("b.html"));
     const Outcome refused = export_to(folder.filePath("b.html"));
     QCOMPARE(refused.status, 1);

@@ -420,7 +420,7 @@ class SessionFileTest : public QObject {
       recovery.keep();
       const QStringList files = QDir(folder.path()).entryList({"*.json"});
       QCOMPARE(files.size(), 1);
-      // A program that is killed leaves its file, and no lock that is held.
+      // A program that is killed leaves its file, and a lock that nothing holds.
       QVERIFY(QFile::copy(folder.filePath(files[0]), kept));
       radiosity = window->snapshot()->radiosity;
     }

@@ -218,7 +218,7 @@ class SolveRunnerTest : public QObject {
     QCOMPARE(last.error.rms_limit, last.accuracy->error);
   }
 
-  // The time ends in the middle of a stage, most likely: the one before is the result.
+  // The time most likely ends in the middle of a stage: the previous stage is the result.
   void a_limit_of_time_ends_with_a_finished_stage() {
     Watched w;
     SolveOptions options;

@@ -192,7 +192,7 @@ class SteppingTest : public QObject {
     const Stepping s("boards");
     QVERIFY(s.ready);
     s.trigger("map_newell");
-    // Along some directions there is an order.
+    // Along some directions, an order exists.
     std::string failure;
     for (int k = 0; k < s.focus.passes() && failure.empty(); ++k) {
       s.focus.go_to({0, k, 2});
@@ -368,7 +368,7 @@ class SteppingTest : public QObject {
     handle_posted();
     QVERIFY(!play.playing() && focus.target() == stopped);
 
-    // Once started it can be stopped, but not started, while there is no direction to show.
+    // While there is no direction to show, the animation can be stopped, but not started.
     s.trigger("play");
     focus.begin_run(0);
     QVERIFY(play.action()->isChecked() && play.action()->isEnabled());

@@ -260,7 +260,7 @@ class WindowTest : public QObject {
     QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
     const int at = solved.window->snapshot()->progress.direction;
     QVERIFY(solved.text("phase").startsWith("Paused"));
-    // The next pass is the one after it: none was made meanwhile.
+    // No other pass was made in between: the next pass follows directly.
     solved.trigger("one_direction");
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction > at; }));
     QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
@@ -396,7 +396,7 @@ class WindowTest : public QObject {
     QVERIFY2(too_large.isEmpty(), qPrintable(too_large.join("; ")));
   }
 
-  // Which they get late: they are hidden until a scene is shown.
+  // The controls get their height late: they are hidden until a scene is shown.
   void color_controls_get_their_height_in_windows_of_all_widths() {
     for (const int width : {1120, 1232, 1344, 1392, 1424, 1440, 1520, 1600}) {
       const auto window = make_window(8);
@@ -487,8 +487,8 @@ class WindowTest : public QObject {
     }
   }
 
-  // The strip that holds them follows the number of their rows, also where the width changes while
-  // the page is hidden or a bar appears above.
+  // The strip that holds the controls follows the number of their rows, also where the width
+  // changes while the page is hidden or a bar appears above.
   void color_controls_get_the_height_of_their_rows() {
     QWidget page;
     auto* column = new QVBoxLayout(&page);

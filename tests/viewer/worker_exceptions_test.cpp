@@ -3,8 +3,8 @@
 // Exceptions on the threads of SolveRunner and of the map painter, at each place where they can
 // occur: the program continues, the user gets a message, and the next request succeeds.
 //
-// Two functions of the library are wrapped in this program by ones that first call a hook: one that
-// SolveRunner calls for each snapshot, one that the painter calls for each picture.
+// Two functions of the library are wrapped in this program by functions that first call a hook: one
+// that SolveRunner calls for each snapshot, one that the painter calls for each picture.
 #include <QTest>
 #include <atomic>
 #include <cstdlib>
