@@ -155,7 +155,7 @@ std::vector<Run> measure(const Method& method, const Case& of, const Radiosity& 
     double squares = 0, seconds = 0;
     for (int repeat = 0; repeat < method.repeats; ++repeat) {
       Radiosity b;
-      // CPU time of the whole process is the work of one core, whichever thread does it.
+      // The CPU time of the whole process is the work of one core, whatever thread does it.
       seconds += seconds_of(CLOCK_PROCESS_CPUTIME_ID,
                             [&] { b = method.radiosity(of.scene, effort, repeat); });
       const double error = radiosity_error(*of.scene, b, reference).rms;
@@ -210,8 +210,8 @@ struct CaseResult {
   std::vector<std::pair<std::string, std::vector<Run>>> runs;
 };
 
-/// Passes and rays are compared with pairs if there are such, and pairs with passes: no method with
-/// itself.
+/// Passes and rays are compared with a reference by pairs if there is one, and pairs with passes:
+/// no method is compared with itself.
 CaseResult measure(const Case& of) {
   SolveOptions fine = reference_options(of.reference_directions);
   fine.tolerance = 1e-8;

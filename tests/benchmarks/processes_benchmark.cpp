@@ -2,9 +2,9 @@
 //
 // A model of transillum-mpi for many processes, from parts that one core can measure. A solver of
 // one process of N is run for real: it makes passes, splits them into messages for N processes and
-// adds those for itself; the others do not exist. From the times of its parts, a simulation of the
-// schedule by which passes are dealt (libtransillum/mpi/block_schedule.h) gives the time of a
-// machine with N cores. RESULTS.md states the assumptions.
+// adds the messages for itself; the other processes do not exist. From the times of its parts, a
+// simulation of the schedule by which passes are dealt (libtransillum/mpi/block_schedule.h) gives
+// the time of a machine with N cores. RESULTS.md states the assumptions.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -81,7 +81,7 @@ Parts measure(const std::shared_ptr<const Scene>& scene, const std::shared_ptr<c
     parts.iteration = seconds_of(CLOCK_THREAD_CPUTIME_ID,
                                  [&] { solver.advance(RadiositySolver::Until::iteration); });
   } catch (const std::runtime_error&) {
-    // The others' values are missing.
+    // The values of the other processes are missing.
   }
   return parts;
 }
@@ -98,7 +98,8 @@ double simulated_passes(const Parts& parts, int size, int passes) {
     return latency * 2 * size + in_round(r) * parts.bytes / size / bandwidth;
   };
   std::vector<double> finished(static_cast<std::size_t>(rounds));  ///< all passes of it made
-  std::vector<double> debt(static_cast<std::size_t>(size));        ///< adding that is to be done
+  std::vector<double> debt(static_cast<std::size_t>(size));        ///< work of adding that is to be
+                                                                   ///< done
   using Free = std::pair<double, int>;
   std::priority_queue<Free, std::vector<Free>, std::greater<>> processes;
   for (int p = 0; p < size; ++p) {
@@ -151,8 +152,7 @@ int number_in(const char* variable, int otherwise) {
   return text != nullptr ? std::atoi(text) : otherwise;
 }
 
-/// By number of processes: the shortest times of some repetitions, since the machine may do other
-/// work.
+/// The shortest times of some repetitions, by number of processes; the machine may do other work.
 std::map<int, Parts> measured_parts(const std::shared_ptr<const Scene>& scene,
                                     const std::shared_ptr<const BspTree>& tree) {
   const int passes = number_in("TRANSILLUM_MEASURED", 96);

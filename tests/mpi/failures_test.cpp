@@ -108,7 +108,7 @@ TEST(Failures, TheFirstProcessRunsOtherCommands) {
 
 TEST(Failures, WaitingProcessesLeaveTheirCores) {
   const TemporaryFolder folder;
-  // Engine pairs takes long in the first process alone.
+  // Engine pairs runs only in the first process, and takes long.
   RunningProgram run(mpi_command(
       2, {"solve", "sphere-flake:levels=2", "--engine", "pairs", "-q", "--out", folder / "b.csv"}));
   std::vector<pid_t> ranks;
@@ -122,7 +122,7 @@ TEST(Failures, WaitingProcessesLeaveTheirCores) {
 }
 
 TEST(Failures, InterruptionSavesTheEstimate) {
-  // Seconds from mpirun's SIGTERM to its SIGKILL; one is too few on a busy machine.
+  // Seconds from mpirun's SIGTERM to its SIGKILL; one second is too short on a busy machine.
   ASSERT_EQ(::setenv("OMPI_MCA_odls_base_sigkill_timeout", "3", 1), 0);
   // mpirun of Open MPI 5 passes on no more text once it ends the processes.
   const bool passes_on_last_messages =

@@ -70,7 +70,8 @@ double error_of(const Scene& scene, const std::vector<Rgb>& b, const std::vector
   return std::sqrt(errors[all] / values[all]);
 }
 
-/// The share of so many runs that is exceeded in 99 % of all cases, if each holds in 95 %.
+/// The fraction of this number of runs that is exceeded in 99 % of all cases, if each run holds in
+/// 95 %.
 double least_share(int runs) { return 0.95 - 2.33 * std::sqrt(0.95 * 0.05 / runs); }
 
 /// Shares of runs and of values.
@@ -84,8 +85,8 @@ struct Coverage {
 /// Compares runs with a reference.
 class CoverageCount {
  public:
-  /// @param most the error by which two references, by pairs and by passes, may differ; the one by
-  /// passes is used where it is 0
+  /// @param most the error by which two references, by pairs and by passes, may differ; if it is 0,
+  /// the reference by passes is used
   CoverageCount(ScenePtr scene, const SolveOptions& options, int reference_passes, double most = 0)
       : scene_(std::move(scene)),
         tree_(std::make_shared<const BspTree>(*scene_)),
@@ -102,7 +103,8 @@ class CoverageCount {
     }
   }
 
-  /// @param runs with different rotations; with a goal, else with the options' directions.
+  /// @param runs with different rotations; with a goal if it is set, else with the options'
+  /// directions.
   Coverage of(int runs, const AccuracyGoal& goal) {
     Coverage coverage;
     for (int run = 0; run < runs; ++run) {
@@ -229,8 +231,9 @@ TEST(Accuracy, OfADarkPatchAddsIterationsNotPasses) {
   EXPECT_NEAR(solution.radiosity[0].r / truth_by_pairs(scene, 64)[0].r, 1, 0.02);
 }
 
-/// Hardly any direction brings the light of one star to another: all replicas miss it alike, and
-/// their spread does not show it. Of the patches that emit, 40 % and less had B in their interval.
+/// Hardly any direction brings the light of one star to another: all replicas miss this light in
+/// the same way, and their spread does not show it. At most 40 % of the patches that emit had B in
+/// their interval.
 TEST(Accuracy, NamesPatchesWhoseErrorsCannotBeTrusted) {
   const ScenePtr scene = load_scene("stars:n=3");
   SolveOptions options{.directions = 4096, .replicas = 8};
@@ -254,7 +257,8 @@ TEST(Accuracy, NamesPatchesWhoseErrorsCannotBeTrusted) {
   EXPECT_LE(outside[0], 0.1 * count[0]) << count[0];
 }
 
-/// 96 small sources. With E in the yardstick, 6 of 30 runs exceeded their limit, 5 of them trusted.
+/// The scene has 96 small sources. When the measure contained E, 6 of 30 runs exceeded their limit,
+/// 5 of them trusted.
 TEST(Accuracy, OfStarsHoldsWhereItIsTrusted) {
   const ScenePtr scene = load_scene("stars");
   SolveOptions options{.directions = 2048, .first_shot = 0};
@@ -300,7 +304,8 @@ TEST(Accuracy, IsRefusedWhereReplicasDoNotShowTheError) {
   }
 }
 
-/// One replica more is the run that had it from the start, up to the order of the sums.
+/// A run with one replica added equals the run that had it from the start, up to the order of the
+/// sums.
 TEST(Accuracy, AddedReplicaIsAsOneFromTheStart) {
   const ScenePtr scene = box_in_a_room();
   std::vector<SolveOptions> all(3, {.directions = 64, .replicas = 4, .tolerance = 1e-12});
@@ -315,7 +320,8 @@ TEST(Accuracy, AddedReplicaIsAsOneFromTheStart) {
     EXPECT_EQ(solver.options().directions, 80);
     const std::size_t before = solver.statistics().iteration_records.size();
     EXPECT_TRUE(solver.advance(RadiositySolver::Until::iteration));
-    // Its change is no measure of contraction, so it does not bound what is left.
+    // The change of such an iteration does not measure the contraction, so it does not bound the
+    // remaining error.
     EXPECT_EQ(solver.statistics().iteration_records.at(before).contraction, 0);
     EXPECT_TRUE(std::isfinite(solver.error_estimate().rms));
     EXPECT_FALSE(solver.advance(RadiositySolver::Until::finished));
@@ -338,14 +344,14 @@ TEST(Accuracy, IsNotTrustedWhereSourcesAreHardlyMet) {
   SolveOptions options{.directions = 64, .replicas = 4};
   const Solution few = solve(scene, options);
   EXPECT_LT(few.statistics.light_directions / 4, least_light_directions);
-  // Shot first, it is no longer a matter of directions.
+  // If the lamp is shot first, the directions no longer matter.
   options.first_shot = first_shot_where_it_pays;
   const Solution shot = solve(scene, options);
   EXPECT_EQ(shot.statistics.shot_sources, 6);
   EXPECT_EQ(shot.statistics.light_directions, 0);
 }
 
-/// Few directions let B grow without bound where hardly any light is absorbed.
+/// With few directions, B can grow without bound where hardly any light is absorbed.
 TEST(Accuracy, IsReachedWhereFewDirectionsDiverge) {
   testing::Sketch sketch("bright room");
   const int walls = sketch.material(0.97, 0.1);

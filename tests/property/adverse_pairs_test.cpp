@@ -91,7 +91,8 @@ void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
     const Scene scene(pair.description());
     const FaceExchange found = exchange_of_faces(scene, ExchangeFinder(scene, {}, 32));
     const ReferenceExchange reference = reference_exchange(pair, 1e-5, 1e-6 * found.smaller, 100);
-    // By points: three of its own estimates, and what is left near blockers that touch the face.
+    // The tolerance by points: three of its own estimates, and the error near blockers that touch
+    // the face.
     const double allowed = 3 * found.error + 1e-3 * reference.area + 2e-4 * found.smaller +
                            3 * reference.error + geometric_error(pair, scene, found.smaller);
     EXPECT_LE(std::abs(found.area - reference.area), allowed)
@@ -280,12 +281,13 @@ void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int
       continue;
     }
     ++compared;
-    // One direction shows a pair at most with the smaller patch's whole area.
+    // One direction exchanges at most the whole area of the smaller patch.
     const double one_direction = 2 * smaller / count;
     const double deviation =
         std::sqrt(of_pair.squares + one_direction * std::max(0.0, found.area - of_pair.area)) +
         1e-9 * of_pair.area;
-    // Points past blockers that touch the sampled patch: not promised better (decision 53).
+    // Points past blockers that touch the sampled patch do not promise a smaller error (decision
+    // 53).
     const double of_points = found.whole ? 0 : 2 * std::abs(found.error) + 5e-3 * found.area;
     const double difference = std::abs(found.area - of_pair.area);
     beyond_three += difference > 3 * deviation + of_points ? 1 : 0;

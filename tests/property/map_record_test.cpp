@@ -74,7 +74,7 @@ TEST(MapRecord, TakesNoMoreMemoryThanItMay) {
   EXPECT_EQ(record->rows.size(), whole.rows.size());
   EXPECT_EQ(record->corners.size(), whole.corners.size());
   EXPECT_LE(lists(*record), succeeds);
-  // Growing by a quarter leaves a quarter unused, and the longest list is there twice meanwhile.
+  // Growing by a quarter leaves a quarter unused, and the longest list exists twice while it grows.
   EXPECT_LE(succeeds, 2 * lists(whole));
 }
 

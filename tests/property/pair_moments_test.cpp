@@ -66,7 +66,8 @@ std::array<double, 3> by_quadrature(const Vec3& n, const Points& polygon) {
 }
 
 TEST(PointMoments, AreThoseOfAQuadrature) {
-  // Clockwise; around the foot of the point, beside it, with a corner on it and an edge through it.
+  // The polygons are clockwise: around the foot of the point, beside it, with a corner on it and
+  // with an edge through it.
   const std::pair<Vec3, Points> cases[] = {
       {{0.1, -0.2, 0.97}, {{-0.5, -0.4}, {-0.4, 0.6}, {0.5, 0.7}, {0.6, -0.3}}},
       {{0.2, 0.3, 0.93}, {{0.1, 0.2}, {1.2, 1.7}, {1.5, 0.3}}},
