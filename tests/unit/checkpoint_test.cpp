@@ -34,7 +34,7 @@ bool same_bits(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
 }
 
-/// Everything that a finished solve leads to, but for times.
+/// All results of a finished solve, except times.
 void expect_same(const RadiositySolver& a, const RadiositySolver& b) {
   EXPECT_TRUE(same_bits(a.radiosity(), b.radiosity()));
   EXPECT_TRUE(same_bits(a.irradiance(), b.irradiance()));
@@ -92,7 +92,7 @@ void expect_all_states_lead_to_the_same(const std::shared_ptr<const Scene>& scen
                             {.tree = whole.shared_tree(), .shot = whole.direct_light()});
     std::istringstream in(states[k]);
     resumed.restore(in, states[k].size());
-    // In steps of passes at first, as a viewer does.
+    // The solve first advances by passes, like in a viewer.
     for (int pass = 0; pass < 3; ++pass) {
       resumed.advance(Until::direction);
     }
@@ -293,7 +293,7 @@ TEST_F(CheckpointFile, OfAnotherKindOrPlaceIsRefused) {
   EXPECT_THAT(refusal([&] { resume(scene_, options_); }), HasSubstr("not a regular file"));
 }
 
-/// A write that fails leaves the file before.
+/// A write that fails leaves the previous file.
 TEST_F(CheckpointFile, StaysWhereItsSuccessorCannotBeWritten) {
   SolveSession session({.scene = scene_, .options = options_});
   session.advance(SolveSession::Until::direction);

@@ -77,7 +77,7 @@ class KeptMemory {
  public:
   explicit KeptMemory(std::vector<std::string> solve) : solve_(std::move(solve)) {}
 
-  /// The least limit of addresses with which it succeeds, MB.
+  /// The least limit of addresses with which the solve succeeds, MB.
   int least(int megabytes_of_option) const {
     int fails = 60, succeeds = 500;
     while (succeeds - fails > 1) {
@@ -103,8 +103,8 @@ class KeptMemory {
   std::vector<std::string> solve_;
 };
 
-/// The program with form factors as large as --memory allows takes at most 1.05 of it more than
-/// without any.
+/// With form factors as large as --memory allows, the program takes at most 1.05 times this limit
+/// more than without form factors.
 void expect_memory_held(const std::vector<std::string>& options) {
   SCOPED_TRACE(options.empty() ? "plain" : options.front());
   const std::vector<std::string> box{"solve", "cornell-box", "--patches",    "5000",
@@ -112,7 +112,7 @@ void expect_memory_held(const std::vector<std::string>& options) {
   std::vector<std::string> solve = box;
   solve.insert(solve.end(), options.begin(), options.end());
   const KeptMemory memory(solve);
-  // The least --memory with which form factors are kept: they take all that it allows.
+  // The least --memory with which form factors are kept: they take all of the limit.
   int dropped = 1, kept = 128;
   while (kept - dropped > std::max(1, kept / 25)) {
     const int middle = (dropped + kept) / 2;
@@ -125,7 +125,7 @@ void expect_memory_held(const std::vector<std::string>& options) {
   const int base = required ? KeptMemory(box).least(1) : memory.least(1);
   EXPECT_EQ(memory.run(kept, base + kept + kept / 20).status, 0) << base << " " << kept;
   EXPECT_TRUE(memory.kept());
-  // While passes exceed it, too: until they are dropped.
+  // The bound also holds while passes exceed the limit, until the form factors are dropped.
   if (!required) {
     EXPECT_EQ(memory.run(dropped, base + dropped + dropped / 20).status, 0) << dropped;
     EXPECT_FALSE(memory.kept());

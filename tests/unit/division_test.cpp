@@ -65,7 +65,7 @@ TEST(Division, CutsLongQuadrilateralsInARow) {
 }
 
 TEST(Division, MakesConvexPartsOfOtherFaces) {
-  // A pentagon gives triangles, an L its convex pieces.
+  // A pentagon is divided into triangles, an L into its convex pieces.
   EXPECT_THAT(areas_of_division({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}}).size(), 3);
   const auto parts =
       areas_of_division({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}});

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // glTF: nodes, primitives and numbers in all their forms, the diffuse part of materials, textures,
-// and what is refused with which message.
+// and the message for each refused file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vtkImageData.h>
@@ -289,7 +289,7 @@ TEST(Gltf, AveragesATextureOverEachFace) {
     EXPECT_EQ(material_of(d, f + 1).name, "poster");
   }
   EXPECT_THAT(d.files, Contains((folder.path() / "half.png").string()));
-  // Without the image, the factor is all there is.
+  // Without the image, only the factor is known.
   const test::TemporaryFolder empty;
   const SceneDescription missing = describe_scene(empty.write("a.glb", file.glb()));
   EXPECT_NEAR(material_of(missing, 1).reflectance.g, 0.5, 1e-12);
@@ -350,7 +350,7 @@ TEST(Gltf, NamesATextureThatIsMissing) {
               Contains(HasSubstr("image 0, `wood.png`, has no data; it is taken as white")));
 }
 
-// Nothing reads Basis Universal; white would be the brightest of all guesses.
+// No reader for Basis Universal exists; white would be the brightest of all guesses.
 TEST(Gltf, KtxTexturesGiveTheDefaultReflectance) {
   const json texture = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
   const json image = {{"uri", "wood.ktx2"}, {"mimeType", "image/ktx2"}};

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-// glTF files for tests: what they have is added piece by piece, and written as .glb or .gltf.
+// glTF files for tests: their content is added piece by piece, and written as .glb or .gltf.
 
 #include <cstdint>
 #include <cstring>

@@ -370,7 +370,7 @@ TEST(IoWholeFiles, PathsAreCheckedInAdvance) {
   EXPECT_THROW(check_result_path(folder / "none/a.csv"), InputError);
   std::filesystem::create_directory(folder / "b.csv");
   EXPECT_THROW(check_result_path(folder / "b.csv"), InputError);
-  // Was found after the solve, and the status was 1.
+  // Once, this was found after the solve, and the status was 1.
   const std::string long_name = std::string(300, 'a') + ".csv";
   EXPECT_THAT(test::refusal([&] { check_result_path(folder / long_name); }),
               HasSubstr("File name too long"));

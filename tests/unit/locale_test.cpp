@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// A decimal comma in the process's locale changes neither what is read nor what is written.
+// A decimal comma in the process's locale changes neither input nor output.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -478,7 +478,7 @@ TEST(MapPng, HasNoSeams) {
   const TemporaryFolder folder;
   write_map(folder / "m.png", *scene, map, {.size = 301});
   const Picture picture(folder / "m.png");
-  // Only the line along the edge darkens the white, and never to the background.
+  // Only the line along the edge darkens the white, but never as dark as the background.
   int row_minimum = 255;
   for (int x = 120; x < 200; ++x) {
     row_minimum = std::min(row_minimum, picture.at(x, 150)[0]);

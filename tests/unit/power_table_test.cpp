@@ -74,7 +74,8 @@ TEST(PowerTable, PartsSumToTheStatistics) {
 }
 
 TEST(PowerTable, ExchangesAreReciprocal) {
-  // A part that emits B sends to another what it would receive from it at the same B.
+  // A part that emits B sends to another part the power that it would receive from it at the same
+  // B.
   Solved s = solved(grouped("rooms"), Normalization::none);
   for (Rgb& b : s.solution.radiosity) {
     b = {1, 1, 1};
@@ -106,7 +107,7 @@ TEST(PowerTable, TheFurnaceAbsorbsWhatItEmits) {
   EXPECT_NEAR(table.total.escaped.r, 0, 1e-9 * table.total.area);
 }
 
-/// A part emits what its changed material says; `index` finds the part in the scene.
+/// A part emits the exitance of its changed material; `index` finds the part in the scene.
 TEST(PowerTable, TakesChangedMaterials) {
   const Solved s = solved(grouped("cornell-box"), Normalization::none);
   const Scene& scene = *s.solution.scene;

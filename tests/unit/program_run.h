@@ -64,10 +64,10 @@ class RunningProgram {
   bool catches(int signal) const;
   /// The text on stderr so far.
   std::string err_so_far() const;
-  /// Whether the program is over; wait() returns at once then.
+  /// Whether the program has ended; wait() then returns at once.
   bool ended() const;
-  /// Waits until stderr has `text`. False if it does not come: the program has ended without it, or
-  /// two minutes have passed.
+  /// Waits until stderr has `text`. @returns false if the program has ended without it, or two
+  /// minutes have passed
   [[nodiscard]] bool reports(const std::string& text) const;
   ProgramResult wait();
 

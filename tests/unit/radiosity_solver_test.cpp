@@ -59,7 +59,7 @@ TEST(RadiositySolver, PausesWhenTheObserverReturnsFalse) {
     return heard < 10;
   });
   EXPECT_TRUE(more);
-  // Only the passes under way are still added.
+  // Only the passes that have begun are still added.
   EXPECT_GE(solver.progress().direction, 10);
   EXPECT_LE(solver.progress().direction, 10 + 4);
   const Solution whole = solve(small_scene(), {.directions = 400, .threads = 2});

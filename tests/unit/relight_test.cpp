@@ -102,7 +102,7 @@ TEST(Relight, KeepsTheLightOfASky) {
     sum += path.contribution;
   }
   expect_same({sum}, {after.radiosity[3]}, 1e-10);
-  // So do the contributions of the adjoint.
+  // The contributions of the adjoint also sum to B.
   const Adjoint adjoint = solve_adjoint(*before.scene, *before.form_factors, 3, changed.materials,
                                         {.tolerance = tight});
   Rgb contributions;
@@ -227,7 +227,7 @@ TEST(Relight, RefusesSourcesOfOnePartOfTheShotThatDiffer) {
         relit_with({"face:0", {}, Rgb{1, 1, 1}});
       },
       ThrowsMessage<InputError>(HasSubstr("stored per material")));
-  // A reflectance of its own splits the material, but not the light of the shot.
+  // A changed reflectance splits the material, but not the light of the shot.
   EXPECT_EQ(relit_with({"face:0", Rgb{0.25, 0.5, 0.75}}).radiosity.size(),
             before.scene->patches().size());
 }

@@ -120,7 +120,7 @@ class ResultReader : public ::testing::Test {
 
 TEST_F(ResultReader, ReadsBackWhatWasWritten) { expect_same(read_result(path_), solution_); }
 
-// Each side has points of its own, since B differs: the other side was not found by its points.
+// Each side has its own points, since B differs: once, the other side was not found by its points.
 TEST_F(ResultReader, ReadsTwoSidedResultsOfLinearFunctions) {
   SceneDescription box = describe_scene("cornell-box");
   const auto scene = std::make_shared<const Scene>(box, SceneOptions{.two_sided = true});

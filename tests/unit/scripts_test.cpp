@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// ./demo and ./check refuse a wrong argument before they build. They run in a folder of their own,
+// ./demo and ./check refuse a wrong argument before they build. They run in a separate folder,
 // where a build fails at once.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

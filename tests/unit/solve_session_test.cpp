@@ -158,7 +158,7 @@ TEST(SolveSession, EndsWithTheTimeInTheMiddleOfAStage) {
   SolveRequest request{.scene = box()};
   request.options.goal.seconds = 1e-6;
   SolveSession session(request);
-  // The plan makes a first stage in any case, and no other one within this time.
+  // The plan always makes a first stage, and no other stage within this time.
   EXPECT_FALSE(session.advance(Until::finished));
   const Solution solution = session.solution();
   EXPECT_TRUE(solution.complete);

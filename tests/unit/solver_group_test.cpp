@@ -28,7 +28,7 @@ std::shared_ptr<const Scene> box() {
   return scene;
 }
 
-/// The values of a solution that no clock decides.
+/// The values of a solution that do not depend on time.
 struct Outcome {
   std::vector<double> values;
   FormFactors factors;

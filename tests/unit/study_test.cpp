@@ -212,7 +212,7 @@ TEST(Study, RecordsThatDirectionsAreTooFew) {
   EXPECT_TRUE(std::isnan(study.points[0].rms_error));
 }
 
-/// Pixels so coarse that rows of form factors sum to far more than 1: B exceeds all numbers.
+/// Pixels so coarse that rows of form factors sum to far more than 1: B overflows.
 TEST(Study, InfiniteRadiosityIsAFailure) {
   const auto scene = load_scene("sphere-flake:levels=1");
   StudyOptions options;
@@ -253,7 +253,7 @@ TEST(Study, KeepsFinishedPointsWhenCanceled) {
         EXPECT_GE(now.share, last_share);
         EXPECT_LE(now.share, 1);
         last_share = now.share;
-        // Called within a point, and after it.
+        // The callback is called within a point, and after it.
         const std::size_t before = (now.directions == 64 ? 2 : 0) + now.series;
         EXPECT_THAT(now.points, AnyOf(SizeIs(before), SizeIs(before + 1)));
         if (now.series == 1 && now.directions == 64) {
