@@ -25,7 +25,7 @@ void keep_inherited(int, char**, char**) {
   gnu::section(".preinit_array")]] void (*const before_libraries)(int, char**,
                                                                   char**) = keep_inherited;
 
-// Those of the program itself run after them.
+// Constructors of the program itself run after them.
 [[gnu::constructor]] void restore_inherited() {
   for (std::size_t k = 0; k < restored_signals.size(); ++k) {
     sigaction(restored_signals[k], &inherited[k], nullptr);

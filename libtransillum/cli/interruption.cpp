@@ -35,7 +35,7 @@ const Cancellation& cancel_on_signals() {
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   std::vector<int> signals{SIGINT, SIGTERM, SIGHUP};
-  if (processes().group) {
+  if (processes().sums) {
     signals.push_back(SIGUSR1);
   }
   for (const int signal : signals) {

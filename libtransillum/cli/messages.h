@@ -20,7 +20,7 @@ void print_message(std::string_view text) noexcept;
 std::string remedy_hint(Remedy remedy);
 /// The text of an error, with the hint of a SolveError.
 std::string error_text(const std::exception& error);
-/// What was repaired in the scene, one warning per line.
+/// Prints what was repaired in the scene, one warning per line.
 void print_warnings(const Scene& scene);
 
 }  // namespace transillum::cli

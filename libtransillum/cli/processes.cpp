@@ -8,11 +8,11 @@ Processes& processes() {
   return processes;
 }
 
-bool is_first_process() { return !processes().group || processes().group->rank() == 0; }
+bool is_first_process() { return !processes().sums || processes().sums->is_first(); }
 
 void in_all_processes(const std::function<void()>& body) {
-  if (processes().group) {
-    processes().group->agree(body);
+  if (processes().sums) {
+    processes().sums->agree(body);
   } else {
     body();
   }

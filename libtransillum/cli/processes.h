@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "transillum/solver_group.h"
+#include "transillum/patch_sums.h"
 
 namespace transillum::cli {
 
@@ -13,10 +13,10 @@ namespace transillum::cli {
 /// same arguments. The first one prints and writes everything; the others are silent and share
 /// the passes of `solve`.
 struct Processes {
-  std::shared_ptr<SolverGroup> group;    ///< null: this process alone
-  int here = 1;                          ///< processes of the group on this machine
+  std::shared_ptr<PatchSums> sums;       ///< theirs, of a solve; null: this process alone
+  int here = 1;                          ///< those on this machine
   int threads = 0;                       ///< default of --threads; 0: the number of cores
-  std::function<std::string()> figures;  ///< what was sent, as a sentence; all must call it
+  std::function<std::string()> figures;  ///< says what was sent, in a sentence; all must call it
 };
 
 /// Set once, before the program runs.
@@ -26,7 +26,7 @@ Processes& processes();
 bool is_first_process();
 
 /// Runs `body` in all processes, and where one fails, fails in all.
-/// @throws the error of `body`, or MemberFailed
+/// @throws the error of `body`, or OtherProcessFailed
 void in_all_processes(const std::function<void()>& body);
 
 }  // namespace transillum::cli

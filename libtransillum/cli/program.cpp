@@ -15,11 +15,11 @@
 #include "cli/commands/commands.h"
 #include "cli/interruption.h"
 #include "cli/messages.h"
+#include "cli/output_files.h"
 #include "cli/processes.h"
-#include "cli/standard_output.h"
 #include "transillum/errors.h"
+#include "transillum/patch_sums.h"
 #include "transillum/scene.h"
-#include "transillum/solver_group.h"
 
 namespace transillum::cli {
 namespace {
@@ -178,7 +178,7 @@ std::string unexpected_argument_text(const CLI::App& command) {
 std::string repeated_option_text(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const auto given = static_cast<int>(option->results().size());
-    const int most = option->get_items_expected_max();  // 0: a flag
+    const int most = option->get_items_expected_max();  // 0 for a flag
     if (most > 0 && given > most) {
       return fmt::format("{}: given {} times, but it has one value", option->get_name(), given);
     }
@@ -252,7 +252,7 @@ int run_program(int argc, char** argv, void (*report)(std::string_view) noexcept
       flush_results();
     }
     return status;
-  } catch (const MemberFailed&) {
+  } catch (const OtherProcessFailed&) {
     return failed_elsewhere;
   } catch (const InputError& error) {
     report(error.what());

@@ -13,7 +13,7 @@ namespace transillum::cli {
 /// Prepares streams and signals of the process; to be called first.
 void prepare_process();
 
-/// What run_program() returns where another process has failed, and this one has nothing to say.
+/// Returned by run_program() where another process has failed, and this one has nothing to say.
 inline constexpr int failed_elsewhere = -1;
 
 /// Runs the command in the arguments; never throws.

@@ -44,7 +44,7 @@ class ProgressDisplay {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// What the line says.
+  /// The contents of the line.
   struct Line {
     std::string what;
     double share = -1;

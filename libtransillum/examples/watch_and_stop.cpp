@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     int quiet = 0;  // passes in a row with a small change
     using Until = transillum::RadiositySolver::Until;
     while (quiet < 20 && solver.advance(Until::direction)) {
-      const auto& changes = solver.estimate_changes();  // of the passes of this iteration
+      const auto& changes = solver.estimate_changes();  // by the passes of this iteration
       if (changes.empty()) {
         break;  // the first iteration is finished
       }

@@ -10,21 +10,21 @@
 
 namespace transillum::manual {
 
-/// What completion proposes for a value.
+/// Proposals of completion for a value.
 enum class Proposal { nothing, choices, file, folder, scene };
 
 /// An option or, with a single name that has no dash, an argument.
 struct Option {
-  std::vector<std::string> names;  ///< as typed: "-m", "--directions"
-  std::string type;                ///< of the value, as "FILE.csv"; empty: the option has no value
+  std::vector<std::string> names;  ///< typed names: "-m", "--directions"
+  std::string type;  ///< type of the value, such as "FILE.csv"; if empty, the option has no value
   bool value_is_optional = false;
   bool required = false;
   bool is_list = false;  ///< the value is a list, separated by commas
   bool repeats = false;  ///< may be given several times
   std::string description;
   Proposal proposal = Proposal::nothing;
-  std::vector<std::string> choices;  ///< of Proposal::choices
-  std::vector<std::string> endings;  ///< of Proposal::file, as ".csv"; empty: any
+  std::vector<std::string> choices;  ///< choices for Proposal::choices
+  std::vector<std::string> endings;  ///< endings for Proposal::file, such as ".csv"; if empty, any
 
   bool takes_value() const { return !type.empty(); }
 };

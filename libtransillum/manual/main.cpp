@@ -88,7 +88,8 @@ void write_viewer(const fs::path& folder, const std::string& date, const CLI::Ap
       "transillum-viewer solves a scene of polygons for its diffuse light and shows how the result "
       "converges, direction by direction: the scene, the visibility map of a direction and how it "
       "is built, the BSP tree, form factors, and where the light of a patch comes from.",
-      "It opens scenes, results, sessions and lessons, and has lessons built in. F1 shows the "
+      "The viewer opens scenes, results, sessions and lessons, and has lessons built in. F1 shows "
+      "the "
       "keys."};
   text.see_also = {"transillum"};
   write_pages(folder, man_pages(program, text));

@@ -8,17 +8,17 @@
 
 namespace transillum::manual {
 
-/// What the pages of a program say besides its options.
+/// Texts that the pages of a program contain besides its options.
 struct Introduction {
   std::string version;
-  std::string date;                     ///< as 2026-11-23
-  std::vector<std::string> paragraphs;  ///< of DESCRIPTION
+  std::string date;                     ///< such as 2026-11-23
+  std::vector<std::string> paragraphs;  ///< text of DESCRIPTION
   std::vector<std::string> see_also;    ///< names of pages of section 1
 };
 
 /// A page of section 1 in the macros of man(7).
 struct ManPage {
-  std::string name;  ///< as transillum-solve
+  std::string name;  ///< such as transillum-solve
   std::string text;
 };
 

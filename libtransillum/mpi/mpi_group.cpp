@@ -48,7 +48,7 @@ void MpiGroup::wait(MPI_Request& request) {
   });
 }
 
-bool MpiGroup::run(const GroupPasses& passes) {
+bool MpiGroup::run_messages(const GroupPasses& passes) {
   PassRounds rounds(comm_, dealing_, unit_, passes);
   struct Current {
     MpiGroup& group;
@@ -94,36 +94,32 @@ void MpiGroup::sums(std::span<std::int64_t> values) {
   wait(request);
 }
 
-std::vector<std::byte> MpiGroup::gather(std::span<const std::byte> bytes) {
-  // In whole units, the last of them filled up.
-  std::vector<std::byte> own(bytes.begin(), bytes.end());
-  own.resize((bytes.size() + unit_bytes - 1) / unit_bytes * unit_bytes);
-  const auto size = static_cast<std::size_t>(size_);
-  std::vector<std::int64_t> sizes(size);
-  const auto own_size = static_cast<std::int64_t>(bytes.size());
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Iallgather(&own_size, 1, MPI_INT64_T, sizes.data(), 1, MPI_INT64_T, comm_, &request);
-  wait(request);
-  std::vector<int> counts, begin;
-  std::size_t units = 0;
-  for (const std::int64_t part : sizes) {
-    begin.push_back(checked_count(units));
-    counts.push_back(checked_count((static_cast<std::size_t>(part) + unit_bytes - 1) / unit_bytes));
-    units += static_cast<std::size_t>(counts.back());
+void MpiGroup::gather(std::span<const std::byte> bytes,
+                      const std::function<void(std::span<const std::byte>)>& take) {
+  for (int r = 0; r < size_; ++r) {
+    auto size = static_cast<std::int64_t>(bytes.size());
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibcast(&size, 1, MPI_INT64_T, r, comm_, &request);
+    wait(request);
+    if (rank_ == 0 && r == 0) {
+      take(bytes);
+    }
+    if (r == 0 || (rank_ != 0 && rank_ != r)) {
+      continue;
+    }
+    // In whole units, the last of them filled up.
+    const std::size_t units = (static_cast<std::size_t>(size) + unit_bytes - 1) / unit_bytes;
+    std::vector<std::byte> part(rank_ == r ? bytes.begin() : bytes.end(), bytes.end());
+    part.resize(units * unit_bytes);
+    if (rank_ == r) {
+      MPI_Isend(part.data(), checked_count(units), unit_, 0, 0, comm_, &request);
+      wait(request);
+    } else {
+      MPI_Irecv(part.data(), checked_count(units), unit_, r, 0, comm_, &request);
+      wait(request);
+      take(std::span(part).first(static_cast<std::size_t>(size)));
+    }
   }
-  std::vector<std::byte> all(rank_ == 0 ? units * unit_bytes : 0);
-  MPI_Igatherv(own.data(), checked_count(own.size() / unit_bytes), unit_, all.data(), counts.data(),
-               begin.data(), unit_, 0, comm_, &request);
-  wait(request);
-  if (rank_ != 0) {
-    return {};
-  }
-  std::vector<std::byte> result;
-  for (std::size_t r = 0; r < size; ++r) {
-    const auto part = all.begin() + static_cast<std::ptrdiff_t>(begin[r]) * unit_bytes;
-    result.insert(result.end(), part, part + static_cast<std::ptrdiff_t>(sizes[r]));
-  }
-  return result;
 }
 
 std::string MpiGroup::figures() {

@@ -6,15 +6,15 @@
 #include <functional>
 #include <string>
 
-#include "transillum/solver_group.h"
+#include "process_group.h"
 
 namespace transillum::mpi {
 
 class PassRounds;
 
-/// The ranks of MPI as a group of solvers. Waiting leaves the core to others. Only the thread that
-/// initialized MPI may call it.
-class MpiGroup : public SolverGroup {
+/// The ranks of MPI as a group of processes. Waiting leaves the core to others. Only the thread
+/// that initialized MPI may call it.
+class MpiGroup : public ProcessGroup {
  public:
   /// All ranks; to be called by all. MPI must be initialized until the destructor has run.
   MpiGroup();
@@ -24,23 +24,24 @@ class MpiGroup : public SolverGroup {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  bool run(const GroupPasses& passes) override;
   void complete(std::span<double> values, PatchId patches) override;
   void maxima(std::span<double> values) override;
   void sums(std::span<std::int64_t> values) override;
-  std::vector<std::byte> gather(std::span<const std::byte> bytes) override;
+  void gather(std::span<const std::byte> bytes,
+              const std::function<void(std::span<const std::byte>)>& take) override;
 
-  /// What all ranks have sent so far and the most memory that one has used, as a sentence. To be
-  /// called by all.
+  /// Says what all ranks have sent so far and the most memory that one has used, in a sentence. To
+  /// be called by all.
   std::string figures();
 
  private:
+  bool run_messages(const GroupPasses& passes) override;
   void wait(MPI_Request& request);
 
   int rank_ = 0, size_ = 1;
   MPI_Comm comm_ = MPI_COMM_NULL, dealing_ = MPI_COMM_NULL;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;  ///< 16 bytes
-  PassRounds* rounds_ = nullptr;           ///< of the run under way
+  PassRounds* rounds_ = nullptr;           ///< rounds of the run under way
   std::int64_t sent_in_passes_ = 0, sent_in_sums_ = 0;
 };
 

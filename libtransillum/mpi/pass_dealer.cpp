@@ -68,7 +68,7 @@ std::optional<PassBlock> PassDealer::answer() {
   if (!done) {
     return {};
   }
-  MPI_Wait(&sending_, MPI_STATUS_IGNORE);  // it has arrived
+  MPI_Wait(&sending_, MPI_STATUS_IGNORE);  // the request has arrived
   asked_ = false;
   return PassBlock{answer_[0], answer_[1], answer_[2], answer_[3] != 0};
 }

@@ -38,7 +38,7 @@ class PassDealer {
   int rank_ = 0;
   BlockSchedule schedule_;
   bool asked_ = false;
-  int word_ = 0;                  ///< of the request under way
+  int word_ = 0;                  ///< content of the request under way
   std::optional<PassBlock> own_;  ///< rank 0: answer to itself
   int answer_[4] = {};
   MPI_Request receiving_ = MPI_REQUEST_NULL, sending_ = MPI_REQUEST_NULL;

@@ -14,7 +14,7 @@ PassMakers::PassMakers(const GroupPasses& passes) : passes_(passes) {
       if (threads_.empty()) {
         throw;
       }
-      break;  // those that started do the work
+      break;  // the threads that started do the work
     }
   }
 }

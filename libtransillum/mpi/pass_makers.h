@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "transillum/solver_group.h"
+#include "process_group.h"
 
 namespace transillum::mpi {
 
@@ -36,7 +36,7 @@ class PassMakers {
   void stop();
   /// Whether a pass has failed.
   bool failed() const;
-  /// What it threw; null: nothing
+  /// The exception that a pass threw; null if there is none
   std::exception_ptr error() const;
   /// Pauses, at most until a pass is made. While passes are being made, for at least a quarter of
   /// the time of one, or 5 ms: waking more often costs more than it saves. Requests of other ranks

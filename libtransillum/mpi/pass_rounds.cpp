@@ -3,9 +3,9 @@
 // Protocol. A round is a range of consecutive passes; passes are dealt in rising order, at most
 // three rounds ahead of what is added. A rank enters the exchange of a round when it has made all
 // of the round's passes dealt to it and knows that it will get no more of them (floor). An exchange
-// is one Ialltoall of sizes and one Ialltoallv of messages. A rank that cannot go on asks rank 0 to
-// deal no more and enters its next exchange with the size -1, and so does everyone who then finds
-// that nothing more is dealt; after such an exchange all leave and agree on the reason.
+// is one Ialltoall of sizes and one Ialltoallv of messages. A rank that cannot continue asks rank 0
+// to deal no more and enters its next exchange with the size -1, and so does everyone who then
+// finds that nothing more is dealt; after such an exchange all leave and agree on the reason.
 #include "pass_rounds.h"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ bool PassRounds::run() {
       if (makers_.error() && reason_ == failed) {
         std::rethrow_exception(makers_.error());
       }
-      throw MemberFailed();
+      throw OtherProcessFailed();
     case canceled:
       throw Canceled();
     case paused:

@@ -13,20 +13,20 @@
 #include "mpi_waiting.h"
 #include "pass_dealer.h"
 #include "pass_makers.h"
-#include "transillum/solver_group.h"
+#include "process_group.h"
 
 namespace transillum::mpi {
 
-/// The passes of one SolverGroup::run(). They are added in rounds of consecutive passes: when every
-/// rank has made its part of a round, all exchange what they need of it, while their threads go on
-/// with the next one.
+/// The passes of one PatchSums::run(). They are added in rounds of consecutive passes: when every
+/// rank has made its part of a round, all exchange what they need of it, while their threads
+/// continue with the next one.
 class PassRounds {
  public:
   /// @param exchange, dealing communicators for this purpose only
   /// @param unit MPI's type of 16 bytes
   PassRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit, const GroupPasses& passes);
 
-  /// As SolverGroup::run().
+  /// The same as PatchSums::run().
   bool run();
   /// Answers requests and takes passes, so that all threads have some; to be called while this rank
   /// adds passes or waits for others.

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-"""Writes what Sphinx makes the site of: the documents of the source tree at their places, README in
-parts, lessons, manual pages, examples, the Python module, and plots of the studies."""
+"""Writes what Sphinx makes the site of: the documents of the source tree at their places, lessons, manual pages, examples, the Python module, and plots of the studies."""
 
 from __future__ import annotations
 
@@ -14,23 +13,20 @@ from pathlib import Path
 
 from pages import lessons, manual, plots, reference
 from pages.lessons import raw
-from pages.markdown import Tree, anchor_of, page_of, promoted, sections, write_changed
-
-# README's sections, and the pages that they become or are part of.
-README_PAGES = {"Install": "index", "Five things to try": "index", "The command line": "command-line",
-                "The library": "library", "Documents": "index", "License": "index"}
+from pages.markdown import Tree, page_of, sections, write_changed
 
 CARDS = [
     ("lessons/index", "Lessons", "The method in lessons, with questions and maps to step through"),
     ("viewer/USER_GUIDE", "User guide", "The viewer: solving, inspecting, stepping, comparing"),
-    ("command-line", "Command line", "Every command with examples, and its manual page"),
+    ("command-line", "Command line", "The cookbook of tasks, and the manual page of every command"),
     ("libtransillum/ALGORITHM", "Algorithm", "The equations, what is promised, and how it is tested"),
     ("data/studies/plots", "Results", "Error against passes and against time, plotted"),
     ("library", "Library", "C++ and Python, with examples and the whole API"),
 ]
 
 NAVIGATION = {
-    "Use": ["viewer/USER_GUIDE", "lessons/index", "command-line", "data/README", "data/FILES"],
+    "Use": ["viewer/USER_GUIDE", "lessons/index", "libtransillum/COOKBOOK", "command-line",
+            "data/README", "data/FILES"],
     "Understand": ["libtransillum/ALGORITHM", "libtransillum/GLOSSARY", "libtransillum/RESULTS",
                    "data/studies/README", "data/studies/plots"],
     "Program": ["library", "libtransillum/api", "python", "figure-5"],
@@ -50,8 +46,6 @@ def plan(tree: Tree) -> list[str]:
     for document in documents:
         tree.pages[document] = document[:-3]
     tree.pages["README.md"] = "index"
-    for title, page in README_PAGES.items():
-        tree.sections[f"README.md#{anchor_of(title)}"] = page
     tree.pages["data/lessons"] = "lessons/index"
     tree.pages["libtransillum/decisions"] = "libtransillum/decisions/README"
     tree.pages["libtransillum/examples"] = "library"
@@ -66,21 +60,25 @@ def toctree(pages, caption: str = "") -> str:
     return "\n".join([*lines, "", *("/" + page for page in pages), "```"])
 
 
-def write_start(tree: Tree, readme: dict[str, str]) -> None:
-    introduction = page_of(tree, "README.md", readme[""], "index")
+def write_start(tree: Tree) -> None:
+    """README without its list of documents, which the navigation has, and cards below its first
+    lines."""
+    readme = sections((tree.source / "README.md").read_text())
+    introduction = page_of(tree, "README.md", readme.pop(""), "index")
     cards = "".join(f'<a class="card" href="{page}.html"><strong>{title}</strong><span>{words}</span></a>'
                     for page, title, words in CARDS)
     parts = [introduction, raw(f'<div class="cards start">{cards}</div>'), ""]
-    for title in ("Install", "Five things to try", "License"):
-        parts += [page_of(tree, "README.md", readme[title], "index")]
+    readme.pop("Documents", None)
+    parts += [page_of(tree, "README.md", section, "index") for section in readme.values()]
     parts += [toctree(pages, caption) for caption, pages in NAVIGATION.items()]
     tree.write("index", "\n".join(parts))
 
 
-def write_command_line(tree: Tree, section: str, man_pages: list[str]) -> None:
+def write_command_line(tree: Tree, man_pages: list[str]) -> None:
     links = "\n".join(f"- [{Path(page).name}]({page}.md)" for page in man_pages)
-    tree.write("command-line", page_of(tree, "README.md", promoted(section), "command-line")
-               + f"\n## Manual pages\n\nAs `man transillum-solve` and so on show them:\n\n{links}\n\n" + toctree(man_pages) + "\n")
+    tree.write("command-line", "# The command line\n\nTasks with their commands and outputs: the "
+               "[cookbook](libtransillum/COOKBOOK.md). What `man transillum-solve` and so on show:"
+               f"\n\n{links}\n\n" + toctree(man_pages) + "\n")
 
 
 def write_documents(tree: Tree, documents: list[str]) -> None:
@@ -91,6 +89,9 @@ def write_documents(tree: Tree, documents: list[str]) -> None:
         if document == "libtransillum/decisions/README.md":
             notes = sorted(d for d in documents if re.search(r"decisions/\d{4}-", d))
             body += "\n" + toctree([note[:-3] for note in notes]) + "\n"
+        if document == "viewer/USER_GUIDE.md":
+            guide = sorted(d for d in documents if d.startswith("viewer/guide/"))
+            body += "\n" + toctree([one[:-3] for one in guide]) + "\n"
         tree.write(page, body)
 
 
@@ -115,7 +116,7 @@ def write_static(tree: Tree, katex: Path) -> None:
 
 
 def notebook_map(program: str) -> str:
-    """What the notebook's last cell draws, as SVG."""
+    """The map that the notebook's last cell draws, as SVG."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "map.svg"
         subprocess.run([program, "map", "cornell-box", "--patches", "150", "--direction", "0.4,0.3,1",
@@ -130,15 +131,13 @@ def main() -> None:
     given = parser.parse_args()
     tree = Tree(Path(given.source), Path(given.out))
     documents = plan(tree)
-    readme = sections((tree.source / "README.md").read_text())
-    library = sections(readme["The library"], "### ")
-    write_start(tree, readme)
+    write_start(tree)
     write_documents(tree, documents)
-    write_command_line(tree, readme["The command line"], manual.write(tree, Path(given.manual), given.mandoc))
+    write_command_line(tree, manual.write(tree, Path(given.manual), given.mandoc))
     lessons.write(tree, Path(given.lessons))
-    reference.write_library(tree, library[""])
+    reference.write_library(tree)
     reference.write_api(tree, Path(given.api))
-    reference.write_python(tree, library["Python"].partition("\n")[2])
+    reference.write_python(tree)
     reference.write_notebook(tree, plots.notebook_plot(tree.source), notebook_map(given.program))
     reference.write_sources(tree)
     plots.write(tree)

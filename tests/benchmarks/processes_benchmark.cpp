@@ -4,7 +4,7 @@
 // one process of N is run for real: it makes passes, splits them into messages for N processes and
 // adds the messages for itself; the other processes do not exist. From the times of its parts, a
 // simulation of the schedule by which passes are dealt (libtransillum/mpi/block_schedule.h) gives
-// the time of a machine with N cores. RESULTS.md states the assumptions.
+// the time of a machine with N cores. decisions/0063-processes.md states the assumptions.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@
 
 #include "block_schedule.h"
 #include "measure.h"
+#include "process_group.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/solve_options.h"
 
@@ -36,15 +37,15 @@ struct Parts {
 };
 
 /// Process `rank` of a group in which no other exists.
-class LonelyGroup : public SolverGroup {
+class LonelyGroup : public mpi::ProcessGroup {
  public:
   LonelyGroup(int rank, int size, Parts& parts) : rank_(rank), size_(size), parts_(parts) {}
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  bool run(const GroupPasses& passes) override {
+  bool run_messages(const mpi::GroupPasses& passes) override {
     bool going = true;
     for (int k = passes.first; going && k < passes.last; ++k) {
-      GroupMessages messages;
+      mpi::GroupMessages messages;
       parts_.make.push_back(
           seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] { messages = passes.make(k); }));
       parts_.add += seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] { passes.add(k, messages.to(rank_)); });
@@ -61,7 +62,8 @@ class LonelyGroup : public SolverGroup {
     // Pairs of owned lower patches, and about as many others; a source and an area each.
     parts_.kept = (2 - 1.0 / size_) * 12 * static_cast<double>(values[0]);
   }
-  std::vector<std::byte> gather(std::span<const std::byte>) override { return {}; }
+  void gather(std::span<const std::byte>,
+              const std::function<void(std::span<const std::byte>)>&) override {}
 
  private:
   int rank_, size_;
@@ -74,8 +76,7 @@ Parts measure(const std::shared_ptr<const Scene>& scene, const std::shared_ptr<c
   Parts parts;
   const SolveOptions options{.directions = passes, .iterations = 2, .threads = 1};
   RadiositySolver solver(
-      scene, options,
-      {.tree = tree, .group = std::make_shared<LonelyGroup>(size / 2, size, parts)});
+      scene, options, {.tree = tree, .sums = std::make_shared<LonelyGroup>(size / 2, size, parts)});
   solver.advance(RadiositySolver::Until::iteration);
   try {
     parts.iteration = seconds_of(CLOCK_THREAD_CPUTIME_ID,

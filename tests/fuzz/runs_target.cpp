@@ -101,7 +101,7 @@ void check_file(std::string_view bytes) {
 std::string shard_head() {
   static const std::string head = [] {
     const std::string path = fmt::format("/tmp/transillum-fuzz-{}.tsh", ::getpid());
-    write_shard(path, scene(), options_of(0), tree(), {1, 1});
+    write_shard(path, scene(), options_of(0), tree(), {{1, 1}, {}, {}});
     std::string content;
     FILE* const in = std::fopen(path.c_str(), "rb");
     for (int c = std::fgetc(in); c != EOF; c = std::fgetc(in)) {

@@ -19,7 +19,7 @@ run_step(${WORK_DIR}/build/consumer)
 # The installed program finds the installed library.
 run_step(${prefix}/bin/transillum --version)
 
-# What it exports, and where programs look for it.
+# Its exports, and where programs look for it.
 file(GLOB_RECURSE LIBRARY ${prefix}/lib*/libtransillum.so)
 file(GLOB PROGRAMS ${prefix}/bin/*)
 include(${CMAKE_CURRENT_LIST_DIR}/check_exports.cmake)

@@ -52,7 +52,7 @@ void expect_same_after_resuming(const Words& scheme, int first, const std::vecto
     const auto resumed = run_in(
         processes, command({"--checkpoint", copy, "--resume", "--out", folder / "resumed.csv"}));
     ASSERT_EQ(resumed.status, 0) << resumed.err;
-    EXPECT_THAT(resumed.err, ::testing::HasSubstr("goes on after"));
+    EXPECT_THAT(resumed.err, ::testing::HasSubstr("resumes after"));
     EXPECT_TRUE(read_file(folder / "resumed.csv") == read_file(folder / "whole.csv"));
   }
 }

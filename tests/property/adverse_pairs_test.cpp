@@ -271,7 +271,10 @@ void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int
   const ExchangeFinder exchange(*scene);
   int compared = 0, beyond_three = 0;
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
-    exchange.for_each_after(i, {}, [&](PatchId j, const PatchExchange&) { sums[{i, j}]; });
+    exchange.for_each_after(i, {}, {},
+                            [&](PatchId j, const PatchExchange&, const TransferMoments&) {
+                              sums[{i, j}];
+                            });
   }
   for (const auto& [pair, of_pair] : sums) {
     const auto& [i, j] = pair;

@@ -35,7 +35,7 @@ struct Views {
     const auto tree = std::make_shared<const BspTree>(*scene);
     const RecordedDirection direction = record_local_map(*scene, *tree, omega);
     exact = receiver == no_patch ? map_from_below(direction) : map_of_receiver(direction, receiver);
-    pixels = pixel_map(engine, scene, tree, omega, receiver, {.resolution = resolution});
+    pixels = pixel_map({engine, {.resolution = resolution}}, *scene, *tree, omega, receiver);
     drawn = drawn_in_pixels(*scene, pixels);
     mark_differences(pixels, exact, drawn);
   }
@@ -158,8 +158,8 @@ TEST(PixelMap, ZBufferAndPainterShowTheSame) {
   const auto scene = load_scene("sphere-flake:levels=1");
   const auto tree = std::make_shared<const BspTree>(*scene);
   for (const Vec3& omega : testing::test_directions(16, 2)) {
-    const PixelMap a = pixel_map(Engine::zbuffer, scene, tree, omega);
-    EXPECT_EQ(a.items, pixel_map(Engine::painter, scene, tree, omega).items);
+    const PixelMap a = pixel_map({Engine::zbuffer}, *scene, *tree, omega);
+    EXPECT_EQ(a.items, pixel_map({Engine::painter}, *scene, *tree, omega).items);
     EXPECT_EQ(std::max(a.columns, a.rows), PixelMap::default_resolution);
   }
 }
@@ -173,7 +173,7 @@ struct Step {
 Step after_step(const std::shared_ptr<const Scene>& scene, const BspTree& tree,
                 const MapRecord& record, std::int32_t step, Engine engine,
                 const EngineOptions& options) {
-  Step result{pixel_map_after(engine, *scene, tree, record, step, options), 0};
+  Step result{pixel_map_after({engine, options}, *scene, tree, record, step), 0};
   VisibilityMap drawn = drawn_in_pixels(*scene, result.pixels);
   const VisibilityMap exact = map_after(record, step);
   mark_differences(result.pixels, exact, drawn);
@@ -234,14 +234,15 @@ TEST(PixelMap, RefusesEnginesWithoutPixelsAndBadResolutions) {
   const auto scene = load_scene("furnace");
   const auto tree = std::make_shared<const BspTree>(*scene);
   const Vec3 up{0, 0, 1};
-  EXPECT_THROW(pixel_map(Engine::fast, scene, tree, up), InputError);
+  EXPECT_THROW(pixel_map({Engine::fast}, *scene, *tree, up), InputError);
   for (const int resolution : {-1, PixelMap::largest_resolution + 1}) {
-    EXPECT_THROW(pixel_map(Engine::painter, scene, tree, up, no_patch, {.resolution = resolution}),
-                 InputError);
+    EXPECT_THROW(
+        pixel_map({Engine::painter, {.resolution = resolution}}, *scene, *tree, up, no_patch),
+        InputError);
   }
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(pixel_map(Engine::painter, scene, tree, up, no_patch, {}, cancellation), Canceled);
+  EXPECT_THROW(pixel_map({Engine::painter}, *scene, *tree, up, no_patch, cancellation), Canceled);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "transillum/solver_group.h"
+#include "process_group.h"
 
 namespace transillum::testing {
 
@@ -56,8 +56,8 @@ class GroupTable {
   }
 
   std::mutex& mutex() { return mutex_; }
-  int next = 0;                           ///< pass to be dealt
-  std::map<int, GroupMessages> messages;  ///< by pass, of one round
+  int next = 0;                                ///< pass to be dealt
+  std::map<int, mpi::GroupMessages> messages;  ///< by pass, of one round
 
  private:
   int members_;
@@ -68,13 +68,13 @@ class GroupTable {
 };
 
 /// A member of a group whose processes are threads of a test.
-class ThreadGroup : public SolverGroup {
+class ThreadGroup : public mpi::ProcessGroup {
  public:
   ThreadGroup(int rank, GroupTable& table) : rank_(rank), table_(table) {}
   int rank() const override { return rank_; }
   int size() const override { return table_.members(); }
 
-  bool run(const GroupPasses& passes) override {
+  bool run_messages(const mpi::GroupPasses& passes) override {
     const int round = 2 * size();
     bool going = true;
     for (int first = passes.first; going && first < passes.last; first += round) {
@@ -113,16 +113,17 @@ class ThreadGroup : public SolverGroup {
       }
     }
   }
-  std::vector<std::byte> gather(std::span<const std::byte> bytes) override {
-    std::vector<std::byte> result;
+  void gather(std::span<const std::byte> bytes,
+              const std::function<void(std::span<const std::byte>)>& take) override {
     for (const auto& part : table_.exchange<std::byte>(rank_, bytes)) {
-      result.insert(result.end(), part.begin(), part.end());
+      if (is_first()) {
+        take(part);
+      }
     }
-    return rank_ == 0 ? result : std::vector<std::byte>();
   }
 
  private:
-  void make_round(const GroupPasses& passes, int first, int last) {
+  void make_round(const mpi::GroupPasses& passes, int first, int last) {
     table_.meet();
     if (rank_ == 0) {
       table_.next = first;
@@ -133,7 +134,7 @@ class ThreadGroup : public SolverGroup {
     try {
       for (int k = deal(); k < last; k = deal()) {
         passes.cancellation.throw_if_canceled();
-        GroupMessages made = passes.make(k);
+        mpi::GroupMessages made = passes.make(k);
         const std::lock_guard lock(table_.mutex());
         table_.messages[k] = std::move(made);
       }
@@ -147,7 +148,7 @@ class ThreadGroup : public SolverGroup {
       std::rethrow_exception(error);
     }
     if (failed) {
-      throw MemberFailed();
+      throw OtherProcessFailed();
     }
     if (canceled) {
       throw Canceled();
@@ -164,7 +165,7 @@ class ThreadGroup : public SolverGroup {
 
 /// Calls body(group) on one thread per member, at the same time, and returns the error of each.
 inline std::vector<std::exception_ptr> run_in_group(
-    int members, const std::function<void(const std::shared_ptr<SolverGroup>&)>& body) {
+    int members, const std::function<void(const std::shared_ptr<PatchSums>&)>& body) {
   GroupTable table(members);
   std::vector<std::exception_ptr> errors(static_cast<std::size_t>(members));
   std::vector<std::thread> threads;

@@ -329,7 +329,7 @@ TEST(StudyCheckpointFile, AStudyGoesOnAfterAnyPoint) {
   const std::string file = folder.path() / "study.tck";
   const StudyCheckpoint checkpoint(file, *scene, options, reference_options);
   std::vector<std::vector<StudyPoint>> stages;
-  const Study whole = run_study(scene, tree, options, reference, [&](const StudyProgress& now) {
+  const Study whole = run_study(scene, tree, options, {reference}, [&](const StudyProgress& now) {
     if (now.points.size() > stages.size()) {
       stages.emplace_back(now.points.begin(), now.points.end());
     }
@@ -338,10 +338,10 @@ TEST(StudyCheckpointFile, AStudyGoesOnAfterAnyPoint) {
   for (const std::vector<StudyPoint>& points : stages) {
     checkpoint.save(points);
     std::size_t solved = 0;
-    const Study rest = run_study(
-        scene, tree, options, reference,
-        [&](const StudyProgress& now) { solved = now.points.size() - points.size(); }, {},
-        checkpoint.resume());
+    const std::vector<StudyPoint> done = checkpoint.resume();
+    const Study rest =
+        run_study(scene, tree, options, {reference, done},
+                  [&](const StudyProgress& now) { solved = now.points.size() - points.size(); });
     EXPECT_EQ(solved, 6 - points.size());
     ASSERT_EQ(rest.points.size(), whole.points.size());
     for (std::size_t k = 0; k < whole.points.size(); ++k) {

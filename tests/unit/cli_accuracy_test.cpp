@@ -65,7 +65,7 @@ TEST(CliAccuracy, ShootsLampsFirst) {
 TEST(CliAccuracy, EndsWithTheTime) {
   const ProgramResult result = run_program({"solve", "furnace", "--seconds", "0.2"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("as fits the time, time is up: rms error at most"));
+  EXPECT_THAT(result.out, HasSubstr("within the time given, time is up: rms error at most"));
 }
 
 TEST(CliAccuracy, OfEnginePairsTakesPoints) {

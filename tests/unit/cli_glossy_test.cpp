@@ -110,7 +110,7 @@ TEST(CliGlossy, DrawsAPictureFromAnEye) {
 
 TEST(CliGlossy, SaysWhatItDoesWithLobes) {
   const Arguments loud{"solve", "cornell-box", "-m", "16", "--lobe", "white=0.5,100"};
-  EXPECT_THAT(run_program(loud).err, HasSubstr("lobes of materials are left out (--glossy"));
+  EXPECT_THAT(run_program(loud).err, HasSubstr("lobes of materials are omitted (--glossy"));
   EXPECT_THAT(run_program(loud + Arguments{"-q"}).err, Not(HasSubstr("lobes")));
   // A metal, as materials of glTF are by default, is black.
   EXPECT_THAT(run_program(loud + Arguments{"--reflectance", "white=0"}).err,

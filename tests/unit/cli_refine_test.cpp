@@ -68,7 +68,7 @@ TEST(CliRefine, GoesOnFromItsCheckpoint) {
   const ProgramResult again =
       run_program(refined + Arguments{"-o", resumed, "--checkpoint", checkpoint, "--resume"});
   EXPECT_EQ(again.status, 0);
-  EXPECT_THAT(again.err, HasSubstr("goes on after"));
+  EXPECT_THAT(again.err, HasSubstr("resumes after"));
   EXPECT_EQ(read_file(whole), read_file(resumed));
 }
 

@@ -81,7 +81,7 @@ void expect_kills_change_nothing(int kills, const Arguments& options, unsigned s
       wait_for_writing(program, folder);
     }
     program.send(SIGKILL);
-    resumed += program.wait().err.find("goes on after") != std::string::npos ? 1 : 0;
+    resumed += program.wait().err.find("resumes after") != std::string::npos ? 1 : 0;
     // There are only complete files, whenever the kill came. Between the call that names a file and
     // the call that replaces the previous file by it, the file has its own name.
     for (const std::string& name : folder.names()) {
@@ -128,7 +128,7 @@ TEST(CliRuns, ACheckpointIsSavedAtTheEndAndWhenInterrupted) {
   EXPECT_EQ(whole.status, 0);
   EXPECT_THAT(whole.err, ::testing::ContainsRegex("run.tck: [0-9.]+ [kM]B, saved once in"));
   const ProgramResult again = run_program(solve(folder / "b.csv", keep + Arguments{"--resume"}));
-  EXPECT_THAT(again.err, HasSubstr("goes on after"));
+  EXPECT_THAT(again.err, HasSubstr("resumes after"));
   EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "b.csv"));
 
   const Arguments keep_long{"-m", "100000", "--checkpoint", folder / "long.tck", "--resume"};
@@ -224,7 +224,7 @@ TEST(CliRuns, AStudyGoesOnAfterItsPoints) {
   EXPECT_EQ(whole.status, 0) << whole.err;
   const ProgramResult again = run_program(study + Arguments{"--resume", "--out", folder / "b.csv"});
   EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_THAT(again.err, HasSubstr("goes on after 3 points"));
+  EXPECT_THAT(again.err, HasSubstr("resumes after 3 points"));
   EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "b.csv"));
   const ProgramResult other =
       run_program(study + Arguments{"--resume", "--rotations", "2", "--out", folder / "c.csv"});

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Checks the documents (*.md) of the source tree: relative links lead to existing files and
-// headings, every decision is in the index, decisions that sources name exist, and the C++ code in
-// the README is the code of an example.
+// headings, every decision is in the index and has the form of all, decisions that sources name
+// exist, and the C++ code of the cookbook is in an example. cookbook_test.cpp runs commands.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -149,6 +149,25 @@ TEST(Documents, TheIndexOfDecisionsIsComplete) {
   }
 }
 
+/// Title, question, decision, then anything; parts of a note are paragraphs, not headings.
+TEST(Documents, DecisionsHaveOneForm) {
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(source_folder() / "libtransillum/decisions")) {
+    const std::string name = entry.path().filename().string();
+    if (name == "README.md") {
+      continue;
+    }
+    const std::string text = text_of(entry.path());
+    const std::size_t question = text.find("\n**Question.** "),
+                      decision = text.find("\n**Decision");
+    EXPECT_NE(question, std::string::npos) << name << " asks no question";
+    EXPECT_NE(decision, std::string::npos) << name << " decides nothing";
+    EXPECT_LT(question, decision) << name;
+    EXPECT_EQ(text.find("\n## "), std::string::npos) << name << " has headings";
+    EXPECT_EQ(text.find("\nStatus:"), std::string::npos) << name << ": the word is State";
+  }
+}
+
 /// Comments of the sources that refer to a decision.
 TEST(Documents, DecisionsNamedInSourcesExist) {
   const std::regex reference(R"(decisions/\d{4}[a-z0-9-]*(\.md)?)");
@@ -175,7 +194,7 @@ TEST(Documents, DecisionsNamedInSourcesExist) {
   EXPECT_GT(count, 5U);
 }
 
-TEST(Documents, CodeInTheReadmeIsThatOfAnExample) {
+TEST(Documents, CppOfTheCookbookIsInAnExample) {
   std::string examples;
   for (const fs::directory_entry& entry :
        fs::directory_iterator(source_folder() / "libtransillum/examples")) {
@@ -183,12 +202,13 @@ TEST(Documents, CodeInTheReadmeIsThatOfAnExample) {
       examples += text_of(entry.path());
     }
   }
-  const std::string readme = text_of(source_folder() / "README.md"), open = "```cpp\n";
+  const std::string cookbook = text_of(source_folder() / "libtransillum/COOKBOOK.md");
+  const std::string open = "```cpp\n";
   int count = 0;
-  for (std::size_t begin = readme.find(open); begin != std::string::npos;
-       begin = readme.find(open, begin)) {
+  for (std::size_t begin = cookbook.find(open); begin != std::string::npos;
+       begin = cookbook.find(open, begin)) {
     begin += open.size();
-    const std::string code = readme.substr(begin, readme.find("```", begin) - begin);
+    const std::string code = cookbook.substr(begin, cookbook.find("```", begin) - begin);
     EXPECT_THAT(examples, HasSubstr(code));
     ++count;
   }

@@ -194,7 +194,7 @@ TEST_F(FileTables, Maps) {
   const auto tree = std::make_shared<const BspTree>(*scene_);
   const PatchId receiver = 0;
   const PixelMap pixels =
-      pixel_map(Engine::zbuffer, scene_, tree, omega, receiver, {.resolution = 40});
+      pixel_map({Engine::zbuffer, {.resolution = 40}}, *scene_, *tree, omega, receiver);
   VisibilityMap map = drawn_in_pixels(*scene_, pixels);
   mark_differences(pixels, map_of_receiver(record_local_map(*scene_, *tree, omega), receiver), map);
   ASSERT_FALSE(map.polygons.empty());

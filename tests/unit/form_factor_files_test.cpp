@@ -399,7 +399,7 @@ TEST_F(CliFactorFiles, LeavesOutTinyOnesAndNamesWhatIsWrong) {
   const ProgramResult rest = run({"factors", "cornell-box", "-m", "32", "--drop", "0.01"});
   EXPECT_EQ(rest.status, 0);
   EXPECT_LT(line_count(rest.out), line_count(all.out));
-  EXPECT_THAT(rest.err, HasSubstr("form factors left out"));
+  EXPECT_THAT(rest.err, HasSubstr("form factors omitted"));
   const auto refused = [&](const std::vector<std::string>& arguments) {
     const ProgramResult result = run(arguments);
     EXPECT_EQ(result.status, 2) << result.err;

@@ -74,8 +74,11 @@ std::map<std::string, std::string> files_written(const Solution& solution) {
     write_map(path(name), scene, map);
   }
   write_charts(path("c.svg"), {chart()});
-  write_study_csv(path("study.csv"), {StudySeries{}}, study());
-  write_directions_csv(path("d.csv"), std::vector<DirectionSample>{{}});
+  write_file_whole(path("study.csv"),
+                   [](std::ostream& out) { write_study_csv(out, {StudySeries{}}, study()); });
+  write_file_whole(path("d.csv"), [](std::ostream& out) {
+    write_directions_csv(out, std::vector<DirectionSample>{{}});
+  });
   std::map<std::string, std::string> contents;
   for (const std::string& name : folder.names()) {
     // Cairo numbers the surfaces of a process.

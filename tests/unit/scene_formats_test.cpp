@@ -473,7 +473,7 @@ TEST(SceneFormats, RadiancePolygonsHaveTheDiffusePartOfTheirMaterials) {
             (Rgb{2 * std::numbers::pi, std::numbers::pi, 0.5 * std::numbers::pi}));
   EXPECT_EQ(material(2).name, "red");
   EXPECT_THAT(d.groups, ElementsAre("floor.1", "ceiling", "wall"));
-  EXPECT_THAT(d.notes, ::testing::Contains(HasSubstr("sphere `ball` is not a polygon; left out")));
+  EXPECT_THAT(d.notes, ::testing::Contains(HasSubstr("sphere `ball` is not a polygon; omitted")));
 }
 
 TEST(SceneFormats, RadianceWordsInQuotesMayHoldBlanks) {

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/text_file.h"
-#include "scene/read/obj_reader.h"
 #include "scene_test_support.h"
 #include "support/sanitizers.h"
 
@@ -48,7 +47,7 @@ void expect_memory(const std::string& path, std::size_t most) {
   EXPECT_EXIT(
       {
         const std::size_t before = peak_memory();
-        read_obj(path);
+        describe_scene(path);
         const std::size_t used = peak_memory() - before;
         std::fprintf(stderr, "%zu bytes\n", used);
         std::exit(used <= most ? 0 : 1);
@@ -62,7 +61,7 @@ TEST(ReaderLimits, ContinuedLinesTakeLinearTime) {
   for (const char* const line : {"\\\n", " \\\r\n"}) {
     const std::string joined = repeated(line, 1'000'000);
     const SceneDescription d =
-        read_obj(folder.write("s.obj", square + "f 1 2 \\\n" + joined + "3 4\n" + joined));
+        describe_scene(folder.write("s.obj", square + "f 1 2 \\\n" + joined + "3 4\n" + joined));
     EXPECT_THAT(d.outline(0), ElementsAre(0, 1, 2, 3));
     EXPECT_THAT(d.face_line, ElementsAre(5));
   }
@@ -87,7 +86,7 @@ TEST(ReaderLimits, EveryLineChecksTheCancellation) {
   const Cancellation canceled;
   canceled.cancel();
   for (const std::string& text : {square, repeated("\\\n", 100), std::string(100, 'x')}) {
-    EXPECT_THROW(read_obj(folder.write("s.obj", text), {}, canceled), Canceled);
+    EXPECT_THROW(describe_scene(folder.write("s.obj", text), {}, canceled), Canceled);
   }
   const Cancellation later;
   LineReader lines("a\nb\nc \\\n d\n", later);
@@ -114,7 +113,7 @@ TEST(ReaderLimits, DifferentMaterialsTakeASmallMultipleOfTheirFile) {
   folder.write("s.mtl", mtl);
   const auto path = folder.write("s.obj", "mtllib s.mtl\n" + square + "usemtl a7\nf 1 2 3 4\n");
   expect_memory(path, 40 * mtl.size());
-  EXPECT_EQ(read_obj(path).materials.size(), 200'000u);
+  EXPECT_EQ(describe_scene(path).materials.size(), 200'000u);
 }
 
 // Each mentioned file was once read again, and its materials were reported as repeated.
@@ -126,13 +125,13 @@ TEST(ReaderLimits, AMaterialFileIsReadOnce) {
   for (const std::string& mentions :
        {repeated("mtllib s.mtl\n", 10'000), "mtllib" + repeated(" s.mtl", 10'000) + "\n",
         std::string("mtllib s.mtl\nmtllib ./s.mtl link.mtl\nmtllib .\\s.mtl\n")}) {
-    const SceneDescription d = read_obj(folder.write("s.obj", mentions + use));
+    const SceneDescription d = describe_scene(folder.write("s.obj", mentions + use));
     EXPECT_EQ(d.materials.size(), 1u);
     EXPECT_THAT(d.notes, IsEmpty());
     EXPECT_EQ(d.files.size(), 2u);
   }
   const SceneDescription d =
-      read_obj(folder.write("s.obj", repeated("mtllib gone.mtl s.mtl\n", 10'000) + use));
+      describe_scene(folder.write("s.obj", repeated("mtllib gone.mtl s.mtl\n", 10'000) + use));
   EXPECT_EQ(d.materials.size(), 1u);
   EXPECT_THAT(d.notes, ::testing::ElementsAre(
                            ::testing::HasSubstr("s.obj:1: MTL file `gone.mtl` not found")));
@@ -164,7 +163,8 @@ TEST(ReaderLimits, MessagesQuoteTheBeginningOfLongNames) {
   const std::string name(100'000, 'a');
   folder.write("s.mtl", "newmtl " + name + "\nKd 2 2 -2\n");
   const std::string message = test::refusal([&] {
-    read_obj(folder.write("s.obj", "mtllib s.mtl\n" + square + "usemtl " + name + "\nf 1 2 3\n"));
+    describe_scene(
+        folder.write("s.obj", "mtllib s.mtl\n" + square + "usemtl " + name + "\nf 1 2 3\n"));
   });
   EXPECT_THAT(message, ::testing::HasSubstr("s.mtl:1: material `aaaa"));
   EXPECT_LT(message.size(), 300u);
@@ -175,7 +175,7 @@ TEST(ReaderLimits, MessagesContainNoControlCharacters) {
   const test::TemporaryFolder folder;
   folder.write("s.mtl", "newmtl whit\x1b\nKd .5 .5 .5\n");
   const SceneDescription d =
-      read_obj(folder.write("s.obj", "mtllib s.mtl\n" + square + "usemtl white\nf 1 2 3\n"));
+      describe_scene(folder.write("s.obj", "mtllib s.mtl\n" + square + "usemtl white\nf 1 2 3\n"));
   EXPECT_THAT(d.notes, ::testing::ElementsAre(::testing::EndsWith("assumed for 1 face")));
 }
 

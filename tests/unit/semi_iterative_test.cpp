@@ -284,7 +284,7 @@ TEST(SemiIterative, StudiesCountTheIterationsOfTheBurnIn) {
   StudyOptions options;
   options.series = {{Sampling::fibonacci, true, Normalization::none, Scheme::semi_iterative}};
   options.directions = {64, 256};
-  const auto points = [&] { return run_study(known.scene, tree, options, known.b).points; };
+  const auto points = [&] { return run_study(known.scene, tree, options, {known.b}).points; };
   const auto automatic = points();
   for (std::size_t k = 0; k < 2; ++k) {
     const StudyPoint& point = automatic.at(k);

@@ -37,7 +37,7 @@ class Shards : public ::testing::Test {
     std::vector<std::string> files;
     for (int k = 1; k <= count; ++k) {
       files.push_back(folder_.path() / (name + std::to_string(k) + ".tsh"));
-      write_shard(files.back(), scene_, options, tree_, {k, count}, {"a note"});
+      write_shard(files.back(), scene_, options, tree_, {{k, count}, {"a note"}, {}});
     }
     return files;
   }
@@ -164,7 +164,7 @@ TEST_F(Shards, LeaveNothingBehindWhenCanceled) {
       cancellation.cancel();
     }
   };
-  EXPECT_THROW(write_shard(file, scene_, options_, tree_, {1, 1}, {}, cancellation, cancel_soon),
+  EXPECT_THROW(write_shard(file, scene_, options_, tree_, {{1, 1}, {}, cancel_soon}, cancellation),
                Canceled);
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }

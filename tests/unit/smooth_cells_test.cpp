@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/pairs/smooth_cells.h"
+#include "visibility/pairs/refined_cells.h"
 
 #include <gtest/gtest.h>
 

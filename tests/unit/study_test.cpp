@@ -37,7 +37,7 @@ struct Box {
 
   Study study(const StudyOptions& options, const StudyObserver& observer = {},
               const Cancellation& cancellation = {}) const {
-    return run_study(scene, tree, options, reference, observer, cancellation);
+    return run_study(scene, tree, options, {reference}, observer, cancellation);
   }
   std::vector<Rgb> reference = solve(scene, reference_options(4096)).radiosity;
 };
@@ -146,7 +146,7 @@ TEST(Study, ShowsTheGainOfAFirstShotOnPatchesThatDoNotEmit) {
   EXPECT_EQ(options.reference().directions, 1024);
   EXPECT_EQ(options.reference().first_shot, small_source_ratio);
   const auto reference = solve_reference(scene, tree, options.reference());
-  const Study study = run_study(scene, tree, options, reference);
+  const Study study = run_study(scene, tree, options, {reference});
   EXPECT_GT(study.points.at(1).rms_error, 10 * study.points.at(3).rms_error);
 }
 
@@ -205,7 +205,8 @@ TEST(Study, RecordsThatDirectionsAreTooFew) {
   options.directions = {2, 4096};
   options.solve.tolerance = 1e-4;
   const std::vector<Rgb> reference(scene->patches().size(), {50, 50, 50});
-  const Study study = run_study(scene, std::make_shared<const BspTree>(*scene), options, reference);
+  const Study study =
+      run_study(scene, std::make_shared<const BspTree>(*scene), options, {reference});
   ASSERT_THAT(study.points, SizeIs(2));
   EXPECT_NE(study.points[0].failure, "");
   EXPECT_NE(study.points[0].remedy, Remedy::none);
@@ -221,7 +222,8 @@ TEST(Study, InfiniteRadiosityIsAFailure) {
   options.series[0].resolution = 8;
   options.directions = {8};
   const std::vector<Rgb> reference(scene->patches().size(), {1, 1, 1});
-  const Study study = run_study(scene, std::make_shared<const BspTree>(*scene), options, reference);
+  const Study study =
+      run_study(scene, std::make_shared<const BspTree>(*scene), options, {reference});
   ASSERT_THAT(study.points, SizeIs(1));
   EXPECT_NE(study.points[0].failure, "");
   EXPECT_TRUE(std::isnan(study.points[0].rms_error));
@@ -277,7 +279,7 @@ TEST(Study, RejectsInvalidOptions) {
   options.series = {{Sampling::random}};
   EXPECT_THROW(run_study(box().scene, box().tree, options, {}), InputError);
   const std::vector<Rgb> dark(box().reference.size());
-  EXPECT_THROW(run_study(box().scene, box().tree, options, dark), InputError);
+  EXPECT_THROW(run_study(box().scene, box().tree, options, {dark}), InputError);
 }
 
 /// The error of a constant on a patch where the reference is linear is the norm of its linear part.
@@ -331,7 +333,7 @@ TEST(ReferenceCache, RejectsDamagedFiles) {
   cache.store(scene, options, box().reference);
   const std::string file = cache.file_of(scene, options);
   const std::string good = read_file(file);
-  ASSERT_EQ(good.size(), 24 * box().reference.size() + 88);
+  ASSERT_EQ(good.size(), 24 * box().reference.size() + 98);
   for (const std::size_t at : {std::size_t{0}, std::size_t{30}, good.size() / 2, good.size() - 1}) {
     std::string damaged = good;
     damaged[at] = static_cast<char>(damaged[at] ^ 1);

@@ -5,7 +5,6 @@
 #include <QApplication>
 #include <QDialog>
 #include <QDockWidget>
-#include <QFile>
 #include <QFontInfo>
 #include <QMenuBar>
 #include <QRegularExpression>
@@ -19,6 +18,7 @@
 #include "state/watches.h"
 #include "stepping/event_table.h"
 #include "stepping/watch_chart.h"
+#include "user_guide.h"
 #include "widgets/full_screen.h"
 #include "widgets/theme.h"
 #include "window/dock_layouts.h"
@@ -318,26 +318,29 @@ class AppearanceTest : public QObject {
       QVERIFY2(page.contains(text), qPrintable(text));
     }
 
-    QFile guide(QStringLiteral(TRANSILLUM_SOURCE "/viewer/USER_GUIDE.md"));
-    QVERIFY(guide.open(QIODevice::ReadOnly));
-    const QString text = QString::fromUtf8(guide.readAll());
+    const QStringList guide = user_guide();
+    QVERIFY(guide.size() > 8);
+    const QString text = guide.join('\n');
     for (const auto& [key, use] : uses) {
       QVERIFY2(text.contains('`' + key + '`'), qPrintable(key + ": " + use));
     }
-    // The table of the guide has only keys of the menus, of a saved view, of the kept run, of the
-    // list of kept runs, of the timeline and of the panel Groups.
+    // The tables at the ends of its pages have only keys of the menus, of a saved view, of the kept
+    // run, of the list of kept runs, of the timeline and of the panel Groups.
     const QStringList others{"Alt+1", "A", "F2", "Del", "←", "→", "Return", "E", "R"};
     static const QRegularExpression quoted(QStringLiteral("`([^`]+)`"));
     int listed = 0;
-    for (const QString& row : text.mid(text.indexOf("## Keys")).split('\n')) {
-      if (!row.startsWith("| `")) {
-        continue;
-      }
-      auto found = quoted.globalMatch(row.section('|', 1, 1));
-      while (found.hasNext()) {
-        const QString key = found.next().captured(1);
-        QVERIFY2(uses.count(key) > 0 || others.contains(key), qPrintable(key));
-        ++listed;
+    for (const QString& one : guide.mid(1)) {
+      QVERIFY2(one.contains("\n## Keys\n"), qPrintable(one.section('\n', 0, 0)));
+      for (const QString& row : one.mid(one.indexOf("\n## Keys\n")).split('\n')) {
+        if (!row.startsWith("| `")) {
+          continue;
+        }
+        auto found = quoted.globalMatch(row.section('|', 1, 1));
+        while (found.hasNext()) {
+          const QString key = found.next().captured(1);
+          QVERIFY2(uses.count(key) > 0 || others.contains(key), qPrintable(key));
+          ++listed;
+        }
       }
     }
     QVERIFY(listed > 40);

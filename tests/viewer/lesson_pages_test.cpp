@@ -32,6 +32,7 @@
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 #include "transillum/study.h"
+#include "user_guide.h"
 #include "visibility/embree/picking.h"
 #include "widgets/theme.h"
 
@@ -464,7 +465,8 @@ QString name_of_color(const QColor& color) {
 /// Labels of engines are in the library's table.
 QStringList texts_of_the_viewer() {
   QStringList texts,
-      names{QStringLiteral(TRANSILLUM_SOURCE "/libtransillum/src/visibility/engine_table.cpp")};
+      names{QStringLiteral(TRANSILLUM_SOURCE
+                           "/libtransillum/src/visibility/engines/engine_table.cpp")};
   for (QDirIterator files(QStringLiteral(TRANSILLUM_SOURCE "/viewer"), {"*.cpp"}, QDir::Files,
                           QDirIterator::Subdirectories);
        files.hasNext();) {
@@ -624,7 +626,7 @@ class LessonPagesTest : public QObject {
   void names_are_those_of_the_window() {
     const QStringList texts = texts_of_the_viewer();
     QVERIFY(texts.size() > 500);
-    QString all = text_of("viewer/USER_GUIDE.md") + text_of("viewer/LESSON_FORMAT.md");
+    QString all = test::user_guide().join('\n') + text_of("viewer/LESSON_FORMAT.md");
     QVERIFY(names_in(all).size() > 60);
     for (const Lesson& lesson : built_in_lessons()) {
       for (const Lesson::Page& page : lesson.pages) {

@@ -203,6 +203,28 @@ class ProgramTest : public QObject {
     QVERIFY(!QFile::exists(picture));
   }
 
+  void commands_of_readme_and_cookbook_show_something() {
+    int count = 0;
+    for (const char* name : {"/README.md", "/libtransillum/COOKBOOK.md"}) {
+      QFile document(QStringLiteral(TRANSILLUM_SOURCE) + name);
+      QVERIFY(document.open(QIODevice::ReadOnly));
+      const QString start = "transillum-viewer ";
+      for (const QString& line : QString::fromUtf8(document.readAll()).split('\n')) {
+        if (!line.startsWith(start)) {
+          continue;
+        }
+        const QTemporaryDir folder;
+        const QString picture = folder.filePath("a.png");
+        Program program(line.mid(start.size()).split(' ') + QStringList{"--screenshot", picture});
+        program.start();
+        QCOMPARE(program.status(120000), 0);
+        QVERIFY2(QFile::exists(picture), qPrintable(line));
+        ++count;
+      }
+    }
+    QVERIFY(count > 0);
+  }
+
   void too_many_patches_are_refused() {
     const QTemporaryDir folder;
     const QString picture = folder.filePath("a.png");

@@ -60,7 +60,7 @@ void link_matches(const QTextBlock& block, const QRegularExpression& pattern, bo
 }
 
 // "ᵢ" and "_d" become indices below the line.
-void lower_indices(QTextBlock block) {
+void lower_indices(const QTextBlock& block) {
   static const QRegularExpression index(QStringLiteral("[ᵢⱼ]|_d"));
   for (auto match = index.match(block.text()); match.hasMatch();
        match = index.match(block.text(), match.capturedStart() + 1)) {

@@ -52,8 +52,8 @@ std::shared_ptr<const PixelView> make_pixel_view(const std::shared_ptr<const Rec
       view->wrong = view->corrected->wrong_share();
       return view;
     }
-    const PixelMap pixels = pixel_map_after(*choice.engine, *loaded.scene, *loaded.tree,
-                                            map->record(), step, options, cancellation);
+    const PixelMap pixels = pixel_map_after({*choice.engine, options}, *loaded.scene, *loaded.tree,
+                                            map->record(), step, cancellation);
     view->drawn = drawn_in_pixels(*loaded.scene, pixels, cancellation);
     if (choice.differences) {
       const VisibilityMap exact = map_after(map->record(), step);

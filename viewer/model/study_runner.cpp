@@ -47,7 +47,7 @@ void StudyRunner::run(const Request& request, const Cancellation& cancellation) 
   try {
     const std::vector<Rgb> reference = reference_radiosity(request, cancellation);
     snapshot.study = run_study(
-        request.loaded->scene, request.loaded->tree, request.options, reference,
+        request.loaded->scene, request.loaded->tree, request.options, {reference},
         [&](const StudyProgress& now) {
           if (!due()) {
             return;

@@ -91,7 +91,7 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
       tr("not propagated: bound of the light that further iterations add to all patches, or to the "
          "dimmest tenth of their area, relative to the reflected light\n"
          "eq. 25: the paper's rule, the largest change of B over the largest B, with E\n"
-         "bound of eq. 25: the first change, reduced by the contraction of eq. 22 with eq. 21\n"
+         "eq. 22: bound of that change: the first one, reduced by the contraction with eq. 21\n"
          "error of B: estimate from the replicas, between its limits\n"
          "Click to go to an iteration"),
       "6"));
@@ -140,8 +140,8 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
       {tr("not propagated"), theme::accent, std::move(remainders), true},
       {tr("eq. 25"), theme::good, std::move(changes)},
       averages ? LogChart::Line{tr("error of the mean"), theme::good, std::move(mean_errors)}
-               : LogChart::Line{tr("bound of eq. 25"), theme::good, predicted_changes(snapshot),
-                                false, ChartDashes::dash_dot}};
+               : LogChart::Line{tr("eq. 22"), theme::good, predicted_changes(snapshot), false,
+                                ChartDashes::dash_dot}};
   add_error_band(snapshot, lines);
   iteration_chart_->show_lines(std::move(lines), levels_of(snapshot),
                                std::max(snapshot.options.iterations, 8));

@@ -22,6 +22,7 @@
 #include "solve/study_choices.h"
 #include "support/failure_text.h"
 #include "support/number_text.h"
+#include "transillum/files.h"
 #include "widgets/banner.h"
 #include "widgets/save_dialog.h"
 
@@ -320,7 +321,9 @@ void StudyDialog::save(const QString& path) {
   try {
     const std::string file = path.toStdString();
     if (path.endsWith(QStringLiteral(".csv"), Qt::CaseInsensitive)) {
-      write_study_csv(file, snapshot_->series, snapshot_->study);
+      write_file_whole(file, [&](std::ostream& out) {
+        write_study_csv(out, snapshot_->series, snapshot_->study);
+      });
     } else {
       check_chart_path(file);
       write_charts(file, {study_chart(snapshot_->loaded->scene->name(), snapshot_->series,

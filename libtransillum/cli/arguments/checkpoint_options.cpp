@@ -15,7 +15,7 @@ CLI::Option* add_checkpoint_options(CLI::App& command, CheckpointCall& call,
   auto* checkpoint = command.add_option("--checkpoint", call.file, help)->type_name("FILE");
   command
       .add_flag("--resume", call.resume,
-                "go on with the run in the file of --checkpoint, if it is there, to the same bits")
+                "resume the run in the file of --checkpoint, if it is there, to the same bits")
       ->needs(checkpoint);
   return checkpoint;
 }
@@ -24,7 +24,7 @@ void check_checkpoint(const CheckpointCall& call) {
   std::error_code ignored;  // check_writable() names it
   if (!call.file.empty() && !call.resume && std::filesystem::exists(call.file, ignored)) {
     throw InputError(fmt::format(
-        "{}: there is such a file already; go on with it by --resume, or delete it", call.file));
+        "{}: there is such a file already; resume it by --resume, or delete it", call.file));
   }
 }
 

@@ -9,7 +9,7 @@ namespace transillum::cli {
 /// --checkpoint and --resume.
 struct CheckpointCall {
   std::string file;     ///< empty: nothing is saved
-  bool resume = false;  ///< go on with what is in the file, if it is there
+  bool resume = false;  ///< resume the run in the file, if it is there
 };
 
 /// @param help what --checkpoint does
@@ -19,7 +19,7 @@ CLI::Option* add_checkpoint_options(CLI::App& command, CheckpointCall& call,
 /// Refuses to overwrite what a run has saved.
 /// @throws InputError
 void check_checkpoint(const CheckpointCall& call);
-/// Whether there is something to go on with; prints that there is not, where it was asked for.
+/// Whether there is a run to resume; prints that there is none, where --resume was given.
 bool can_resume(const CheckpointCall& call);
 
 }  // namespace transillum::cli

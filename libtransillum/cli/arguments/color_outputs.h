@@ -15,7 +15,7 @@ namespace transillum::cli {
 struct ColorOutputs {
   DisplayOptions display;
   std::string series;    ///< --series
-  int series_every = 0;  ///< --series-every: a number of directions; 0: iterations
+  int series_every = 0;  ///< --series-every: a number of directions; 0 means every iteration
 };
 
 /// --exposure, --light-map, --series, --series-every

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "cli/arguments/option_arguments.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
 #include "transillum/errors.h"
 
@@ -15,7 +15,7 @@ void set(GivenOptions& options, const Option& option, const std::string& text) {
   } catch (const InputError& error) {
     const std::string message = error.what();
     const bool names_it = !option.repeats && message.find('"') != 0;
-    throw InputError(names_it ? message : "--" + option.name + ": " + message);
+    throw InputError(names_it ? message : fmt::format("--{}: {}", option.name, message));
   }
   options.given.insert(option.name);
 }
@@ -104,7 +104,7 @@ void refuse_unused(const GivenOptions& options, const std::vector<RunOptions>& r
   for (const std::string& name : options.given) {
     const std::string why = name == except ? std::string() : why_unused(name, runs);
     if (!why.empty()) {
-      throw InputError("--" + name + ": " + why);
+      throw InputError(fmt::format("--{}: {}", name, why));
     }
   }
 }

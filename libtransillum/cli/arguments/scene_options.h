@@ -30,7 +30,7 @@ void add_scene_options(CLI::App& command, RunInput& input);
 /// @throws InputError
 void check_seed(const RunInput& input);
 
-/// Which light a command needs: none, that of faces, or that of a sky.
+/// Which light a command needs: none, light of faces, or light of a sky.
 enum class Light { optional, required, sky };
 
 /// The scene's faces, read and changed as the options say.

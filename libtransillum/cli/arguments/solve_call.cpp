@@ -53,11 +53,9 @@ void check_stored_factors(const SolveCall& call) {
 void add_outputs(CLI::App& command, SolveCall& call) {
   command
       .add_option("-o,--out", call.out,
-                  "result file: .csv, .vtp, .ply, .glb, .gltf or, with --eye, .png, by its "
-                  "ending, or - for CSV on "
-                  "standard output; "
-                  "may be given several times "
-                  "(default: a summary on standard output)")
+                  "result file: .csv, .vtp, .ply, .glb, .gltf or, with --eye, .png, by its ending, "
+                  "or - for CSV on standard output; may be given several times (default: a "
+                  "summary on standard output)")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -82,7 +80,7 @@ void add_outputs(CLI::App& command, SolveCall& call) {
 void add_runs(CLI::App& command, SolveCall& call) {
   auto* checkpoint = add_checkpoint_options(
       command, call.checkpoint,
-      "save the run in this file every minute and at its end, so that --resume can go on with it");
+      "save the run in this file every minute and at its end, so that --resume can continue it");
   add_parsed_option(
       command, "--checkpoint-every", "S",
       fmt::format("seconds between two saves of --checkpoint (default {:g}); longer "
@@ -137,7 +135,7 @@ void check_refinement(const SolveCall& call) {
   for (const char* option : {"--shard", "--factors"}) {
     refuse_unless(false, *call.scene.command, option, "not used with --refine-by");
   }
-  refuse_unless(!processes().group, *call.scene.command, "--refine-by",
+  refuse_unless(!processes().sums, *call.scene.command, "--refine-by",
                 "not available with several processes");
 }
 

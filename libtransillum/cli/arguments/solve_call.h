@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#pragma once
-
 // The options of `solve`, which `merge` has in the shards that it reads.
+#pragma once
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -28,17 +27,16 @@ struct SolveCall {
   CheckpointCall checkpoint;
   double checkpoint_every = 60;     ///< --checkpoint-every, s
   std::optional<Share> share;       ///< --shard
-  std::vector<std::string> shards;  ///< of `merge`: the passes are read from these
+  std::vector<std::string> shards;  ///< for `merge`: the passes are read from these files
   bool quiet = false;
 
   /// The options of the solve: as given before complete(), checked and complete after it.
   const SolveOptions& options() const { return scene.run.solve; }
 };
 
-/// All options of `solve`.
 void add_solve_options(CLI::App& command, SolveCall& call);
-/// Those that say what is written, and how much memory and how many threads are used: the only ones
-/// that `merge` has itself.
+/// Options that say what is written, and how much memory and how many threads are used: the only
+/// ones that `merge` has itself.
 void add_output_options(CLI::App& command, SolveCall& call);
 
 /// The output files, checked as far as that can be done before a long computation.
@@ -52,5 +50,12 @@ void complete(SolveCall& call);
 int run_solve(SolveCall& call);
 /// Makes the passes of call.share and writes them; returns the exit status.
 int run_shard(SolveCall& call);
+
+/// The arguments that a command was given, such that they can be parsed again; without those of
+/// runs, outputs and machines (add_output_options(), --checkpoint, --resume, --shard).
+std::vector<std::string> stored_arguments(const CLI::App& command);
+
+/// The options that a command was given, without its positional arguments.
+std::vector<std::string> given_options(const CLI::App& command);
 
 }  // namespace transillum::cli

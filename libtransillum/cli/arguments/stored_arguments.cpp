@@ -1,6 +1,4 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "cli/arguments/stored_arguments.h"
-
 #include <set>
 
 #include "cli/arguments/solve_call.h"

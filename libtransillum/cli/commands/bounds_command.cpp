@@ -11,7 +11,6 @@
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
 #include "cli/reports/bounds_report.h"
-#include "cli/standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -123,11 +122,9 @@ Run add_bounds_command(CLI::App& program) {
   command.add_option("-o,--out", call->out, "write JSON instead of text on standard output")
       ->type_name("FILE.json");
   command.footer(
-      "Prints Tables 1, 2 and 3 of the paper: its values, those of its formulas, and the numbers "
-      "of\n"
-      "directions that the chosen sampling requires. For one reflectance, or a scene, also "
-      "predicts\n"
-      "the convergence and errors with M directions.\n"
+      "Prints Tables 1, 2 and 3 of the paper: as printed, by its formulas, and the numbers of\n"
+      "directions that the chosen sampling requires. For one reflectance, or a scene, also\n"
+      "predicts the convergence and errors with M directions.\n"
       "Example: transillum bounds cornell-box --accuracy 0.005");
   return [call] { return run(*call); };
 }

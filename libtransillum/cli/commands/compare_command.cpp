@@ -10,8 +10,8 @@
 #include "cli/commands/commands.h"
 #include "cli/interruption.h"
 #include "cli/messages.h"
+#include "cli/output_files.h"
 #include "cli/reports/report_text.h"
-#include "cli/standard_output.h"
 #include "radiosity/analysis/function_comparison.h"
 #include "radiosity/analysis/result_comparison.h"
 #include "transillum/at.h"
@@ -79,7 +79,7 @@ std::string comparison_text(const Scene& scene, const ResultComparison& comparis
 }
 
 std::string function_text(const FunctionDifference& difference) {
-  return report_row("L2 of functions", fmt::format("{:.4g} of that of A", difference.l2));
+  return report_row("L2 of functions", fmt::format("{:.4g} of the L2 norm of A", difference.l2));
 }
 
 int exit_status(double worst, const CompareCall& call) {
@@ -133,9 +133,10 @@ Run add_compare_command(CLI::App& program) {
                         throw InputError(fmt::format("--tolerance: \"{}\" is less than 0", text));
                       }
                     });
-  command.add_flag("--functions", call->functions,
-                   "compare B as functions on the faces, whose patches may differ, as those of "
-                   "--max-patch-area: the L2 norm of the difference");
+  command.add_flag(
+      "--functions", call->functions,
+      "compare B as functions on the faces, also of scenes that differ in their patches "
+      "only, as by --max-patch-area: the L2 norm of the difference");
   command.footer(
       "Differences of B, relative to the reflected light of A: B - E of patches that do not emit,\n"
       "or of all where the others reflect nothing. By group, they are relative to the group's "

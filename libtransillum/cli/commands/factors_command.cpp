@@ -12,13 +12,11 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
-#include "cli/standard_output.h"
 #include "radiosity/form_factors/small_form_factors.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_files.h"
-#include "transillum/hemicube.h"
-#include "transillum/pair_form_factors.h"
+#include "transillum/form_factor_solve.h"
 
 namespace transillum::cli {
 namespace {
@@ -27,7 +25,7 @@ struct FactorsCall {
   RunInput scene;
   GatherOptions rays;
   SensorCall sensors;
-  double drop = 0;  ///< form factors below it are left out; 0: all are written
+  double drop = 0;  ///< form factors below it are omitted; 0 writes all
   std::string out;
 
   const SolveOptions& passes() const { return scene.run.solve; }
@@ -42,52 +40,27 @@ FormFactors gather_by_rays(const FactorsCall& call, const Scene& scene,
                              [&](double share) { display.show("tracing rays", share); });
 }
 
-HemicubeOptions hemicube_options(const FactorsCall& call) {
-  HemicubeOptions options;
-  if (call.passes().engine_options.resolution > 0) {
-    options.resolution = call.passes().engine_options.resolution;
-  }
-  options.memory = call.passes().memory;
-  options.threads = call.passes().threads;
-  return options;
-}
-
 FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
                            const Cancellation& cancellation, ProgressDisplay& display) {
-  HemicubeOptions options = hemicube_options(call);
-  return hemicube_form_factors(scene, options, cancellation,
+  return hemicube_form_factors(scene, hemicube_options(call.passes()), cancellation,
                                [&](double share) { display.show("drawing hemicubes", share); });
-}
-
-PairOptions pair_options(const FactorsCall& call) {
-  PairOptions options;
-  if (call.passes().engine_options.points > 0) {
-    options.points = call.passes().engine_options.points;
-  }
-  options.memory = call.passes().memory;
-  options.threads = call.passes().threads;
-  return options;
 }
 
 FormFactors compute_pairs(const FactorsCall& call, const Scene& scene,
                           const Cancellation& cancellation, ProgressDisplay& display) {
   display.begin("computing pairs");
-  return pair_form_factors(scene, pair_options(call), cancellation, [&](double share) {
+  return pair_form_factors(scene, pair_options(call.passes()), cancellation, [&](double share) {
     const double patches = scene.patch_count();
     display.show_rate("computing pairs", share, patches * (patches - 1) / 2, "pairs");
   });
 }
 
-SolveOptions pass_options(const FactorsCall& call) {
-  SolveOptions options = call.passes();
-  options.iterations = 1;
-  return options;
-}
-
 FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
                        const Cancellation& cancellation, ProgressDisplay& display) {
   const auto tree = build_tree(*scene, cancellation, display, call.passes().threads);
-  RadiositySolver solver(scene, pass_options(call), {.tree = tree}, cancellation);
+  SolveOptions options = call.passes();
+  options.iterations = 1;
+  RadiositySolver solver(scene, options, {.tree = tree}, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
     display.show_passes("", watched.progress());
     return true;
@@ -114,7 +87,7 @@ void check_options(const FactorsCall& call) {
   refuse_unless(engine == Engine::rays, *call.scene.command, "--rays",
                 "used only with engine rays");
   if (engine == Engine::hemicube) {
-    hemicube_options(call).validate();
+    hemicube_options(call.passes()).validate();
   }
   if (engine != Engine::rays) {
     refuse_unused(call.scene, {call.scene.run});
@@ -127,7 +100,7 @@ void check_options(const FactorsCall& call) {
   }
 }
 
-/// Leaves out what --drop says, and prints how much that is.
+/// Omits what --drop says, and prints how much that is.
 FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactors form_factors,
                          const Cancellation& cancellation) {
   if (call.drop == 0) {
@@ -135,7 +108,7 @@ FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactor
   }
   DroppedFormFactors rest = drop_small_form_factors(scene, form_factors, call.drop, cancellation);
   std::string text =
-      fmt::format("{} of {} form factors left out, {:.2g} of all light; the others are rebalanced",
+      fmt::format("{} of {} form factors omitted, {:.2g} of all light; the others are rebalanced",
                   rest.dropped, form_factors.size(), rest.share);
   if (rest.kept > 0) {
     text += fmt::format("; {} below {} are kept, without which their rows cannot be rebalanced",
@@ -214,7 +187,7 @@ void add_methods(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
       });
 }
 
-/// What is written.
+/// Adds the options for what is written.
 void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
   command
       .add_option("-o,--out", call->out,
@@ -223,7 +196,7 @@ void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
                   "output)")
       ->type_name("FILE");
   add_parsed_option(command, "--drop", "F",
-                    "leave out form factors below F, such as 1e-6, and scale the others so that "
+                    "omit form factors below F, such as 1e-6, and scale the others so that "
                     "row sums and reciprocity stay",
                     [call](const std::string& text) {
                       call->drop = parse_number("--drop", text);

@@ -13,9 +13,9 @@
 #include "cli/commands/commands.h"
 #include "cli/interruption.h"
 #include "cli/messages.h"
+#include "cli/output_files.h"
 #include "cli/progress_display.h"
 #include "cli/reports/report_text.h"
-#include "cli/standard_output.h"
 #include "transillum/at.h"
 #include "transillum/orientation.h"
 #include "transillum/radiosity_solver.h"
@@ -34,7 +34,7 @@ constexpr std::size_t max_overlaps = 10000;
 
 struct InfoCall {
   RunInput scene;
-  int directions = 0;  ///< 0: rays only
+  int directions = 0;  ///< 0 means rays only
 };
 
 void print_row(const std::string& name, const std::string& value) {
@@ -163,7 +163,8 @@ void print_overlaps(const Scene& scene, const Cancellation& cancellation) {
   }
 }
 
-/// What random rays tell: whether the scene is closed, and which materials are seen from behind.
+/// Prints the findings of random rays: whether the scene is closed, and which materials are seen
+/// from behind.
 BackShare print_rays(const Scene& scene, int threads, const Cancellation& cancellation) {
   ProgressDisplay display;
   display.begin("checking what light meets");

@@ -28,7 +28,7 @@ struct MapCall {
   RunInput scene;
   Vec3 direction;
   PatchId receiver = no_patch;
-  std::optional<std::int32_t> step;  ///< number of steps done; unset: all
+  std::optional<std::int32_t> step;  ///< number of steps done; unset means all
   bool difference = false;
   MapPictureOptions picture;
   std::vector<std::string> out;
@@ -66,8 +66,8 @@ VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& 
   if (call.is_exact()) {
     return exact_map(call, *scene, *tree, cancellation);
   }
-  const PixelMap pixels = pixel_map(call.engine(), scene, tree, call.direction, call.receiver,
-                                    call.scene.run.solve.engine_options, cancellation);
+  const PixelMap pixels = pixel_map({call.engine(), call.scene.run.solve.engine_options}, *scene,
+                                    *tree, call.direction, call.receiver, cancellation);
   VisibilityMap map = drawn_in_pixels(*scene, pixels);
   if (call.difference) {
     mark_differences(pixels, exact_map(call, *scene, *tree, cancellation), map, cancellation);
@@ -172,8 +172,8 @@ Run add_map_command(CLI::App& program) {
   add_options(command, call->scene, {"memory"});
   command.get_option("--memory")
       ->description(
-          "what the record of the map's making may take, such as 2G or 800M (default: a quarter of "
-          "the machine's)");
+          "memory limit for the record of the map's making, such as 2G or 800M (default: a "
+          "quarter of the machine's)");
   add_parsed_option(
       command, "--size", "PIXELS",
       fmt::format("length of the longer side of .svg and .png (default {})", call->picture.size),

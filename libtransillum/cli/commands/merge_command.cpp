@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "cli/arguments/solve_call.h"
-#include "cli/arguments/stored_arguments.h"
 #include "cli/commands/commands.h"
 #include "io/runs/shard_files.h"
 #include "transillum/errors.h"
@@ -18,7 +17,7 @@ namespace {
 struct MergeCall {
   const CLI::App* command = nullptr;
   std::vector<std::string> parts;
-  std::string scene;  ///< instead of the one that the shards name; empty: that one
+  std::string scene;  ///< instead of the one that the shards name, if not empty
   SolveCall outputs;  ///< only add_output_options() and the colors
 };
 
@@ -28,7 +27,7 @@ std::vector<std::string> solve_arguments(const MergeCall& call) {
   const auto is_value = [](const std::string& argument) { return argument.rfind("--", 0) != 0; };
   const auto scene = std::find_if(arguments.begin(), arguments.end(), is_value);
   if (scene == arguments.end()) {
-    throw InputError(fmt::format("{}: it does not say of which scene it is", call.parts.front()));
+    throw InputError(fmt::format("{}: the shard does not name its scene", call.parts.front()));
   }
   if (!call.scene.empty()) {
     *scene = call.scene;
@@ -45,7 +44,7 @@ int merge(const MergeCall& call) {
   CLI::App command("solve");
   add_solve_options(command, solve);
   std::vector<std::string> arguments = solve_arguments(call);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes a vector
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes a vector back to front
   try {
     command.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {

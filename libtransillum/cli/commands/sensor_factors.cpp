@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <functional>
-#include <memory>
 #include <ostream>
 
 #include "cli/arguments/option_values.h"
@@ -14,7 +13,6 @@
 #include "cli/interruption.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
-#include "cli/standard_output.h"
 #include "io/results/sensor_files.h"
 #include "radiosity/analysis/result_comparison.h"
 #include "transillum/errors.h"
@@ -33,14 +31,6 @@ std::vector<Rgb> radiosity_of(const std::string& file, const Scene& scene,
         fmt::format("{}: the result is not of {}: {}", file, scene.name(), difference));
   }
   return std::move(result.radiosity);
-}
-
-void write(const std::string& file, const std::function<void(std::ostream&)>& write_to) {
-  if (is_standard_output(file)) {
-    print_results(write_to);
-  } else {
-    write_file_whole(file, write_to);
-  }
 }
 
 }  // namespace
@@ -95,13 +85,13 @@ int run_sensors(const SensorCall& call, const RunInput& scene_input, const std::
   std::vector<std::function<void()>> writers;
   if (!out.empty() || call.irradiance.empty()) {
     writers.emplace_back([&] {
-      write(out.empty() ? "-" : out,
-            [&](std::ostream& stream) { write_sensor_factors_csv(stream, form_factors); });
+      write_output(out,
+                   [&](std::ostream& stream) { write_sensor_factors_csv(stream, form_factors); });
     });
   }
   if (!call.irradiance.empty()) {
     writers.emplace_back([&] {
-      write(call.irradiance, [&](std::ostream& stream) {
+      write_output(call.irradiance, [&](std::ostream& stream) {
         write_sensor_irradiance_csv(stream, sensors, form_factors,
                                     sensor_irradiance(form_factors, radiosity));
       });

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "cli/arguments/scene_options.h"
 
@@ -23,8 +22,8 @@ void add_sensor_options(CLI::App& command, SensorCall& call);
 /// @throws InputError
 void check_sensor_options(const CLI::App& command, const SensorCall& call);
 /// Computes and writes them; returns the exit status.
-/// @param out file for form factors; empty: none, if there is a file for the irradiance; else, and
-/// for -, standard output
+/// @param out file for form factors; if empty, none is written where there is a file for the
+/// irradiance; else, and for -, standard output
 int run_sensors(const SensorCall& call, const RunInput& scene_input, const std::string& out,
                 std::uint64_t memory, int threads);
 

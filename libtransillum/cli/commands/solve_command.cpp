@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <system_error>
 
 #include "cli/arguments/solve_call.h"
-#include "cli/arguments/stored_arguments.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/solve_job.h"
 #include "cli/interruption.h"
@@ -17,10 +17,7 @@
 #include "cli/output_files.h"
 #include "cli/processes.h"
 #include "cli/progress_display.h"
-#include "cli/reports/power_report.h"
-#include "cli/reports/solve_summary.h"
-#include "cli/standard_output.h"
-#include "cli/wall_clock.h"
+#include "cli/reports/summaries.h"
 #include "io/runs/shard_files.h"
 #include "options/option_table.h"
 #include "transillum/checkpoint.h"
@@ -29,6 +26,12 @@
 
 namespace transillum::cli {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// The table of --by, on standard output unless a result is there.
 void print_powers(const SolveCall& call, const Solution& solution) {
@@ -84,7 +87,7 @@ void print_cost(const SolveCall& call, const Checkpoint& checkpoint) {
   }
 }
 
-/// What is needed before a solve begins.
+/// All that is needed before a solve begins.
 struct PreparedCall {
   SolveOptions options;
   std::shared_ptr<const Scene> scene;
@@ -131,7 +134,7 @@ void say_of_lobes(const SolveCall& call, const SolveOptions& options, const Scen
   } else if (present && !call.quiet) {
     const std::string metal = metal_of(scene);
     print_message(
-        "lobes of materials are left out (--glossy: they reflect too" +
+        "lobes of materials are omitted (--glossy: they reflect too" +
         (metal.empty()
              ? ")"
              : fmt::format("; {0} reflects nothing else: try --reflectance '{0}=0.5')", metal)));
@@ -140,7 +143,7 @@ void say_of_lobes(const SolveCall& call, const SolveOptions& options, const Scen
 
 /// Whether several processes share the solve. Otherwise the first does it alone.
 bool is_shared(const SolveCall& call) {
-  return processes().group && call.factors.empty() && takes_directions(call.options().engine) &&
+  return processes().sums && call.factors.empty() && takes_directions(call.options().engine) &&
          !call.options().glossy;
 }
 
@@ -156,7 +159,7 @@ void share_machine(SolveOptions& options) {
 
 PreparedCall prepare_in_all(SolveCall& call, const Cancellation& cancellation) {
   PreparedCall prepared;
-  processes().group->agree([&] { prepared = prepare_call(call, cancellation); });
+  processes().sums->agree([&] { prepared = prepare_call(call, cancellation); });
   share_machine(prepared.options);
   return prepared;
 }
@@ -164,7 +167,7 @@ PreparedCall prepare_in_all(SolveCall& call, const Cancellation& cancellation) {
 }  // namespace
 
 int run_solve(SolveCall& call) {
-  const auto start = WallClock::now();
+  const auto start = Clock::now();
   const bool shared = is_shared(call);
   if (!shared && !is_first_process()) {
     return success;
@@ -192,7 +195,7 @@ int run_solve(SolveCall& call) {
       .checkpoint = call.checkpoint,
       .checkpoint_every = call.checkpoint_every,
       .shards = call.shards,
-      .group = shared ? processes().group : nullptr};
+      .sums = shared ? processes().sums : nullptr};
   say_of_lobes(call, options, *prepared.scene);
   Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
                       : takes_directions(options.engine) ? solve_by_passes(job, checkpoint)
@@ -234,18 +237,18 @@ int run_shard(SolveCall& call) {
   ProgressDisplay display(call.quiet);
   const auto scene = load_input_scene(call.scene, outputs, cancellation,
                                       options.sky.is_set() ? Light::sky : Light::required);
-  const auto start = WallClock::now();
+  const auto start = Clock::now();
   const int passes = (options.directions - call.share->number) / call.share->of + 1;
   int done = 0;
   try {
     const auto tree = build_tree(*scene, cancellation, display, options.threads);
     display.begin("passes");
-    write_shard(call.out.front(), scene, options, tree, *call.share,
-                stored_arguments(*call.scene.command), cancellation, [&](int count) {
-                  done = count;
-                  display.show_rate("passes", count / static_cast<double>(passes), passes,
-                                    "passes");
-                });
+    const auto show = [&](int count) {
+      done = count;
+      display.show_rate("passes", count / static_cast<double>(passes), passes, "passes");
+    };
+    write_shard(call.out.front(), scene, options, tree,
+                {*call.share, stored_arguments(*call.scene.command), show}, cancellation);
   } catch (const Canceled&) {
     throw NothingToSave(
         fmt::format("{} of {} passes were made, but a shard has all of its share: nothing is saved",

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "cli/interruption.h"
 #include "cli/messages.h"
@@ -68,8 +67,8 @@ class Saver {
 
   void save_if_due(const SolveSession& session) {
     constexpr double between_stages = 1;
-    if (job_.group) {
-      save_in_group_if_due(session);
+    if (job_.sums) {
+      save_together_if_due(session);
       return;
     }
     const bool stage_ends = session.options().goal.is_set() && session.progress().finished;
@@ -89,14 +88,14 @@ class Saver {
 
  private:
   /// The first process decides; asking it after each pass would take long.
-  void save_in_group_if_due(const SolveSession& session) {
+  void save_together_if_due(const SolveSession& session) {
     constexpr int passes_between = 32;
     const int direction = session.progress().direction;
-    if (!checkpoint_ || direction % (passes_between * job_.group->size()) != 0) {
+    if (!checkpoint_ || direction % (passes_between * job_.sums->size()) != 0) {
       return;
     }
     const bool due = checkpoint_->is_due(job_.checkpoint_every);
-    if (job_.group->from_first(due ? 1 : 0) > 0) {
+    if (job_.sums->from_first(due ? 1 : 0) > 0) {
       attempt([&] { checkpoint_->save(session); });
     }
   }
@@ -151,7 +150,7 @@ void resume(SolveSession& session, const SolveJob& job, std::optional<Checkpoint
   const SolveProgress progress = session.progress();
   job.display.clear();
   print_message(fmt::format(
-      "{}: goes on after {} iterations{}, {:.3g} s done", job.checkpoint.file, progress.iteration,
+      "{}: resumes after {} iterations{}, {:.3g} s done", job.checkpoint.file, progress.iteration,
       progress.direction > 0
           ? fmt::format(" and {} of {} passes", progress.direction, progress.passes)
           : "",
@@ -194,7 +193,7 @@ SolveRequest request_of(const SolveJob& job) {
           .options = job.options,
           .refine = job.refine,
           .engine = read_shards(job),
-          .group = job.group,
+          .sums = job.sums,
           .preparing = [&job](Preparation preparation, double share) {
             job.display.show(preparation == Preparation::tree ? "building BSP tree" : "first shot",
                              share);

@@ -17,22 +17,22 @@
 
 namespace transillum::cli {
 
-/// What all ways of solving need.
+/// All that any way of solving needs.
 struct SolveJob {
   std::shared_ptr<const Scene> scene;
   SolveOptions options;
   std::optional<RefineOptions> refine;  ///< rounds that come first
   const Cancellation& cancellation;
   ProgressDisplay& display;
-  bool quiet = false;                            ///< no line for each round
-  bool form_factors = false;                     ///< wanted in the solution, if they are kept
-  bool has_series = false;                       ///< a series gets the result after every iteration
-  ResultSeries* series = nullptr;                ///< gets them in the first process
-  int series_every = 0;                          ///< and after so many directions; 0: not
-  CheckpointCall checkpoint = {};                ///< file and whether to resume
-  double checkpoint_every = 60;                  ///< s
-  std::vector<std::string> shards = {};          ///< the passes are read from these
-  std::shared_ptr<SolverGroup> group = nullptr;  ///< processes that share the passes
+  bool quiet = false;                         ///< no line for each round
+  bool form_factors = false;                  ///< wanted in the solution, if they are kept
+  bool has_series = false;                    ///< a series gets the result after every iteration
+  ResultSeries* series = nullptr;             ///< gets them in the first process
+  int series_every = 0;                       ///< and after so many directions; 0: not
+  CheckpointCall checkpoint = {};             ///< file and whether to resume
+  double checkpoint_every = 60;               ///< s
+  std::vector<std::string> shards = {};       ///< the passes are read from these
+  std::shared_ptr<PatchSums> sums = nullptr;  ///< of processes that share the passes
 };
 
 /// Solves by passes, until it has finished or is interrupted.

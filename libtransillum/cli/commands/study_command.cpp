@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,8 +16,7 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
-#include "cli/reports/study_summary.h"
-#include "cli/standard_output.h"
+#include "cli/reports/summaries.h"
 #include "io/drawing/study_chart.h"
 #include "io/results/reference_cache.h"
 #include "io/results/study_csv.h"
@@ -32,7 +30,7 @@ namespace {
 
 struct StudiedEngine {
   Engine engine;
-  int resolution;  ///< 0: that of --resolution; of engine pairs, points, 0: those of --points
+  int resolution;  ///< 0 means the value of --resolution, or, for engine pairs, of --points
 
   friend bool operator==(const StudiedEngine&, const StudiedEngine&) = default;
 };
@@ -64,7 +62,7 @@ struct StudyCall {
     return all;
   }
   bool uses(bool both_ways) const { return both_ways ? two_way || !one_way : one_way; }
-  /// Those given, or random, the paper's, and the default.
+  /// The given ones, or random, the paper's, and the default.
   std::vector<Sampling> samplings() const {
     return given_samplings.empty()
                ? std::vector{Sampling::random, Sampling::hammersley, default_sampling(uses(true))}
@@ -168,7 +166,7 @@ StudyOptions study_options(const StudyCall& call) {
   return options;
 }
 
-/// What all steps of a study share.
+/// Data that all steps of a study share.
 struct StudyContext {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
@@ -203,12 +201,11 @@ void report_failures(const Study& study, const std::vector<std::string>& names) 
 void write_outputs(const StudyCall& call, const StudyOptions& options, const Study& study,
                    const Scene& scene) {
   std::vector<std::function<void()>> writers;
-  if (is_standard_output(call.out)) {
+  if (!call.out.empty()) {
     writers.emplace_back([&] {
-      print_results([&](std::ostream& out) { write_study_csv(out, options.series, study); });
+      write_output(call.out,
+                   [&](std::ostream& out) { write_study_csv(out, options.series, study); });
     });
-  } else if (!call.out.empty()) {
-    writers.emplace_back([&] { write_study_csv(call.out, options.series, study); });
   }
   for (const std::string& file : call.plots) {
     writers.emplace_back([&] {
@@ -236,7 +233,7 @@ class PointSaver {
     checkpoint_.emplace(call.file, scene, options, reference);
     if (can_resume(call)) {
       done_ = points_ = checkpoint_->resume();
-      print_message(fmt::format("{}: goes on after {} points", call.file, done_.size()));
+      print_message(fmt::format("{}: resumes after {} points", call.file, done_.size()));
     }
   }
 
@@ -296,13 +293,13 @@ int run(const StudyCall& call) {
   const std::vector<std::string> names = names_of(options.series);
   PointSaver saver(call.checkpoint, *context.scene, options, reference_options);
   const Study study = run_study(
-      context.scene, context.tree, options, reference,
+      context.scene, context.tree, options, {reference, saver.done()},
       [&](const StudyProgress& now) {
         context.display.show(fmt::format("{}, {} passes", names[now.series], now.directions),
                              now.share, rate_text(now.passes_per_second, now.seconds_left));
         saver.update(now.points);
       },
-      context.cancellation, saver.done());
+      context.cancellation);
   context.display.clear();
   saver.save();
   if (study.points.empty()) {
@@ -429,7 +426,7 @@ void add_series_options(CLI::App& command, StudyCall& call) {
 void add_error_options(CLI::App& command, StudyCall& call) {
   command.add_flag_function(
       "--without-sources", [](std::int64_t) {},
-      "no effect: errors are always those of reflected light, without sources");
+      "no effect: errors are always errors of reflected light, without sources");
   add_parsed_option(
       command, "--error", "NAME",
       fmt::format("{}: error in the table and the plots (default rms); the CSV has both",
@@ -490,7 +487,7 @@ Run add_study_command(CLI::App& program) {
                   fmt::join(names_of<StudyAxis>(), " | ")),
       [call](const std::string& text) { call->against = from_name<StudyAxis>(text); });
   add_checkpoint_options(command, call->checkpoint,
-                         "save the points so far in this file, so that --resume can go on");
+                         "save the points so far in this file, so that --resume can continue");
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");
   for (const char* option :
        {"--normalize", "--scheme", "--basis", "--first-shot", "--rotations", "--two-way"}) {

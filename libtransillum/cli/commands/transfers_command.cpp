@@ -11,7 +11,6 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
-#include "cli/standard_output.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
@@ -42,11 +41,7 @@ int run(const TransfersCall& call) {
   const TransferEngine engine = make_engine(options.engine, scene, tree, options.engine_options);
   const Transfers transfers = engine(call.direction, cancellation);
   progress.clear();
-  if (call.out.empty() || is_standard_output(call.out)) {
-    print_results([&](std::ostream& out) { write_transfers_csv(out, transfers); });
-  } else {
-    write_transfers_csv(call.out, transfers);
-  }
+  write_output(call.out, [&](std::ostream& out) { write_transfers_csv(out, transfers); });
   return success;
 }
 

@@ -20,7 +20,7 @@ struct BoundsOptions {
   std::optional<double> rho;         ///< default: the scene's, or the paper's eight values
   double accuracy = 0.01;            ///< largest error of B, relative, in the maximum norm
   std::optional<double> size_ratio;  ///< R²/A; default: the scene's, or the paper's 150
-  double tolerance = 1e-6;           ///< of the iteration
+  double tolerance = 1e-6;           ///< tolerance of the iteration
   int directions = 1024;
   DirectionSetFamily sets;
   std::shared_ptr<const Scene> scene;
@@ -73,7 +73,6 @@ using BoundsTask = std::function<void(const std::string&)>;
 BoundsReport make_bounds_report(const BoundsOptions& options, const BoundsTask& begin,
                                 const Cancellation& cancellation);
 
-/// The report as text.
 std::string text_of(const BoundsReport& report);
 /// Writes the report as JSON.
 void write_bounds_report(const std::string& path, const BoundsReport& report);

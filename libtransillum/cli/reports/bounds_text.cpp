@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -72,8 +71,8 @@ std::string tables_text(const BoundsReport& report) {
       name_of(options.sets.sampling), options.sets.two_way ? " and their opposites" : "");
   if (options.sets.sampling == Sampling::antipodal) {
     text +=
-        "Table 3 is not estimated for antipodal sets: they are even on the sphere, not on the "
-        "unit square,\nwhere the star discrepancy is measured.\n";
+        "Table 3 is not estimated for antipodal sets: they are evenly spread on the sphere, not on "
+        "the unit square,\nwhere the star discrepancy is measured.\n";
   }
   return text;
 }

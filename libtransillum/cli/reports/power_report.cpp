@@ -1,11 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The table that `transillum solve --by` prints.
-#include "cli/reports/power_report.h"
+#include "cli/reports/summaries.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "cli/reports/report_text.h"
@@ -49,7 +48,7 @@ std::string aligned(const std::vector<Row>& rows) {
   return text;
 }
 
-/// What stands for a part whose name is empty.
+/// Stands for a part whose name is empty.
 const char* unnamed(PartsBy by) { return by == PartsBy::group ? "(no group)" : "(no name)"; }
 
 std::string name_of(const PartPower& part, PartsBy by) {

@@ -1,12 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "cli/reports/solve_summary.h"
+#include "cli/reports/summaries.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cli/arguments/scene_options.h"
 #include "cli/messages.h"
@@ -102,8 +101,8 @@ std::string error_text(const ErrorEstimate& error) {
 
 std::string accuracy_text(const AccuracyReport& report) {
   const AccuracyGoal& goal = report.goal;
-  const std::string asked =
-      goal.accuracy > 0 ? fmt::format("{:.3g} % asked", 100 * goal.accuracy) : "as fits the time";
+  const std::string asked = goal.accuracy > 0 ? fmt::format("{:.3g} % asked", 100 * goal.accuracy)
+                                              : "within the time given";
   const std::string reached = report.reached      ? "reached"
                               : goal.accuracy > 0 ? "not reached"
                                                   : "time is up";
@@ -123,7 +122,7 @@ std::string glossy_text(const GlossyFigures& figures) {
   constexpr double mebibyte = 1 << 20;
   return report_row(
       "lobes",
-      fmt::format("of {} patches, {} orientations; sums over directions off by {:.1e} "
+      fmt::format("on {} patches, {} orientations; sums over directions off by {:.1e} "
                   "before scaling, {:.0e} after; {:.3g} MiB by direction, {:.3g} MiB of "
                   "transfers kept",
                   figures.patches, figures.lobes, figures.sum_error, figures.sum_defect,
@@ -141,7 +140,7 @@ std::int64_t patches_below_zero(const Solution& solution) {
   return count;
 }
 
-/// Where a scene is open, the largest defect is that of the patch that is most open, and says
+/// Where a scene is open, the largest defect belongs to the patch that is most open, and says
 /// nothing about errors.
 std::string closure_text(const Scene& scene, const SolveStatistics& s) {
   // Form factors without directions have errors, which row sums show too.
@@ -151,7 +150,7 @@ std::string closure_text(const Scene& scene, const SolveStatistics& s) {
     return report_row("open", open + ": light escapes there");
   }
   if (has_two_sided_faces(scene)) {
-    return report_row("closed", open + ", outer sides of two-sided faces left out");
+    return report_row("closed", open + ", outer sides of two-sided faces omitted");
   }
   return report_row("closure defect", fmt::format("{:.1e}; {}", s.closure_defect_max, open));
 }
@@ -221,7 +220,7 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
     warnings.push_back("no patch receives light from another: B = E" +
                        remedy_hint(Remedy::directions));
   }
-  // Halfway between rho_max (that of exact form factors of a closed scene) and 1.
+  // Halfway between rho_max (the limit for exact form factors of a closed scene) and 1.
   const auto is_slow = [&](const IterationRecord& r) {
     return r.change > 1e-12 && r.contraction > (1 + s.rho_max) / 2;
   };

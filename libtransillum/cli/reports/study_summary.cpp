@@ -1,12 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "cli/reports/study_summary.h"
+#include "cli/reports/summaries.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "cli/reports/report_text.h"
 #include "transillum/bounds.h"
@@ -16,7 +15,7 @@ namespace {
 
 constexpr std::size_t column = 8;
 
-std::string percent_text(double share) {
+std::string percentage_text(double share) {
   if (!std::isfinite(share)) {
     return "-";
   }
@@ -42,7 +41,7 @@ std::string single_solve_text(const std::string& name, Engine engine, std::size_
       traits_of(engine).takes_resolution
           ? fmt::format("{} hemicubes of {} pixels", point.passes, point.directions)
           : fmt::format("the pairs of {} patches, {} points", point.passes, point.directions);
-  return fmt::format("{:<{}}  {} % by {}, {}\n", name, width, percent_text(point.error(error)),
+  return fmt::format("{:<{}}  {} % by {}, {}\n", name, width, percentage_text(point.error(error)),
                      means, time_text(point.seconds));
 }
 
@@ -66,7 +65,7 @@ std::string series_text(const std::vector<StudyPoint>& points, const BoundsByPas
   for (const auto& [passes, bound] : bounds) {
     const auto found = std::find_if(points.begin(), points.end(),
                                     [m = passes](auto& point) { return point.passes == m; });
-    text += fmt::format("{:>{}}", found == points.end() ? "" : percent_text(found->error(error)),
+    text += fmt::format("{:>{}}", found == points.end() ? "" : percentage_text(found->error(error)),
                         column);
   }
   const auto law = fitted_power_law(points, error);
@@ -117,7 +116,7 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
 
   text += fmt::format("{:<{}}", bound_name, width);
   for (const auto& [passes, bound] : bounds) {
-    text += fmt::format("{:>{}}", percent_text(bound), column);
+    text += fmt::format("{:>{}}", percentage_text(bound), column);
   }
   return text + (bounds.empty() ? "\n" : guarantee_text(scene, bounds.rbegin()->first));
 }

@@ -17,7 +17,7 @@ enum class AccuracyOf {
   rms,    ///< RMS error of B over RMS of reflected light, over patches and channels
   max,    ///< largest error over the largest reflected light
   patch,  ///< error of one patch over its B - E, as lengths of RGB vectors
-  mean,   ///< error of the area-weighted mean of B over that of B - E, as lengths of RGB vectors
+  mean,  ///< error of the area-weighted mean of B over the mean of B - E, as lengths of RGB vectors
 };
 
 /// The names of the errors (choice.h). The number of a patch follows the name `patch`.
@@ -27,9 +27,9 @@ const Choices& choices_of<AccuracyOf>();
 /// When a solve is accurate enough.
 struct AccuracyGoal {
   double accuracy = 0;              ///< relative error, [0,1); 0: as small as `seconds` allow
-  AccuracyOf of = AccuracyOf::rms;  ///< which error
-  PatchId patch = 0;                ///< for AccuracyOf::patch
-  double seconds = 0;               ///< wall time of the solve, without loading; 0: not limited
+  AccuracyOf of = AccuracyOf::rms;  ///< the error to limit
+  PatchId patch = 0;                ///< the patch, for AccuracyOf::patch
+  double seconds = 0;               ///< wall time of the solve, without loading; 0 sets no limit
 
   /// Whether there is a goal.
   bool is_set() const { return accuracy > 0 || seconds > 0; }
@@ -51,15 +51,15 @@ std::string name_of_accuracy(const AccuracyGoal& goal);
 
 /// One run of a solve with a goal.
 struct AccuracyStage {
-  int directions = 0;  ///< M, of all replicas
+  int directions = 0;  ///< M, all replicas together
   int replicas = 0;    ///< 2 or more
   double error = 0;    ///< relative: the limit of AccuracyGoal::of
 };
 
-/// What a solve with a goal has reached.
+/// The outcome of a solve with a goal.
 struct AccuracyReport {
-  AccuracyGoal goal;                  ///< as given
-  std::vector<AccuracyStage> stages;  ///< in order; the last is that of the result
+  AccuracyGoal goal;                  ///< the goal given
+  std::vector<AccuracyStage> stages;  ///< in order; the last stage made the result
   double error = 0;                   ///< relative: the limit of AccuracyGoal::of, of the result
   bool reached = false;               ///< error <= goal.accuracy, and `trusted`
   bool trusted = false;  ///< light sources were met by at least least_light_directions per replica

@@ -17,16 +17,16 @@ struct AdjointOptions {
   /// Stop when no value changes by more than this times the largest one that is due to light on
   /// its way.
   double tolerance = 1e-6;
-  /// Index into the materials given for each patch; empty: Patch::material.
+  /// Index into the materials given for each patch; if empty, Patch::material applies.
   std::span<const std::int32_t> patch_materials = {};
-  int threads = 0;  ///< 0: all cores; the result does not depend on it
+  int threads = 0;  ///< 0 uses all cores; the result does not depend on it
 };
 
-/// What light emitted by each patch does to one patch.
+/// The effect of the light emitted by each patch on one patch.
 struct Adjoint {
   /// dB_i / dPhi_j: by how much the radiosity of the receiver i rises with the power that patch j
   /// emits, 1/m², one per patch j. So patch j contributes `per_watt[j]` A_j E_j to B_i, and the
-  /// contributions of all patches sum to B_i. A sky adds those of what patches reflect of it:
+  /// contributions of all patches sum to B_i. A sky adds the contributions of its reflected light:
   /// `per_watt[j]` A_j rho_j H_j,sky.
   std::vector<Rgb> per_watt;
   int iterations = 0;  ///< applications of the transposed matrix

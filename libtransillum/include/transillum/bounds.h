@@ -54,8 +54,8 @@ double directions_if_heterogeneous(double rho, double accuracy, double size_rati
 /// The paper's Tables 1 to 3 as printed, for rho = 0.2 … 0.9.
 struct PaperTables {
   static constexpr int rows = 8;              ///< number of values of rho
-  static constexpr double accuracy = 0.01;    ///< of Tables 2 and 3
-  static constexpr double size_ratio = 150;   ///< of Table 3
+  static constexpr double accuracy = 0.01;    ///< relative error in Tables 2 and 3
+  static constexpr double size_ratio = 150;   ///< size ratio in Table 3
   std::array<double, rows> rho;               ///< largest reflectance
   std::array<double, rows> to_contract;       ///< M of Table 1
   std::array<double, rows> if_homogeneous;    ///< M of Table 2
@@ -67,7 +67,7 @@ const PaperTables& paper_tables();
 /// A family of direction sets, one for each M, whose errors are measured instead of bounded.
 struct DirectionSetFamily {
   Sampling sampling = Sampling::antipodal;     ///< the sequence
-  std::uint64_t seed = 1;                      ///< of a seeded sequence
+  std::uint64_t seed = 1;                      ///< seed of the sequence, if it uses one
   std::optional<std::uint64_t> rotation = {};  ///< seed of a rotation of all directions, if any
   bool two_way = true;                         ///< count the opposites too
 
@@ -90,9 +90,9 @@ std::optional<int> actual_directions_if_homogeneous(const DirectionSetFamily& se
                                                     double accuracy,
                                                     const Cancellation& cancellation = {});
 
-/// Estimate of the M that the bound of eq. 43 requires with the sets' own D*, measured for 1,024
+/// Estimate of the M that the bound of eq. 43 requires with D* of these sets, measured for 1,024
 /// and 16,384 directions and extrapolated as a power of M.
-/// Nothing for antipodal sets, which are even on the sphere, not on the unit square of D*.
+/// Nothing for antipodal sets, which are evenly spread on the sphere, not on the unit square of D*.
 /// @throws Canceled
 std::optional<double> estimated_directions_if_heterogeneous(const DirectionSetFamily& sets,
                                                             double rho, double accuracy,
@@ -103,7 +103,7 @@ std::optional<double> estimated_directions_if_heterogeneous(const DirectionSetFa
 struct SceneMeasures {
   double rho_max = 0;           ///< largest reflectance over patches and channels
   double extent = 0;            ///< R, m: upper bound of all distances, at most 0.4 % too large
-  double smallest_area = 0;     ///< of a patch, m²
+  double smallest_area = 0;     ///< area of the smallest patch, m²
   PatchId smallest = no_patch;  ///< the patch with that area
   double size_ratio = 0;        ///< max_i R²/A_i
 };

@@ -39,14 +39,15 @@ class BspTree {
   /// The line of an input edge or of a cut, through two points, a < b; shared by all edges on it
   /// that come from the same input edge. Clipping uses this line because one recomputed from the
   /// end points of a very short edge would be dominated by rounding. The two points of an input
-  /// edge's line are never too close; those of a cut's may be as close as the tip it cuts off.
+  /// edge's line are never too close; the two points of a cut may be as close as the tip it cuts
+  /// off.
   struct Line {
     PointId a;  ///< the smaller point number
     PointId b;  ///< the larger point number
   };
   /// A point made by a cut: a + t (b - a).
   struct CutPoint {
-    PointId a;  ///< a smaller point number than that of the cut point
+    PointId a;  ///< a point number smaller than the cut point's
     PointId b;  ///< likewise
     double t;   ///< 0 < t < 1
   };
@@ -64,8 +65,9 @@ class BspTree {
   /// No node.
   static constexpr std::int32_t no_node = -1;
   /// A node of the tree: a plane, its subtrees, and the fragments in the plane, which are
-  /// fragments() begin … end-1: first (to middle-1) those whose front side is that of plane.normal,
-  /// then those of the opposite side; within each group a fragment precedes those it covers.
+  /// fragments() begin … end-1: first (to middle-1) the fragments with the normal plane.normal,
+  /// then the fragments with the opposite one; in both, a fragment precedes the fragments that it
+  /// covers.
   struct Node {
     Plane plane;                   ///< splits the node's part of space
     std::int32_t front = no_node;  ///< subtree on the side that plane.normal points to

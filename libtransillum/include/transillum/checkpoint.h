@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// A solve that can go on where it was stopped, killed or interrupted by a power cut
+// A solve that can be resumed after it was stopped, killed or interrupted by a power cut
 // (decisions/0061-checkpoints.md).
 #pragma once
 
@@ -33,14 +33,14 @@ class Checkpoint {
   const std::filesystem::path& file() const;
 
   /// Saves a solve.
-  /// @param session prepared, without lobes; an observer may call this. In a group all members must
-  /// call it after the same pass; member 0 writes the file.
+  /// @param session prepared, without lobes; an observer may call this. Of several processes all
+  /// must call it after the same pass; the first writes the file.
   /// @throws std::runtime_error if the file cannot be written; the one before is kept then.
   void save(const SolveSession& session);
-  /// Saves a solve if `interval` has passed since this object was made or last saved, and so long
-  /// that saving takes less than a hundredth of the time.
+  /// Saves a solve if `interval` has passed since this object was made or last saved, and enough
+  /// time that saving takes less than a hundredth of it.
   /// @param session as for save().
-  /// @param interval s; 0: always.
+  /// @param interval s; 0 saves at every call.
   /// @returns whether it was saved.
   /// @throws std::runtime_error as save()
   bool save_if_due(const SolveSession& session, double interval = 60);
@@ -50,7 +50,7 @@ class Checkpoint {
   bool is_due(double interval) const;
 
   /// Sets a session to the solve in the file, which it then continues to the same bits.
-  /// @param session of the scene and options; has made no pass. In a group all members must call
+  /// @param session of the scene and options; has made no pass. Of several processes all must call
   /// this; their number may be another than when the file was saved.
   /// @throws InputError naming the file and why it cannot be used: it is damaged, or which version,
   /// option or property of the scene is another; the session then begins at its beginning.
@@ -62,13 +62,13 @@ class Checkpoint {
   /// @throws InputError as resume()
   void check() const;
 
-  /// What saving has cost so far.
+  /// Cost of the saves so far.
   struct Cost {
     int times = 0;            ///< the file was saved
     double seconds = 0;       ///< wall time, all together
     std::uint64_t bytes = 0;  ///< size of the last
   };
-  const Cost& cost() const;  ///< of this object
+  const Cost& cost() const;  ///< cost of this object's saves
 
  private:
   struct Impl;

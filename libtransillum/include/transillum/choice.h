@@ -15,10 +15,10 @@ namespace TRANSILLUM_API transillum {
 
 /// The texts of an enumeration's values, each list in its order.
 struct Choices {
-  std::string what;                    ///< a value is, such as "engine"
+  std::string what;                    ///< the word for a value, such as "engine"
   std::vector<std::string> names;      ///< in options and files
   std::vector<std::string> labels;     ///< in a list of choices
-  std::vector<std::string> sentences;  ///< what they mean; may be empty texts
+  std::vector<std::string> sentences;  ///< meaning of each value; may be empty texts
 
   /// The place of `name` in `names`.
   /// @throws InputError listing the names.

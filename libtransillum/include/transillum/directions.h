@@ -21,7 +21,7 @@ enum class Sampling {
   halton,                ///< u = phi_2(k), v = phi_3(k)
   sobol,                 ///< Sobol's sequence, Owen-scrambled in base 2; seeded
   fibonacci,             ///< spherical Fibonacci lattice: v = (k+1/2)/M, u = k/golden ratio mod 1
-  antipodal,             ///< for two-way passes: M axes that are even together with their opposites
+  antipodal,             ///< for two-way passes: M axes; the 2M directions ±axis are evenly spread
   random,                ///< independent uniform points; seeded
 };
 
@@ -43,10 +43,10 @@ Sampling from_name<Sampling>(const std::string& name);
 
 /// The properties of a sampling. Callers ask these instead of naming samplings.
 struct SamplingTraits {
-  Sampling value;                     ///< which one
+  Sampling value;                     ///< the sampling
   const char* name;                   ///< in options and files
   const char* label = nullptr;        ///< in a list of choices; null: the name with a capital
-  const char* sentence = "";          ///< on its points
+  const char* sentence = "";          ///< one sentence on its points
   bool is_seeded = false;             ///< is_seeded()
   bool is_extensible = false;         ///< is_extensible()
   bool differs_by_iteration = false;  ///< differs_by_iteration()
@@ -79,8 +79,7 @@ std::vector<DirectionSample> make_directions(Sampling sampling, int begin, int e
 /// The set of M = `count` directions of one iteration of the semi-iterative scheme (section 6).
 /// Iteration 0 has make_directions(sampling, count, seed). The later ones have
 /// - random, scrambled_hammersley, fibonacci, antipodal: independent points, scramblings or
-/// rotations, so that
-///   eq. 47 and with it eq. 46 hold;
+///   rotations, so that eq. 47 and with it eq. 46 hold;
 /// - halton, sobol: consecutive parts of one sequence, shuffled: in their natural order they would
 ///   violate eq. 46, because each part depends on the one before. Parts 2^p … 2^(p+1)-1 come in
 ///   random order; after 2^p iterations the first 2^p parts have been used once each;

@@ -33,7 +33,7 @@ enum class Engine {
 
 /// The properties of an engine. Callers ask these instead of naming engines.
 struct EngineTraits {
-  /// How its transfers are wrong.
+  /// The kind of error in its transfers.
   enum class Error {
     none,         ///< not at all, up to rounding
     statistical,  ///< by chance: its own random numbers
@@ -48,12 +48,12 @@ struct EngineTraits {
     none,       ///< not at all
   };
 
-  Engine value;                         ///< which one
+  Engine value;                         ///< the engine
   const char* name;                     ///< in options and files
   const char* label;                    ///< in a list of choices
-  const char* sentence;                 ///< on its method
-  Error error = Error::none;            ///< of its transfers
-  Picture picture = Picture::polygons;  ///< of V
+  const char* sentence;                 ///< one sentence on its method
+  Error error = Error::none;            ///< error of its transfers
+  Picture picture = Picture::polygons;  ///< form of V
   bool takes_directions = true;         ///< make_engine() accepts it
   bool has_moments = false;             ///< computes Transfers::moments
   bool has_linear_basis = false;        ///< solves with Basis::linear
@@ -90,21 +90,21 @@ const Choices& choices_of<PaintersOrder>();
 
 /// Options that only some engines read.
 struct EngineOptions {
-  static constexpr int default_resolution = 512;    ///< of zbuffer and painter, pixels
+  static constexpr int default_resolution = 512;    ///< pixels, for zbuffer and painter
   static constexpr int largest_resolution = 16384;  ///< pixels
-  static constexpr int default_points = 32;         ///< of pairs
-  static constexpr int largest_points = 1024;       ///< of pairs
+  static constexpr int default_points = 32;         ///< for engine pairs
+  static constexpr int largest_points = 1024;       ///< for engine pairs
 
   double lines_per_patch = 100;  ///< rays: lines per direction over number of patches, (0, 1e6]
   bool gridded = true;           ///< rays: on a jittered grid; else uniformly random
   std::uint64_t seed = 1;        ///< rays: seed of the positions; a solve takes its own seed
   /// zbuffer, painter: pixels along the longer side of the window, the bounding box of the
-  /// projected scene; 0: default_resolution. rays: the same grid with one line per pixel; 0: by
-  /// lines_per_patch. hemicube: pixels along a side of the cube; 0: HemicubeOptions::resolution's
-  /// default.
+  /// projected scene; 0 means default_resolution. rays: the same grid with one line per pixel; 0
+  /// means lines_per_patch. hemicube: pixels along a side of the cube; 0 means the default of
+  /// HemicubeOptions::resolution.
   int resolution = 0;
   PaintersOrder order = PaintersOrder::bsp;  ///< painter
-  /// pairs: PairOptions::points, up to largest_points; 0: default_points.
+  /// pairs: PairOptions::points, up to largest_points; 0 means default_points.
   int points = 0;
   /// fast, local and exact: Transfers::moments too, for Basis::linear. The other engines have none.
   bool moments = false;

@@ -22,8 +22,8 @@ class Canceled : public std::exception {
   const char* what() const noexcept override { return "canceled"; }
 };
 
-/// What the caller can change so that a failed solve succeeds. A front end adds a hint that names
-/// its own option or control for it.
+/// The change that the caller can make so that a failed solve succeeds. A front end adds a hint
+/// that names its own option or control for it.
 enum class Remedy {
   none,                                   ///< no setting is known to help
   directions,                             ///< SolveOptions::directions, larger
@@ -32,13 +32,14 @@ enum class Remedy {
   memory,                                 ///< a larger limit, such as SolveOptions::memory
 };
 
-/// A valid solve, or a valid record of a direction, that fails. `what()` is one sentence for the user, without a hint.
+/// A valid solve, or a valid record of a direction, that fails. `what()` is one sentence for the
+/// user, without a hint.
 class SolveError : public std::runtime_error {
  public:
   /// @param what one sentence for the user.
   /// @param remedy what would avoid the failure.
   SolveError(const std::string& what, Remedy remedy) : std::runtime_error(what), remedy_(remedy) {}
-  /// What would avoid the failure.
+  /// The change that would avoid the failure.
   Remedy remedy() const noexcept { return remedy_; }
 
  private:

@@ -51,11 +51,11 @@ void check_distinct(const std::vector<std::string>& outputs,
 
 /// How radiosity is shown in files for other programs.
 struct DisplayOptions {
-  /// Linear color per radiosity, m²/W, > 0: where B times it is 1, the color is white. Unset:
-  /// automatic_exposure().
+  /// Linear color per radiosity, m²/W, > 0: where B times it is 1, the color is white. If unset,
+  /// automatic_exposure() gives it.
   std::optional<double> exposure = std::nullopt;
-  /// .glb, .gltf: the direction, a unit vector, that becomes their up, +y; unset: +y, coordinates
-  /// stay. .png: the direction that is up in the picture; unset: +z.
+  /// .glb, .gltf: the direction, a unit vector, that becomes their up, +y; if unset, coordinates
+  /// stay. .png: the direction that is up in the picture; +z if unset.
   std::optional<Vec3> up = std::nullopt;
   /// .png: the point in the middle of the picture, m; unset: the center of the scene's bounds.
   std::optional<Vec3> target = std::nullopt;
@@ -66,8 +66,8 @@ struct DisplayOptions {
   /// @throws InputError naming the value and its range.
   void validate() const;
 };
-/// The exposure that makes B white where it exceeds that of 98 % of the area that does not emit (of
-/// all area, where all emits); 1 without light.
+/// The exposure at which B becomes white where it exceeds B on 98 % of the area that does not emit
+/// (of all area, where all emits); 1 without light.
 double automatic_exposure(const Solution& solution);
 
 /// Checks that `path` is writable and ends in .csv, .vtp, .ply, .obj, .glb, .gltf or .png.
@@ -122,28 +122,12 @@ bool is_result_file(const std::filesystem::path& path);
 /// @throws Canceled
 Solution read_result(const std::filesystem::path& path, const Cancellation& cancellation = {});
 
-/// @name Transfer tables
-/// @{
-
 /// Columns receiver,source,area; source -1: nothing above, or a back side. Direction omega only.
 void write_transfers_csv(std::ostream& out, const Transfers& transfers);
-void write_transfers_csv(const std::filesystem::path& path, const Transfers& transfers);
-/// @}
-/// @name Form-factor tables
-/// @{
-
 /// Columns i,j,F; rows sorted by i, then j.
 void write_form_factors_csv(std::ostream& out, const FormFactors& form_factors);
-void write_form_factors_csv(const std::filesystem::path& path, const FormFactors& form_factors);
-/// @}
-/// @name Direction tables
-/// @{
-
 /// Columns u,v,x,y,z.
 void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>& directions);
-void write_directions_csv(const std::filesystem::path& path,
-                          const std::vector<DirectionSample>& directions);
-/// @}
 
 /// Writes options and statistics of a solve run as JSON. The options of the scene come from the
 /// scene of `solution`.

@@ -61,8 +61,8 @@ struct DirectLight {
   std::vector<PatchId> sources;  ///< ascending
   double power_share = 0;        ///< power of the sources over all power emitted
   std::vector<Part> parts;       ///< sorted by material; empty if they would exceed 256 MiB
-  /// Estimated error of `irradiance`, W/m², one per patch: that of partly hidden pairs, which are
-  /// computed by points. Empty: unknown (with_materials()).
+  /// Estimated error of `irradiance`, W/m², one per patch: the error of partly hidden pairs, which
+  /// are computed by points. Empty if unknown (with_materials()).
   std::vector<Rgb> irradiance_error = {};
   std::int64_t integrated_pairs = 0;  ///< SolveStatistics::integrated_pairs
 };
@@ -86,7 +86,7 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int t
 /// @param light of `scene`.
 /// @param scene the scene.
 /// @param materials as many as the scene has, in the same order; with patch_materials any number.
-/// @param patch_materials index into `materials` for each patch; empty: Patch::material.
+/// @param patch_materials index into `materials` for each patch; if empty, Patch::material applies.
 /// @throws InputError where `light` belongs to another scene or has no parts, or where sources of
 /// one part now differ in exitance.
 DirectLight with_materials(const DirectLight& light, const Scene& scene,

@@ -16,9 +16,9 @@ namespace TRANSILLUM_API transillum {
 
 /// Form factors read from a file.
 struct StoredFormFactors {
-  std::string name;           ///< of the file, for error messages
+  std::string name;           ///< name of the file, for error messages
   FormFactors form_factors;   ///< rows sorted by source, values > 0
-  std::vector<double> areas;  ///< of the patches, m²; empty: the file does not have them
+  std::vector<double> areas;  ///< areas of the patches, m²; empty if the file has none
   std::string polygons;       ///< hash of the corners of all patches; empty: the file has none
 };
 
@@ -45,7 +45,7 @@ bool is_form_factor_file(const std::filesystem::path& path);
 /// @throws Canceled
 StoredFormFactors read_form_factors(const std::filesystem::path& path,
                                     const Cancellation& cancellation = {});
-/// Checks that form factors are those of a scene: the number of patches; their areas, to 1e-9; in
+/// Checks that form factors belong to a scene: the number of patches; their areas, to 1e-9; in
 /// files without areas, that A_i F_ij and A_j F_ji differ by at most 10 % on average; the hash of
 /// the polygons, without which an object that has moved is not noticed.
 /// @throws InputError naming the file and the difference.

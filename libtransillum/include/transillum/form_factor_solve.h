@@ -6,6 +6,8 @@
 
 #include "transillum/cancellation.h"
 #include "transillum/export.h"
+#include "transillum/hemicube.h"
+#include "transillum/pair_form_factors.h"
 #include "transillum/scene.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
@@ -13,6 +15,11 @@
 namespace TRANSILLUM_API transillum {
 
 /// Checks options for solve_by_form_factors().
+/// The options of hemicube_form_factors() that a solve has.
+HemicubeOptions hemicube_options(const SolveOptions& options);
+/// The options of pair_form_factors() that a solve has.
+PairOptions pair_options(const SolveOptions& options);
+
 /// @throws InputError where solve_by_form_factors() would.
 void check_form_factor_options(const SolveOptions& options);
 
@@ -25,7 +32,7 @@ void check_form_factor_options(const SolveOptions& options);
 /// pairs, PairOptions::points is reported as the number of directions.
 /// @param scene the scene.
 /// @param options engine (hemicube or pairs), tolerance, iterations, engine_options.resolution or
-/// points (0: the default), memory and threads apply.
+/// points (0 means the default), memory and threads apply.
 /// @param cancellation checked during computation.
 /// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
 /// @throws InputError where an option requires directions
@@ -35,7 +42,7 @@ Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOp
                                const std::function<void(double)>& progress = {});
 
 /// Solves with given form factors, by the iteration of solve_by_form_factors(). No passes are made:
-/// in the statistics, their number and that of directions is 0.
+/// in the statistics, the numbers of passes and of directions are 0.
 /// @param scene the scene.
 /// @param form_factors of `scene`, as of read_form_factors().
 /// @param options tolerance, iterations and threads apply.
@@ -49,7 +56,7 @@ Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors
 
 /// The result of solve_by_pairs().
 struct PairSolution {
-  Solution solution;     ///< of the last solve
+  Solution solution;     ///< result of the last solve
   int points = 0;        ///< PairOptions::points of the last solve
   double error = 0;      ///< estimated RadiosityError::rms; 0 where nothing is partly hidden
   bool reached = false;  ///< error <= accuracy

@@ -26,8 +26,8 @@ struct FormFactors {
 /// Options of gather_form_factors().
 struct GatherOptions {
   int rays_per_patch = 1000;  ///< N, 1 … 2^24
-  std::uint64_t seed = 1;     ///< of the random numbers
-  int threads = 0;            ///< 0: all cores; the result does not depend on it
+  std::uint64_t seed = 1;     ///< seed of the random numbers
+  int threads = 0;            ///< 0 uses all cores; the result does not depend on it
 
   /// @throws InputError naming the option and its range.
   void validate() const;
@@ -36,9 +36,9 @@ struct GatherOptions {
 /// Form factors by Monte Carlo ray tracing, for comparison: from every patch, rays with cosine
 /// distribution to the first patch they hit.
 ///
-/// Unbiased; N F_ij is a count of N rays per patch, so its error is about that of a binomial count,
-/// less where the rays are stratified. Of coincident patches the one whose front side faces the ray
-/// is hit.
+/// Unbiased; N F_ij is a count of N rays per patch, so its error is about as large as for a
+/// binomial count, less where the rays are stratified. Of coincident patches the one whose front
+/// side faces the ray is hit.
 /// @param scene the scene.
 /// @param options rays, seed and threads.
 /// @param cancellation checked during computation.

@@ -30,8 +30,8 @@ namespace TRANSILLUM_API transillum {
 Lobe used_lobe(const Material& material);
 /// Whether the lobe of any patch reflects something.
 bool has_lobes(const Scene& scene);
-/// The exponent of the Phong lobe that is about as wide: of LobeShape::ggx, with alpha =
-/// roughness², ln 2 / alpha², which falls to a quarter at the same angle.
+/// The exponent of the Phong lobe that is about as wide. For LobeShape::ggx, with alpha =
+/// roughness², it is ln 2 / alpha²: both lobes fall to a quarter at the same angle.
 double equivalent_exponent(const Lobe& lobe);
 /// Largest equivalent_exponent() that M passes resolve: M/10, ten directions within a lobe.
 double resolved_exponent(int directions);
@@ -73,7 +73,7 @@ class LobeFunction {
 /// Threads: immutable, so any number of threads may read it.
 class GlossyLight {
  public:
-  struct Data;  ///< what it consists of; private to the library
+  struct Data;  ///< its contents; private to the library
   /// For GlossySolver.
   explicit GlossyLight(std::shared_ptr<const Data> data);
 
@@ -128,7 +128,7 @@ class GlossySolver {
   GlossySolver& operator=(GlossySolver&&) noexcept;
 
   /// Called after each group of passes and each iteration, and while lobes are scaled or reflect;
-  /// returns whether to go on, which a stage of lobes does in any case.
+  /// returns whether to continue, which a stage of lobes does in any case.
   using Observer = std::function<bool(const SolveProgress&)>;
   /// Iterates until the radiance settles or the observer returns false; may be called again.
   /// Returns whether it has finished.
@@ -138,7 +138,7 @@ class GlossySolver {
   /// @returns whether the solve is unfinished.
   /// @throws Canceled: what is finished remains.
   bool advance(RadiositySolver::Until until, const Observer& observer = {});
-  /// Of iterations after a change of materials.
+  /// Start of the iterations after a change of materials.
   enum class Start {
     emission,  ///< E, as a new solve: the same bits
     current,   ///< the light that arrived in the last iteration, where there is one: fewer
@@ -148,7 +148,7 @@ class GlossySolver {
   /// a patch gets a lobe that had none, the passes are made again.
   /// The next iteration scales lobes; those that stay the same are kept.
   /// @param materials as many as the scene has, for the same patches; with `of_patch`, any number.
-  /// @param of_patch index into `materials` of each patch; empty: that of the scene.
+  /// @param of_patch index into `materials` of each patch; if empty, the scene's indices apply.
   /// @param start what the iteration starts with.
   /// @throws InputError; std::runtime_error where the radiance by direction does not fit into
   /// memory. Nothing is changed then.
@@ -160,7 +160,7 @@ class GlossySolver {
   SolveProgress progress() const;
   /// omega of each pass.
   const std::vector<Vec3>& directions() const;
-  /// The result so far; complete once the solve has finished. `scene` is that of the constructor.
+  /// The result so far; complete once the solve has finished. Its `scene` is the constructor's.
   Solution solution() const;
 
  private:

@@ -16,7 +16,7 @@ struct HemicubeOptions {
   int resolution = 64;       ///< R, pixels along a side of the cube; even, 2 … 2048
   std::uint64_t memory = 0;  ///< limit for the form factors, bytes; 12 per nonzero entry; 0: a
                              ///< quarter of the machine's
-  int threads = 0;           ///< 0: all cores; the result does not depend on it
+  int threads = 0;           ///< 0 uses all cores; the result does not depend on it
 
   /// @throws InputError naming the option and its range.
   void validate() const;

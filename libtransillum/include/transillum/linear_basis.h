@@ -18,7 +18,7 @@ namespace TRANSILLUM_API transillum {
 /// grows along the longest edge of the patch, phi_2 across it.
 struct LinearBasis {
   Vec3 center;                   ///< centroid of the patch, m: both functions are 0 there
-  std::array<Vec3, 2> gradient;  ///< of phi_1 and phi_2, 1/m, in the plane of the patch
+  std::array<Vec3, 2> gradient;  ///< gradients of phi_1 and phi_2, 1/m, in the plane of the patch
 
   /// phi_1 and phi_2 at a point of the patch.
   std::array<double, 2> at(const Vec3& point) const {
@@ -30,8 +30,8 @@ struct LinearBasis {
 /// The linear part of the radiosity of a patch: B(x) = B + first phi_1(x) + second phi_2(x), B
 /// being its mean.
 struct LinearPart {
-  Rgb first;   ///< of phi_1, W/m²
-  Rgb second;  ///< of phi_2, W/m²
+  Rgb first;   ///< coefficient of phi_1, W/m²
+  Rgb second;  ///< coefficient of phi_2, W/m²
 };
 
 /// The basis of patch i, from the moments of its outline, which may be concave. The patch cut into

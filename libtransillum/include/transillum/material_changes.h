@@ -22,9 +22,9 @@ struct MaterialChange {
   /// material; `material:NAME` and `group:NAME` say which. Names are found without regard to case
   /// where none is spelled exactly so.
   std::string target;
-  std::optional<Rgb> reflectance = std::nullopt;  ///< rho, 0 <= rho < 1 per channel; unset: kept
-  std::optional<Rgb> exitance = std::nullopt;     ///< E, W/m², >= 0; unset: kept
-  std::optional<Lobe> lobe = std::nullopt;        ///< its glossy part; unset: kept
+  std::optional<Rgb> reflectance = std::nullopt;  ///< rho, 0 <= rho < 1 per channel; kept if unset
+  std::optional<Rgb> exitance = std::nullopt;     ///< E, W/m², >= 0; kept if unset
+  std::optional<Lobe> lobe = std::nullopt;        ///< its glossy part; kept if unset
 
   /// Exact comparison.
   friend bool operator==(const MaterialChange&, const MaterialChange&) = default;
@@ -44,7 +44,7 @@ MaterialChange lobe_change(const std::string& text);
 
 /// Applies changes in their order: of two for the same face and value, the later one holds. All
 /// targets refer to the description as it is before the first change, so a change of a material
-/// also reaches those of its faces that an earlier change gave another exitance.
+/// also reaches its faces to which an earlier change gave another exitance.
 ///
 /// Where a change is for a part of a material's faces, these get a new material, named after the
 /// material and the target. Materials in use keep their numbers; new ones are appended. A target

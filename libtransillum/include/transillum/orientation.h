@@ -17,24 +17,24 @@
 
 namespace TRANSILLUM_API transillum {
 
-/// What plan_orientation() changes among the faces of one material or group.
+/// Changes that plan_orientation() makes among the faces of one material or group.
 struct OrientationCount {
-  std::string name;            ///< of the material or group
+  std::string name;            ///< name of the material or group
   std::int64_t faces = 0;      ///< its faces
-  std::int64_t turned = 0;     ///< of these, turned
-  std::int64_t two_sided = 0;  ///< of these, made two-sided
+  std::int64_t turned = 0;     ///< how many of its faces are turned
+  std::int64_t two_sided = 0;  ///< how many of its faces become two-sided
 };
 
-/// What plan_orientation() found, in counts and sentences.
+/// The findings of plan_orientation(), in counts and sentences.
 struct OrientationReport {
   std::int64_t faces = 0;                   ///< faces in the description
-  std::int64_t parts = 0;                   ///< sets of faces that hang together
+  std::int64_t parts = 0;                   ///< connected components of faces
   std::int64_t parts_turned = 0;            ///< parts with turned faces
   std::int64_t faces_turned = 0;            ///< faces to turn
   std::int64_t parts_two_sided = 0;         ///< parts to make two-sided: seen on both sides
   std::int64_t faces_two_sided = 0;         ///< faces to make two-sided
   std::int64_t not_orientable = 0;          ///< parts without two sides, such as a Moebius strip
-  std::vector<OrientationCount> materials;  ///< those with changes, in their order
+  std::vector<OrientationCount> materials;  ///< materials with changes, in their order
   std::vector<OrientationCount> groups;     ///< the same for groups of faces
   std::vector<std::string> sentences;       ///< for the user, at most a few dozen
 };
@@ -52,7 +52,7 @@ struct OrientationPlan {
 
 /// Finds which faces to turn so that what is seen is the lit side.
 ///
-/// Faces hang together where exactly two of them share an edge, by equal coordinates; such a part
+/// Two faces are connected where they alone share an edge, by equal coordinates; a connected part
 /// is turned as a whole, after its faces have been made consistent with each other. Its lit side is
 /// the one from which random walks of light reach more of the other parts and of the light. So
 /// closed solids are lit outside, the room that contains the rest inside, as is an emitting closed
@@ -83,17 +83,17 @@ OrientationReport orient(SceneDescription& description, int threads = 0,
 
 /// How much of what is seen of a material or group is its back.
 struct BackCount {
-  std::string name;   ///< of the material or group
-  double share = 0;   ///< of what is seen of it, the fraction that is its back, in [0,1]
+  std::string name;   ///< name of the material or group
+  double share = 0;   ///< fraction of what is seen of it that is its back, in [0,1]
   double of_all = 0;  ///< its backs as a fraction of all that is seen, in [0,1]
 };
 
-/// What light meets in a scene, and what lit sides see.
+/// Shares of back sides among what light meets in a scene and among what lit sides see.
 struct BackShare {
   /// Share of what light meets above which the orientation of faces deserves a warning.
   static constexpr double worth_a_warning = 0.1;
 
-  /// Of what light meets, the fraction that is a back, in [0,1]. Where the light of all sources
+  /// The fraction of backs in what light meets, in [0,1]. Where the light of all sources
   /// leaves the scene: 1, since they are turned away. Where nothing emits, most lit sides see
   /// nothing, but backs see backs: 1, since the scene is inside out.
   double share = 0;
@@ -101,7 +101,7 @@ struct BackShare {
   /// line counts where it meets nothing on either side, so that a sealed room of two-sided faces
   /// has 0.
   double open = 0;
-  std::vector<BackCount> materials;  ///< those with backs seen, most of all first
+  std::vector<BackCount> materials;  ///< materials with visible backs, by falling of_all
   std::vector<BackCount> groups;     ///< the same for groups of faces
 };
 

@@ -20,7 +20,7 @@ struct PairOptions {
   int points = EngineOptions::default_points;
   std::uint64_t memory = 0;  ///< limit for the form factors, bytes; 18 per nonzero entry while they
                              ///< are assembled; 0: a quarter of the machine's
-  int threads = 0;           ///< 0: all cores; the result does not depend on it
+  int threads = 0;           ///< 0 uses all cores; the result does not depend on it
 
   /// @throws InputError naming the option and its range.
   void validate() const;
@@ -33,7 +33,7 @@ struct PairOptions {
 /// between; otherwise from points of the smaller patch, where the blockers hide parts of the other.
 /// Thus A_i F_ij = A_j F_ji up to one rounding of each, in closed scenes rows sum to 1 up to the
 /// distance of the points, and for pairs with nothing between exactly. Time grows as the square of
-/// the number of patches, times that of the blockers between two.
+/// the number of patches, times the number of blockers between two.
 /// @param scene the scene.
 /// @param options points, memory and threads.
 /// @param cancellation checked during computation, also within a pair.

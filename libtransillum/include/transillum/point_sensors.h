@@ -22,7 +22,7 @@ struct PointSensor {
 /// Options of sensor_form_factors().
 struct SensorOptions {
   std::uint64_t memory = 0;  ///< limit of the form factors, bytes; 0: a quarter of the machine's
-  int threads = 0;           ///< 0: all cores; the result does not depend on it
+  int threads = 0;           ///< 0 uses all cores; the result does not depend on it
 };
 
 /// Form factors from sensors to all patches: row i has, per patch j that sensor i sees, the share

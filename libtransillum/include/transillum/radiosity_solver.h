@@ -18,10 +18,10 @@
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
 #include "transillum/linear_basis.h"
+#include "transillum/patch_sums.h"
 #include "transillum/scene.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
-#include "transillum/solver_group.h"
 #include "transillum/vec3.h"
 
 namespace TRANSILLUM_API transillum {
@@ -35,10 +35,10 @@ struct SolveProgress {
   double change = 0;      ///< IterationRecord::change of the last finished iteration
   double seconds_transfers = 0;  ///< wall time of all passes so far
   double passes_per_second = 0;  ///< in the current iteration
-  double seconds_left = 0;       ///< of the current iteration, estimated
+  double seconds_left = 0;       ///< estimated time to the end of the current iteration
   Vec3 last_direction;           ///< omega of the last finished pass
-  /// What is under way. With lobes (GlossySolver), these are scaled before the first iteration, and
-  /// reflect in each after its passes.
+  /// The work under way. With lobes (GlossySolver), these are scaled before the first iteration,
+  /// and reflect in each after its passes.
   enum class Stage { passes, scaling_lobes, reflecting };
   Stage stage = Stage::passes;  ///< the present one
   double stage_share = 0;       ///< finished share of a stage of lobes, 0 to 1
@@ -47,15 +47,16 @@ struct SolveProgress {
 
 /// The parts that a solver starts from. The solver makes each part that is null.
 struct SolverParts {
-  std::shared_ptr<const BspTree> tree = nullptr;  ///< of the scene
+  std::shared_ptr<const BspTree> tree = nullptr;  ///< the scene's tree
   /// Direct light of the scene's small sources, if SolveOptions::first_shot is set.
   std::shared_ptr<const DirectLight> shot = nullptr;
-  /// Makes the passes, such as an engine that reads them from a file; null: SolveOptions::engine.
+  /// Makes the passes, such as an engine that reads them from a file; null means
+  /// SolveOptions::engine.
   TransferEngine engine = {};
-  /// Processes that solve together. Each has a solver of its own with the same scene and options,
-  /// and all call its functions that are not const, in the same order. The results have the bits of
-  /// a solver without a group. Null: this process alone.
-  std::shared_ptr<SolverGroup> group = nullptr;
+  /// Where the sums over passes are kept; null keeps all of them in the memory of this process. Of
+  /// several processes, each has a solver of its own with the same scene and options, and all call
+  /// its functions that are not const, in the same order. The results have the same bits.
+  std::shared_ptr<PatchSums> sums = nullptr;
 };
 
 /// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11, or 44 or 45 by its scheme) in steps that can be
@@ -93,13 +94,12 @@ class RadiositySolver {
   /// Continues the solve. After a pause or an exception the solver is in the state after the last
   /// observed pass, from which the next call continues.
   /// @returns whether the solve is unfinished.
-  /// @throws Canceled; NotConvergent, MemoryLimitExceeded (solve_errors.h).
-  /// In a group, where an observer returns false on one member, all pause after the same pass; its
+  /// @throws Canceled; NotConvergent, MemoryLimitExceeded (errors.h).
+  /// Of several processes, all pause after the same pass where an observer returns false in one; its
   /// observers see the progress, but B only after complete_estimate().
   bool advance(Until until, const Observer& observer = {});
-  /// In a group, makes what the solver returns complete within an observer's call, as it is between
-  /// calls of advance(). To be called by all members, after the same pass. Without a group it does
-  /// nothing.
+  /// Makes what the solver returns complete within an observer's call, as it is between calls of
+  /// advance(). To be called in all processes after the same pass; one process alone need not.
   void complete_estimate() const;
 
   /// The scene.
@@ -112,8 +112,6 @@ class RadiositySolver {
   std::shared_ptr<const BspTree> shared_tree() const;
   /// The options it was constructed with.
   const SolveOptions& options() const;
-  /// The processes that it solves with; null: this one alone.
-  std::shared_ptr<SolverGroup> group() const;
   /// The first shot; all 0 if there is none.
   std::shared_ptr<const DirectLight> direct_light() const;
   /// The current state.
@@ -124,45 +122,46 @@ class RadiositySolver {
   SolveStatistics statistics() const;
 
   /// B of the last finished iteration, W/m², one per patch; before the first: E, plus the
-  /// contribution of the first shot. Of Basis::linear its mean over the patch.
+  /// contribution of the first shot. With Basis::linear, the mean of B over the patch.
   const std::vector<Rgb>& radiosity() const;
-  /// The linear parts of B, one per patch, of what solution() returns as radiosity; empty for
+  /// The linear parts of the radiosity that solution() returns, one per patch; empty with
   /// Basis::constant.
   std::vector<LinearPart> linear_parts() const;
   /// B of the current iteration, W/m², estimated from the passes done so far; radiosity() between
   /// iterations.
   std::vector<Rgb> running_estimate() const;
-  /// H of the last finished iteration, W/m², one per patch; of Basis::linear its mean over the
-  /// patch.
+  /// H of the last finished iteration, W/m², one per patch; with Basis::linear, the mean of H over
+  /// the patch.
   const std::vector<Rgb>& irradiance() const;
   /// Keeps form factors in the semi-iterative scheme too, from the next pass on. The other schemes
   /// always keep them if SolveOptions::memory suffices.
   void keep_form_factors();
-  /// Continues a finished solve with one replica more, whose set has as many directions as that of
-  /// the last: options().directions and options().replicas increase. radiosity() remains until the
-  /// next iteration is finished.
+  /// Adds one replica, with as many directions as the last, and continues a finished solve:
+  /// options().directions and options().replicas increase. radiosity() remains until the next
+  /// iteration is finished.
   /// @throws std::logic_error unless the solve is finished, its scheme is fixed or
   /// conjugate_gradients, and it has at least 2 replicas.
   void add_replica();
-  /// Writes the state: all that passes and iterations have led to. An observer may call it. In a
-  /// group all members must, after the same pass; member 0 writes the state of all, in the format
-  /// of a solver alone.
+  /// Writes the state: all that passes and iterations have led to. An observer may call it. Of
+  /// several processes all must, after the same pass; the first writes the state of all, in the
+  /// format of one.
   /// @param out binary; its errors are left to the caller.
   void save(std::ostream& out) const;
   /// Sets the state to one that save() wrote in the same version of the library, from a solver with
   /// the same scene and options; the number of threads may differ. The solve then continues to the
   /// same bits. To be called before advance().
-  /// In a group all members must call it, each with the whole state, and then complete_estimate().
+  /// Of several processes all must call it, each with the whole state, and then
+  /// complete_estimate().
   /// @param in binary.
   /// @param size length of the state, bytes.
   /// @throws std::runtime_error where it is damaged or of another scene; the solver may then only
   /// be destroyed.
   void restore(std::istream& in, std::uint64_t size);
   /// F_ij of all pairs, from the kept exchange sums of all passes; in the semi-iterative scheme, of
-  /// all iterations. Of Basis::linear those of constant functions, which alone do not give its B.
+  /// all iterations. With Basis::linear, F_ij of constant functions, which alone do not give its B.
   /// @throws std::runtime_error where no iteration is finished or one is unfinished, or where they
-  /// were not kept or exceed the memory limit. In a group all members must call it; it returns them
-  /// on member 0, and empty rows on the others.
+  /// were not kept or exceed the memory limit. Of several processes all must call it; it returns
+  /// them in the first, and empty rows in the others.
   FormFactors form_factors() const;
   /// sum_j F_ij, one per patch, from the passes done so far; 1 within eps(M)/pi where i is
   /// enclosed.
@@ -172,12 +171,12 @@ class RadiositySolver {
   /// 17).
   std::vector<double> sky_shares() const;
   /// Per patch: what it receives from SolveOptions::sky, W/m², from the passes done so far; empty
-  /// without a sky. In the semi-iterative scheme, of the last set of directions.
+  /// without a sky. In the semi-iterative scheme, for the last set of directions.
   std::vector<Rgb> sky_irradiance() const;
-  /// Per patch: share of its visible area, over all passes so far, of which receivers see the back
-  /// side.
+  /// Per patch: share of its visible area of which receivers see the back side, over all passes so
+  /// far.
   std::vector<double> back_seen_shares() const;
-  /// The error estimate from replicas: of radiosity(), or within an iteration of
+  /// The error estimate from replicas: for radiosity(), or within an iteration for
   /// running_estimate().
   ErrorEstimate error_estimate() const;
   /// The result so far: within an iteration the running estimate, else radiosity(); complete once
@@ -198,7 +197,7 @@ class RadiositySolver {
   /// its largest reflected light. Empty between iterations.
   const std::vector<double>& estimate_changes() const;
   /// eps after each pass so far: the largest magnitude of eq. 17 over the patches, which eq. 21
-  /// bounds. In the semi-iterative scheme of the current set of directions only.
+  /// bounds. In the semi-iterative scheme, only for the current set of directions.
   const std::vector<double>& quadrature_errors() const;
 
  private:

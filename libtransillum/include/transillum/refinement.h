@@ -19,7 +19,7 @@
 
 namespace TRANSILLUM_API transillum {
 
-/// What says that a patch is to be divided.
+/// The criterion by which patches are divided.
 enum class RefineBy {
   jump,   ///< the jump of the radiosity across its edges; costs no solve of its own
   error,  ///< the part of the radiosity that the functions of the patch cannot represent, from a
@@ -29,10 +29,10 @@ enum class RefineBy {
 template <>
 const Choices& choices_of<RefineBy>();
 
-/// Per patch: root of the mean square, along its edges, of the jump of its radiosity to that of the
-/// patches beyond them, W/m², as the length of an RGB vector. Light alone is compared: beyond an
-/// edge, the irradiance of the neighbor times the reflectance of the patch, so that neither paint
-/// nor lamps count as jumps. Taken at two points of each edge.
+/// Per patch: root of the mean square, along its edges, of the jump from its radiosity to the
+/// radiosity of the patches beyond them, W/m², as the length of an RGB vector. Light alone is
+/// compared: beyond an edge, the irradiance of the neighbor times the reflectance of the patch, so
+/// that neither paint nor lamps count as jumps. Taken at two points of each edge.
 ///
 /// Neighbors are the patches of the same plane that touch the edge. Where a patch has none of these
 /// they are those that touch it at an angle; where it has none of these either, the jump is the
@@ -40,15 +40,15 @@ const Choices& choices_of<RefineBy>();
 /// @throws Canceled
 std::vector<double> radiosity_jumps(const Solution& solution,
                                     const Cancellation& cancellation = {});
-/// The same with other reflectances than those of the scene's materials.
+/// The same with other reflectances than the scene's materials have.
 /// @param reflectance by patch; with the share of its lobe, if lobes take part.
 /// @throws Canceled
 std::vector<double> radiosity_jumps(const Solution& solution, std::span<const Rgb> reflectance,
                                     const Cancellation& cancellation = {});
 
-/// What refine() does.
+/// The options of refine().
 struct RefineOptions {
-  RefineBy by = RefineBy::jump;  ///< what patches are divided by
+  RefineBy by = RefineBy::jump;  ///< criterion by which patches are divided
   std::int64_t patches = 0;      ///< N > 0: the most patches to make
   double until = 0;              ///< RefinementRound::figure to reach, [0,1); 0: N decides alone
   /// @throws InputError naming the option and its range.

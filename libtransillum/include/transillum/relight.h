@@ -15,33 +15,33 @@ namespace TRANSILLUM_API transillum {
 
 /// Options of relight().
 struct RelightOptions {
-  double tolerance = 1e-6;  ///< as SolveOptions::tolerance
-  /// Initial B, W/m², one per patch; empty: E. The closer to the result, the fewer iterations.
+  double tolerance = 1e-6;  ///< see SolveOptions::tolerance
+  /// Initial B, W/m², one per patch; E if empty. The closer to the result, the fewer iterations.
   std::span<const Rgb> start = {};
   /// The first shot of the solve run that the form factors come from
   /// (RadiositySolver::direct_light()), if it made one: the same sources are shot again.
   const DirectLight* shot = nullptr;
   /// Index into the materials given for each patch, so that the faces of one material may have
-  /// different ones, as change_materials() makes them; empty: Patch::material.
+  /// different ones, as change_materials() makes them; if empty, Patch::material applies.
   std::span<const std::int32_t> patch_materials = {};
-  /// What each patch receives from a sky, W/m², one per patch (Solution::sky_irradiance): it
-  /// depends on the geometry only. Empty: no sky.
+  /// Irradiance of each patch from a sky, W/m², one per patch (Solution::sky_irradiance): it
+  /// depends on the geometry only. Empty if there is no sky.
   std::span<const Rgb> sky_irradiance = {};
-  int threads = 0;  ///< 0: all cores; the result does not depend on it
+  int threads = 0;  ///< 0 uses all cores; the result does not depend on it
 };
 
 /// The result of relight().
 struct RelightResult {
   std::vector<Rgb> radiosity;   ///< B, W/m², one per patch
   std::vector<Rgb> irradiance;  ///< H, W/m², one per patch
-  int iterations = 0;           ///< of eq. 11
+  int iterations = 0;           ///< iterations of eq. 11
 };
 
 /// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11) with E and rho of other materials. Form factors
 /// depend on the geometry only, so those kept by a solve run are reused and no pass is made. Jacobi
 /// iteration; the time of an iteration is proportional to the number of form factors.
 /// @param scene the scene.
-/// @param form_factors of `scene`, from RadiositySolver::form_factors(). Those of the
+/// @param form_factors of `scene`, from RadiositySolver::form_factors(). Form factors of the
 /// semi-iterative scheme average the directions of all its iterations: the result is B for all
 /// these directions at once, while the scheme's own B is a mean over iterations; both have the same
 /// limit.

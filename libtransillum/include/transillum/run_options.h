@@ -19,10 +19,10 @@ namespace TRANSILLUM_API transillum {
 
 /// How a scene's file is read, and what is changed before its faces become patches.
 struct SceneInput {
-  ReadOptions read = {};                     ///< of the file
-  std::vector<MaterialChange> changes = {};  ///< of materials, in their order
+  ReadOptions read = {};                     ///< how the file is read
+  std::vector<MaterialChange> changes = {};  ///< changes of materials, in their order
   bool orient = false;                       ///< faces are turned by orient()
-  /// About how many patches to make, instead of SceneOptions::max_patch_area; 0: not given. Once
+  /// About how many patches to make, instead of SceneOptions::max_patch_area; 0 if not given. Once
   /// the scene is loaded, that area says the same.
   std::int64_t patches = 0;
 
@@ -49,7 +49,7 @@ struct RefineChoice {
 
 /// All options of a solve run.
 struct RunOptions {
-  SolveOptions solve = {};   ///< of the solve
+  SolveOptions solve = {};   ///< options of the solve
   SceneOptions scene = {};   ///< how faces become patches
   SceneInput input = {};     ///< how the scene is read and changed
   RefineChoice refine = {};  ///< rounds of refinement

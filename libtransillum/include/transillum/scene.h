@@ -40,9 +40,9 @@ struct Lobe {
   /// Share of the light from any direction that it reflects, >= 0 per channel (MTL: Ks). Where
   /// with rho it exceeds what a surface can reflect, used_lobe() lowers it.
   Rgb reflectance;
-  LobeShape shape = LobeShape::phong;  ///< of the distribution
-  double exponent = 0;                 ///< n of LobeShape::phong, >= 0 (MTL: Ns)
-  double roughness = 1;  ///< of LobeShape::ggx, 0 to 1: alpha = roughness² (glTF; MTL: Pr)
+  LobeShape shape = LobeShape::phong;  ///< shape of the distribution
+  double exponent = 0;                 ///< n, for LobeShape::phong, >= 0 (MTL: Ns)
+  double roughness = 1;  ///< for LobeShape::ggx, 0 to 1: alpha = roughness² (glTF; MTL: Pr)
 
   /// Whether it reflects anything.
   bool present() const { return max_abs(reflectance) > 0; }
@@ -52,7 +52,7 @@ struct Lobe {
 
 /// Optical properties of a surface: diffuse, and a lobe that only glossy solves use.
 struct Material {
-  std::string name;  ///< as in the file; not necessarily unique
+  std::string name;  ///< name in the file; not necessarily unique
   Rgb reflectance;   ///< rho, diffuse, 0 <= rho < 1 per channel (MTL: Kd)
   Rgb exitance;      ///< E, emitted, W/m², >= 0 (MTL: Ke)
   Lobe lobe = {};    ///< its glossy part; by default none
@@ -66,15 +66,16 @@ struct SceneDescription {
   std::vector<PointId> corners;              ///< the outlines of all faces, concatenated
   std::vector<std::uint32_t> face_begin;     ///< index in `corners` where face f starts
   std::vector<std::int32_t> face_material;   ///< index in `materials` of face f
-  std::vector<std::int32_t> face_line;       ///< line of face f in the file; 0: none
+  std::vector<std::int32_t> face_line;       ///< line of face f in the file; 0 if unknown
   std::vector<std::int32_t> face_number;     ///< Patch::face of the patches of face f, >= 0 and
                                              ///< ascending; faces of one number are parts of one
-                                             ///< face; empty: f
+                                             ///< face; f if the list is empty
   std::vector<std::string> groups;           ///< names of groups of faces (OBJ: `g` and `o`)
   std::vector<std::int32_t> face_group;      ///< index in `groups` of face f, or no_group; empty:
                                              ///< no face has a group
   std::vector<std::uint8_t> face_two_sided;  ///< 1: face f gives two opposite patches, front first;
-                                             ///< 0: one; empty: all give one
+                                             ///< 0: the face gives one; if the list is empty, all
+                                             ///< faces give one
   /// By face number of the file, where faces were joined: the number of the face that it is now a
   /// part of, its own if it was not joined to one before it, -1 if the file has no such face.
   /// Empty: no face was joined.
@@ -109,7 +110,7 @@ struct SceneDescription {
   /// @param outline indices into `points`, counter-clockwise seen from the front side, which is
   /// the side that emits and receives.
   /// @param material index into `materials`.
-  /// @param line line number for error messages; 0: none.
+  /// @param line line number for error messages; 0 if there is none.
   /// @param group index into `groups`, or no_group.
   void add_face(std::span<const PointId> outline, int material, int line = 0,
                 int group = no_group) {
@@ -141,8 +142,8 @@ struct ReadOptions {
   std::optional<double> max_reflectance = std::nullopt;
   /// Meters per unit of the coordinates, > 0; built-in scenes are scaled too.
   double scale = 1;
-  /// Whether faces of one plane, material and group that share edges are joined to one. Unset: only
-  /// those of formats that have triangles alone, glTF and STL.
+  /// Whether faces of one plane, material and group that share edges are joined to one. If unset,
+  /// only faces of formats that have triangles alone, glTF and STL, are joined.
   std::optional<bool> join = std::nullopt;
   /// Whether a glTF file's emissive colors are luminances, cd/m², at 683 lm/W, instead of
   /// radiances.
@@ -163,7 +164,7 @@ double length_unit_from_name(const std::string& name);
 /// How faces become patches.
 struct SceneOptions {
   bool two_sided = false;     ///< every face gives two opposite patches, front first
-  double max_patch_area = 0;  ///< m²; faces larger than this are subdivided; 0: none are
+  double max_patch_area = 0;  ///< m²; faces larger than this are subdivided; 0 subdivides none
 
   /// Exact comparison of all members.
   friend bool operator==(const SceneOptions&, const SceneOptions&) = default;
@@ -182,7 +183,7 @@ struct Patch {
   std::uint32_t outline_end = 0;    ///< one past the last index
 };
 
-/// A convex part of a patch, planar up to rounding, also that of the coordinates in a file
+/// A convex part of a patch, planar up to rounding, including the rounding of coordinates in a file
 /// (decisions/0048-precision-of-files.md). Pieces of one patch do not overlap.
 struct Piece {
   PatchId patch = no_patch;  ///< the patch it is a part of
@@ -190,7 +191,7 @@ struct Piece {
   std::uint32_t end = 0;     ///< one past the last index
 };
 
-/// What was found and repaired when faces became patches.
+/// Findings and repairs when faces became patches.
 struct SceneReport {
   std::vector<std::string> warnings;    ///< sentences for the user, at most a few dozen
   std::int64_t faces = 0;               ///< faces in the description
@@ -284,7 +285,7 @@ class Scene {
 /// A format of scene files.
 struct SceneFormat {
   std::string ending;  ///< in lower case, with its dot
-  std::string name;    ///< as "Wavefront OBJ"
+  std::string name;    ///< its name, such as "Wavefront OBJ"
 };
 /// All formats that describe_scene() reads, by the ending of a file's name.
 const std::vector<SceneFormat>& scene_formats();
@@ -310,7 +311,7 @@ std::shared_ptr<const Scene> load_scene(const std::string& spec, const SceneOpti
 
 /// Name and parameters of a built-in scene, for lists and help.
 struct BuiltInScene {
-  std::string name;        ///< as describe_scene() accepts it
+  std::string name;        ///< its name, which describe_scene() accepts
   std::string summary;     ///< one sentence
   std::string parameters;  ///< with their defaults, as they may follow the name and a colon
 };

@@ -22,7 +22,7 @@ const Choices& choices_of<SkyModel>();
 
 /// Light from outside of an open scene: where a line meets no patch, it meets the sky.
 struct Sky {
-  /// What an unobstructed patch that is turned upward receives, W/m², per channel; 0: no sky.
+  /// Irradiance of an unobstructed patch that is turned upward, W/m², per channel; 0 means no sky.
   Rgb exitance;
   SkyModel model = SkyModel::uniform;  ///< its distribution
   Vec3 up{0, 0, 1};                    ///< toward the zenith; unit; read by cie_overcast only

@@ -23,9 +23,9 @@ namespace TRANSILLUM_API transillum {
 struct IterationRecord {
   /// Largest change of B over the largest reflected light (reflected_light()); not of the mean
   double change = 0;
-  double contraction = 0;  ///< absolute change over that of the iteration before; 0 in the first.
-                           ///< semi_iterative: factor per iteration by which the influence of the
-                           ///< start decreases
+  double contraction = 0;  ///< absolute change over the one of the iteration before; 0 in the
+                           ///< first. semi_iterative: factor per iteration by which the influence
+                           ///< of the start decreases
   double seconds = 0;      ///< wall time
   /// semi_iterative, from the eighth iteration in the mean on: largest error of the mean over its
   /// largest reflected light: 95 % of the spread of iterations, and all that is left of the start.
@@ -37,7 +37,8 @@ struct IterationRecord {
   /// the power of the last change; infinite where c is not below 1. semi_iterative: bound of what
   /// is left of the start
   double remainder = 0;
-  /// The same of the dimmest tenth of the area that is lit: B - E is at least 1e-6 of the largest.
+  /// The same bound for the dimmest tenth of the lit area, where B - E is at least 1e-6 of the
+  /// largest.
   double remainder_dimmest = 0;
   double unlit_area = 0;   ///< share of the area of reflecting patches that is not lit
   double change_of_b = 0;  ///< eq. 25 of the paper: largest change of B over the largest B, with E
@@ -45,10 +46,10 @@ struct IterationRecord {
 
 /// A solve of an adaptive refinement (refinement.h), after which patches are divided.
 struct RefinementRound {
-  std::int64_t patches = 0;  ///< of the scene so far
-  /// Root of the sum of squares over patches, relative to that of the radiosity of all patches that
-  /// emit nothing: by RefineBy::jump of the jump times the root of the area, by RefineBy::error of
-  /// what the functions of a patch cannot represent
+  std::int64_t patches = 0;  ///< patches of the scene so far
+  /// Root of the sum of squares over patches of the jump times the root of the area
+  /// (RefineBy::jump), or of what the functions of a patch cannot represent (RefineBy::error);
+  /// relative to the same root for the radiosity of all patches that emit nothing
   double figure = 0;
   double seconds = 0;  ///< wall time of the round
 };
@@ -60,27 +61,27 @@ struct RefinementRound {
 /// further iterations would change (others, converged or not), and the estimated error of the first
 /// shot (DirectLight::irradiance_error) are included as the root of the sum of squares.
 struct ErrorEstimate {
-  int replicas = 0;                 ///< 0: no estimate, all other members are empty
-  std::vector<Rgb> standard_error;  ///< of B, W/m², one per patch
+  int replicas = 0;                 ///< 0 means no estimate: all other members are empty
+  std::vector<Rgb> standard_error;  ///< standard error of B, W/m², one per patch
   double quantile = 0;  ///< Student's t, two-sided 95 %, replicas - 1 degrees of freedom
   /// RMS of the errors over RMS of the reflected light (reflected_light()), over patches and
   /// channels
   double rms = 0;
-  /// What the relative RMS error does not exceed in 95 % of all runs. Larger than `rms` by the
+  /// Limit that the relative RMS error stays below in 95 % of all runs. Larger than `rms` by the
   /// uncertainty of an estimate from few replicas: a quantile of the F distribution, less so the
   /// more independent the errors of the patches are.
   double rms_limit = 0;
-  double rms_lowest = 0;  ///< what it exceeds in 95 % of all runs; with rms_limit a 90 % interval
-  /// Number of independent errors that would vary as those of all patches do together, >= 1
+  double rms_lowest = 0;  ///< limit exceeded in 95 % of all runs; with rms_limit a 90 % interval
+  /// Number of independent errors that would vary as the errors of all patches do together, >= 1
   double independent_errors = 1;
   Rgb mean_radiosity;       ///< area-weighted mean of B, W/m²
-  Rgb mean_standard_error;  ///< of this mean, W/m²
+  Rgb mean_standard_error;  ///< standard error of this mean, W/m²
   Rgb mean_reflected;       ///< area-weighted mean of B - E, W/m²
 };
 
 /// Figures of a solve in which lobes take part.
 struct GlossyFigures {
-  std::int64_t patches = 0;  ///< that have a lobe; 0: none took part
+  std::int64_t patches = 0;  ///< patches that have a lobe; 0 if lobes took no part
   std::int64_t lobes = 0;    ///< different ones: by shape and orientation
   /// Largest difference from 1 of the sum over the directions of a lobe that reflects everything,
   /// before it was scaled: above a few percent, the directions are too few for it.
@@ -97,16 +98,16 @@ struct GlossyFigures {
 
 /// Figures of a solve run. Times are wall times.
 struct SolveStatistics {
-  std::int64_t patches = 0;        ///< of the scene
-  std::int64_t fragments = 0;      ///< of the BSP tree
-  int directions = 0;              ///< used: M or 2M
+  std::int64_t patches = 0;        ///< patches of the scene
+  std::int64_t fragments = 0;      ///< fragments of the BSP tree
+  int directions = 0;              ///< directions used: M or 2M
   int passes = 0;                  ///< M
-  std::int64_t passes_made = 0;    ///< by the engine, in all iterations
-  std::int64_t hemicubes = 0;      ///< drawn instead of passes; a direction is then one pixel
-  std::int64_t pairs = 0;          ///< of patches, computed instead of passes
-  int iterations = 0;              ///< finished
+  std::int64_t passes_made = 0;    ///< passes made by the engine, in all iterations
+  std::int64_t hemicubes = 0;      ///< hemicubes drawn instead of passes; a direction is one pixel
+  std::int64_t pairs = 0;          ///< pairs of patches, computed instead of passes
+  int iterations = 0;              ///< finished iterations
   int burn_in = 0;                 ///< semi_iterative: iterations omitted from the mean
-  int threads = 0;                 ///< used
+  int threads = 0;                 ///< threads used
   std::int64_t transfers = 0;      ///< exchanges found, over all different directions
   std::int64_t form_factors = 0;   ///< kept entries; 0 where they are recomputed
   bool kept_form_factors = false;  ///< the exchange sums of all passes are in memory
@@ -115,20 +116,20 @@ struct SolveStatistics {
   bool converged = false;
   double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
   double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
-  double closure_defect_moments = 0;  ///< largest ClosureDefect::moments; 0: Basis::constant
-  /// Corners of patches at which a channel of B is below 0, of Basis::linear; set by
-  /// RadiositySolver::solution()
+  double closure_defect_moments = 0;  ///< largest ClosureDefect::moments; 0 with Basis::constant
+  /// With Basis::linear, the number of corners of patches at which a channel of B is below 0; set
+  /// by RadiositySolver::solution()
   std::int64_t negative_corners = 0;
   /// Directions that bring a patch the light of a source: (sum c)² / sum c² of the light c that it
   /// receives along each; mean over pairs of patch and source, each weighted by what it contributes
-  /// to the variance of B. 0: no direct light. Below least_light_directions per replica, the error
-  /// estimate cannot be trusted.
+  /// to the variance of B. 0 without direct light. Below least_light_directions per replica, the
+  /// error estimate cannot be trusted.
   double light_directions = 0;
-  double escaped = 0;        ///< share of projected area with nothing above; 0: closed
-  double energy_defect = 0;  ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter
+  double escaped = 0;        ///< share of projected area with nothing above; 0 if closed
+  double energy_defect = 0;  ///< |sum A_i H_i - sum_j s_j A_j B_j| over the second sum
                              ///< (ALGORITHM.md, oracle 4)
-  /// Power absorbed, sum A_i (1 - rho_i) H_i, over that emitted, sum A_i E_i, and received from the
-  /// sky; 1 in a closed scene.
+  /// Power absorbed, sum A_i (1 - rho_i) H_i, over the power emitted, sum A_i E_i, and received
+  /// from the sky; 1 in a closed scene.
   double energy_balance = 0;
   double rho_max = 0;                              ///< largest reflectance
   double predicted_contraction = 0;                ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
@@ -141,11 +142,11 @@ struct SolveStatistics {
   /// the errors of both explain; above 1, one of them is wrong. 0 without a shot, and with engines
   /// that are not exact.
   double shot_disagreement = 0;
-  PatchId shot_disagreement_patch = -1;  ///< that receives it; -1: all patches together
-  /// Pairs of patches with nothing between, of engine pairs and of the first shot, of which the
-  /// form factor was integrated numerically because the closed form would lose digits.
+  PatchId shot_disagreement_patch = -1;  ///< patch that receives it; -1: all patches together
+  /// Pairs of patches with nothing between them, in engine pairs and in the first shot, whose form
+  /// factor was integrated numerically because the closed form would lose digits.
   std::int64_t integrated_pairs = 0;
-  GlossyFigures glossy;           ///< of a glossy solve
+  GlossyFigures glossy;           ///< figures of a glossy solve
   double seconds_load = 0;        ///< reading the scene; set by the caller
   double seconds_bsp = 0;         ///< building the BSP tree
   double seconds_first_shot = 0;  ///< first shot
@@ -168,24 +169,24 @@ struct Solution {
   ErrorEstimate error;                 ///< from replicas, if there are any
   SolveStatistics statistics;          ///< figures of the run
   bool complete = false;  ///< false: stopped early, radiosity is the best estimate so far
-  std::optional<AccuracyReport> accuracy = {};  ///< of a solve with a goal
-  /// sum_j F_ij, one per patch; empty: not known
+  std::optional<AccuracyReport> accuracy = {};  ///< report of a solve with a goal
+  /// sum_j F_ij, one per patch; empty if not known
   std::vector<double> form_factor_sums = {};
-  /// RadiositySolver::sky_shares(); of solves with given form factors, 1 - sum_j F_ij, which counts
-  /// what meets back sides as escaping. Empty: not known.
+  /// RadiositySolver::sky_shares(); with given form factors, 1 - sum_j F_ij, which counts
+  /// what meets back sides as escaping. Empty if not known.
   std::vector<double> sky_shares = {};
-  /// RadiositySolver::sky_irradiance(); part of `irradiance`; empty: there is no sky
+  /// RadiositySolver::sky_irradiance(); part of `irradiance`; empty without a sky
   std::vector<Rgb> sky_irradiance = {};
   Sky sky = {};  ///< SolveOptions::sky
-  /// Of solves with given form factors; null: RadiositySolver::form_factors() may have them.
+  /// The form factors given to the solve; if null, RadiositySolver::form_factors() may have them.
   std::shared_ptr<const FormFactors> form_factors = nullptr;
-  /// RadiositySolver::linear_parts(), of Basis::linear, whose mean over a patch is `radiosity`;
-  /// empty: B is constant on patches
+  /// RadiositySolver::linear_parts(), with Basis::linear: the mean over a patch is `radiosity`;
+  /// empty if B is constant on patches
   std::vector<LinearPart> linear_parts = {};
-  /// Radiance by direction, of a glossy solve in which lobes took part; else null. `radiosity` is
+  /// Radiance by direction after a glossy solve in which lobes took part; else null. `radiosity` is
   /// then E + (rho + reflectance of the lobe) H.
   std::shared_ptr<const GlossyLight> glossy = nullptr;
-  /// A point from which patches are seen, whose radiance toward it result files then have.
+  /// A point from which patches are seen; result files then have their radiance toward it.
   std::optional<Vec3> eye = std::nullopt;
 };
 
@@ -194,13 +195,13 @@ struct Solution {
 /// @param b B, W/m², one value per patch; with a linear basis three, the mean first.
 std::vector<Rgb> reflected_light(const Scene& scene, const std::vector<Rgb>& b);
 
-/// B at the corners of patch i's outline, W/m². Of Basis::linear it may be below 0.
+/// B at the corners of patch i's outline, W/m². With Basis::linear it may be below 0.
 std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i);
 
-/// The patches whose standard errors may be much too small: all replicas miss light alike that
-/// comes to them from a small source. Not measured but expected, by sizes and distances: light of
-/// sources that fewer than least_light_directions per replica bring to the patch is more than half
-/// of its interval. What stands between is not counted, so these may be too many.
+/// The patches whose standard errors may be much too small, because all replicas miss the light of
+/// a small source alike. Not measured but expected, by sizes and distances: light of sources that
+/// fewer than least_light_directions per replica bring to the patch is more than half of its
+/// interval. Blockers are not taken into account, so these may be too many.
 /// @param solution of passes with replicas; otherwise, and where all sources were shot first or
 /// patches times sources exceed 2^22, the result is empty.
 std::vector<PatchId> uncertain_patches(const Solution& solution);

@@ -42,7 +42,7 @@ const Choices& choices_of<Scheme>();
 
 /// The properties of a scheme. Callers ask these instead of naming schemes.
 struct SchemeTraits {
-  Scheme value;                    ///< which one
+  Scheme value;                    ///< the scheme
   const char* name;                ///< in options and files
   const char* label;               ///< in a list of choices
   const char* sentence;            ///< which directions an iteration has
@@ -66,15 +66,15 @@ const Choices& choices_of<Basis>();
 /// Options of a solve run.
 struct SolveOptions {
   int directions = 1024;                          ///< M: passes per iteration, 1 … 2^24
-  std::optional<Sampling> sampling = {};          ///< set of directions; unset: used_sampling()
-  std::uint64_t seed = 1;                         ///< of seeded samplings and of engine rays
+  std::optional<Sampling> sampling = {};          ///< set of directions; used_sampling() if unset
+  std::uint64_t seed = 1;                         ///< seed of seeded samplings and of engine rays
   std::optional<std::uint64_t> rotation = {};     ///< seed of a rotation of all directions, if any
   Engine engine = Engine::fast;                   ///< computes the transfers
-  EngineOptions engine_options = {};              ///< of the engine
+  EngineOptions engine_options = {};              ///< options of the engine
   bool two_way = true;                            ///< each pass serves omega and -omega
-  Normalization normalize = Normalization::none;  ///< of the form factors
-  Scheme scheme = Scheme::fixed;                  ///< of the iteration
-  Basis basis = Basis::constant;                  ///< of the radiosity on a patch
+  Normalization normalize = Normalization::none;  ///< normalization of the form factors
+  Scheme scheme = Scheme::fixed;                  ///< scheme of the iteration
+  Basis basis = Basis::constant;                  ///< basis of the radiosity on a patch
   /// R²/A from which sources are small and, if bright, are shot before the first iteration, or
   /// first_shot_where_it_pays (first_shot_sources()); nothing: no first shot.
   std::optional<double> first_shot = {};
@@ -85,21 +85,21 @@ struct SolveOptions {
   int replicas = 1;    ///< 2 … 64: split the M directions into this many sets with independent
                        ///< rotations, whose spread gives an error estimate. At most M
   int iterations = 0;  ///< number of iterations; 0: by averaged_iterations or tolerance
-  /// semi_iterative: number of iterations in the mean, after which it stops; 0: by tolerance
+  /// semi_iterative: number of iterations in the mean, after which it stops; 0 stops by tolerance
   int averaged_iterations = 0;
-  /// Bound of what the iteration leaves out, relative to reflected light: of
+  /// Bound of what the iteration omits, relative to reflected light: of
   /// IterationRecord::remainder and remainder_dimmest; semi_iterative: IterationRecord::error
   double tolerance = 1e-6;
   std::uint64_t memory = 0;  ///< limit for kept form factors, bytes; 0: a quarter of the machine's
-  int threads = 0;           ///< 0: all cores; the result does not depend on it
-  /// If set, a SolveSession chooses `directions` and `replicas`. A RadiositySolver uses
-  /// those given.
+  int threads = 0;           ///< 0 uses all cores; the result does not depend on it
+  /// If set, a SolveSession chooses `directions` and `replicas`. A RadiositySolver uses the
+  /// values given.
   AccuracyGoal goal = {};
   /// Light that enters where nothing is above a patch. Not with engines hemicube and pairs.
   Sky sky = {};
   /// solve(): lobes of materials take part (glossy.h). Requires two_way, Scheme::fixed,
   /// Basis::constant, 1 replica, an engine that takes_directions(), normalization none or rows; no
-  /// first shot, no goal. A RadiositySolver leaves lobes out.
+  /// first shot, no goal. A RadiositySolver ignores lobes.
   bool glossy = false;
 
   /// `sampling`, or default_sampling(two_way).

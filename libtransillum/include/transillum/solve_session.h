@@ -16,12 +16,12 @@
 #include "transillum/engine.h"
 #include "transillum/export.h"
 #include "transillum/glossy.h"
+#include "transillum/patch_sums.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/refinement.h"
 #include "transillum/scene.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
-#include "transillum/solver_group.h"
 
 namespace TRANSILLUM_API transillum {
 
@@ -30,14 +30,14 @@ enum class Preparation { tree, first_shot };
 
 /// The scene, the options and the ready-made parts of a solve.
 struct SolveRequest {
-  std::shared_ptr<const Scene> scene;                 ///< with the materials to be solved for
-  SolveOptions options = {};                          ///< of each solve
-  std::optional<RefineOptions> refine = {};           ///< of rounds that come first, if any
-  std::shared_ptr<const BspTree> tree = nullptr;      ///< of `scene`; built if null
-  std::shared_ptr<const DirectLight> shot = nullptr;  ///< of `scene`; shot if null
+  std::shared_ptr<const Scene> scene;                 ///< has the materials to solve for
+  SolveOptions options = {};                          ///< options of each solve
+  std::optional<RefineOptions> refine = {};           ///< options of preceding rounds, if any
+  std::shared_ptr<const BspTree> tree = nullptr;      ///< tree of `scene`; built if null
+  std::shared_ptr<const DirectLight> shot = nullptr;  ///< direct light of `scene`; shot if null
   TransferEngine engine = {};                         ///< makes the passes; options.engine if null
-  std::shared_ptr<SolverGroup> group = nullptr;  ///< as for RadiositySolver; null: this process
-  bool keep_form_factors = false;                ///< as RadiositySolver::keep_form_factors()
+  std::shared_ptr<PatchSums> sums = nullptr;          ///< as for RadiositySolver
+  bool keep_form_factors = false;                     ///< as RadiositySolver::keep_form_factors()
   /// Called with the finished share of a preparation, 0 to 1, on any thread, one at a time.
   std::function<void(Preparation, double)> preparing = {};
 };
@@ -46,7 +46,7 @@ struct SolveRequest {
 ///
 /// Without a goal and without rounds it has one stage. With SolveOptions::goal, each stage has more
 /// directions or replicas than the one before, until the error that the replicas show is below the
-/// goal (decisions/0052-accuracy.md); the result is that of the last stage that has finished. With
+/// goal (decisions/0052-accuracy.md); the result comes from the last stage that has finished. With
 /// rounds of refinement, each round is such a solve, and the refined scene is solved last.
 ///
 /// Threads: at most one thread at a time may call it; an observer may read it.
@@ -65,8 +65,8 @@ class SolveSession {
 
   /// Makes what the passes of the next stage start from: the tree, the first shot, the solver.
   /// advance() does it where it was not called. If it fails, it may be called again.
-  /// @throws InputError, Canceled, std::runtime_error where there is too little memory. In a group
-  /// all members must call it.
+  /// @throws InputError, Canceled, std::runtime_error where there is too little memory. Of
+  /// several processes all must call it.
   void prepare();
   /// Whether prepare() has been called for the present stage: the functions below that return what
   /// the solver has require it.
@@ -109,26 +109,27 @@ class SolveSession {
   const std::shared_ptr<const Scene>& scene() const;
   /// The BSP tree of scene(); null before prepare().
   const std::shared_ptr<const BspTree>& tree() const;
-  /// The processes that solve together; null: this one alone.
-  const std::shared_ptr<SolverGroup>& group() const;
+  /// Where sums over passes are kept; never null.
+  const std::shared_ptr<PatchSums>& sums() const;
   /// Whether a round of refinement follows the present solve.
   bool in_rounds() const;
   /// The rounds that are finished.
   const std::vector<RefinementRound>& rounds() const;
-  /// The scene as refined so far: scene(), or by RefineBy::error, in a round, that before each
+  /// The scene as refined so far: scene(), or, in a round by RefineBy::error, the scene before each
   /// patch was divided.
   const std::shared_ptr<const Scene>& refined_scene() const;
-  /// The finished stages of a solve with a goal, and whether the last reached it; nothing without.
+  /// The finished stages of a solve with a goal, and whether the last reached it; nothing without
+  /// a goal.
   std::optional<AccuracyReport> accuracy() const;
-  /// Wall time of the present round in this session's functions, with that of the session which
-  /// saved it, s.
+  /// Wall time of the present round in functions of this session, and of the session that saved it,
+  /// s.
   double seconds() const;
 
   /// The solver of the present stage; null where lobes take part.
   const RadiositySolver* diffuse() const;
   /// The solver where lobes take part, else null.
   const GlossySolver* glossy() const;
-  /// The options of the present stage: those of a goal have other numbers of directions.
+  /// The options of the present stage: with a goal, each has its own number of directions.
   const SolveOptions& options() const;
   /// The state of the present stage.
   SolveProgress progress() const;
@@ -168,11 +169,11 @@ class SolveSession {
 /// @param options of the solve run.
 /// @param observer as for SolveSession::advance(); returning false ends the solve.
 /// @param cancellation checked throughout.
-/// @param group as for RadiositySolver.
+/// @param sums as for RadiositySolver.
 /// @throws InputError; Canceled before the first pass; NotConvergent, std::runtime_error
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const SolveSession::Observer& observer = {}, const Cancellation& cancellation = {},
-               const std::shared_ptr<SolverGroup>& group = nullptr);
+               const std::shared_ptr<PatchSums>& sums = nullptr);
 
 /// A refined scene and how it was reached.
 struct Refinement {
@@ -187,7 +188,7 @@ struct Refinement {
 /// @param options of the solves. Engines that make no passes are refused.
 /// @param refine criterion and limits.
 /// @param observer of the solves; returning false ends the refinement.
-/// @throws InputError, Canceled; those of solve()
+/// @throws InputError, Canceled; exceptions of solve()
 Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                   const RefineOptions& refine, const SolveSession::Observer& observer = {},
                   const Cancellation& cancellation = {});

@@ -38,9 +38,10 @@ struct RadiosityError {
 RadiosityError radiosity_error(const Scene& scene, const std::vector<Rgb>& b,
                                const std::vector<Rgb>& reference);
 
-/// The same of functions: `rms` is the L2 norm of the difference over that of the reference, `max`
-/// the largest magnitude of a coefficient's difference over the largest of the reference.
-/// @param b the coefficients of each patch: its mean, or also those of a LinearPart.
+/// The same for functions: `rms` is the L2 norm of the difference over the L2 norm of the
+/// reference, `max` the largest magnitude of a coefficient's difference over the largest of the
+/// reference.
+/// @param b the coefficients of each patch: its mean, or also its LinearPart.
 /// @param reference three coefficients for each patch.
 RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
                               const std::vector<Rgb>& reference);
@@ -98,7 +99,7 @@ struct StudyOptions {
 
   /// The options of one solve.
   SolveOptions solve_options(const StudySeries& of, int passes, int rotation = 0) const;
-  /// Whether errors are those of functions, because the basis of any series is linear.
+  /// Whether errors are measured between functions, because the basis of any series is linear.
   bool of_functions() const;
   /// The options of the reference solve, with a first shot, or a linear basis, if any series has
   /// one.
@@ -118,14 +119,14 @@ struct StudyPoint {
                                 ///< pairs PairOptions::points
   double rms_error = 0;         ///< RMS over the rotations
   double max_error = 0;         ///< largest over the rotations
-  double bound = 0;             ///< of the error in a nearly homogeneous environment, by eq. 37 and
+  double bound = 0;             ///< error bound in a nearly homogeneous environment, by eq. 37 and
                                 ///< 21; NaN for hemicubes and pairs
   double seconds = 0;           ///< processor time of passes and iteration, all threads; mean over
                                 ///< the rotations
   /// Why the errors are NaN: too few directions for convergence, or insufficient memory. Empty:
   /// they are not.
   std::string failure;
-  Remedy remedy = Remedy::none;  ///< what would avoid the failure
+  Remedy remedy = Remedy::none;  ///< the change that would avoid the failure
 
   /// rms_error or max_error.
   double error(ErrorMeasure measure) const {
@@ -138,7 +139,7 @@ struct StudyProgress {
   std::size_t series = 0;              ///< being solved
   int directions = 0;                  ///< M being solved
   double share = 0;                    ///< share of all passes that are done, [0,1]
-  double passes_per_second = 0;        ///< of the current solve
+  double passes_per_second = 0;        ///< rate of the current solve
   double seconds_left = 0;             ///< estimated
   std::span<const StudyPoint> points;  ///< done so far, by M, then series; valid during the call
 };
@@ -165,20 +166,26 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
                                  const std::function<void(const SolveProgress&)>& observer = {},
                                  const Cancellation& cancellation = {});
 
+/// What a study compares with, and what is already done.
+struct StudyStart {
+  std::span<const Rgb> reference;  ///< of solve_reference()
+  /// Points of an earlier call with the same arguments, in the order of StudyProgress::points; they
+  /// are not solved again.
+  std::span<const StudyPoint> done = {};
+};
+
 /// Solves every series for every M, small M first, and compares with the reference.
 /// @param scene the scene.
 /// @param tree BSP tree of `scene`, used by all solves.
 /// @param options series, values of M and common settings.
-/// @param reference of solve_reference().
+/// @param start the reference, and points of an earlier call.
 /// @param observer if set, called after every pass and every point.
 /// @param cancellation when set, the points done so far are returned.
-/// @param done points of an earlier call with the same arguments, in the order of
-/// StudyProgress::points; they are not solved again.
 /// @throws InputError, std::runtime_error
 Study run_study(const std::shared_ptr<const Scene>& scene,
                 const std::shared_ptr<const BspTree>& tree, const StudyOptions& options,
-                const std::vector<Rgb>& reference, const StudyObserver& observer = {},
-                const Cancellation& cancellation = {}, std::span<const StudyPoint> done = {});
+                const StudyStart& start, const StudyObserver& observer = {},
+                const Cancellation& cancellation = {});
 
 /// The points of one series, by M.
 std::vector<StudyPoint> points_of(const Study& study, std::size_t series);

@@ -57,7 +57,7 @@ struct PassCounts {
   std::int64_t pairs = 0;            ///< pairs of polygons compared edge by edge
   std::int64_t cuts = 0;             ///< cuts of a polygon by a line
   std::int64_t decisions = 0;        ///< decisions on which side of a line a corner lies
-  std::int64_t exact_decisions = 0;  ///< of them, those made in integer arithmetic
+  std::int64_t exact_decisions = 0;  ///< decisions made in integer arithmetic
   std::int64_t exact_queries = 0;    ///< visibility queries repeated with exact predicates
   std::int64_t pixels = 0;           ///< pixels covered by a patch, or lines that hit one; summed
   std::int64_t missed = 0;           ///< patches too small or thin for any pixel or line
@@ -80,10 +80,10 @@ struct Transfers {
   std::vector<double> back_seen;  ///< per patch: m² of its back side that receivers see, for both
                                   ///< omega and -omega
   PassCounts counts;              ///< work done
-  /// Of each exchange, if EngineOptions::moments; else empty.
+  /// Moments of each exchange, if EngineOptions::moments; else empty.
   std::vector<TransferMoments> moments = {};
-  std::vector<CoverageMoments> forward_moments = {};   ///< as `forward`; empty without moments
-  std::vector<CoverageMoments> backward_moments = {};  ///< as `backward`; empty without moments
+  std::vector<CoverageMoments> forward_moments = {};   ///< beside `forward`; empty without moments
+  std::vector<CoverageMoments> backward_moments = {};  ///< beside `backward`; the same
 };
 
 /// The closure defect of one direction, omega and -omega together: projected area minus everything
@@ -95,8 +95,8 @@ struct ClosureDefect {
   /// Largest |projected - covered| / area over the others.
   double grazing = 0;
   PatchId worst = no_patch;  ///< the patch with the defect `relative`
-  /// As `relative`, of the integrals of phi_1 and phi_2: the largest over the projected area. 0
-  /// without moments.
+  /// Largest defect of the integrals of phi_1 and phi_2, over the projected area, among the patches
+  /// at no grazing angle. 0 without moments.
   double moments = 0;
 };
 /// Computes the closure defect from the coverages of one direction.

@@ -33,6 +33,7 @@ namespace transillum {}
 #include "transillum/first_shot.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/glossy.h"
+#include "transillum/patch_sums.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/refinement.h"
 #include "transillum/relight.h"
@@ -41,7 +42,6 @@ namespace transillum {}
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
-#include "transillum/solver_group.h"
 
 // Directions and what is proven or measured about them.
 #include "transillum/bounds.h"

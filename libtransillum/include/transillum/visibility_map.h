@@ -59,11 +59,11 @@ struct MapRecord {
     std::uint32_t end;      ///< one past the last index
   };
 
-  PlaneFrame frame;                 ///< of the direction
+  PlaneFrame frame;                 ///< frame of the direction
   std::vector<FragmentId> order;    ///< BSP fragments in the order processed
   std::vector<PatchId> step_patch;  ///< per step: the patch of its fragment
   std::vector<Row> rows;            ///< in the order made
-  std::vector<Vec2> corners;        ///< of all rows
+  std::vector<Vec2> corners;        ///< corners of all rows
   std::vector<LineId> lines;        ///< per corner: the line of the BSP tree on which the edge to
                                     ///< the next corner lies
 
@@ -91,7 +91,7 @@ struct MapRecord {
 
 /// The result of the local map engine for one direction, with its history.
 struct RecordedDirection {
-  Transfers transfers;  ///< the same bits as those of the engine
+  Transfers transfers;  ///< the same bits as the engine's transfers
   MapRecord record;     ///< how they were found
 };
 /// Runs the local map engine on one direction and records its history.
@@ -106,7 +106,7 @@ RecordedDirection record_local_map(const Scene& scene, const BspTree& tree, cons
                                    const Cancellation& cancellation = {},
                                    std::uint64_t memory = 0);
 
-/// What is visible along one direction omega, upward: convex polygons of the transillumination
+/// The surfaces visible along one direction omega, upward: convex polygons of the transillumination
 /// plane that do not overlap (paper, section 3). For files and pictures; map_files.h writes it.
 struct VisibilityMap {
   /// A convex polygon of the map.
@@ -118,22 +118,22 @@ struct VisibilityMap {
     std::uint32_t end;    ///< one past the last index
   };
 
-  PlaneFrame frame;               ///< of the direction
-  PatchId receiver = no_patch;    ///< the map is that of this patch; no_patch: from below the scene
+  PlaneFrame frame;             ///< frame of the direction
+  PatchId receiver = no_patch;  ///< patch whose map this is; no_patch: the map from below the scene
   std::vector<Polygon> polygons;  ///< sorted by patch, then in the order made
   std::vector<Polygon> window;    ///< the receiver's projection; parts of it not covered by
                                   ///< `polygons` have nothing above
-  std::vector<Vec2> corners;      ///< of polygons and window, counter-clockwise from u to v
+  std::vector<Vec2> corners;      ///< corners of polygons and window, counter-clockwise from u to v
   std::vector<Transfer> exchanges;  ///< all exchanges along the direction, sorted by receiver
 
   /// Additional data of a map drawn in pixels (pixel_map.h).
   struct Pixels {
-    double side = 0;            ///< of a pixel, m; 0: the map is exact, and the lists are empty
+    double side = 0;  ///< side of a pixel, m; 0: the map is exact, and the lists are empty
     std::vector<Vec2> borders;  ///< line segments between different patches: pairs of end points
     std::vector<Polygon> differences;  ///< where the pixels differ from the exact map; corners in
                                        ///< `corners`
   };
-  Pixels pixels;  ///< of a map drawn in pixels
+  Pixels pixels;  ///< data of a map drawn in pixels
 
   /// Corners of a polygon.
   std::span<const Vec2> outline(const Polygon& polygon) const {
@@ -146,7 +146,7 @@ VisibilityMap map_after(const MapRecord& record, std::int32_t step);
 VisibilityMap map_after(const RecordedDirection& direction, std::int32_t step);
 /// V after the last step: what is visible from below the scene.
 VisibilityMap map_from_below(const RecordedDirection& direction);
-/// What patch `receiver` sees along the direction: the inside lists of the steps that process it.
+/// The map that patch `receiver` sees along the direction: the inside lists of its steps.
 /// Empty, also the window, if the patch is edge-on or back-facing.
 VisibilityMap map_of_receiver(const RecordedDirection& direction, PatchId receiver);
 

@@ -4,7 +4,6 @@
 #include <pybind11/numpy.h>
 
 #include <cstring>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -8,6 +8,8 @@
 #include <functional>
 #include <future>
 
+#include "transillum/cancellation.h"
+
 namespace transillum::python {
 
 /// Runs `body` on a thread of its own, without Python's lock, so that Ctrl-C and other threads of
@@ -44,11 +46,20 @@ auto run_interruptibly(Body&& body, const std::function<void()>& tick,
   if (reason) {
     try {
       running.get();
-    } catch (...) {  // it was asked to end
+    } catch (...) {  // the thread was asked to end
     }
     std::rethrow_exception(reason);
   }
   return running.get();
+}
+
+/// run_interruptibly() of body(cancellation), which Ctrl-C cancels.
+template <class Body>
+auto run_cancelably(
+    Body body, const std::function<void()>& tick = [] {}) {
+  const Cancellation cancellation;
+  return run_interruptibly([&] { return body(cancellation); }, tick,
+                           [&] { cancellation.cancel(); });
 }
 
 }  // namespace transillum::python

@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 
 #include "bindings.h"
-#include "options.h"
 #include "transillum/transillum.h"
 
 namespace py = pybind11;

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "options.h"
+#include "bindings.h"
 
 #include <algorithm>
 #include <set>
@@ -21,7 +21,7 @@ std::string with(std::string name, char from, char to) {
   return name;
 }
 
-/// Those that say how a scene is made belong to Scene.
+/// Whether an option belongs to a solve. Options that say how a scene is made belong to Scene.
 bool is_of_solve(const Option& option) {
   return !option.reads_scene && option.group != "Patches" && option.group != "Refinement";
 }
@@ -101,19 +101,11 @@ SolveOptions options_from(const py::dict& keywords) {
   return options.solve;
 }
 
-void refuse(const py::dict& keywords, const std::vector<std::string>& names,
+void refuse(const py::dict& keywords, const std::vector<std::string>& names, bool listed,
             const std::string& function) {
   for (const auto& [key, value] : keywords) {
-    if (!value.is_none() && std::find(names.begin(), names.end(), text(key)) != names.end()) {
-      throw InputError(text(key) + " is not an option of " + function);
-    }
-  }
-}
-
-void refuse_others(const py::dict& keywords, const std::vector<std::string>& names,
-                   const std::string& function) {
-  for (const auto& [key, value] : keywords) {
-    if (!value.is_none() && std::find(names.begin(), names.end(), text(key)) == names.end()) {
+    const bool is_listed = std::find(names.begin(), names.end(), text(key)) != names.end();
+    if (!value.is_none() && is_listed == listed) {
       throw InputError(text(key) + " is not an option of " + function);
     }
   }

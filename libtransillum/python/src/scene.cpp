@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <optional>
-#include <utility>
+#include <tuple>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -12,44 +12,37 @@
 namespace transillum::python {
 namespace {
 
-using ScenePtr = std::shared_ptr<const Scene>;
+/// pybind11 knows no shared pointer to const.
+using ScenePtr = std::shared_ptr<Scene>;
+/// Whether faces are two-sided; max_patch_area; patches, 0: not asked for.
+using Division = std::tuple<bool, double, std::int64_t>;
+/// scale, join, default_reflectance
+using Reading = std::tuple<double, std::optional<bool>, double>;
 
-struct Refinement {
-  double max_patch_area = 0;
-  std::int64_t patches = 0;  ///< 0: not asked for
-};
-
-ScenePtr make_scene(const SceneDescription& description, bool two_sided, const Refinement& refine,
+ScenePtr make_scene(const SceneDescription& description, const Division& division,
                     const Cancellation& cancellation) {
-  if (refine.patches != 0 && refine.max_patch_area != 0) {
+  const auto& [two_sided, max_patch_area, patches] = division;
+  if (patches != 0 && max_patch_area != 0) {
     throw InputError("patches and max_patch_area exclude each other");
   }
   SceneOptions options;
   options.two_sided = two_sided;
-  auto scene = std::make_shared<const Scene>(description, options, cancellation);
-  options.max_patch_area = refine.patches != 0
-                               ? max_patch_area_for(*scene, refine.patches, cancellation)
-                               : refine.max_patch_area;
+  auto scene = std::make_shared<Scene>(description, options, cancellation);
+  options.max_patch_area =
+      patches != 0 ? max_patch_area_for(*scene, patches, cancellation) : max_patch_area;
   if (options.max_patch_area != 0) {
-    scene = std::make_shared<const Scene>(description, options, cancellation);
+    scene = std::make_shared<Scene>(description, options, cancellation);
   }
   return scene;
 }
 
-ScenePtr load(const std::string& spec, bool two_sided, double max_patch_area, std::int64_t patches,
-              double scale, std::optional<bool> join, double default_reflectance) {
+ScenePtr load(const std::string& spec, const Division& division, const Reading& reading) {
   ReadOptions read;
-  read.scale = scale;
-  read.join = join;
-  read.default_reflectance = default_reflectance;
+  std::tie(read.scale, read.join, read.default_reflectance) = reading;
   read.validate();
-  const Cancellation cancellation;
-  return run_interruptibly(
-      [&] {
-        return make_scene(describe_scene(spec, read, cancellation), two_sided,
-                          {max_patch_area, patches}, cancellation);
-      },
-      [] {}, [&] { cancellation.cancel(); });
+  return run_cancelably([&](const Cancellation& cancellation) {
+    return make_scene(describe_scene(spec, read, cancellation), division, cancellation);
+  });
 }
 
 /// The rows of an array (n, 3) or of one row for all n.
@@ -76,8 +69,8 @@ std::vector<Rgb> colors(const Array<double>& values, std::size_t count, const st
 }
 
 ScenePtr build(const Array<double>& points, const std::vector<std::vector<PointId>>& faces,
-               const Array<double>& reflectance, const Array<double>& exitance, bool two_sided,
-               double max_patch_area, std::int64_t patches, const std::string& name) {
+               const Array<double>& reflectance, const Array<double>& exitance,
+               const Division& division, const std::string& name) {
   if (points.ndim() != 2 || points.shape(1) != 3) {
     throw InputError("points: expected an array (n, 3)");
   }
@@ -97,12 +90,9 @@ ScenePtr build(const Array<double>& points, const std::vector<std::vector<PointI
     }
     description.add_face(faces[f], static_cast<int>(description.materials.size()) - 1);
   }
-  const Cancellation cancellation;
-  return run_interruptibly(
-      [&] {
-        return make_scene(description, two_sided, {max_patch_area, patches}, cancellation);
-      },
-      [] {}, [&] { cancellation.cancel(); });
+  return run_cancelably([&](const Cancellation& cancellation) {
+    return make_scene(description, division, cancellation);
+  });
 }
 
 /// Corners of all outlines, and where each begins.
@@ -181,19 +171,8 @@ void bind_scene(py::module_& module) {
                              })
       .def_property_readonly("groups", &Scene::groups)
       .def_property_readonly("warnings", [](const Scene& s) { return s.report().warnings; });
-  module.def("load", [](const std::string& spec, bool two_sided, double max_patch_area,
-                        std::int64_t patches, double scale, std::optional<bool> join,
-                        double default_reflectance) {
-    return std::const_pointer_cast<Scene>(
-        load(spec, two_sided, max_patch_area, patches, scale, join, default_reflectance));
-  });
-  module.def(
-      "build", [](const Array<double>& points, const std::vector<std::vector<PointId>>& faces,
-                  const Array<double>& reflectance, const Array<double>& exitance, bool two_sided,
-                  double max_patch_area, std::int64_t patches, const std::string& name) {
-        return std::const_pointer_cast<Scene>(
-            build(points, faces, reflectance, exitance, two_sided, max_patch_area, patches, name));
-      });
+  module.def("load", &load);
+  module.def("build", &build);
 }
 
 }  // namespace transillum::python

@@ -10,7 +10,6 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "interrupt.h"
-#include "options.h"
 
 namespace transillum::python {
 namespace {
@@ -91,10 +90,9 @@ class ProgressRelay {
 
 Solution solve_scene(const ScenePtr& scene, const py::dict& keywords, const py::object& progress) {
   const SolveOptions options = options_from(keywords);
-  const Cancellation cancellation;
   ProgressRelay relay(progress);
-  return run_interruptibly(
-      [&] {
+  return run_cancelably(
+      [&](const Cancellation& cancellation) {
         if (!takes_directions(options.engine)) {
           return solve_by_form_factors(scene, options, cancellation);
         }
@@ -106,7 +104,7 @@ Solution solve_scene(const ScenePtr& scene, const py::dict& keywords, const py::
             },
             cancellation);
       },
-      [&] { relay.tell(); }, [&] { cancellation.cancel(); });
+      [&] { relay.tell(); });
 }
 
 py::tuple to_arrays(const FormFactors& f) {
@@ -120,12 +118,11 @@ py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
   refuse(keywords,
          {"accuracy", "accuracy_of", "seconds", "iterations", "tolerance", "scheme", "burn_in",
           "first_shot", "basis", "glossy", "sky", "sky_model", "up"},
-         "form_factors()");
+         true, "form_factors()");
   SolveOptions options = options_from(keywords);
-  const Cancellation cancellation;
   ProgressRelay relay(progress);
-  const FormFactors result = run_interruptibly(
-      [&]() -> FormFactors {
+  const FormFactors result = run_cancelably(
+      [&](const Cancellation& cancellation) -> FormFactors {
         options.iterations = 1;
         if (!takes_directions(options.engine)) {
           return *solve_by_form_factors(scene, options, cancellation).form_factors;
@@ -138,7 +135,7 @@ py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
         });
         return solver.form_factors();
       },
-      [&] { relay.tell(); }, [&] { cancellation.cancel(); });
+      [&] { relay.tell(); });
   return to_arrays(result);
 }
 
@@ -192,7 +189,7 @@ class Run {
         [&] { relay.tell(); }, [&] { going = false; });
   }
 
-  /// What `get` returns of the solver, found without Python's lock.
+  /// Returns `get` of the solver, found without Python's lock.
   template <class Get>
   auto read(Get get) {
     const Use use(busy_);

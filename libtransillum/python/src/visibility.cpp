@@ -8,7 +8,6 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "interrupt.h"
-#include "options.h"
 
 namespace transillum::python {
 namespace {
@@ -16,18 +15,15 @@ namespace {
 using ScenePtr = std::shared_ptr<Scene>;
 
 py::dict transfers(const ScenePtr& scene, const py::handle& direction, const py::dict& keywords) {
-  refuse_others(keywords, {"engine", "resolution", "order", "seed"}, "transfers()");
+  refuse(keywords, {"engine", "resolution", "order", "seed"}, false, "transfers()");
   const SolveOptions options = options_from(keywords);
   const Vec3 omega = to_direction(direction, "direction");
-  const Cancellation cancellation;
-  const Transfers found = run_interruptibly(
-      [&] {
-        const auto tree = std::make_shared<const BspTree>(*scene, cancellation);
-        EngineOptions engine_options = options.engine_options;
-        engine_options.seed = options.seed;
-        return make_engine(options.engine, scene, tree, engine_options)(omega, cancellation);
-      },
-      [] {}, [&] { cancellation.cancel(); });
+  const Transfers found = run_cancelably([&](const Cancellation& cancellation) {
+    const auto tree = std::make_shared<const BspTree>(*scene, cancellation);
+    EngineOptions engine_options = options.engine_options;
+    engine_options.seed = options.seed;
+    return make_engine(options.engine, scene, tree, engine_options)(omega, cancellation);
+  });
   std::vector<PatchId> receivers, sources;
   std::vector<double> areas;
   for (const Transfer& t : found.exchanges) {
@@ -86,14 +82,11 @@ Map visibility_map(const ScenePtr& scene, const py::handle& direction,
     throw InputError("patch: there is no patch " + std::to_string(*patch) + "; the scene has " +
                      std::to_string(scene->patch_count()));
   }
-  const Cancellation cancellation;
-  return run_interruptibly(
-      [&] {
-        const BspTree tree(*scene, cancellation);
-        const RecordedDirection recorded = record_local_map(*scene, tree, omega, cancellation);
-        return Map{scene, patch ? map_of_receiver(recorded, *patch) : map_from_below(recorded)};
-      },
-      [] {}, [&] { cancellation.cancel(); });
+  return run_cancelably([&](const Cancellation& cancellation) {
+    const BspTree tree(*scene, cancellation);
+    const RecordedDirection recorded = record_local_map(*scene, tree, omega, cancellation);
+    return Map{scene, patch ? map_of_receiver(recorded, *patch) : map_from_below(recorded)};
+  });
 }
 
 }  // namespace

@@ -91,21 +91,15 @@ def options() -> list[tuple[str, str, str, str]]: ...
 def built_in_scenes() -> list[tuple[str, str, str]]: ...
 def load(
     spec: str,
-    two_sided: bool,
-    max_patch_area: float,
-    patches: int,
-    scale: float,
-    join: Optional[bool],
-    default_reflectance: float,
+    division: tuple[bool, float, int],
+    reading: tuple[float, Optional[bool], float],
 ) -> Scene: ...
 def build(
     points: _Values,
     faces: Sequence[Sequence[int]],
     reflectance: _Values,
     exitance: _Values,
-    two_sided: bool,
-    max_patch_area: float,
-    patches: int,
+    division: tuple[bool, float, int],
     name: str,
 ) -> Scene: ...
 def solve(scene: Scene, options: dict[str, Any], progress: _Progress) -> Solution: ...

@@ -1,5 +1,5 @@
 # transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-"""What patches see along one direction."""
+"""Visible areas of patches along one direction."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._scenes import Indices, Scene, Values
 
 @dataclass(frozen=True)
 class Transfers:
-    """What patches see of each other along a direction omega and its opposite."""
+    """The areas that patches see of each other along a direction omega and its opposite."""
 
     direction: tuple[float, float, float]
     """omega, unit, from the receiver toward the source."""
@@ -50,7 +50,7 @@ class Polygon:
 
 
 class VisibilityMap:
-    """What is visible along a direction. A notebook draws it."""
+    """The surfaces visible along a direction. A notebook draws it."""
 
     def __init__(self, core: _core.VisibilityMap) -> None:
         self._core = core

@@ -47,17 +47,15 @@ class Scene:
             for each face, or an array (faces, 3). Three values for three faces are one color.
         exitance: E, emitted, W/m²; as reflectance.
         two_sided: faces emit and receive on both sides: two patches each, front first.
-        max_patch_area: larger faces are subdivided, m²; 0: none is.
-        patches: subdivides to about so many patches; 0: does not.
+        max_patch_area: larger faces are subdivided, m²; 0 subdivides none.
+        patches: subdivides to about so many patches; 0 subdivides none.
         """
         self._core = _core.build(
             np.asarray(points, dtype=np.float64),
             _indices(faces),
             np.asarray(reflectance, dtype=np.float64),
             np.asarray(exitance, dtype=np.float64),
-            two_sided,
-            max_patch_area,
-            patches,
+            (two_sided, max_patch_area, patches),
             name,
         )
         _warn(self._core)
@@ -132,7 +130,7 @@ class Scene:
 
     @property
     def warnings(self) -> list[str]:
-        """What was repaired, and what may be wrong."""
+        """Repairs, and what may be wrong."""
         return self._core.warnings
 
 
@@ -156,7 +154,7 @@ def load(
     default_reflectance: of faces without a material.
     """
     core = _core.load(
-        str(spec), two_sided, max_patch_area, patches, scale, join, default_reflectance
+        str(spec), (two_sided, max_patch_area, patches), (scale, join, default_reflectance)
     )
     _warn(core)
     return Scene._of(core)

@@ -53,7 +53,7 @@ class Solution:
 
     @property
     def standard_error(self) -> Union[Values, None]:
-        """Of B, (N, 3), W/m², estimated from replicas; None without replicas."""
+        """The standard error of B, (N, 3), W/m², estimated from replicas; None without replicas."""
         return self._core.standard_error
 
     @property
@@ -65,7 +65,7 @@ class Solution:
 
     @property
     def rms_error(self) -> Union[float, None]:
-        """What the relative RMS error of B does not exceed in 95 % of all runs; None without
+        """The limit of the relative RMS error of B in 95 % of all runs; None without
         replicas."""
         return self._core.rms_error
 
@@ -84,8 +84,9 @@ def solve(scene: Scene, *, progress: Union[Progress, None] = None, **options: An
     """Solves B_i = E_i + rho_i sum_j F_ij B_j.
 
     progress: called several times a second with a dict: iteration, direction (passes made in it),
-        passes, passes_per_second, seconds_left, change, stage, stage_share. What it raises ends the solve.
-    options: those of options().
+        passes, passes_per_second, seconds_left, change, stage, stage_share. What it raises ends
+        the solve.
+    options: names and values as in options().
     """
     return Solution(_core.solve(scene._core, options, progress), scene)
 
@@ -98,7 +99,8 @@ def form_factors(
     normalized, A_i F[i, j] = A_j F[j, i].
 
     progress: as for solve().
-    options: those of options() that belong to directions, engine, normalization and memory.
+    options: names and values as in options(), only of directions, engine, normalization and
+        memory.
     """
     return _to_csr(_core.form_factors(scene._core, options, progress), len(scene))
 
@@ -112,7 +114,7 @@ class Run:
     """
 
     def __init__(self, scene: Scene, **options: Any) -> None:
-        """options: those of options(), for engines that make passes."""
+        """options: names and values as in options(), for engines that make passes."""
         self._scene = scene
         self._core = _core.Run(scene._core, options)
 
@@ -124,19 +126,20 @@ class Run:
     def advance(
         self, until: str = "iteration", *, progress: Union[Progress, None] = None
     ) -> bool:
-        """Goes on until the end of a "direction" (one pass), an "iteration", or "finished".
+        """Continues until the end of a "direction" (one pass), an "iteration", or "finished".
 
         With an accuracy, the next stage, with more directions, follows a stage that has ended;
-        then radiosity and directions are those of the new stage, and solution() is that of the last
-        finished one. Returns whether the solve is unfinished. Ctrl-C, and what progress raises, pause it after
-        the pass under way: the next call goes on. progress must not read the run.
+        then radiosity and directions belong to the new stage, and solution() to the last
+        finished one. Returns whether the solve is unfinished. Ctrl-C, and what progress raises,
+        pause it after the pass under way: the next call continues. progress must not read the
+        run.
         """
         return self._core.advance(until, progress)
 
     @property
     def progress(self) -> dict[str, Any]:
-        """iteration, direction, passes, finished, change, passes_per_second, seconds_left; of solves
-        with lobes, stage ("passes", "scaling lobes" or "reflecting") and stage_share, 0 to 1."""
+        """iteration, direction, passes, finished, change, passes_per_second, seconds_left; with
+        lobes also stage ("passes", "scaling lobes" or "reflecting") and stage_share, 0 to 1."""
         return self._core.progress
 
     @property

@@ -66,8 +66,9 @@ def index(pages: list[str], cards: list[str]) -> str:
     entries = "\n".join("/" + page for page in pages)
     return f"""# Lessons
 
-These lessons explain the method from the light that one patch receives to the error of a solution. Here they can be read, their questions answered, and their visibility maps
-stepped through. In the program, a page also sets up the scene and the solve, and everything can be turned and changed: *Lesson ▸ Lessons*, or `transillum-viewer --lesson 1`.
+The lessons explain the method, from the light that one patch receives to the error of a solution.
+Here you can read them, answer their questions and step through their maps. In the program
+(`transillum-viewer --lesson 1`), each page also sets up the scene and the solve.
 
 {raw('<div class="cards">' + "".join(cards) + '</div>')}
 

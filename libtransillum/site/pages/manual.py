@@ -15,7 +15,7 @@ SECTION = re.compile(r'<section class="Sh">\s*<h1[^>]*>(?:<a[^>]*>)?(.*?)(?:</a>
 
 
 def write(tree: Tree, folder: Path, mandoc: str) -> list[str]:
-    """@returns the pages, those of the programs first"""
+    """@returns the pages, first the pages of programs"""
     names = sorted((file.stem for file in folder.glob("*.1")), key=order)
     for name in names:
         text = subprocess.run([mandoc, "-T", "html", "-O", "fragment", folder / f"{name}.1"],

@@ -19,18 +19,17 @@ SUPERSCRIPT = re.compile(r"(?<![\w`\\/.])([A-Za-z0-9]{1,2})\^(\([^()]*\)|[a-z0-9
 
 
 def anchor_of(title: str) -> str:
-    """Of a heading, as conf.py makes it."""
+    """The anchor of a heading, as conf.py makes it."""
     return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
 
 
 class Tree:
-    """What becomes a page, and where it is."""
+    """The files that become pages, and their places."""
 
     def __init__(self, source: Path, out: Path) -> None:
         self.source = source
         self.out = out
         self.pages: dict[str, str] = {}  # path in the source tree → page, without .md
-        self.sections: dict[str, str] = {}  # "README.md#anchor" → page
         self.wanted_sources: set[str] = set()  # files that pages link to
 
     def write(self, page: str, text: str) -> None:
@@ -46,7 +45,7 @@ class Tree:
         if not path and document in self.pages:
             return link
         file = os.path.normpath(os.path.join(os.path.dirname(document), path)) if path else document
-        place = self.sections.get(f"{file}#{anchor}") or self.pages.get(file)
+        place = self.pages.get(file)
         if place is None:
             if not (self.source / file).exists():
                 raise FileNotFoundError(f"{document}: {link}")
@@ -132,7 +131,7 @@ def fenced(block: list[str]) -> list[str]:
 
 
 def with_comments_above(code: list[str]) -> list[str]:
-    """What stands at the ends of wide lines would be scrolled out of sight."""
+    """Moves comments at the ends of wide lines above them, where they are in sight."""
     lines = []
     for line in code:
         command, _, comment = re.sub(r" {2,}# ", "\n", line).partition("\n")
@@ -195,12 +194,3 @@ def sections(text: str, level: str = "## ") -> dict[str, str]:
             found[title] = []
         found[title].append(line)
     return {title: "\n".join(lines) for title, lines in found.items()}
-
-
-def promoted(text: str) -> str:
-    """Headings one level up."""
-    lines, in_code = [], False
-    for line in text.split("\n"):
-        in_code ^= line.startswith("```")
-        lines.append(line[1:] if line.startswith("##") and not in_code else line)
-    return "\n".join(lines)

@@ -54,14 +54,14 @@ def section(file: Path, kind: str) -> list[str]:
 
 
 def notebook_plot(source: Path) -> str:
-    """What the notebook plots, of the whole sphere-flake."""
+    """The notebook's plot, for the whole sphere-flake."""
     ((_, series, _),) = plots(source / "data/studies/sphere-flake.csv", "passes")
     shown = {name: series[f"{name}/two-way"] for name in ("random", "hammersley", "fibonacci")}
     return plot(shown, [], "passes", "Error of the whole sphere-flake")
 
 
 def plots(file: Path, against: str) -> list[tuple[str, Series, list]]:
-    """What is drawn: title, series, and the bound of eq. 37."""
+    """Each plot: its title, its series, and the bound of eq. 37."""
     series: Series = {}
     bound = {}
     with open(file, newline="") as rows:

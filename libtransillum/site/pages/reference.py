@@ -11,24 +11,33 @@ import re
 from pathlib import Path
 
 from .lessons import raw
-from .markdown import Tree, page_of, promoted
+from .markdown import Tree
 
 LANGUAGES = {".cpp": "cpp", ".h": "cpp", ".py": "python", ".cff": "yaml", ".json": "json"}
 EXAMPLE = re.compile(r"@example (\S+)\n(.*?)\n\n", re.DOTALL)
 
 
-def write_library(tree: Tree, section: str) -> None:
-    """The page of README's section about the library, and one for each example."""
+LIBRARY = """# The library
+
+The library computes what the programs show: scenes, visibility, maps, solves, and files. It is for
+C++20 ([API](libtransillum/api.md)) and for Python ([module](python.md)); the
+[cookbook](libtransillum/COOKBOOK.md) has a first program in each. Its examples:
+
+"""
+
+
+def write_library(tree: Tree) -> None:
+    """A page about the library, and one for each of its examples."""
     folder = "libtransillum/examples"
     comments = (tree.source / "libtransillum/libdoc.dox").read_text().replace("*/", "\n")
-    names = []
+    names, rows = [], []
     for name, words in EXAMPLE.findall(comments):
         text = (tree.source / folder / name).read_text()
         page = tree.pages[f"{folder}/{name}"]
         tree.write(page, f"# {name}\n\n{' '.join(words.split())}\n\n```cpp\n{text}```\n")
         names.append("/" + page)
-    text = page_of(tree, "README.md", promoted(section), "library")
-    tree.write("library", text + "\n```{toctree}\n:hidden:\n\n" + "\n".join(names) + "\n```\n")
+        rows.append(f"- [{name}]({page}.md)")
+    tree.write("library", LIBRARY + "\n".join(rows) + "\n\n```{toctree}\n:hidden:\n\n" + "\n".join(names) + "\n```\n")
 
 
 def write_api(tree: Tree, api: Path) -> None:
@@ -71,14 +80,14 @@ def link(api: Path, functions: dict[str, str], name: str) -> str:
     return f'<a href="../api/{place}">{name}</a>' if place else ""
 
 
-def write_python(tree: Tree, readme_section: str) -> None:
+def write_python(tree: Tree) -> None:
     folder = tree.source / "libtransillum/python/transillum"
     module = ast.parse((folder / "__init__.py").read_text())
     public = next(ast.literal_eval(node.value) for node in module.body
                   if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
     parts = ["# Python module", ""]
     parts += docstring(ast.get_docstring(module)) + [""]
-    parts += [page_of(tree, "README.md", readme_section, "python"), "## Functions and classes", ""]
+    parts += ["## Functions and classes", ""]
     found = {}
     for file in sorted(folder.glob("_*.py")):
         for node in ast.parse(file.read_text()).body:
@@ -91,7 +100,7 @@ def write_python(tree: Tree, readme_section: str) -> None:
 
 
 def described(node, depth: int, method: bool = False) -> list[str]:
-    """A directive of Sphinx's Python domain, with those of the members of a class."""
+    """A directive of Sphinx's Python domain, with the directives of the members of a class."""
     fence = "`" * depth
     inner: list[str] = docstring(ast.get_docstring(node) or "")
     if isinstance(node, ast.ClassDef):

@@ -52,12 +52,15 @@ void add_choice(Choices& choices, const char* name, const char* label, const cha
 /// The texts of a table, which has to list all values.
 /// @param what a value is, such as "engine"
 template <const auto& table>
-Choices texts_of(const char* what) {
+const Choices& texts_of(const char* what) {
   static_assert(lists_all<table>());
-  Choices choices{what, {}, {}, {}};
-  for (const auto& line : table) {
-    add_choice(choices, line.name, line.label, line.sentence);
-  }
+  static const Choices choices = [&] {
+    Choices made{what, {}, {}, {}};
+    for (const auto& line : table) {
+      add_choice(made, line.name, line.label, line.sentence);
+    }
+    return made;
+  }();
   return choices;
 }
 

@@ -115,7 +115,7 @@ class Checker : public nlohmann::json_sax<json> {
   std::uintmax_t most_values_;
   const char* reached_;
   std::uintmax_t values_ = 0;
-  std::vector<std::unordered_set<std::string>> keys_;  ///< of each open level
+  std::vector<std::unordered_set<std::string>> keys_;  ///< keys of each open level
 };
 
 }  // namespace

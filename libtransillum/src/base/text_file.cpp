@@ -120,6 +120,10 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
+std::string lower_case_ending(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
+}
+
 void split_words(std::string_view text, std::vector<std::string_view>& words, std::size_t most) {
   words.clear();
   std::size_t begin = text.find_first_not_of(blanks);

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <span>
 #include <streambuf>
 #include <string>
 #include <string_view>
@@ -38,6 +37,8 @@ std::string_view trimmed(std::string_view text);
 std::string_view unquoted(std::string_view text);
 /// With A to Z as a to z; other letters stay.
 std::string lower_case(std::string_view text);
+/// The extension in lower case: `.csv` of `RESULT.CSV`.
+std::string lower_case_ending(const std::filesystem::path& path);
 /// The words between blanks, the first `most` of them.
 void split_words(std::string_view text, std::vector<std::string_view>& words,
                  std::size_t most = std::string_view::npos);
@@ -48,7 +49,7 @@ std::optional<double> parse_number(std::string_view word);
 
 /// A logical line of a file: lines joined by a backslash at the end are treated as one.
 struct TextLine {
-  std::int32_t number = 0;  ///< of its first physical line, from 1
+  std::int32_t number = 0;  ///< number of its first physical line, from 1
   std::string_view keyword;
   std::string_view rest;  ///< trimmed
 };

@@ -25,7 +25,7 @@ inline void tsan_release([[maybe_unused]] const void* place) {
 #endif
 }
 
-/// What was released at `place` happens before what follows.
+/// Whatever was released at `place` happens before whatever follows.
 inline void tsan_acquire([[maybe_unused]] const void* place) {
 #ifdef TRANSILLUM_THREAD_SANITIZER
   __tsan_acquire(const_cast<void*>(place));

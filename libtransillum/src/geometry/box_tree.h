@@ -22,7 +22,7 @@ struct CenteredBox {
   }
 };
 
-/// Bounding volume hierarchy: finds those of many boxes that meet a condition.
+/// Bounding volume hierarchy: finds the boxes that meet a condition.
 ///
 /// Threads: immutable once built.
 class BoxTree {

@@ -71,7 +71,7 @@ double exchange_of_small(Outline p, const Vec3& normal, Outline q) {
   return sum;
 }
 
-/// What the closed form is made of.
+/// Terms of the closed form.
 struct EdgeSum {
   double area = 0;
   double terms = 0;  ///< sum of the absolute values
@@ -98,7 +98,7 @@ EdgeSum exchange_by_edges(Outline p, Outline q) {
   return sum;
 }
 
-/// As exchange_of_small() for any p, in triangles divided until the integral does not change.
+/// exchange_of_small() for any p, in triangles divided until the integral does not change.
 double exchange_of_divided(Outline p, const Vec3& normal, Outline q, int most_divisions) {
   constexpr double converged = 1e-10;
   double sum = 0;

@@ -14,7 +14,7 @@ namespace transillum {
 /// Corners of a planar polygon, in order.
 using Outline = std::span<const Vec3>;
 /// The corners of an Outline, owned. Pointers are its iterators, so that std::span takes it as a
-/// range; those of Boost are contiguous for the standard library in some versions only.
+/// range; Boost's own iterators are contiguous for the standard library in some versions only.
 struct Corners : boost::container::small_vector<Vec3, 12> {
   const Vec3* begin() const { return data(); }
   const Vec3* end() const { return data() + size(); }

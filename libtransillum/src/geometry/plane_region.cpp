@@ -1,8 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "geometry/plane_region.h"
 
-#include <utility>
-
 namespace transillum {
 
 void PlaneRegion::assign(std::span<const Point> polygon) {

@@ -13,9 +13,9 @@ namespace {
 
 /// Integrals over a polygon, counter-clockwise.
 struct Integrals {
-  double w0 = 0;                        ///< of 1 / (1 + s²)²
-  double w_u = 0, w_v = 0;              ///< of u and v / (1 + s²)²
-  double w_uu = 0, w_uv = 0, w_vv = 0;  ///< of their products / (1 + s²)²
+  double w0 = 0;                        ///< integral of 1 / (1 + s²)²
+  double w_u = 0, w_v = 0;              ///< integrals of u and v / (1 + s²)²
+  double w_uu = 0, w_uv = 0, w_vv = 0;  ///< integrals of their products / (1 + s²)²
 };
 
 /// ln(1 + x) / x, x >= 0.
@@ -69,7 +69,7 @@ void add_edge(const PlaneRegion::Point& p, const PlaneRegion::Point& q, Integral
   sum.w0 += d * i0 / 2;
   sum.w_u -= nu * i0 / 2;
   sum.w_v -= nv * i0 / 2;
-  const double plain = d * log_integral(d, r, begin, end) / 2;  // of 1 / (1 + s²)
+  const double plain = d * log_integral(d, r, begin, end) / 2;  // integral of 1 / (1 + s²)
   const double along_u = d * nu * i0 + tu * i1, along_v = d * nv * i0 + tv * i1;
   sum.w_uu += (plain - nu * along_u) / 2;
   sum.w_vv += (plain - nv * along_v) / 2;

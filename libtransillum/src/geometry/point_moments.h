@@ -8,7 +8,7 @@
 
 namespace transillum {
 
-/// What an area element receives from a polygon, and from linear functions on it.
+/// Light that an area element receives from a polygon, and from linear functions on it.
 struct PointMoments {
   double one = 0;       ///< the form factor
   double u = 0, v = 0;  ///< the same integral with the coordinates u and v as factors

@@ -8,8 +8,8 @@
 namespace transillum {
 
 /// The unit vector along a direction that a user gives, of any length. It is scaled first, since
-/// squares of huge numbers overflow and those of tiny ones underflow; by a power of two, so a unit
-/// vector is not changed.
+/// squares of huge numbers overflow and squares of tiny ones underflow; by a power of two, so a
+/// unit vector is not changed.
 /// @param direction finite, not zero.
 inline Vec3 unit_vector(const Vec3& direction) {
   int exponent = 0;

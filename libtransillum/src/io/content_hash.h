@@ -1,18 +1,30 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <boost/uuid/detail/md5.hpp>
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "transillum/scene.h"
 
 namespace transillum {
 
-/// MD5: detects accidental changes, not deliberate ones.
+/// Detects accidental changes, not deliberate ones.
 class ContentHash {
  public:
+  enum class Method {
+    xxh3,  ///< XXH3 with 128 bits
+    md5,   ///< of files that were written before XXH3 was used
+  };
+
+  explicit ContentHash(Method method = Method::xxh3);
+  ~ContentHash();
+
+  /// The method of a hash as digits() returns it.
+  static Method method_of(std::string_view digits);
+
   template <typename Value>
   void add(const Value& value) {
     static_assert(std::has_unique_object_representations_v<Value> ||
@@ -64,13 +76,14 @@ class ContentHash {
       add(scene.reflectance(i));
     }
   }
-  /// The hash as 32 hexadecimal digits; may be called once.
+  /// The hash: `xxh3-` and 32 hexadecimal digits; of md5 the digits alone. May be called once.
   std::string digits();
 
  private:
+  struct State;
   void append(const void* data, std::size_t size);
 
-  boost::uuids::detail::md5 md5_;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace transillum

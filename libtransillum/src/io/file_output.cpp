@@ -60,7 +60,7 @@ int own_descriptor(const fs::path& path) {
   return invalid == std::errc() && end == name.data() + name.size() ? descriptor : -1;
 }
 
-/// What a path refers to.
+/// The target that a path refers to.
 struct Target {
   fs::path path;        ///< the end of its chain of symbolic links; it may not exist
   int descriptor = -1;  ///< the open file of this process that it names, if any
@@ -68,7 +68,7 @@ struct Target {
 };
 
 Target target_of(const fs::path& path) {
-  constexpr int most_links = 40;  // as in Linux
+  constexpr int most_links = 40;  // the limit of Linux
   Target target{path};
   std::error_code error;
   for (int links = 0;; ++links) {
@@ -282,7 +282,7 @@ void write_file_whole(const std::filesystem::path& path,
     fail(path, EISDIR);
   }
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    write_device(target.path, path, write);  // it cannot be replaced by renaming
+    write_device(target.path, path, write);  // renaming cannot replace a device
     return;
   }
   // Renaming would replace a write-protected file.

@@ -19,7 +19,7 @@ struct VtpArray {
 };
 using VtpArrays = std::vector<VtpArray>;
 
-/// What each entry of an array is.
+/// The kind of an array's entries.
 enum class VtpEntries { numbers, vectors, colors };
 
 /// Appends an array. Names are valid in XML attributes.
@@ -52,13 +52,13 @@ void add_numbers(VtpArrays& arrays, const std::string& name, int count, ValueOf 
 
 /// Polygons with their arrays.
 struct VtpPolygons {
-  VtpArrays fields;                   ///< of the whole file
+  VtpArrays fields;                   ///< arrays of the whole file
   VtpArrays point_data;               ///< an entry per point
   VtpArrays cell_data;                ///< an entry per polygon
   std::string scalars;                ///< the array of cell_data that programs show first
   std::vector<double> points;         ///< three coordinates each
   std::vector<std::int64_t> corners;  ///< points of all polygons
-  std::vector<std::int64_t> ends;     ///< of each polygon in `corners`
+  std::vector<std::int64_t> ends;     ///< end of each polygon in `corners`
 
   /// Appends a point; returns its index.
   std::int64_t add_point(const Vec3& point);

@@ -82,7 +82,7 @@ constexpr Conflict conflicts[] = {
     {"accuracy", has_goal, has_iterations,
      "a given number of iterations leaves an error of its own"},
     {"accuracy", has_goal, is_approximate,
-     "the error of engine {engine} is not only that of the directions"},
+     "engine {engine} has errors that do not come from the directions"},
     {"glossy", is_glossy, has_rounds, "lobes are not available with rounds of refinement"},
     {"refine-by", has_rounds, has_no_limit_of_patches,
      "requires patches, the most patches to make"},

@@ -49,20 +49,17 @@ constexpr std::array schemes{
 
 template <>
 const Choices& choices_of<Normalization>() {
-  static const Choices choices = texts_of<normalizations>("normalization");
-  return choices;
+  return texts_of<normalizations>("normalization");
 }
 
 template <>
 const Choices& choices_of<Basis>() {
-  static const Choices choices = texts_of<bases>("basis");
-  return choices;
+  return texts_of<bases>("basis");
 }
 
 template <>
 const Choices& choices_of<Scheme>() {
-  static const Choices choices = texts_of<schemes>("scheme");
-  return choices;
+  return texts_of<schemes>("scheme");
 }
 
 const SchemeTraits& traits_of(Scheme scheme) { return at(schemes, scheme); }

@@ -77,6 +77,23 @@ void real(Option& o, Get get, IsValid is_valid, const char* valid, const std::st
   };
 }
 
+/// An optional value; nothing stands for `unset`.
+template <class Get, class FromText, class ToText>
+void optional(Option& o, Get get, const std::string& unset, FromText from_text, ToText to_text) {
+  o.unset = unset;
+  o.parse = [=](RunOptions& options, const std::string& text) {
+    auto& value = get(options);
+    value.reset();
+    if (text != unset) {
+      value = from_text(text);
+    }
+  };
+  o.print = [=](const RunOptions& options) {
+    const auto& value = get(options);
+    return value ? to_text(*value) : unset;
+  };
+}
+
 /// A percentage, or a number between 0 and 1.
 template <class Get>
 void percentage(Option& o, Get get) {
@@ -143,7 +160,7 @@ std::string exact_text(const Rgb& value) {
 
 /// A change of a material, of which there may be several.
 void change(Option& o, MaterialChange (*from_text)(const std::string&)) {
-  o.in_files = false;  // as a list of all changes, in their order
+  o.in_files = false;  // files have a list of all changes, in their order
   o.reads_scene = true;
   o.repeats = true;
   o.parse = [=](RunOptions& options, const std::string& text) {
@@ -202,16 +219,8 @@ void add_directions(Table& t) {
   Option& rotate = t.add("rotate", "S", "a number, or none",
                          "apply a random rotation with this seed to all directions");
   rotate.json = Option::Json::number;
-  rotate.unset = "none";
-  rotate.parse = [](RunOptions& o, const std::string& text) {
-    o.solve.rotation.reset();
-    if (text != "none") {
-      o.solve.rotation = seed_from_text(text);
-    }
-  };
-  rotate.print = [](const RunOptions& o) {
-    return o.solve.rotation ? fmt::to_string(*o.solve.rotation) : "none";
-  };
+  optional(rotate, solve(&SolveOptions::rotation), "none", seed_from_text,
+           [](std::uint64_t value) { return fmt::to_string(value); });
   Option& one_way = t.add("one-way", "", "yes or no",
                           "use each pass for one direction, as in the paper, instead of for it "
                           "and its opposite");
@@ -278,16 +287,12 @@ void add_equations(Table& t) {
             "of the start counts for less than the differences between iterations");
   burn_in.json = Option::Json::number;
   burn_in.choices = {"auto"};
-  burn_in.unset = "auto";
-  burn_in.parse = [](RunOptions& o, const std::string& text) {
-    o.solve.burn_in.reset();
-    if (text != "auto") {
-      o.solve.burn_in = static_cast<int>(whole_number_from_text(text, 0, largest_count));
-    }
-  };
-  burn_in.print = [](const RunOptions& o) {
-    return o.solve.burn_in ? fmt::to_string(*o.solve.burn_in) : "auto";
-  };
+  optional(
+      burn_in, solve(&SolveOptions::burn_in), "auto",
+      [](const std::string& text) {
+        return static_cast<int>(whole_number_from_text(text, 0, largest_count));
+      },
+      [](int value) { return fmt::to_string(value); });
   whole(t.add("iterations", "K", "a number, or none", "stop after this many iterations"),
         solve(&SolveOptions::iterations), 1, largest_count, "none");
   real(
@@ -303,12 +308,12 @@ void add_accuracy(Table& t) {
   t.group = "Accuracy";
   const auto goal = [](auto m) { return solve(&SolveOptions::goal, m); };
   percentage(t.common("accuracy", "P%|X", "a percentage or a number, or none",
-                      "choose M and the replicas so that the error of B is at most that, with 95 % "
+                      "choose M and the replicas so that the error of B is at most this, with 95 % "
                       "confidence"),
              goal(&AccuracyGoal::accuracy));
   Option& of =
       t.add("accuracy-of", "NAME", "a name",
-            "error that the accuracy is about, relative to reflected light, B - E, without patches "
+            "error that the accuracy limits, relative to reflected light, B - E, without patches "
             "that emit: rms, the RMS error over the RMS; max, the largest error over the largest "
             "value; patch:I, the error of patch I; mean, the error of the mean");
   of.choices = {"rms", "max", "patch:I", "mean"};
@@ -336,9 +341,10 @@ void add_accuracy(Table& t) {
 
 void add_sky(Table& t) {
   t.group = "Sky";
-  Option& sky = t.common("sky", "E[,E,E]", "one number or three, W/m2, or none",
-                         "what escapes from an open scene meets a sky: what an unobstructed patch "
-                         "turned upward receives from it, in W/m2");
+  Option& sky =
+      t.common("sky", "E[,E,E]", "one number or three, W/m2, or none",
+               "light that leaves an open scene meets a sky: irradiance of an unobstructed "
+               "patch turned upward, in W/m2");
   sky.json = Option::Json::numbers;
   sky.zero_is_unset = true;
   sky.unset = "none";
@@ -401,16 +407,8 @@ void add_patches(Table& t) {
                      "as asked for; jump: where B jumps across edges; error: where a solve with "
                      "every patch divided differs most");
   by.choices = names_of<RefineBy>();
-  by.unset = "none";
-  by.parse = [](RunOptions& o, const std::string& text) {
-    o.refine.by.reset();
-    if (text != "none") {
-      o.refine.by = from_name<RefineBy>(text);
-    }
-  };
-  by.print = [](const RunOptions& o) {
-    return o.refine.by ? name_of(*o.refine.by) : std::string("none");
-  };
+  optional(by, member(&RunOptions::refine, &RefineChoice::by), "none", from_name<RefineBy>,
+           name_of<RefineBy>);
   percentage(t.add("refine-until", "P%|X", "a percentage or a number, or none",
                    "end the rounds when their figure is this small: relative RMS jump, or relative "
                    "L2 error"),
@@ -429,23 +427,18 @@ void add_reading(Table& t) {
   Option& most = t.add("max-reflectance", "R", "a number, or auto",
                        "lower larger reflectances of a file to R");
   most.json = Option::Json::number;
-  most.unset = "auto";
   most.default_text =
-      fmt::format("lower only those of 1 and more, to {}", ReadOptions::default_max_reflectance);
-  most.parse = [](RunOptions& o, const std::string& text) {
-    o.input.read.max_reflectance.reset();
-    if (text != "auto") {
-      const double value = number_from_text(text);
-      if (!is_reflectance(value)) {
-        throw InputError(fmt::format("\"{}\" is not at least 0 and below 1", text));
-      }
-      o.input.read.max_reflectance = value;
-    }
-  };
-  most.print = [](const RunOptions& o) {
-    const auto& value = o.input.read.max_reflectance;
-    return value ? exact_text(*value) : "auto";
-  };
+      fmt::format("lower only reflectances of 1 and more, to {}", ReadOptions::default_max_reflectance);
+  optional(
+      most, read(&ReadOptions::max_reflectance), "auto",
+      [](const std::string& text) {
+        const double value = number_from_text(text);
+        if (!is_reflectance(value)) {
+          throw InputError(fmt::format("\"{}\" is not at least 0 and below 1", text));
+        }
+        return value;
+      },
+      [](double value) { return exact_text(value); });
   real(t.add("scale", "X", "a number", "meters per unit of the scene's coordinates"),
        read(&ReadOptions::scale), is_positive, "greater than 0");
   Option& units = t.common("units", "NAME", "a name", "unit of the scene's coordinates");

@@ -27,14 +27,14 @@ struct Option {
   };
 
   std::string name;                       ///< without dashes, as in files
-  std::string group;                      ///< of help texts
-  std::string argument;                   ///< as "X,Y,Z"; empty: a flag
+  std::string group;                      ///< group in help texts
+  std::string argument;                   ///< such as "X,Y,Z"; empty for a flag
   std::string values;                     ///< the values it accepts, as "a number, or auto"
   std::string help;                       ///< begins in lower case, no full stop
   Json json = Json::text;                 ///< how files write it
   std::vector<std::string> choices = {};  ///< words that it accepts
   bool lists_choices = false;             ///< help_text() lists them
-  std::string unset = {};                 ///< what nothing is called: none or auto
+  std::string unset = {};                 ///< the word for nothing: none or auto
   bool zero_is_unset = false;             ///< files of former versions have 0 for `unset`
   std::string default_text = {};          ///< for help; empty: the value in RunOptions is shown
   bool common = false;                    ///< among those that most people need

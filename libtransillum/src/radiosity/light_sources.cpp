@@ -4,8 +4,6 @@
 #include <map>
 #include <numeric>
 
-#include "transillum/at.h"
-
 namespace transillum {
 namespace {
 

@@ -21,7 +21,7 @@ namespace {
 
 /// Patches with less than this share of the largest reflected light are reported as unlit.
 constexpr double least_light = 1e-6;
-constexpr double dimmest_share = 0.1;  ///< of the lit area
+constexpr double dimmest_share = 0.1;  ///< share of the lit area
 
 constexpr double Rgb::*channels[] = {&Rgb::r, &Rgb::g, &Rgb::b};
 

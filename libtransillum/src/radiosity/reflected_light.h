@@ -18,7 +18,7 @@ namespace transillum {
 /// reflect nothing. Lists have one value per unknown, `per_patch` for each patch.
 class ReflectedLight {
  public:
-  /// The exitance is that of the scene's materials.
+  /// Takes the exitance of the scene's materials.
   explicit ReflectedLight(const Scene& scene, std::size_t per_patch = 1);
   /// @param exitance W/m², one per unknown; 0 except for the mean of a patch
   ReflectedLight(std::vector<Rgb> exitance, std::size_t per_patch);
@@ -43,7 +43,7 @@ class ReflectedLight {
 
 /// Whether the changes of an iteration are rounding, which further iterations do not decrease.
 inline bool is_rounding(const IterationRecord& record) {
-  constexpr double rounding = 1e-12;  // of the largest reflected light
+  constexpr double rounding = 1e-12;  // relative to the largest reflected light
   return record.change <= rounding && record.contraction >= 1;
 }
 
@@ -71,7 +71,7 @@ class RemainderBound {
   /// Largest |change| over the largest reflected light.
   double relative_change(const std::vector<Rgb>& b, const std::vector<Rgb>& changes) const;
   /// Power of the changes over the emitted power, in the channel where it is largest.
-  /// @param from_sky irradiance from the sky, W/m², one per patch; empty: none
+  /// @param from_sky irradiance from the sky, W/m², one per patch; empty if there is none
   double changed_power(const std::vector<Rgb>& changes, const std::vector<Rgb>& from_sky) const;
 
  private:

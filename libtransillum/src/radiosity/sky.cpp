@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/choice.h"
-#include "transillum/at.h"
 #include "transillum/errors.h"
 
 namespace transillum {
@@ -22,8 +21,7 @@ constexpr std::array sky_models{
 
 template <>
 const Choices& choices_of<SkyModel>() {
-  static const Choices choices = texts_of<sky_models>("model of the sky");
-  return choices;
+  return texts_of<sky_models>("model of the sky");
 }
 
 double Sky::relative_radiance(const Vec3& omega) const {
@@ -36,7 +34,7 @@ double Sky::relative_radiance(const Vec3& omega) const {
 }
 
 void Sky::validate() const {
-  constexpr double largest = 1e170;  // as of materials
+  constexpr double largest = 1e170;  // the limit of materials
   for (const double value : {exitance.r, exitance.g, exitance.b}) {
     if (!(value >= 0 && value <= largest)) {
       throw InputError(

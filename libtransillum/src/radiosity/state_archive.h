@@ -69,7 +69,7 @@ class StateOutput {
   void block(const void* bytes, std::size_t size) {
     out_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
   }
-  /// What StateInput requires of what it has read.
+  /// Does nothing; StateInput checks the condition on what it has read.
   void require(bool /*condition*/) const {}
 
  private:

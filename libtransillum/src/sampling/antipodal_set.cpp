@@ -7,8 +7,6 @@
 // projected areas of axis-parallel patches.
 //
 // Only +, -, *, / and square roots are used, which IEEE 754 defines to the last bit.
-#include "sampling/antipodal_set.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,9 +14,11 @@
 #include <iterator>
 #include <numbers>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "sampling/even_harmonics.h"
-#include "sampling/sphere_neighbors.h"
+#include "sampling/sequences.h"
 
 namespace transillum {
 namespace {
@@ -66,6 +66,72 @@ std::vector<Vec3> with_opposites(const std::vector<Vec3>& axes) {
   std::transform(axes.begin(), axes.end(), std::back_inserter(points),
                  [](const Vec3& a) { return -a; });
   return points;
+}
+
+/// The neighbors of points of the unit sphere: for each point the others nearer than a radius.
+class SphereNeighbors {
+ public:
+  /// Lists the neighbors of the first `listed` points among all. O(N log N) for evenly spread
+  /// points and a radius of a few spacings.
+  SphereNeighbors(std::span<const Vec3> points, std::size_t listed, double radius);
+
+  /// Numbers of the neighbors of point i < listed, in an order that depends on the points only.
+  std::span<const std::uint32_t> of(std::size_t i) const {
+    return std::span(near_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
+  }
+
+ private:
+  int cell(double x) const;
+  std::int64_t key(int x, int y, int z) const;
+  void append_near(std::span<const Vec3> points, std::size_t i, double radius);
+
+  int cells_;  ///< along each side of the cube [-1,1]³; at least as wide as the radius
+  std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  ///< cell and number of each point
+  std::vector<std::size_t> begin_;
+  std::vector<std::uint32_t> near_;
+};
+
+SphereNeighbors::SphereNeighbors(std::span<const Vec3> points, std::size_t listed, double radius)
+    : cells_(std::max(1, static_cast<int>(2 / radius))) {
+  sorted_.reserve(points.size());
+  for (const Vec3& p : points) {
+    sorted_.emplace_back(key(cell(p.x), cell(p.y), cell(p.z)),
+                         static_cast<std::uint32_t>(sorted_.size()));
+  }
+  std::sort(sorted_.begin(), sorted_.end());
+  for (std::size_t i = 0; i < listed; ++i) {
+    begin_.push_back(near_.size());
+    append_near(points, i, radius);
+  }
+  begin_.push_back(near_.size());
+}
+
+int SphereNeighbors::cell(double x) const {
+  return std::clamp(static_cast<int>((x + 1) / 2 * cells_), 0, cells_ - 1);
+}
+
+std::int64_t SphereNeighbors::key(int x, int y, int z) const {
+  return x + std::int64_t{cells_} * (y + std::int64_t{cells_} * z);
+}
+
+void SphereNeighbors::append_near(std::span<const Vec3> points, std::size_t i, double radius) {
+  const auto cells_around = [this](double x) {
+    return std::pair(std::max(cell(x) - 1, 0), std::min(cell(x) + 1, cells_ - 1));
+  };
+  const auto [x0, x1] = cells_around(points[i].x);
+  const auto [y0, y1] = cells_around(points[i].y);
+  const auto [z0, z1] = cells_around(points[i].z);
+  for (int z = z0; z <= z1; ++z) {
+    for (int y = y0; y <= y1; ++y) {
+      auto p = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(key(x0, y, z), 0U));
+      for (const std::int64_t last = key(x1, y, z); p != sorted_.end() && p->first <= last; ++p) {
+        const Vec3 apart = points[i] - points[p->second];
+        if (p->second != i && dot(apart, apart) < radius * radius) {
+          near_.push_back(p->second);
+        }
+      }
+    }
+  }
 }
 
 /// Force on an axis, tangential or not: from each neighbor 1/d², times a factor that decreases to 0

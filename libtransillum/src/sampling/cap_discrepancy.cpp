@@ -103,7 +103,7 @@ class Pencil {
   }
 
   Vec3 x_, y_;
-  double height_;  ///< of the smallest cap, whose center is x_
+  double height_;  ///< height of the smallest cap, whose center is x_
 };
 
 double largest_excess_of_pencils(std::span<const DirectionSample> samples,

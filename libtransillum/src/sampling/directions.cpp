@@ -2,16 +2,18 @@
 #include "transillum/directions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "base/bit_mixing.h"
 #include "base/choice.h"
 #include "sampling/sequences.h"
 #include "sampling/sphere_map.h"
 #include "transillum/at.h"
 
 namespace transillum {
-
 namespace {
 
 constexpr std::array samplings{
@@ -42,12 +44,32 @@ constexpr std::array samplings{
                    .differs_by_iteration = true},
 };
 
+struct Rotation {
+  Vec3 x, y, z;  ///< images of the axes
+
+  Vec3 operator()(const Vec3& a) const { return a.x * x + a.y * y + a.z * z; }
+};
+
+/// The rotation of a unit quaternion that is uniform on its sphere (Shoemake, "Uniform Random
+/// Rotations", 1992).
+Rotation random_rotation(std::uint64_t seed) {
+  const auto uniform = [seed](std::uint64_t k) {
+    return static_cast<double>(mixed(seed + k * golden_step) >> 11) * 0x1p-53;
+  };
+  const double share = uniform(1);
+  const double a = 2 * std::numbers::pi * uniform(2), b = 2 * std::numbers::pi * uniform(3);
+  const double x = std::sqrt(1 - share) * std::sin(a), y = std::sqrt(1 - share) * std::cos(a);
+  const double z = std::sqrt(share) * std::sin(b), w = std::sqrt(share) * std::cos(b);
+  return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+          {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+          {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+}
+
 }  // namespace
 
 template <>
 const Choices& choices_of<Sampling>() {
-  static const Choices choices = texts_of<samplings>("sampling");
-  return choices;
+  return texts_of<samplings>("sampling");
 }
 
 template <>
@@ -90,7 +112,8 @@ std::vector<int> progressive_order(Sampling sampling, int count) {
     return order;
   }
   // Ranks of the radical inverses: the order in which van der Corput's points fill the interval,
-  // scaled to 0 … count-1 for any count. The base differs from those of the sampling, else prefixes
+  // scaled to 0 … count-1 for any count. The base differs from the bases of the sampling, else
+  // prefixes
   // would cover only a corner of the square.
   const std::uint32_t base = is_spiral(sampling) ? 2 : 3;
   std::vector<std::pair<double, int>> keyed;
@@ -103,6 +126,14 @@ std::vector<int> progressive_order(Sampling sampling, int count) {
     at(order, at(keyed, rank).second) = rank;
   }
   return order;
+}
+
+std::vector<DirectionSample> rotated(std::vector<DirectionSample> samples, std::uint64_t seed) {
+  const Rotation rotation = random_rotation(seed);
+  for (DirectionSample& sample : samples) {
+    sample = sample_along(normalized(rotation(sample.direction)));
+  }
+  return samples;
 }
 
 }  // namespace transillum

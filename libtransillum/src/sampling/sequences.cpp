@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <boost/random/sobol.hpp>
 #include <cmath>
 #include <numbers>
@@ -14,8 +13,6 @@
 #include <utility>
 
 #include "base/bit_mixing.h"
-#include "sampling/antipodal_set.h"
-#include "sampling/owen_scrambling.h"
 #include "sampling/sphere_map.h"
 #include "transillum/errors.h"
 
@@ -33,6 +30,23 @@ std::uint32_t bit_reversed(std::uint32_t k) {
     reversed = (reversed << 1) | (k & 1u);
   }
   return reversed;
+}
+
+/// Owen's nested uniform scrambling in base 2: each binary digit of x is flipped or not by a random
+/// bit that depends on all digits before it. Every scrambled point is uniform, and the
+/// equidistribution of a set is kept: dyadic intervals of a length map to dyadic intervals of that
+/// length.
+///
+/// @param x the first 32 digits of a number in [0,1)
+/// @param seed a different one for each coordinate, which are otherwise scrambled equally
+std::uint32_t owen_scrambled(std::uint32_t x, std::uint64_t seed) {
+  std::uint32_t flips = 0;
+  for (int digit = 0; digit < 32; ++digit) {
+    // The node of the binary tree given by the digits before this one.
+    const std::uint64_t node = (std::uint64_t{1} << digit) | (std::uint64_t{x} >> (32 - digit));
+    flips |= static_cast<std::uint32_t>(mixed(seed + node * golden_step) >> 63) << (31 - digit);
+  }
+  return x ^ flips;
 }
 
 /// A point given by the first 32 binary digits of its coordinates, which are scrambled

@@ -119,7 +119,7 @@ AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene) : st
         stage_.replicas * (short_of_time ? directions_at_least : directions_at_first);
   }
   if (options.goal.accuracy > 0) {
-    // What further iterations would add is then a fiftieth of the goal.
+    // The change by further iterations is then a fiftieth of the goal.
     stage_.tolerance = std::min(stage_.tolerance, 0.02 * options.goal.accuracy);
   }
 }
@@ -166,7 +166,7 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
       return Next::stage;
     }
   }
-  // As the root of the number of replicas; a new stage makes all its passes, but gains more.
+  // Error ~ 1/sqrt(number of replicas); a new stage makes all its passes, but gains more.
   const double missing = report_.error / goal.accuracy;
   const int replicas = solved.replicas, per_replica = solved.directions / replicas;
   const double more = std::ceil(replicas * (missing * missing - 1));

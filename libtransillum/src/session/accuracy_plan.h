@@ -28,7 +28,7 @@ double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector
 ///
 /// The first stage has few directions. Each further one has as many as are expected to suffice, by
 /// the error of those before; where only little is missing, a replica more. Earlier stages are
-/// discarded, so that the result is that of the last stage alone. Not thread-safe.
+/// discarded, so that the result comes from the last stage alone. Not thread-safe.
 class AccuracyPlan {
  public:
   /// @param options with a goal; validated. If it has replicas, the first stage is its own
@@ -39,7 +39,7 @@ class AccuracyPlan {
 
   /// Options of the stage to be solved.
   const SolveOptions& stage() const { return stage_; }
-  /// What comes after a stage.
+  /// The next work after a stage.
   enum class Next {
     done,     ///< the goal is reached, or cannot be
     stage,    ///< a new solver with stage()

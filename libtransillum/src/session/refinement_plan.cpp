@@ -52,8 +52,8 @@ double square_integral(const Solution& solution) {
 
 /// Integrals of B over a patch, times its functions, from the patches that it is divided into.
 struct Projection {
-  double square = 0;                ///< of |B|²
-  std::array<Rgb, 3> coefficients;  ///< of B phi_a, over the area
+  double square = 0;                ///< integral of |B|²
+  std::array<Rgb, 3> coefficients;  ///< integrals of B phi_a, over the area
 };
 
 /// Adds what patch k of the divided scene contributes to the projection onto patch i.
@@ -253,7 +253,7 @@ const RefinementRound& RefinementPlan::assess(const Solution& solution, double s
 }
 
 bool RefinementPlan::divide_worst(const Cancellation& cancellation) {
-  // What is smaller than the tolerance is left over by the iteration.
+  // Jumps and errors below the tolerance may be left over by the iteration.
   if (rounds_.back().figure <= std::max(refine_.until, options_.tolerance)) {
     finish();
     return false;

@@ -27,13 +27,13 @@ class RefinementPlan {
 
   /// Whether no round is left: scene() is the refined one.
   bool finished() const { return finished_; }
-  /// What is to be solved next. By RefineBy::error, in a round, refined() with every patch divided.
+  /// The next scene to solve. By RefineBy::error, in a round, refined() with all patches divided.
   const std::shared_ptr<const Scene>& scene() const { return scene_; }
   /// The scene so far.
   const std::shared_ptr<const Scene>& refined() const { return refined_; }
   /// Criterion and limits.
   const RefineOptions& options() const { return refine_; }
-  /// Those that are done, in order.
+  /// The finished rounds, in order.
   const std::vector<RefinementRound>& rounds() const { return rounds_; }
 
   /// Adds a round, unless finished().
@@ -57,7 +57,7 @@ class RefinementPlan {
   std::shared_ptr<const Scene> refined_, scene_;
   std::vector<PatchId> parent_;  ///< DividedScene::parent of scene_, by RefineBy::error
   std::vector<double> squares_;  ///< per patch of refined_, of the last assess()
-  double seconds_ = 0;           ///< of dividing, before the solve
+  double seconds_ = 0;           ///< time of dividing, before the solve
   bool finished_ = false;
   std::vector<RefinementRound> rounds_;
 };

@@ -27,7 +27,7 @@ class RunningSolver {
   GlossySolver* glossy() { return std::get_if<GlossySolver>(&solver_); }
   const GlossySolver* glossy() const { return std::get_if<GlossySolver>(&solver_); }
 
-  /// As RadiositySolver::advance()
+  /// The same as RadiositySolver::advance()
   bool advance(RadiositySolver::Until until, const std::function<bool()>& observer);
   const SolveOptions& options() const;
   SolveProgress progress() const;

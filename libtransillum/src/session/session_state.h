@@ -20,17 +20,17 @@ struct [[gnu::visibility("hidden")]] SolveSession::Impl {
   SolveRequest request;  ///< scene and tree are those to start from
   Cancellation cancellation;
   std::optional<RefinementPlan> rounds;
-  // Of the present round:
+  // State of the present round:
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;      ///< null: not built yet
-  std::shared_ptr<const DirectLight> shot;  ///< null: none, or not shot yet
-  std::optional<AccuracyPlan> plan;         ///< of a goal
-  std::optional<RunningSolver> solver;      ///< of the present stage; nothing: not prepared
+  std::shared_ptr<const DirectLight> shot;  ///< null if there is none, or if it is not shot yet
+  std::optional<AccuracyPlan> plan;         ///< plan for a goal
+  std::optional<RunningSolver> solver;      ///< solver of the present stage; nothing: not prepared
   std::optional<AccuracyPlan::Next> next;   ///< after this stage, which has ended
-  std::optional<Solution> best;             ///< of a goal: of the last stage that has ended
+  std::optional<Solution> best;             ///< with a goal: result of the last finished stage
   bool assessed = false;                    ///< the round has ended; its patches are to be divided
   double seconds_bsp = 0, seconds_first_shot = 0;
-  double seconds_before = 0;                ///< of finished calls
+  double seconds_before = 0;                ///< time of finished calls
   std::optional<Clock::time_point> called;  ///< when the present call began
   bool finished = false;
 

@@ -12,6 +12,7 @@
 
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
+#include "radiosity/exchange/sums_in_memory.h"
 #include "radiosity/solver/solver_input.h"
 #include "scene/build/patch_count.h"
 #include "session/session_state.h"
@@ -26,6 +27,9 @@ using SolverUntil = RadiositySolver::Until;
 
 SolveSession::Impl::Impl(SolveRequest solve_request, const Cancellation& solve_cancellation)
     : request(std::move(solve_request)), cancellation(solve_cancellation) {
+  if (!request.sums) {
+    request.sums = sums_in_memory();
+  }
   request.options.validate();
   if (!takes_directions(request.options.engine)) {
     throw InputError(fmt::format("engine {} makes no passes", name_of(request.options.engine)));
@@ -97,8 +101,7 @@ void SolveSession::Impl::make_solver() {
     return;
   }
   solver.emplace(RadiositySolver(
-      scene, options,
-      {.tree = tree, .shot = shot, .engine = request.engine, .group = request.group},
+      scene, options, {.tree = tree, .shot = shot, .engine = request.engine, .sums = request.sums},
       cancellation));
   if (request.keep_form_factors) {
     solver->diffuse()->keep_form_factors();
@@ -109,18 +112,13 @@ void SolveSession::Impl::prepare() {
   if (solver) {
     return;
   }
-  const auto make = [&] {
+  request.sums->agree([&] {
     cancellation.throw_if_canceled();
     check_memory(scene->name(), scene->patch_count(), request.options.replicas,
                  request.options.basis == Basis::linear ? 3 : 1);
     build_tree();
     shoot_first();
-  };
-  if (request.group) {
-    request.group->agree(make);
-  } else {
-    make();
-  }
+  });
   make_solver();
 }
 
@@ -141,7 +139,7 @@ bool SolveSession::Impl::advance_stage(SolverUntil until, const std::function<bo
     next = AccuracyPlan::Next::stage;
     return false;
   }
-  if (unfinished && most_seconds > 0 && (request.group ? request.group->any(late) : late)) {
+  if (unfinished && most_seconds > 0 && request.sums->any(late)) {
     next = AccuracyPlan::Next::done;
     return false;
   }
@@ -150,8 +148,7 @@ bool SolveSession::Impl::advance_stage(SolverUntil until, const std::function<bo
 
 bool SolveSession::Impl::begin_next() {
   if (plan && !next) {
-    next = plan->next(*solver->diffuse(),
-                      request.group ? request.group->from_first(seconds()) : seconds());
+    next = plan->next(*solver->diffuse(), request.sums->from_first(seconds()));
     best = solver->solution();
   }
   if (plan && next != AccuracyPlan::Next::done) {
@@ -262,7 +259,7 @@ bool SolveSession::has_result() const {
 bool SolveSession::finished() const { return impl_->finished; }
 const std::shared_ptr<const Scene>& SolveSession::scene() const { return impl_->scene; }
 const std::shared_ptr<const BspTree>& SolveSession::tree() const { return impl_->tree; }
-const std::shared_ptr<SolverGroup>& SolveSession::group() const { return impl_->request.group; }
+const std::shared_ptr<PatchSums>& SolveSession::sums() const { return impl_->request.sums; }
 bool SolveSession::in_rounds() const { return impl_->in_rounds(); }
 
 const std::vector<RefinementRound>& SolveSession::rounds() const {
@@ -338,9 +335,8 @@ Solution SolveSession::solution() const {
 
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const SolveSession::Observer& observer, const Cancellation& cancellation,
-               const std::shared_ptr<SolverGroup>& group) {
-  SolveSession session({.scene = std::move(scene), .options = options, .group = group},
-                       cancellation);
+               const std::shared_ptr<PatchSums>& sums) {
+  SolveSession session({.scene = std::move(scene), .options = options, .sums = sums}, cancellation);
   try {
     session.advance(SolveSession::Until::finished, observer);
   } catch (const Canceled&) {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "io/clean_text.h"
+#include "io/text.h"
 
 namespace transillum {
 namespace {
@@ -119,7 +119,7 @@ void ChartCanvas::fill(const ChartArea& area, const ChartColor& color) {
   cairo_fill(cairo_);
 }
 
-/// The nearest point where the edges of a vertical or horizontal line are those of pixels.
+/// The nearest point where the edges of a vertical or horizontal line are edges of pixels.
 ChartPoint ChartCanvas::on_pixels(const ChartPoint& point, double width, bool is_vertical) {
   double none = 0, x = point.x, y = point.y;
   cairo_user_to_device_distance(cairo_, &width, &none);

@@ -12,7 +12,7 @@ namespace transillum {
 
 /// How a text looks.
 struct ChartText {
-  double size;  ///< of the font
+  double size;  ///< size of the font
   ChartColor color;
   bool bold = false;
 };
@@ -59,5 +59,10 @@ class ChartCanvas {
   cairo_t* cairo_;
   std::string font_;
 };
+
+/// Paints `chart` at the origin of `cairo`.
+/// @param width, height of the chart, in user units of `cairo`
+/// @returns the plot's area in the same units
+ChartArea paint_chart(cairo_t* cairo, const LineChart& chart, double width, double height);
 
 }  // namespace transillum

@@ -7,11 +7,11 @@
 #include <ostream>
 #include <sstream>
 
-#include "io/clean_text.h"
+#include "base/text_file.h"
 #include "io/drawing/cairo_surface.h"
-#include "io/drawing/chart_painter.h"
+#include "io/drawing/chart_canvas.h"
 #include "io/drawing/line_chart.h"
-#include "io/file_ending.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 

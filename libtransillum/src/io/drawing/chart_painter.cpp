@@ -2,8 +2,6 @@
 //
 // Lays out a LineChart (title, legend, axes, plot) and paints it, from the background to the
 // labels. Lengths are in user units of the Cairo context, y downward.
-#include "io/drawing/chart_painter.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/clean_text.h"
 #include "io/drawing/chart_canvas.h"
+#include "io/text.h"
 
 namespace transillum {
 namespace {
@@ -122,7 +120,7 @@ class ChartPainter {
   ChartArea plot_;
   std::vector<std::size_t> legend_;      ///< named series
   std::vector<ChartPoint> legend_rows_;  ///< where each begins, y from the first row
-  double legend_left_ = 0;               ///< of a column
+  double legend_left_ = 0;               ///< left edge, where the legend is a column
 };
 
 /// Sets the font size of the legend to the largest that fits; returns the width of its column.

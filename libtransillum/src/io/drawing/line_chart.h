@@ -59,9 +59,9 @@ struct ChartPoint {
 struct ChartSeries {
   std::string name;                         ///< in the legend; empty: not in the legend
   std::string note;                         ///< in the legend's second column
-  ChartColor color{};                       ///< of line and markers
-  double width = 2;                         ///< of the line
-  ChartDashes dashes = ChartDashes::solid;  ///< of the line
+  ChartColor color{};                       ///< color of line and markers
+  double width = 2;                         ///< width of the line
+  ChartDashes dashes = ChartDashes::solid;  ///< dashes of the line
   ChartMarker marker = ChartMarker::none;   ///< at every point
   bool hollow = false;                      ///< markers are outlines
   std::vector<ChartPoint> points;           ///< x ascending
@@ -95,8 +95,8 @@ struct ChartStyle {
   double text_size = 15;            ///< font size of axis titles and legend
   double label_size = 14;           ///< font size of tick labels
   double margin = 12;               ///< on all four sides
-  double line_width = 1.25;         ///< of axes, and of grid lines with a label
-  bool bold_title = false;          ///< of the chart's title
+  double line_width = 1.25;         ///< width of axes, and of grid lines with a label
+  bool bold_title = false;          ///< whether the chart's title is bold
   bool framed = false;              ///< axis lines on all four sides, not only left and bottom
 };
 
@@ -107,10 +107,10 @@ struct LineChart {
   ChartAxis x;                      ///< horizontal axis
   ChartAxis y;                      ///< vertical axis
   std::vector<ChartSeries> series;  ///< drawn in this order, the last on top
-  std::vector<std::size_t> legend;  ///< order of the series in the legend; empty: as drawn
+  std::vector<std::size_t> legend;  ///< order of the series in the legend; as drawn if empty
   std::string note_title;           ///< heading of the legend's second column
   bool legend_below_title = false;  ///< in rows; otherwise a column at the right
-  bool axis_titles = true;          ///< false: only that of x, beside the title; for low charts
+  bool axis_titles = true;          ///< false: only x's, beside the chart's title; for low charts
   ChartStyle style;                 ///< colors, font and sizes
 };
 
@@ -140,8 +140,8 @@ ChartArea paint_chart(const LineChart& chart, const ChartPixels& pixels, double 
 
 /// The size of a chart in a file.
 struct ChartPage {
-  double width = 800;   ///< of each chart
-  double height = 480;  ///< of each chart
+  double width = 800;   ///< width of each chart
+  double height = 480;  ///< height of each chart
   double scale = 2;     ///< pixels of a PNG per pixel of a screen with scale 1
 };
 

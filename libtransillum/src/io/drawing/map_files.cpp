@@ -6,7 +6,7 @@
 #include <functional>
 #include <ostream>
 
-#include "io/file_ending.h"
+#include "base/text_file.h"
 #include "io/maps/map_writers.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"

@@ -17,7 +17,6 @@
 
 #include "io/drawing/cairo_surface.h"
 #include "io/maps/map_drawing.h"
-#include "io/maps/map_labels.h"
 #include "io/maps/map_writers.h"
 
 namespace transillum {

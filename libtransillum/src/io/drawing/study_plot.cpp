@@ -169,7 +169,7 @@ LineChart StudyPlot::chart(const std::string& scene, const ChartStyle& style) co
     chart.series.push_back(bound());
     chart.legend.push_back(0);
   }
-  std::map<std::size_t, std::size_t> place;  // of each series in chart.series
+  std::map<std::size_t, std::size_t> place;  // place of each series in chart.series
   for (const auto& [series, points] : points_) {
     place[series] = chart.series.size();
     chart.series.push_back(line_of(series, points));
@@ -293,8 +293,7 @@ constexpr std::array axes{
 
 template <>
 const Choices& choices_of<StudyAxis>() {
-  static const Choices choices = texts_of<axes>("axis");
-  return choices;
+  return texts_of<axes>("axis");
 }
 
 LineChart study_chart(const std::string& scene, const std::vector<StudySeries>& series,

@@ -8,9 +8,7 @@
 #include <cmath>
 
 #include "base/text_file.h"
-#include "io/content_hash.h"
 #include "io/factors/factor_formats.h"
-#include "io/file_ending.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
@@ -18,7 +16,7 @@
 namespace transillum {
 namespace {
 
-/// What the quadrature gives at most: one direction, one way (ALGORITHM.md, section 6).
+/// Largest form factor that the quadrature gives: one direction, one way (ALGORITHM.md, section 6).
 constexpr double largest_factor = 4;
 
 using FactorWriter = void (*)(std::ostream&, const Scene&, const FormFactors&);
@@ -77,7 +75,7 @@ void check_reciprocity(const Scene& scene, const StoredFormFactors& stored) {
   }
   if (difference > most * sum) {
     throw InputError(fmt::format(
-        "{}: the form factors are not those of {}: with its areas, A_i F_ij and A_j F_ji differ by "
+        "{}: the form factors do not belong to {}: with its areas, A_i F_ij and A_j F_ji differ by "
         "{:.0f} % on average, most between patches {} and {}",
         stored.name, scene.name(), 100 * difference / sum, worst_i, worst_j));
   }
@@ -101,8 +99,8 @@ void check_areas(const Scene& scene, const StoredFormFactors& stored) {
 
 }  // namespace
 
-std::string hash_of_polygons(const Scene& scene) {
-  ContentHash hash;
+std::string hash_of_polygons(const Scene& scene, ContentHash::Method method) {
+  ContentHash hash(method);
   hash.add_polygons(scene);
   return hash.digits();
 }
@@ -184,9 +182,10 @@ void check_form_factors(const Scene& scene, const StoredFormFactors& stored) {
   } else {
     check_areas(scene, stored);
   }
-  if (!stored.polygons.empty() && stored.polygons != hash_of_polygons(scene)) {
+  if (!stored.polygons.empty() &&
+      stored.polygons != hash_of_polygons(scene, ContentHash::method_of(stored.polygons))) {
     throw InputError(
-        fmt::format("{}: the form factors are of other polygons than those of {}: their areas are "
+        fmt::format("{}: the form factors are of other polygons than {} has: their areas are "
                     "the same, but corners have moved",
                     stored.name, scene.name()));
   }

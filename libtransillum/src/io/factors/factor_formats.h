@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/content_hash.h"
 #include "transillum/form_factor_files.h"
 
 namespace transillum {
@@ -27,15 +28,16 @@ StoredFormFactors read_factors_mtx(const std::string& name, std::string_view tex
 /// @throws InputError where a dense matrix would be too large
 void write_factors_view3d(std::ostream& out, const Scene& scene, const FormFactors& form_factors);
 
-/// The hash by which a file knows the polygons of its scene again.
-std::string hash_of_polygons(const Scene& scene);
+/// The hash by which a file identifies the polygons of its scene.
+std::string hash_of_polygons(const Scene& scene,
+                             ContentHash::Method method = ContentHash::Method::xxh3);
 
 /// An entry of a matrix in any order.
 struct FactorEntry {
   PatchId i, j;
   double value;
 };
-/// The matrix of the entries: sorted, those of one place added up, zeros left out.
+/// The matrix of the entries: sorted, entries of one place added up, zeros omitted.
 /// @throws InputError where a value is not finite or less than 0
 /// @throws Canceled
 FormFactors sorted_factors(const std::string& name, PatchId patches,

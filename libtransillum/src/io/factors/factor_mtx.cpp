@@ -13,7 +13,7 @@
 
 #include "base/text_file.h"
 #include "io/factors/factor_formats.h"
-#include "io/text_buffer.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 
 namespace transillum {

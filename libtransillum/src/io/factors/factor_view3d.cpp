@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/factors/factor_formats.h"
-#include "io/text_buffer.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 
 namespace transillum {

@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view mark = "\x93NUMPY";
 static_assert(std::endian::native == std::endian::little, "arrays are written in memory order");
 
-/// What follows `'key':` in a dictionary, up to the next key or brace; empty if there is no such
+/// The text after `'key':` in a dictionary, up to the next key or brace; empty if there is no such
 /// key.
 std::string_view value_of(std::string_view head, const std::string& key) {
   const std::string quoted = "'" + key + "':";
@@ -134,7 +134,7 @@ std::vector<std::int64_t> NpyArray::whole_numbers() const {
 std::string NpyArray::text() const {
   const bool wide = type_.starts_with("<U");
   if (size_ != 1 || (!wide && !type_.starts_with("|S"))) {
-    refuse(fmt::format("has type {}, not that of a text", in_quotes(type_)));
+    refuse(fmt::format("has type {}, which is no text", in_quotes(type_)));
   }
   std::string text;
   for (std::size_t k = begin_; k < bytes_.size() && bytes_[k] != '\0'; k += wide ? 4 : 1) {

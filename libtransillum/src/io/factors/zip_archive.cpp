@@ -1,8 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // ZIP archives as NumPy writes and reads them (APPNOTE.TXT 6.3.3, sections 4.3.7, 4.3.12, 4.3.16),
-// with zlib for the CRC and deflated members. No library that the project uses reads or writes
-// them.
+// with zlib for the CRC and deflated members (decisions/0083-hashes-and-archives.md).
 #include "io/factors/zip_archive.h"
 
 #include <fmt/format.h>

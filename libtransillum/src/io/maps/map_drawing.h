@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <string>
 #include <vector>
 
+#include "io/maps/map_drawing.h"
 #include "transillum/map_files.h"
 #include "transillum/scene.h"
 #include "transillum/visibility_map.h"
@@ -71,5 +72,21 @@ double line_width(const VisibilityMap& map, double scale);
 /// Area in which a map in pixels differs from the exact one, as a share of the receiver's
 /// projection or, without a receiver, of the map.
 double difference_share(const VisibilityMap& map);
+
+/// Where a label is drawn, pixels.
+struct PlacedLabel {
+  std::string text;
+  Vec2 point;            ///< what it points at
+  Vec2 base;             ///< begin of the text on its base line, or its end
+  bool ends_at = false;  ///< whether `base` is the end
+};
+
+/// Height of the letters of labels, pixels.
+inline constexpr double label_size = 15;
+
+/// Places the labels of a map in a rectangle of the given width: each beside its point, toward the
+/// middle, and below those that it would hide. Widths of texts are estimated.
+std::vector<PlacedLabel> place_labels(const std::vector<MapLabel>& labels,
+                                      const MapTransform& transform, double left, double width);
 
 }  // namespace transillum

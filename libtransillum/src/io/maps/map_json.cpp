@@ -3,7 +3,7 @@
 
 #include "io/maps/map_drawing.h"
 #include "io/maps/map_writers.h"
-#include "io/text_buffer.h"
+#include "io/text.h"
 
 namespace transillum {
 namespace {

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "io/clean_text.h"
 #include "io/maps/map_drawing.h"
-#include "io/maps/map_labels.h"
 #include "io/maps/map_writers.h"
-#include "io/text_buffer.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 
 namespace transillum {
@@ -243,7 +241,7 @@ class SvgFigure {
     return "back side, " + sources_text(polygon.patch);
   }
 
-  /// Which patches a receiver sees, those of largest area first.
+  /// Which patches a receiver sees, by falling area.
   std::string sources_text(PatchId patch) const {
     constexpr std::size_t max_listed = 6;
     const auto [first, last] =

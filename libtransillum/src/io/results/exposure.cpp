@@ -16,11 +16,11 @@
 namespace transillum {
 namespace {
 
-/// What 98 % of the area does not exceed, of the largest channel of B.
+/// The value that the largest channel of B does not exceed on 98 % of the area.
 /// @param emitting whether patches that emit count too
 double bright(const Solution& solution, bool emitting) {
   constexpr double share = 0.98;
-  std::vector<std::pair<double, double>> values;  // of B, and area
+  std::vector<std::pair<double, double>> values;  // B, and area
   double area = 0;
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     if (emitting || max_abs(solution.scene->exitance(i)) == 0) {

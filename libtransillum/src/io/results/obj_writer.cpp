@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/text_file.h"
-#include "io/text_buffer.h"
+#include "io/text.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 

@@ -57,8 +57,9 @@ void add_options(ContentHash& hash, const SolveOptions& options) {
   }
 }
 
-std::string key_of(const Scene& scene, const SolveOptions& options) {
-  ContentHash hash;
+std::string key_of(const Scene& scene, const SolveOptions& options,
+                   ContentHash::Method method = ContentHash::Method::xxh3) {
+  ContentHash hash(method);
   hash.add(std::string(TRANSILLUM_VERSION));
   hash.add(static_cast<int>(std::endian::native == std::endian::little));
   hash.add_shape(scene);
@@ -67,12 +68,14 @@ std::string key_of(const Scene& scene, const SolveOptions& options) {
   return hash.digits();
 }
 
+std::string file_name(const std::string& key) { return key + ".reference"; }
+
 std::string first_line(const std::string& key) {
   return fmt::format("transillum reference 1 {}\n", key);
 }
 
 std::string digits_of(const std::string& key, const std::vector<Rgb>& radiosity) {
-  ContentHash hash;
+  ContentHash hash(ContentHash::method_of(key));
   hash.add(key);
   for (const Rgb& b : radiosity) {
     hash.add(b);
@@ -82,36 +85,13 @@ std::string digits_of(const std::string& key, const std::vector<Rgb>& radiosity)
 
 static_assert(sizeof(Rgb) == 3 * sizeof(double), "values are written in memory order");
 
-}  // namespace
-
-fs::path ReferenceCache::default_folder() {
-  // XDG Base Directory Specification: paths that are not absolute must be ignored.
-  for (const auto& [variable, below] : {std::pair{"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}}) {
-    const char* value = std::getenv(variable);
-    if (value != nullptr && fs::path(value).is_absolute()) {
-      return fs::path(value) / below / "transillum";
-    }
-  }
-  return {};
-}
-
-fs::path ReferenceCache::file_of(const Scene& scene, const SolveOptions& options) const {
-  return folder_.empty() ? fs::path() : folder_ / (key_of(scene, options) + ".reference");
-}
-
-std::optional<std::vector<Rgb>> ReferenceCache::find(const Scene& scene,
-                                                     const SolveOptions& options) const {
-  if (folder_.empty()) {
-    return std::nullopt;
-  }
-  const std::string key = key_of(scene, options);
+/// Reads `values` values from a reference; nothing where it is missing or damaged.
+std::optional<std::vector<Rgb>> read_reference(const fs::path& file, const std::string& key,
+                                               std::size_t values) {
   const std::string head = first_line(key);
-  const std::size_t per_patch = options.basis == Basis::linear ? 3 : 1;
-  std::vector<Rgb> radiosity(per_patch * static_cast<std::size_t>(scene.patch_count()));
+  std::vector<Rgb> radiosity(values);
   const std::size_t size = radiosity.size() * sizeof(Rgb);
-  std::string found_head(head.size(), '\0'), digits(32, '\0');
-
-  const fs::path file = folder_ / (key + ".reference");
+  std::string found_head(head.size(), '\0'), digits(key.size(), '\0');
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
     return std::nullopt;  // opening a pipe would block
@@ -129,6 +109,40 @@ std::optional<std::vector<Rgb>> ReferenceCache::find(const Scene& scene,
   return radiosity;
 }
 
+}  // namespace
+
+fs::path ReferenceCache::default_folder() {
+  // XDG Base Directory Specification: paths that are not absolute must be ignored.
+  for (const auto& [variable, below] : {std::pair{"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}}) {
+    const char* value = std::getenv(variable);
+    if (value != nullptr && fs::path(value).is_absolute()) {
+      return fs::path(value) / below / "transillum";
+    }
+  }
+  return {};
+}
+
+fs::path ReferenceCache::file_of(const Scene& scene, const SolveOptions& options) const {
+  return folder_.empty() ? fs::path() : folder_ / file_name(key_of(scene, options));
+}
+
+std::optional<std::vector<Rgb>> ReferenceCache::find(const Scene& scene,
+                                                     const SolveOptions& options) const {
+  if (folder_.empty()) {
+    return std::nullopt;
+  }
+  const std::size_t per_patch = options.basis == Basis::linear ? 3 : 1;
+  const std::size_t values = per_patch * static_cast<std::size_t>(scene.patch_count());
+  std::optional<std::vector<Rgb>> radiosity;
+  for (const auto method : {ContentHash::Method::xxh3, ContentHash::Method::md5}) {
+    const std::string key = key_of(scene, options, method);
+    if ((radiosity = read_reference(folder_ / file_name(key), key, values))) {
+      break;
+    }
+  }
+  return radiosity;
+}
+
 void ReferenceCache::store(const Scene& scene, const SolveOptions& options,
                            const std::vector<Rgb>& radiosity) const {
   if (folder_.empty()) {
@@ -141,7 +155,7 @@ void ReferenceCache::store(const Scene& scene, const SolveOptions& options,
         fmt::format("{}: cannot be created: {}", folder_.string(), error.message()));
   }
   const std::string key = key_of(scene, options);
-  write_file_whole(folder_ / (key + ".reference"), [&](std::ostream& out) {
+  write_file_whole(folder_ / file_name(key), [&](std::ostream& out) {
     out << first_line(key);
     out.write(reinterpret_cast<const char*>(radiosity.data()),
               static_cast<std::streamsize>(radiosity.size() * sizeof(Rgb)));

@@ -48,7 +48,7 @@ class ReferenceCache {
 struct ReferenceSolution {
   std::vector<Rgb> radiosity;  ///< B, W/m², one per patch
   bool from_cache = false;     ///< false: it was solved
-  std::string store_error;     ///< why it could not be stored in the cache; empty: no error
+  std::string store_error;  ///< why it could not be stored in the cache; empty if no error occurred
 };
 
 /// The reference solution of a study: from `cache` if found there, otherwise computed by

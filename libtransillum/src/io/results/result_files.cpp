@@ -6,10 +6,9 @@
 #include <ostream>
 #include <utility>
 
-#include "io/clean_text.h"
-#include "io/file_ending.h"
+#include "base/text_file.h"
 #include "io/results/result_writers.h"
-#include "transillum/at.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 

@@ -3,8 +3,6 @@
 // Results as glTF 2.0, for Blender and viewers on the web: triangles with a linear color per corner
 // (COLOR_0), or with a light map and its coordinates (TEXCOORD_0), and a material without lighting
 // (KHR_materials_unlit), a node per group. Input: the convex pieces of the patches.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -51,7 +49,6 @@ Triple color_of(const Rgb& b, double exposure) {
   return {channel(b.r), channel(b.g), channel(b.b)};
 }
 
-/// The colors of a patch.
 class PatchColors {
  public:
   PatchColors(const Solution& solution, PatchId i, double exposure)
@@ -127,7 +124,7 @@ class GltfDocument {
     json_["scene"] = 0;
     json_["scenes"] = {{{"nodes", {0}}, {"extras", {{"exposure", exposure}}}}};
     Json root = {{"name", scene.name()}, {"children", Json::array()}};
-    // Of rotation and translation, the rotation applies first.
+    // The rotation applies before the translation.
     if (display.up) {
       root["rotation"] = rotation_to_y(*display.up);
     }
@@ -156,7 +153,7 @@ class GltfDocument {
     if (!uri.empty()) {
       buffer["uri"] = uri;
     }
-    json_["buffers"] = {buffer};
+    json_["buffers"] = nlohmann::json::array({buffer});
     return json_.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
   const std::string& buffer() const { return buffer_; }
@@ -226,7 +223,7 @@ class GltfDocument {
   }
 
   Json json_;
-  std::string buffer_;  ///< of whole words of 4 bytes
+  std::string buffer_;  ///< whole words of 4 bytes
 };
 
 void write_word(std::ostream& out, std::size_t value) {

@@ -6,7 +6,6 @@
 #include <png.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -70,7 +69,7 @@ Camera camera_of(const Scene& scene, const Vec3& eye, const DisplayOptions& disp
   return camera;
 }
 
-/// pi times the radiance toward the eye: that of a diffuse patch is B.
+/// pi times the radiance toward the eye, which is B for a diffuse patch.
 class ShownLight {
  public:
   explicit ShownLight(const Solution& solution)

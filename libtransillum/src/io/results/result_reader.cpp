@@ -14,9 +14,9 @@
 #include <tuple>
 #include <type_traits>
 
-#include "io/clean_text.h"
-#include "io/file_ending.h"
+#include "base/text_file.h"
 #include "io/results/result_figures.h"
+#include "io/text.h"
 #include "scene/read/vtk/vtp_file.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"

@@ -1,13 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Results as text: CSV, PLY and OBJ. data/FILES.md lists their columns and properties.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "io/results/result_writers.h"
 #include "io/results/srgb.h"
-#include "io/text_buffer.h"
+#include "io/text.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"

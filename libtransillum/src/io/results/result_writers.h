@@ -2,8 +2,10 @@
 #pragma once
 
 #include <iosfwd>
+#include <nlohmann/json.hpp>
 
 #include "transillum/files.h"
+#include "transillum/run_options.h"
 #include "transillum/solution.h"
 
 namespace transillum {
@@ -31,5 +33,9 @@ void write_result_png(std::ostream& out, const Solution& solution, const Display
 
 /// The exposure of `display`, or the automatic one.
 double exposure_of(const Solution& solution, const DisplayOptions& display);
+
+/// Options of a solve and of its scene, as in statistics (data/FILES.md). Those that are not
+/// chosen, or change nothing, are null.
+nlohmann::ordered_json options_json(const RunOptions& run);
 
 }  // namespace transillum

@@ -8,8 +8,7 @@
 
 #include "base/text_file.h"
 #include "io/results/sensor_files.h"
-#include "io/text_buffer.h"
-#include "transillum/at.h"
+#include "io/text.h"
 #include "transillum/errors.h"
 
 namespace transillum {
@@ -30,7 +29,7 @@ PointSensor sensor_of(const std::vector<std::string_view>& words, const std::str
   }
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto number = parse_number(words[k]);
-    if (!number || !(std::abs(*number) <= 1e60)) {  // as of vertices
+    if (!number || !(std::abs(*number) <= 1e60)) {  // the range of vertices
       throw InputError(
           fmt::format("{}: {} is not a number from -1e60 to 1e60", place, in_quotes(words[k])));
     }

@@ -2,10 +2,9 @@
 //
 // Options, statistics and error estimate of a solve as JSON. data/FILES.md lists the keys.
 #include <nlohmann/json.hpp>
-
 #include <ostream>
 
-#include "io/results/options_json.h"
+#include "io/results/result_writers.h"
 #include "options/option_table.h"
 #include "transillum/files.h"
 
@@ -43,7 +42,7 @@ Json error_json(const Solution& solution) {
           {"mean_B_standard_error", list_of(error.mean_standard_error)}};
 }
 
-/// What a solve with a goal reached; null without one.
+/// The report of a solve with a goal; null without one.
 Json accuracy_json(const std::optional<AccuracyReport>& report) {
   if (!report) {
     return {};
@@ -171,6 +170,20 @@ void write_statistics(const std::filesystem::path& path, const RunOptions& optio
   // A scene's name may be a file name, which need not be UTF-8; JSON must be.
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
   write_file_whole(path, [&](std::ostream& out) { out << text << '\n'; });
+}
+
+using Json = nlohmann::ordered_json;
+
+Json options_json(const RunOptions& run) {
+  Json json;
+  for (const Option& o : options()) {
+    if (o.in_files && !o.reads_scene) {
+      json[o.name] = Json::parse(o.to_json(run));
+    }
+  }
+  const int averaged = run.solve.averaged_iterations;
+  json["averaged-iterations"] = averaged > 0 ? Json(averaged) : Json();
+  return json;
 }
 
 }  // namespace transillum

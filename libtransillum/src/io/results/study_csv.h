@@ -12,7 +12,5 @@ namespace transillum {
 /// Writes columns sampling,directions,passes,rms_error,max_error,bound,seconds,engine,resolution;
 /// the first has the names of the series (names_of()). Points without errors are omitted.
 void write_study_csv(std::ostream& out, const std::vector<StudySeries>& series, const Study& study);
-void write_study_csv(const std::filesystem::path& path, const std::vector<StudySeries>& series,
-                     const Study& study);
 
 }  // namespace transillum

@@ -3,6 +3,7 @@
 
 #include <ostream>
 
+#include "io/results/study_csv.h"
 #include "transillum/files.h"
 
 namespace transillum {
@@ -34,10 +35,6 @@ void write_transfers_csv(std::ostream& out, const Transfers& transfers) {
   }
 }
 
-void write_transfers_csv(const std::filesystem::path& path, const Transfers& transfers) {
-  write_file_whole(path, [&](std::ostream& out) { write_transfers_csv(out, transfers); });
-}
-
 void write_form_factors_csv(std::ostream& out, const FormFactors& form_factors) {
   out << "i,j,F\n";
   for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
@@ -45,10 +42,6 @@ void write_form_factors_csv(std::ostream& out, const FormFactors& form_factors) 
       fmt::print(out, "{},{},{}\n", i, form_factors.source[k], form_factors.value[k]);
     }
   }
-}
-
-void write_form_factors_csv(const std::filesystem::path& path, const FormFactors& form_factors) {
-  write_file_whole(path, [&](std::ostream& out) { write_form_factors_csv(out, form_factors); });
 }
 
 void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>& directions) {
@@ -59,9 +52,19 @@ void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>&
   }
 }
 
-void write_directions_csv(const std::filesystem::path& path,
-                          const std::vector<DirectionSample>& directions) {
-  write_file_whole(path, [&](std::ostream& out) { write_directions_csv(out, directions); });
+void write_study_csv(std::ostream& out, const std::vector<StudySeries>& series,
+                     const Study& study) {
+  const std::vector<std::string> names = names_of(series);
+  out << "sampling,directions,passes,rms_error,max_error,bound,seconds,engine,resolution\n";
+  for (const StudyPoint& point : study.points) {
+    if (!point.failure.empty()) {
+      continue;
+    }
+    const StudySeries& of = series[point.series];
+    fmt::print(out, "{},{},{},{},{},{},{},{},{}\n", names[point.series], point.directions,
+               point.passes, point.rms_error, point.max_error, point.bound, point.seconds,
+               name_of(of.engine), of.resolution);
+  }
 }
 
 }  // namespace transillum

@@ -4,7 +4,6 @@
 #include "transillum/checkpoint.h"
 
 #include <algorithm>
-#include <functional>
 #include <ostream>
 #include <sstream>
 #include <utility>
@@ -26,15 +25,7 @@ constexpr const char* checkpoint_kind = "checkpoint";
 /// Longest share of the time that saving may take.
 constexpr double cost_share = 0.01;
 
-void in_all_members(const std::shared_ptr<SolverGroup>& group, const std::function<void()>& body) {
-  if (group) {
-    group->agree(body);
-  } else {
-    body();
-  }
-}
-
-/// Takes part in saving, in a group, where nothing is written.
+/// Takes part in saving, where nothing is written.
 void save_nowhere(const RadiositySolver& solver) {
   std::ostringstream nowhere;
   nowhere.setstate(std::ios::badbit);
@@ -45,7 +36,7 @@ void save_nowhere(const RadiositySolver& solver) {
 
 struct [[gnu::visibility("hidden")]] Checkpoint::Impl {
   std::filesystem::path file;
-  Json identity;
+  RunIdentity identity;
   Cost cost;
   Clock::time_point saved = Clock::now();
   double seconds_of_last = 0;
@@ -100,14 +91,13 @@ void Checkpoint::save(const SolveSession& session) {
   }
   const std::string plan_bytes = plan_state.str();
   Json head;
-  head["run"] = impl_->identity;
+  head["run"] = impl_->identity.json;
   head["seconds"] = session.seconds();
   head["plan"] = plan ? Json(plan_bytes.size()) : Json();
   std::uint64_t size = 0;
   // A save that fails is not tried again at once.
   impl_->saved = start;
-  const std::shared_ptr<SolverGroup> group = solver.group();
-  if (group && group->rank() != 0) {
+  if (!session.sums()->is_first()) {
     save_nowhere(solver);
     impl_->saved = Clock::now();
     return;
@@ -120,7 +110,7 @@ void Checkpoint::save(const SolveSession& session) {
       solver.save(out);
     });
   } catch (const std::runtime_error&) {
-    if (group && !begun) {  // the other members take part in saving
+    if (!begun) {  // the other processes take part in saving
       save_nowhere(solver);
     }
     throw;
@@ -154,11 +144,11 @@ void Checkpoint::check() const {
 
 void Checkpoint::resume(SolveSession& session) {
   SolveSession::Impl& s = *session.impl_;
-  const std::shared_ptr<SolverGroup>& group = session.group();
+  const std::shared_ptr<PatchSums>& sums = session.sums();
   std::optional<SealedFile> file;
   std::optional<AccuracyPlan> plan;
   std::uint64_t left = 0;
-  in_all_members(group, [&] {
+  sums->agree([&] {
     file.emplace(impl_->file, checkpoint_kind);
     plan = impl_->read_plan(*file, *s.scene, s.request.options, s.cancellation);
     const Json plan_size = file->head().value("plan", Json());
@@ -168,7 +158,7 @@ void Checkpoint::resume(SolveSession& session) {
   s.plan.swap(plan);
   try {
     session.prepare();
-    in_all_members(group, [&] {
+    sums->agree([&] {
       try {
         s.solver->diffuse()->restore(file->in(), left);
       } catch (const DamagedState& error) {

@@ -4,15 +4,15 @@
 #include <fmt/format.h>
 
 #include "io/content_hash.h"
-#include "io/results/options_json.h"
+#include "io/results/result_writers.h"
 
 namespace transillum {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json scene_of(const Scene& scene) {
-  ContentHash shape, light;
+Json scene_of(const Scene& scene, ContentHash::Method method) {
+  ContentHash shape(method), light(method);
   shape.add_shape(scene);
   light.add_light(scene);
   return {{"name", scene.name()},
@@ -44,13 +44,15 @@ Json run_options(const SolveOptions& options, const SceneOptions& scene_options)
   return json;
 }
 
-Json run_identity(const Scene& scene, const SolveOptions& options) {
-  return {{"version", TRANSILLUM_VERSION},
-          {"scene", scene_of(scene)},
-          {"options", run_options(options, scene.options())}};
+RunIdentity run_identity(const Scene& scene, const SolveOptions& options) {
+  return {{{"version", TRANSILLUM_VERSION},
+           {"scene", scene_of(scene, ContentHash::Method::xxh3)},
+           {"options", run_options(options, scene.options())}},
+          scene_of(scene, ContentHash::Method::md5)};
 }
 
-void check_identity(const SealedFile& file, const Json& expected) {
+void check_identity(const SealedFile& file, const RunIdentity& identity) {
+  const Json& expected = identity.json;
   const Json found = file.head().value("run", Json());
   const auto part = [&](const char* name) {
     return found.is_object() ? found.value(name, Json()) : Json();
@@ -81,7 +83,10 @@ void check_identity(const SealedFile& file, const Json& expected) {
   if (!scene.is_object()) {
     file.refuse("its head is damaged");
   }
-  const Json& wanted = expected["scene"];
+  const Json shape = scene.value("shape", Json());
+  const bool former = shape.is_string() &&
+                      ContentHash::method_of(shape.get<std::string>()) == ContentHash::Method::md5;
+  const Json& wanted = former ? identity.former_scene : expected["scene"];
   const auto differs = [&](const char* name) { return scene.value(name, Json()) != wanted[name]; };
   if (differs("patches")) {
     file.refuse(fmt::format("it is of another scene: {} has {} patches, this one has {}",

@@ -9,15 +9,19 @@
 
 namespace transillum {
 
-/// What two runs must have in common to have the same bits: version, scene, and the options that
-/// results depend on.
-nlohmann::ordered_json run_identity(const Scene& scene, const SolveOptions& options);
+/// What two runs must have in common to have the same bits.
+struct RunIdentity {
+  nlohmann::ordered_json json;  ///< version, scene, and the options that results depend on
+  /// The scene as files name it that were written before XXH3 was used.
+  nlohmann::ordered_json former_scene;
+};
+RunIdentity run_identity(const Scene& scene, const SolveOptions& options);
 
 /// The options that results depend on: not memory and threads.
 nlohmann::ordered_json run_options(const SolveOptions& options, const SceneOptions& scene_options);
 
-/// Compares the identity in a file's head with that of this run.
+/// Compares the identity in a file's head with the identity of this run.
 /// @throws InputError naming the first difference
-void check_identity(const SealedFile& file, const nlohmann::ordered_json& expected);
+void check_identity(const SealedFile& file, const RunIdentity& expected);
 
 }  // namespace transillum

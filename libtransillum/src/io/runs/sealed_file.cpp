@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 #include <ostream>
 #include <streambuf>
 #include <system_error>

@@ -63,7 +63,6 @@ struct SparseList {
   }
 };
 
-/// A pass as it is stored.
 struct StoredPass {
   std::int32_t number = 0;
   Vec3 direction;
@@ -174,7 +173,7 @@ class OpenShards {
  public:
   explicit OpenShards(std::size_t patches) : patches_(patches) {}
 
-  void add(const std::string& name, const Json& identity, const Cancellation& cancellation) {
+  void add(const std::string& name, const RunIdentity& identity, const Cancellation& cancellation) {
     auto file = std::make_unique<Shard>(SealedFile(name, shard_kind));
     check_identity(file->file, identity);
     const ShardInfo info = info_of(file->file);
@@ -273,15 +272,15 @@ class OpenShards {
 
 void write_shard(const std::filesystem::path& file, const std::shared_ptr<const Scene>& scene,
                  const SolveOptions& options, const std::shared_ptr<const BspTree>& tree,
-                 const Share& share, const std::vector<std::string>& notes,
-                 const Cancellation& cancellation, const std::function<void(int)>& progress) {
-  check_can_be_shared(options, share);
-  const Json head = {
-      {"run", run_identity(*scene, options)}, {"share", share.text()}, {"notes", notes}};
+                 const ShardOptions& shard, const Cancellation& cancellation) {
+  check_can_be_shared(options, shard.share);
+  const Json head = {{"run", run_identity(*scene, options).json},
+                     {"share", shard.share.text()},
+                     {"notes", shard.notes}};
   write_sealed(file, shard_kind, head, [&](std::ostream& out) {
     int done = 0;
     make_passes(
-        scene, options, tree, share,
+        scene, options, tree, shard.share,
         [&](int number, const Transfers& transfers) {
           std::ostringstream bytes;
           StateOutput pass(bytes), length(out);
@@ -292,8 +291,8 @@ void write_shard(const std::filesystem::path& file, const std::shared_ptr<const 
           if (!out) {
             throw std::ios::failure("writing failed");
           }
-          if (progress) {
-            progress(++done);
+          if (shard.progress) {
+            shard.progress(++done);
           }
         },
         cancellation);
@@ -311,7 +310,7 @@ TransferEngine engine_of_shards(const std::vector<std::string>& files, const Sce
   }
   const auto patches = static_cast<std::size_t>(scene.patch_count());
   auto shards = std::make_shared<OpenShards>(patches);
-  const Json identity = run_identity(scene, options);
+  const RunIdentity identity = run_identity(scene, options);
   for (const std::string& file : files) {
     shards->add(file, identity, cancellation);
   }

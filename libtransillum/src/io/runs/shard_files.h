@@ -20,29 +20,35 @@
 
 namespace transillum {
 
-/// What a shard says about itself.
+/// Description of a shard, stored in it.
 struct ShardInfo {
   Share share;        ///< its part of the passes
-  int passes = 0;     ///< of all shares
+  int passes = 0;     ///< passes of all shares
   std::string scene;  ///< name of the scene
-  /// What the program that wrote it stored, such as its arguments; the library does not read it.
+  /// Texts stored by the program that wrote it, such as its arguments; the library does not read
+  /// them.
   std::vector<std::string> notes;
+};
+
+/// What write_shard() writes.
+struct ShardOptions {
+  Share share;                     ///< its part of the passes
+  std::vector<std::string> notes;  ///< as ShardInfo::notes
+  /// Called after each pass with the number done; may be empty.
+  std::function<void(int)> progress;
 };
 
 /// Makes the passes of a share and writes them as a shard, complete or not at all. It takes no more
 /// memory than a few passes.
 /// @param file .tsh by convention.
-/// @param scene, options, tree, share, cancellation as for make_passes().
-/// @param notes as ShardInfo::notes.
-/// @param progress called after each pass with the number done.
+/// @param scene, options, tree, cancellation as for make_passes().
+/// @param shard its share and notes.
 /// @throws InputError, Canceled; std::runtime_error if the file cannot be written
 void write_shard(const std::filesystem::path& file, const std::shared_ptr<const Scene>& scene,
                  const SolveOptions& options, const std::shared_ptr<const BspTree>& tree,
-                 const Share& share, const std::vector<std::string>& notes = {},
-                 const Cancellation& cancellation = {},
-                 const std::function<void(int)>& progress = {});
+                 const ShardOptions& shard, const Cancellation& cancellation = {});
 
-/// What a shard says about itself; reads its head only.
+/// Returns the description of a shard; reads its head only.
 /// @param file a shard.
 /// @throws InputError where it is not one, or of another version of the library
 ShardInfo read_shard_info(const std::filesystem::path& file);

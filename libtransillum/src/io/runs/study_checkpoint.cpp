@@ -20,7 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* study_kind = "study";
 
-/// A point as it is stored.
 struct StoredPoint {
   StudyPoint point;
 
@@ -41,8 +40,8 @@ struct StoredPoint {
   }
 };
 
-Json study_identity(const Scene& scene, const StudyOptions& options,
-                    const SolveOptions& reference) {
+RunIdentity study_identity(const Scene& scene, const StudyOptions& options,
+                           const SolveOptions& reference) {
   Json study = {{"directions", options.directions},
                 {"rotations", options.rotations},
                 {"errors_of", "reflected light"}};
@@ -50,8 +49,8 @@ Json study_identity(const Scene& scene, const StudyOptions& options,
     study[fmt::format("series {}", k + 1)] = run_options(
         options.solve_options(options.series[k], options.directions.front()), scene.options());
   }
-  Json identity = run_identity(scene, reference);
-  identity["study"] = study;
+  RunIdentity identity = run_identity(scene, reference);
+  identity.json["study"] = study;
   return identity;
 }
 
@@ -59,7 +58,7 @@ Json study_identity(const Scene& scene, const StudyOptions& options,
 
 struct [[gnu::visibility("hidden")]] StudyCheckpoint::Impl {
   std::filesystem::path file;
-  Json identity;
+  RunIdentity identity;
   std::size_t series, points;  ///< of the whole study
 };
 
@@ -71,7 +70,7 @@ StudyCheckpoint::StudyCheckpoint(std::filesystem::path file, const Scene& scene,
 StudyCheckpoint::~StudyCheckpoint() = default;
 
 void StudyCheckpoint::save(std::span<const StudyPoint> points) const {
-  write_sealed(impl_->file, study_kind, {{"run", impl_->identity}}, [&](std::ostream& out) {
+  write_sealed(impl_->file, study_kind, {{"run", impl_->identity.json}}, [&](std::ostream& out) {
     std::vector<StoredPoint> stored;
     for (const StudyPoint& point : points) {
       stored.push_back({point});

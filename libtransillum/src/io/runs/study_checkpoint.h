@@ -11,8 +11,8 @@
 
 namespace transillum {
 
-/// A file with the points of a study so far, with which run_study() can go on. It is replaced as a
-/// whole, and goes with the same version of the library, scene, series, values of M, options and
+/// A file with the points of a study so far, from which run_study() can continue. It is replaced as
+/// a whole, and goes with the same version of the library, scene, series, values of M, options and
 /// reference. Not thread-safe.
 class StudyCheckpoint {
  public:

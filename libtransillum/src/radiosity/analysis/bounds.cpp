@@ -225,7 +225,7 @@ double estimated_passes(Sampling sampling, double passes, double error, double a
 double estimated_passes_by_replicas(Sampling sampling, double passes, double replicas, double error,
                                     double accuracy) {
   check_positive("replicas", replicas);
-  // The error of one of R independent sets of M/R passes is sqrt(R) times that of their mean.
+  // The error of one of R independent sets of M/R passes is sqrt(R) times the error of their mean.
   return estimated_passes(sampling, passes / replicas, error * std::sqrt(replicas), accuracy);
 }
 

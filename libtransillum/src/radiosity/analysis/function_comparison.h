@@ -5,13 +5,13 @@
 
 namespace transillum {
 
-/// How far the radiosity of one result is from that of another, as functions on the surfaces.
+/// How much the radiosities of two results differ, as functions on the surfaces.
 struct FunctionDifference {
   /// Root of ∫ |difference|² over channels and the faces where reflected light is measured
   /// (reflected_light()), over the root of ∫ (B - E)² of the reference; 0 where nothing differs,
   /// infinite where only the reference is dark.
   double l2 = 0;
-  double area = 0;  ///< of all patches, m²
+  double area = 0;  ///< area of all patches, m²
 };
 
 /// Compares the radiosity of two results as functions of the point: patches may be finer in one

@@ -14,8 +14,8 @@ namespace {
 
 /// Which part each patch is in.
 struct Division {
-  std::vector<std::string> names;     ///< of the parts that have patches
-  std::vector<std::int32_t> indices;  ///< of the parts in the scene; -1: no group
+  std::vector<std::string> names;     ///< names of the parts that have patches
+  std::vector<std::int32_t> indices;  ///< indices of the parts in the scene; -1: no group
   std::vector<std::size_t> of_patch;  ///< index in `names`
 };
 
@@ -107,8 +107,7 @@ constexpr std::array kinds_of_parts{
 
 template <>
 const Choices& choices_of<PartsBy>() {
-  static const Choices choices = texts_of<kinds_of_parts>("kind of parts");
-  return choices;
+  return texts_of<kinds_of_parts>("kind of parts");
 }
 
 PowerTable power_table(const Solution& solution, PartsBy by, const FormFactors* form_factors,

@@ -12,7 +12,7 @@
 
 namespace transillum {
 
-/// What the rows of a power table are.
+/// The kind of the rows of a power table.
 enum class PartsBy {
   group,     ///< groups of faces
   material,  ///< materials
@@ -23,7 +23,7 @@ const Choices& choices_of<PartsBy>();
 
 /// Sums over the patches of a group, of a material or of all. Powers are in W, per channel.
 struct PartPower {
-  std::string name = {};     ///< of the group or material; empty: the patches of no group
+  std::string name = {};     ///< name of the group or material; empty: the patches of no group
   std::int32_t index = -1;   ///< in Scene::groups() or Scene::materials(); -1: no group, or all
   std::int64_t patches = 0;  ///< number
   double area = 0;           ///< m²
@@ -39,7 +39,7 @@ struct PartPower {
 /// Up to the tolerance of the solve, and the error of row sums (eq. 17) where they are not
 /// normalized, emitted + from_sky = absorbed + escaped in total, if no light meets a back side.
 struct PowerTable {
-  std::vector<PartPower> parts;  ///< those with patches, in the order of the scene; the patches of
+  std::vector<PartPower> parts;  ///< parts with patches, in the order of the scene; the patches of
                                  ///< no group come last
   PartPower total;               ///< over all patches; its name is "total"
   bool escape_known = false;     ///< Solution::sky_shares is known
@@ -51,9 +51,9 @@ struct PowerTable {
 /// Adds up the powers of a solution. Time: linear in the patches and form factors.
 /// @param solution of a solve, or read from a file.
 /// @param by rows.
-/// @param form_factors of its scene; null: without exchanges.
-/// @param materials E and rho that the solution has, where they are not those of the scene
-/// (relight()); empty: those of the scene.
+/// @param form_factors of its scene; if null, the table has no exchanges.
+/// @param materials E and rho that the solution has, where they differ from the scene's
+/// (relight()); if empty, the scene's apply.
 /// @param patch_materials index into `materials` for each patch; read with `materials` only.
 /// @throws InputError where the form factors are of another number of patches.
 PowerTable power_table(const Solution& solution, PartsBy by,

@@ -53,7 +53,7 @@ double relative(double value, double unit) {
 /// Sums over some patches.
 class DifferenceSums {
  public:
-  /// @param unit largest |B|, which squares are scaled by: those of very large or very small
+  /// @param unit largest |B|, which squares are scaled by: squares of very large or very small
   /// radiosities are out of range
   explicit DifferenceSums(double unit) : scale_(unit > 0 ? 1 / unit : 1) {}
 
@@ -144,7 +144,7 @@ std::string sky_difference(const Solution& one, const Solution& other) {
 
 namespace {
 
-/// Over some patches: those of them that do not emit, or all where those reflect nothing.
+/// Over the patches of `part` that do not emit, or all of `part` where those reflect nothing.
 RadiosityDifference difference_of(const std::vector<PatchId>& part, const Solution& first,
                                   const Solution& second) {
   std::vector<Rgb> exitance, b;

@@ -34,7 +34,7 @@ struct GroupDifference {
 struct ResultComparison {
   RadiosityDifference whole;            ///< over all patches
   std::vector<GroupDifference> groups;  ///< by Scene::groups() of the first, then the patches of
-                                        ///< none; groups without patches are left out
+                                        ///< none; groups without patches are omitted
   std::string sky_difference = {};      ///< transillum::sky_difference()
 };
 

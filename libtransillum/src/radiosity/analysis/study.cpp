@@ -20,7 +20,6 @@
 #include "radiosity/linear_solution.h"
 #include "radiosity/norms.h"
 #include "radiosity/reflected_light.h"
-#include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
 #include "transillum/form_factor_solve.h"
@@ -61,7 +60,7 @@ RadiosityError relative_error(const std::vector<Rgb>& off, const std::vector<Rgb
   return {root_of_squares(off, unit) / root_of_squares(reflected, unit), max_norm(off) / largest};
 }
 
-/// As on the command line: `zbuffer:256`, or `fast`.
+/// The text on the command line: `zbuffer:256`, or `fast`.
 std::string engine_text(Engine engine, int resolution) {
   return resolution > 0 ? fmt::format("{}:{}", name_of(engine), resolution) : name_of(engine);
 }
@@ -70,12 +69,12 @@ std::string engine_text(Engine engine, int resolution) {
 class StudyRun {
  public:
   StudyRun(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
-           const StudyOptions& options, const std::vector<Rgb>& reference,
+           const StudyOptions& options, std::span<const Rgb> reference,
            const StudyObserver& observer, const Cancellation& cancellation)
       : scene_(std::move(scene)),
         tree_(std::move(tree)),
         options_(options),
-        reference_(reference),
+        reference_(reference.begin(), reference.end()),
         observer_(observer),
         cancellation_(cancellation),
         rho_max_(measure(*scene_, cancellation).rho_max) {
@@ -89,8 +88,8 @@ class StudyRun {
       }
     }
     const std::size_t per_patch = reference.size() / scene_->patches().size();
-    if (max_norm(reference) == 0 ||
-        max_norm(ReflectedLight(*scene_, per_patch).of(reference)) == 0) {
+    if (max_norm(reference_) == 0 ||
+        max_norm(ReflectedLight(*scene_, per_patch).of(reference_)) == 0) {
       throw InputError(fmt::format("{}: no patch reflects light, so relative errors are undefined",
                                    scene_->name()));
     }
@@ -294,8 +293,7 @@ constexpr std::array error_measures{
 
 template <>
 const Choices& choices_of<ErrorMeasure>() {
-  static const Choices choices = texts_of<error_measures>("error");
-  return choices;
+  return texts_of<error_measures>("error");
 }
 
 SolveOptions reference_options(int passes) {
@@ -448,29 +446,29 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
 
 Study run_study(const std::shared_ptr<const Scene>& scene,
                 const std::shared_ptr<const BspTree>& tree, const StudyOptions& options,
-                const std::vector<Rgb>& reference, const StudyObserver& observer,
-                const Cancellation& cancellation, std::span<const StudyPoint> done) {
+                const StudyStart& start, const StudyObserver& observer,
+                const Cancellation& cancellation) {
   options.validate();
   const std::size_t per_patch = options.of_functions() ? 3 : 1;
-  if (reference.size() != per_patch * scene->patches().size()) {
+  if (start.reference.size() != per_patch * scene->patches().size()) {
     throw InputError(fmt::format("study: the reference has {} patches, the scene {}",
-                                 reference.size() / per_patch, scene->patch_count()));
+                                 start.reference.size() / per_patch, scene->patch_count()));
   }
   std::vector<int> ascending = options.directions;
   std::sort(ascending.begin(), ascending.end());
   Study study;
-  StudyRun run(scene, tree, options, reference, observer, cancellation);
+  StudyRun run(scene, tree, options, start.reference, observer, cancellation);
   try {
     for (const int m : ascending) {
       for (std::size_t series = 0; series < options.series.size(); ++series) {
         if (takes_directions(options.series[series].engine)) {
-          run.add_point(series, m, done);
+          run.add_point(series, m, start.done);
         }
       }
     }
     for (std::size_t series = 0; series < options.series.size(); ++series) {
       if (!takes_directions(options.series[series].engine)) {
-        run.add_single_solve(series, done);
+        run.add_single_solve(series, start.done);
       }
     }
     study.complete = true;

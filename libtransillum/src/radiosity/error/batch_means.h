@@ -41,7 +41,7 @@ class BatchMeans {
 
   std::vector<std::vector<Rgb>> sums_;
   int length_ = 1;   ///< lists per batch
-  int in_last_ = 0;  ///< lists in the last batch; 0: it is complete
+  int in_last_ = 0;  ///< lists in the last batch; 0 if it is complete
 };
 
 }  // namespace transillum

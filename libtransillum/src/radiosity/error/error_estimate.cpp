@@ -86,7 +86,7 @@ Matrix scalar_products(const std::vector<Rgb>& b, const std::vector<char>& measu
 /// ratio of so few is uncertain, so it is taken rather too small (decisions/0052-accuracy.md).
 /// @param products of the replicas
 double independent_errors(const Matrix& products) {
-  const auto product = [&](auto a, auto b, auto c, auto d) {  // of the differences a - b and c - d
+  const auto product = [&](auto a, auto b, auto c, auto d) {  // sum of (a - b) (c - d)
     return products[a][c] - products[a][d] - products[b][c] + products[b][d];
   };
   const std::size_t n = products.size();

@@ -10,14 +10,14 @@
 namespace transillum {
 
 /// The error of `b` from the spread of replicas. Lists are of unknowns: with a linear basis, the
-/// standard errors are those of the means of patches, and RMS errors those of the functions.
+/// standard errors apply to the means of patches, and RMS errors to the functions.
 /// @param replicas B of each, at least two
 ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
                              const std::vector<std::vector<Rgb>>& replicas);
 
 /// Adds to an estimate what else `b` may be off by, as the root of the sum of squares: intervals
 /// then contain the true value at least as often. Nothing without an estimate.
-/// @param bias bound of a bias of `b`, W/m², one per patch; empty: none
+/// @param bias bound of a bias of `b`, W/m², one per patch; empty if there is none
 void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rgb>& b,
                   const std::vector<Rgb>& bias);
 

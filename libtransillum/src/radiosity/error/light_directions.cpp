@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 
 #include "radiosity/light_sources.h"
 #include "radiosity/ratio.h"
@@ -30,7 +29,7 @@ bool reflects_without_emission(const Scene& scene) {
 /// Light that a source brings to a patch where nothing is between them.
 struct UnmetLight {
   Rgb light;               ///< B of the patch, W/m²
-  double solid_angle = 0;  ///< of the directions along which both overlap, sr
+  double solid_angle = 0;  ///< solid angle of the directions along which both overlap, sr
 };
 
 UnmetLight light_between(const Scene& scene, PatchId receiver, const LightSource& source) {
@@ -141,12 +140,7 @@ void LightDirections::add(const std::vector<Transfer>& exchanges) {
   lit_.clear();
 }
 
-void LightDirections::complete(const PatchShare& share) {
-  static_assert(std::is_standard_layout_v<Light> && sizeof(Light) == 3 * sizeof(double));
-  if (share.group != nullptr) {
-    share.group->complete({&lights_.front().sum, 3 * lights_.size()}, share.patches);
-  }
-}
+void LightDirections::complete(const PatchShare& share) { share.complete(lights_); }
 
 /// The variance of what a pair contributes to B is proportional to w squares = w sum² / n.
 double LightDirections::mean() const {

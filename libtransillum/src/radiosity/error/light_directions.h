@@ -21,7 +21,7 @@ class LightDirections {
 
   /// Adds a pass along a direction that is new.
   void add(const std::vector<Transfer>& exchanges);
-  /// Completes the sums of all patches, in a group; to be called before mean().
+  /// Completes the sums of all patches; to be called before mean().
   void complete(const PatchShare& share);
   /// With n = (sum c)² / sum c² directions per pair of patch and source, the mean of n, each
   /// weighted by what the pair contributes to the variance of B. 0 without light.
@@ -36,7 +36,7 @@ class LightDirections {
   }
 
  private:
-  /// Of one pair of patch and source.
+  /// Light from one source on one patch.
   struct Light {
     double sum = 0, squares = 0;  ///< over directions
     double along = 0;             ///< along the direction being added; else 0

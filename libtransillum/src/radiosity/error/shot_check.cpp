@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "radiosity/channel_sums.h"
 #include "transillum/at.h"
@@ -87,12 +86,7 @@ void ShotCheck::add(const Transfers& transfers) {
   }
 }
 
-void ShotCheck::complete() {
-  static_assert(std::is_standard_layout_v<Row> && sizeof(Row) == 9 * sizeof(double));
-  if (share_.group != nullptr && !rows_.empty()) {
-    share_.group->complete({&rows_.front().received, 9 * rows_.size()}, share_.patches);
-  }
-}
+void ShotCheck::complete() { share_.complete(rows_); }
 
 /// The most light that a patch can receive along a direction, W.
 double ShotCheck::most_of(PatchId i) const {
@@ -105,7 +99,7 @@ double ShotCheck::error_of(PatchId i) const {
          2;
 }
 
-/// What the errors explain of a difference of two sums over directions, W.
+/// The part that errors explain of a difference of two sums over directions, W.
 double ShotCheck::allowed_of(PatchId i, double received, double shot) const {
   const double variance = std::max(at(rows_, i).squares, shot * most_of(i));
   return deviations * std::sqrt(variance) + 2 * error_of(i) + tolerated * std::max(received, shot);
@@ -135,7 +129,7 @@ ShotCheck::Disagreement ShotCheck::of_power() const {
     const double ratio = row.sent / row.facing;
     const double squares =
         row.sent_squares - 2 * ratio * row.sent_facing + ratio * ratio * row.facing_squares;
-    // Of gaps that no direction happens to meet.
+    // Part by gaps that no direction happens to meet.
     const auto mixed = [](double share) { return std::max(0.0, share * (1 - share)); };
     const double unseen = std::max(mixed(ratio), mixed(shot)) * row.facing_squares;
     seen += weight * ratio;

@@ -21,7 +21,7 @@ class ShotCheck {
 
   /// Adds a pass along a direction that is new; it serves its opposite too.
   void add(const Transfers& transfers);
-  /// Completes the sums of all patches, in a group; to be called before disagreement().
+  /// Completes the sums of all patches; to be called before disagreement().
   void complete();
 
   struct Disagreement {
@@ -42,7 +42,7 @@ class ShotCheck {
   }
 
  private:
-  /// Of one patch: sums over directions of what it receives and, as a source, sends to patches that
+  /// Sums of one patch over directions: what it receives and, as a source, sends to patches that
   /// it sees, W; and of its projected area times its exitance, which it would send if it saw no
   /// gaps and no backs, W.
   struct Row {
@@ -62,9 +62,9 @@ class ShotCheck {
   const DirectLight& shot_;
   PatchShare share_;
   std::int64_t passes_ = 0;
-  double power_ = 0;              ///< of all sources, W
+  double power_ = 0;              ///< power of all sources, W
   double largest_exitance_ = 0;   ///< W/m²
-  std::vector<double> exitance_;  ///< of the shot, sum of channels; empty without one
+  std::vector<double> exitance_;  ///< exitance of the shot, sum of channels; empty without one
   std::vector<Row> rows_;         ///< per patch; empty without a shot
   std::vector<PatchId> lit_;      ///< patches that the direction being added has met
 };

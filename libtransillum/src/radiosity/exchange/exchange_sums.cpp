@@ -5,6 +5,7 @@
 #include "radiosity/exchange/exchange_sums.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -13,29 +14,43 @@
 
 namespace transillum {
 
-ExchangeSums::ExchangeSums(PatchId patches, bool two_way, std::uint64_t budget,
+ExchangeSums::ExchangeSums(const PatchShare& share, bool two_way, std::uint64_t budget,
                            const Cancellation& cancellation)
-    : patches_(static_cast<std::size_t>(patches)),
+    : share_(share),
+      patches_(static_cast<std::size_t>(share.patches)),
       two_way_(two_way),
       budget_(budget),
       cancellation_(cancellation),
       sums_(empty_rows()),
       place_(patches_, 0) {}
 
-std::size_t ExchangeSums::size_of_rows(std::size_t first, std::size_t last) const {
-  std::size_t size = sums_.begin[last] - sums_.begin[first];
+std::size_t ExchangeSums::size_of_share() const {
+  if (share_.is_all()) {
+    return size();
+  }
+  std::size_t size = sums_.begin[share_.last()] - sums_.begin[share_.first()];
   for (const Run& run : waiting_) {
-    size += static_cast<std::size_t>(std::count_if(run.begin(), run.end(), [&](const Transfer& t) {
-      const auto row = static_cast<std::size_t>(t.receiver);
-      return first <= row && row < last;
-    }));
+    size +=
+        static_cast<std::size_t>(std::count_if(run.begin(), run.end(), [this](const Transfer& t) {
+          return share_.owned.contains(t.receiver);
+        }));
   }
   return size;
 }
 
+void ExchangeSums::prepare_to_save() {
+  if (!share_.is_all()) {
+    merge();
+  }
+}
+
 ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges) const {
   if (!two_way_) {
-    return exchanges;
+    Run run;
+    run.reserve(exchanges.size());
+    std::copy_if(exchanges.begin(), exchanges.end(), std::back_inserter(run),
+                 [this](const Transfer& t) { return share_.owned.contains(t.receiver); });
+    return run;
   }
   if (exchanges.size() < patches_ / 16) {
     Run run;
@@ -81,6 +96,9 @@ void ExchangeSums::add(Run run) {
 }
 
 void ExchangeSums::drop() {
+  if (overrun_) {
+    return;
+  }
   overrun_ = true;
   sums_ = empty_rows();
   spare_ = {};

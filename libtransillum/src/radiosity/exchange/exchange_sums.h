@@ -25,7 +25,8 @@ class ExchangeSums {
 
   /// @param budget limit of the sums, bytes, also while passes are merged into them. Passes under
   /// way, two per thread, and a few numbers per patch come on top.
-  ExchangeSums(PatchId patches, bool two_way, std::uint64_t budget,
+  /// @param share rows that are summed; those of other patches are incomplete
+  ExchangeSums(const PatchShare& share, bool two_way, std::uint64_t budget,
                const Cancellation& cancellation);
 
   /// Sorts the exchanges of a pass by the rows of the sums. Any thread may call it at any time.
@@ -40,17 +41,13 @@ class ExchangeSums {
   void merge();
   /// Merges all passes and sorts the rows; to be called after the last pass.
   void finish();
-  /// Number of entries, those of unmerged passes included.
+  /// Number of entries, unmerged passes included.
   std::size_t size() const { return sums_.source.size() + waiting_size_; }
 
-  /// The part of size() that is in rows `first` to `last` - 1.
-  std::size_t size_of_rows(std::size_t first, std::size_t last) const;
-
-  /// As visit_state() for a constant object: the sums of all members of a group, each of which
-  /// gives the rows it owns. Member 0 has the rows of one member at a time in memory.
-  void save_in_group(StateOutput& archive, const PatchShare& share) const;
-  /// As visit_state() for one to be changed, but keeps only pairs that the share needs.
-  void restore_share(StateInput& archive, const PatchShare& share);
+  /// The part of size() that is in rows of the share.
+  std::size_t size_of_share() const;
+  /// To be called before saving: merges passes whose sums are to be gathered.
+  void prepare_to_save();
 
   /// gathered_i += sum_j entry_ij b_j for all i; `gathered` is as long as `b`. After finish().
   void gather(const std::vector<Rgb>& b, std::vector<Rgb>& gathered) const;
@@ -64,22 +61,15 @@ class ExchangeSums {
     }
   }
 
-  /// For StateOutput and StateInput. Passes that wait stay so, since what is dropped and when
-  /// depends on them.
-  template <class Archive, class Self>
-  static void visit_state(Archive& archive, Self& self) {
-    archive(self.budget_, self.overrun_, self.sums_.begin, self.sums_.source, self.sums_.area,
-            self.waiting_);
-    if constexpr (Archive::reading) {
-      self.waiting_size_ = 0;
-      for (const Run& run : self.waiting_) {
-        self.waiting_size_ += run.size();
-      }
-      archive.require(self.is_valid());
-    }
-  }
+  /// For StateOutput and StateInput. The state is that of all rows, whoever sums them; each share
+  /// gives its own, one at a time in memory, and takes what it needs. Passes that wait stay so,
+  /// since what is dropped and when depends on them.
+  static void visit_state(StateOutput& archive, const ExchangeSums& self) { self.save(archive); }
+  static void visit_state(StateInput& archive, ExchangeSums& self) { self.restore(archive); }
 
  private:
+  void save(StateOutput& archive) const;
+  void restore(StateInput& archive);
   /// Compressed rows: row i is [begin[i], begin[i + 1]).
   struct Rows {
     std::vector<std::size_t> begin;
@@ -91,6 +81,7 @@ class ExchangeSums {
   Rows empty_rows() const { return {std::vector<std::size_t>(patches_ + 1, 0), {}, {}}; }
   void transpose();
 
+  PatchShare share_;
   std::size_t patches_;
   bool two_way_;
   std::uint64_t budget_;

@@ -1,52 +1,50 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The state of exchange sums that the members of a group share. In a checkpoint it looks like that
-// of one process, so that any number of processes can go on with it.
+// The state of exchange sums that the members of a group share. In a checkpoint it looks like the
+// state of one process, so that any number of processes can continue with it.
 #include <algorithm>
-#include <type_traits>
 #include <utility>
 
 #include "radiosity/exchange/exchange_sums.h"
 
 namespace transillum {
 
-void ExchangeSums::save_in_group(StateOutput& archive, const PatchShare& share) const {
-  const auto first = sums_.begin[share.first()], last = sums_.begin[share.last()];
+void ExchangeSums::save(StateOutput& archive) const {
+  const auto first = sums_.begin[share_.first()], last = sums_.begin[share_.last()];
   std::vector<std::size_t> sizes;
-  for (std::size_t row = share.first(); row < share.last(); ++row) {
+  for (std::size_t row = share_.first(); row < share_.last(); ++row) {
     sizes.push_back(sums_.begin[row + 1] - sums_.begin[row]);
   }
-  sizes = share.gather(std::move(sizes));
+  sizes = share_.gather(std::move(sizes));
   std::vector<std::size_t> begin{0};
   for (const std::size_t size : sizes) {
     begin.push_back(begin.back() + size);
   }
-  const auto members = static_cast<std::uint64_t>(share.group->size());
-  archive(budget_ > ~std::uint64_t{0} / members ? budget_ : budget_ * members, overrun_, begin);
+  const auto budgets = static_cast<std::uint64_t>(share_.sums->size());
+  archive(budget_ > ~std::uint64_t{0} / budgets ? budget_ : budget_ * budgets, overrun_, begin);
   const auto put = [&](const auto& list) {
-    using Values = std::remove_cvref_t<decltype(list)>;
     archive(std::uint64_t{begin.back()});
-    for (int member = 0; member < share.group->size(); ++member) {
-      const auto from = list.begin() + static_cast<std::ptrdiff_t>(first);
-      const auto to = list.begin() + static_cast<std::ptrdiff_t>(last);
-      const Values part = share.gather(member == share.group->rank() ? Values(from, to) : Values());
-      archive.block(part.data(), part.size() * sizeof(part[0]));
-    }
+    share_.sums->gather(
+        std::as_bytes(std::span(list).subspan(first, last - first)),
+        [&archive](std::span<const std::byte> part) { archive.block(part.data(), part.size()); });
   };
   put(sums_.source);
   put(sums_.area);
-  archive(std::vector<Run>());  // all are merged
+  archive(waiting_);
 }
 
-void ExchangeSums::restore_share(StateInput& archive, const PatchShare& share) {
-  std::uint64_t other_budget = 0, count = 0;
+void ExchangeSums::restore(StateInput& archive) {
+  std::uint64_t saved_budget = 0, count = 0;
   std::vector<std::size_t> begin;
-  archive(other_budget, overrun_, begin, count);
+  archive(saved_budget, overrun_, begin, count);
+  if (share_.is_all()) {
+    budget_ = saved_budget;
+  }
   archive.require(begin.size() == patches_ + 1 && begin.front() == 0 &&
                   std::is_sorted(begin.begin(), begin.end()) && begin.back() == count &&
                   count <= archive.left() / sizeof(PatchId));
-  const auto is_needed = [&](PatchId i, PatchId j) {
-    return share.owned.contains(i) || (two_way_ && share.owned.contains(j));
+  const auto is_needed = [this](PatchId i, PatchId j) {
+    return share_.owned.contains(i) || (two_way_ && share_.owned.contains(j));
   };
   std::vector<bool> needed(static_cast<std::size_t>(count));
   sums_ = {{0}, {}, {}};

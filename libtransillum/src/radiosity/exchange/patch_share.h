@@ -7,23 +7,25 @@
 #include <type_traits>
 #include <vector>
 
+#include "radiosity/exchange/sums_in_memory.h"
 #include "transillum/cancellation.h"
+#include "transillum/patch_sums.h"
 #include "transillum/scene.h"
-#include "transillum/solver_group.h"
 
 namespace transillum {
 
-/// The patches whose sums a solver computes: all, or those that its process owns in a group. The
-/// functions do nothing without a group; within one, all members must call them in the same order.
+/// The patches whose sums a solver computes, or the unknowns of those patches. Functions that are
+/// not constants are those of PatchSums.
 struct PatchShare {
-  SolverGroup* group = nullptr;
+  PatchSums* sums;
   PatchRange owned;
-  PatchId patches = 0;  ///< of the scene
+  PatchId patches;  ///< of the scene
 
-  PatchShare(SolverGroup* solver_group, PatchId patch_count)
-      : group(solver_group),
-        owned(group != nullptr ? group->owned(patch_count) : PatchRange{0, patch_count}),
-        patches(patch_count) {}
+  /// All patches.
+  PatchShare(PatchId patch_count) : PatchShare(*sums_in_memory(), patch_count) {}
+  /// Those that `patch_sums` owns.
+  PatchShare(PatchSums& patch_sums, PatchId patch_count)
+      : sums(&patch_sums), owned(patch_sums.owned(patch_count)), patches(patch_count) {}
 
   /// The same share of a list of `per_patch` unknowns for each patch, numbered as patches.
   PatchShare of_unknowns(std::size_t per_patch) const {
@@ -36,39 +38,49 @@ struct PatchShare {
 
   std::size_t first() const { return static_cast<std::size_t>(owned.first); }
   std::size_t last() const { return static_cast<std::size_t>(owned.last); }
+  /// Whether all patches are owned.
+  bool is_all() const { return owned.size() == static_cast<std::size_t>(patches); }
 
-  /// Completes arrays of the same number of values for each patch.
-  void complete(std::vector<double>& values) const {
-    if (group != nullptr && !values.empty()) {
-      group->complete(values, patches);
+  /// Completes arrays of the same number of values for each patch, which consist of doubles.
+  template <class Value>
+  void complete(std::vector<Value>& values) const {
+    if (!values.empty()) {
+      sums->complete({reinterpret_cast<double*>(values.data()), doubles_in(values)}, patches);
     }
   }
-  void complete(std::vector<Rgb>& values) const {
-    static_assert(std::is_standard_layout_v<Rgb> && sizeof(Rgb) == 3 * sizeof(double));
-    if (group != nullptr && !values.empty()) {
-      group->complete({&values.front().r, 3 * values.size()}, patches);
-    }
+  /// As PatchSums::check_same()
+  template <class Value>
+  void check_same(const std::vector<Value>& values) const {
+    sums->check_same({reinterpret_cast<const double*>(values.data()), doubles_in(values)});
   }
-  /// The lists of all members, in their order, on member 0; nothing on the others.
+  /// The lists of all processes, in their order, in process 0; nothing in the others.
   template <class Value>
   std::vector<Value> gather(std::vector<Value> list) const {
-    if (group == nullptr) {
+    if (is_all()) {
       return list;
     }
-    const std::vector<std::byte> bytes = group->gather(std::as_bytes(std::span(list)));
-    std::vector<Value> all(bytes.size() / sizeof(Value));
-    if (!all.empty()) {
-      std::memcpy(all.data(), bytes.data(), bytes.size());
-    }
+    std::vector<Value> all;
+    sums->gather(std::as_bytes(std::span(list)), [&all](std::span<const std::byte> bytes) {
+      const std::size_t before = all.size();
+      all.resize(before + bytes.size() / sizeof(Value));
+      if (!bytes.empty()) {
+        std::memcpy(all.data() + before, bytes.data(), bytes.size());
+      }
+    });
     return all;
   }
-  /// @throws Canceled if this process, or any in the group, is canceled
+  /// @throws Canceled if this process, or any other, is canceled
   void throw_if_canceled(const Cancellation& cancellation) const {
-    if (group == nullptr) {
-      cancellation.throw_if_canceled();
-    } else if (group->any(cancellation.canceled())) {
+    if (sums->any(cancellation.canceled())) {
       throw Canceled();
     }
+  }
+
+ private:
+  template <class Value>
+  static std::size_t doubles_in(const std::vector<Value>& values) {
+    static_assert(std::is_standard_layout_v<Value> && sizeof(Value) % sizeof(double) == 0);
+    return values.size() * (sizeof(Value) / sizeof(double));
   }
 };
 

@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "radiosity/reflected_light.h"
 #include "transillum/first_shot.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
 #include "transillum/solve_options.h"
 #include "transillum/transfers.h"
 
@@ -18,28 +20,45 @@ namespace transillum {
 ///   b_u = e_u + rho_u (h_u of the shot + 4 / (M A_u) sum_d sum_v T(u,v,omega_d) b_v).
 struct Unknowns {
   std::size_t per_patch;                            ///< 1, or 3
-  std::vector<double> area;                         ///< of its patch: ∫ phi_a², m²
+  std::vector<double> area;                         ///< measure of its patch: ∫ phi_a², m²
   std::vector<Rgb> exitance;                        ///< E_i for phi_0, 0 for the others
-  std::vector<Rgb> reflectance;                     ///< of its patch
+  std::vector<Rgb> reflectance;                     ///< reflectance of its patch
   std::vector<Rgb> shot_exitance, shot_irradiance;  ///< DirectLight's, of phi_0
 
   Unknowns(const Scene& scene, Basis basis, const DirectLight& shot);
 
   std::size_t count() const { return area.size(); }
+  ReflectedLight light() const { return {exitance, per_patch}; }
   /// The unknown of phi_0 on patch i: the mean of B.
   std::size_t mean_of(PatchId i) const { return static_cast<std::size_t>(i) * per_patch; }
   /// The values of phi_0, one per patch.
   std::vector<Rgb> means(const std::vector<Rgb>& values) const;
 };
 
-/// Calls visit(k, a, b, T^ab) for exchange k and all functions a of its receiver and b of its
-/// source.
+/// Calls visit(t, a, b) for each exchange and all functions a of its receiver and b of its source:
+/// t is T^ab between their unknowns. Receivers rise.
 template <class Visit>
-void for_each_moment(const Transfers& transfers, Visit visit) {
-  for (std::size_t k = 0; k < transfers.exchanges.size(); ++k) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t b = 0; b < 3; ++b) {
-        visit(transfers.exchanges[k], a, b, transfers.moments[k].of(a, b));
+void for_each_exchange(const Transfers& transfers, std::size_t per_patch, Visit visit) {
+  const std::vector<Transfer>& exchanges = transfers.exchanges;
+  if (per_patch == 1) {
+    for (const Transfer& t : exchanges) {
+      visit(t, 0, 0);
+    }
+    return;
+  }
+  const auto n = static_cast<PatchId>(per_patch);
+  for (std::size_t k = 0, end = 0; k < exchanges.size(); k = end) {
+    const PatchId receiver = exchanges[k].receiver;
+    while (end < exchanges.size() && exchanges[end].receiver == receiver) {
+      ++end;
+    }
+    for (PatchId a = 0; a < n; ++a) {
+      for (std::size_t m = k; m < end; ++m) {
+        for (PatchId b = 0; b < n; ++b) {
+          const double moment =
+              transfers.moments[m].of(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+          visit(Transfer{n * receiver + a, n * exchanges[m].source + b, moment}, a, b);
+        }
       }
     }
   }

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "base/for_each_index.h"
-#include "radiosity/form_factors/form_factor_input.h"
+#include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 

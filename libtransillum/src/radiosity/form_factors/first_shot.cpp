@@ -13,7 +13,7 @@
 #include "base/for_each_index.h"
 #include "radiosity/channel_sums.h"
 #include "radiosity/error_bounds.h"
-#include "radiosity/form_factors/counted_pairs.h"
+#include "radiosity/form_factors/pair_matrix.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pairs/patch_exchange.h"

@@ -274,7 +274,7 @@ FormFactors gather_form_factors(const Scene& scene, const GatherOptions& options
   options.validate();
   const Gathering all(scene, options, cancellation);
   return gather_rows(
-      scene.patch_count(), options.threads, batch, std::numeric_limits<std::uint64_t>::max(),
+      {scene.patch_count(), options.threads, batch, std::numeric_limits<std::uint64_t>::max()},
       [&all] { return RowGatherer(all); }, cancellation, progress);
 }
 

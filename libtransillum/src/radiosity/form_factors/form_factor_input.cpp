@@ -1,9 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "radiosity/form_factors/form_factor_input.h"
+#include "radiosity/form_factors/jacobi.h"
 
 #include <fmt/format.h>
-
-#include <iterator>
 
 #include "scene/build/description_check.h"
 #include "transillum/at.h"

@@ -19,16 +19,23 @@ namespace transillum {
 /// Pairs of j and F_ij > 0 of one row i, by rising j.
 using FormFactorRow = std::vector<std::pair<PatchId, double>>;
 
-/// The matrix row by row, `batch` rows per thread between reports of progress.
+struct RowGathering {
+  PatchId rows;
+  int threads;           ///< 0: one per processor
+  PatchId batch;         ///< rows per thread between reports of progress
+  std::uint64_t memory;  ///< limit of the matrix, bytes
+};
+
+/// The matrix row by row.
 /// @param make_worker called once per thread; its result's gather(i) returns row i, a pure function
 /// of i.
-/// @param memory limit of the matrix, bytes.
 /// @throws Canceled, MemoryLimitExceeded
 template <class MakeWorker>
-FormFactors gather_rows(PatchId patches, int threads, PatchId batch, std::uint64_t memory,
-                        MakeWorker make_worker, const Cancellation& cancellation,
+FormFactors gather_rows(const RowGathering& gathering, MakeWorker make_worker,
+                        const Cancellation& cancellation,
                         const std::function<void(double)>& progress) {
-  threads = thread_count(threads);
+  const auto [patches, requested_threads, batch, memory] = gathering;
+  const int threads = thread_count(requested_threads);
   WorkerThreads worker_threads(threads);
   oneapi::tbb::enumerable_thread_specific<decltype(make_worker())> workers(make_worker);
   FormFactors form_factors;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/for_each_index.h"
@@ -13,6 +12,7 @@
 #include "radiosity/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/relight.h"
 
 namespace transillum {
 namespace {
@@ -29,6 +29,13 @@ Rgb gather(const FormFactors& form_factors, std::size_t row, const std::vector<R
     gathered += form_factors.value[k] * at(b, form_factors.source[k]);
   }
   return gathered;
+}
+
+void check_start(const Scene& scene, const RelightOptions& options) {
+  if (!options.start.empty() && options.start.size() != scene.patches().size()) {
+    throw InputError(
+        "the initial radiosity belongs to another scene: the number of patches differs");
+  }
 }
 
 }  // namespace
@@ -158,6 +165,26 @@ std::vector<Rgb> solve_radiosity(const Scene& scene, const FormFactors& form_fac
   JacobiIteration iteration(scene, form_factors, scene.materials(), 1);
   iteration.run_to(tolerance, {});
   return std::move(iteration.b);
+}
+
+RelightResult relight(const Scene& scene, const FormFactors& form_factors,
+                      const std::vector<Material>& materials, const RelightOptions& options,
+                      const Cancellation& cancellation) {
+  check_form_factor_input(scene, form_factors, materials, options.patch_materials);
+  check_start(scene, options);
+  JacobiIteration iteration(scene, form_factors, materials, options.threads,
+                            options.patch_materials);
+  if (options.shot && !options.shot->sources.empty()) {
+    iteration.shoot_first(with_materials(*options.shot, scene, materials, options.patch_materials),
+                          cancellation);
+  }
+  iteration.add_sky(options.sky_irradiance);
+  if (!options.start.empty()) {
+    iteration.b.assign(options.start.begin(), options.start.end());
+  }
+  iteration.run_to(options.tolerance, cancellation);
+  return {std::move(iteration.b), std::move(iteration.h),
+          static_cast<int>(iteration.records.size())};
 }
 
 }  // namespace transillum

@@ -47,7 +47,7 @@ struct HemicubeScene {
   double min_distance;  ///< distances from a plane up to this count as 0, units
   bool fronts_only;     ///< no back side is visible from any front side
   std::vector<Vec3> corners;
-  std::vector<DrawnPiece> pieces;          ///< of coincident pieces, the covering one is last
+  std::vector<DrawnPiece> pieces;          ///< where pieces coincide, the covering one is last
   std::vector<std::size_t> largest_piece;  ///< per patch, in `pieces`
 
   /// Keeps references to the scene and `stop`.
@@ -237,7 +237,7 @@ FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& opt
                                       options.threads),
       options.resolution, cancellation);
   return gather_rows(
-      scene.patch_count(), options.threads, hemicube_batch, memory_limit(options.memory),
+      {scene.patch_count(), options.threads, hemicube_batch, memory_limit(options.memory)},
       [&shared] { return HemicubeRows(shared); }, cancellation, progress);
 }
 

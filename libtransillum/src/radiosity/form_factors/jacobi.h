@@ -9,9 +9,24 @@
 #include "transillum/cancellation.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
+#include "transillum/scene.h"
 #include "transillum/solution.h"
 
 namespace transillum {
+
+/// Checks what is solved with given form factors.
+/// @param patch_materials index into `materials` for each patch; empty: Patch::material
+/// @throws InputError where a list does not fit the scene or a material is out of range
+void check_form_factor_input(const Scene& scene, const FormFactors& form_factors,
+                             const std::vector<Material>& materials,
+                             std::span<const std::int32_t> patch_materials);
+
+/// @throws InputError unless `patch` is one of the scene's.
+void check_receiver(const Scene& scene, PatchId patch);
+
+/// The material of a patch, from lists that check_form_factor_input() has accepted.
+const Material& material_of_patch(const Scene& scene, const std::vector<Material>& materials,
+                                  std::span<const std::int32_t> patch_materials, PatchId patch);
 
 /// Jacobi iteration of B_i = E_i + rho_i H_i, H_i = sum_j F_ij B_j (eq. 11). Rows are computed in
 /// parallel; the result does not depend on the number of threads.
@@ -39,7 +54,7 @@ struct JacobiIteration {
   ///   B_i = E_i + rho_i (H_i of the shot + sum_j F_ij (B_j - E_j shot)).
   /// @throws Canceled
   void shoot_first(const DirectLight& shot, const Cancellation& cancellation);
-  /// From now on adds to H what each patch receives from a sky; empty: nothing.
+  /// From now on adds to H what each patch receives from a sky; nothing if empty.
   /// @throws InputError where there is not one value >= 0 per patch
   void add_sky(std::span<const Rgb> irradiance);
   /// Iterates up to `limit` iterations in total, or until the light not yet propagated is at most
@@ -55,7 +70,7 @@ struct JacobiIteration {
   template <class Visit>
   void for_each_row(const Cancellation& cancellation, Visit visit) const;
 
-  /// Of the patch of an unknown.
+  /// Material of the patch of an unknown.
   const Material& material(std::size_t unknown) const;
   Rgb exitance(std::size_t unknown) const;
   RemainderBound remainder_bound() const;
@@ -65,7 +80,7 @@ struct JacobiIteration {
   std::span<const Material> materials_;
   std::span<const std::int32_t> patch_materials_;
   std::size_t per_patch_;
-  std::vector<Rgb> correction_;  ///< of sum_j F_ij B_j by first shot and sky; may be empty
+  std::vector<Rgb> correction_;  ///< by first shot and sky, to sum_j F_ij B_j; may be empty
   int threads_;
 };
 

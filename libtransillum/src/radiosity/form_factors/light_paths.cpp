@@ -15,7 +15,6 @@
 #include <queue>
 #include <utility>
 
-#include "radiosity/form_factors/form_factor_input.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -84,7 +83,7 @@ class Search {
   const Material& material(PatchId k) const {
     return material_of_patch(scene_, materials_, options_.patch_materials, k);
   }
-  /// What it emits, and reflects of the sky.
+  /// Light that it emits, and reflects from the sky.
   Rgb emission(PatchId k) const {
     const Material& of_patch = material(k);
     return options_.sky_irradiance.empty()
@@ -153,7 +152,7 @@ class Search {
   const std::vector<Rgb>& b_;
   double smallest_ = 0;  ///< luminance below which paths are cut off
   std::vector<Node> nodes_;
-  /// What it carries, and minus its index: of equal ones the oldest is next.
+  /// Light that a node carries, and minus its index: of equal ones the oldest is next.
   std::priority_queue<std::pair<double, std::int64_t>> unfinished_;
   using Found = std::pair<double, std::int64_t>;  ///< luminance and index of the first node
   std::priority_queue<Found, std::vector<Found>, std::greater<>> found_;  ///< the weakest on top

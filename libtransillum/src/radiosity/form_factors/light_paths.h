@@ -14,16 +14,16 @@ namespace transillum {
 /// Options of find_light_paths().
 struct LightPathOptions {
   int count = 100;               ///< most paths to return, 1 … 1,000,000
-  double smallest_share = 1e-6;  ///< of B, by luminance, below which paths are cut off; > 0
-  double tolerance = 1e-9;       ///< of B, as in RelightOptions
-  /// Initial B for the solve, W/m², one per patch; empty: E.
+  double smallest_share = 1e-6;  ///< share of B, by luminance, below which paths are cut off; > 0
+  double tolerance = 1e-9;       ///< tolerance of B, as in RelightOptions
+  /// Initial B for the solve, W/m², one per patch; E if empty.
   std::span<const Rgb> start = {};
-  /// Index into the materials given for each patch; empty: Patch::material.
+  /// Index into the materials given for each patch; if empty, Patch::material applies.
   std::span<const std::int32_t> patch_materials = {};
-  /// What each patch receives from a sky, as for relight(): it counts as if the patches that it
-  /// meets first emitted what they reflect of it, so such a path begins there. Empty: no sky.
+  /// Irradiance of each patch from a sky, as for relight(): it counts as if the patches that it
+  /// meets first emitted what they reflect of it, so such a path begins there. Empty without a sky.
   std::span<const Rgb> sky_irradiance = {};
-  int threads = 0;  ///< of the solve; 0: all cores; the result does not depend on it
+  int threads = 0;  ///< threads of the solve; 0 uses all cores; the result does not depend on it
 };
 
 /// Light that leaves a source and reaches a patch by way of others.

@@ -59,7 +59,7 @@ FormFactors sensor_form_factors(const Scene& scene, std::span<const PointSensor>
   const std::function<void()> check = [&cancellation] { cancellation.throw_if_canceled(); };
   constexpr PatchId batch = 4;
   return gather_rows(
-      static_cast<PatchId>(sensors.size()), options.threads, batch, memory_limit(options.memory),
+      {static_cast<PatchId>(sensors.size()), options.threads, batch, memory_limit(options.memory)},
       [&] {
         return SensorWorker{exchange, scene.patch_count(), sensors, check};
       },

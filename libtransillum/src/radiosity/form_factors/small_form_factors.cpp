@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Leaves out tiny form factors and rebalances the matrix. Input: form factors from passes, pairs or
+// Omits tiny form factors and rebalances the matrix. Input: form factors from passes, pairs or
 // a file.
 //
 // Notation: S_ij = A_i F_ij, symmetric where F is reciprocal; d the scales of rows and columns; w_i
@@ -187,7 +187,7 @@ class Balance {
   const FormFactors& f_;
   const Cancellation& cancellation_;
   std::size_t patches_;
-  std::vector<std::size_t> partner_;  ///< of entry (i, j): the index of (j, i); if symmetric
+  std::vector<std::size_t> partner_;  ///< per entry (i, j): the index of (j, i); if symmetric
   bool symmetric_ = true;
   std::vector<bool> kept_;
   std::size_t tiny_ = 0;  ///< number of entries below the threshold

@@ -11,10 +11,10 @@ namespace transillum {
 
 /// The result of drop_small_form_factors().
 struct DroppedFormFactors {
-  FormFactors form_factors;  ///< those that are left, rebalanced
-  std::size_t dropped = 0;   ///< number of entries left out
-  /// Sum over i of A_i times the dropped F_ij, over that of all: the share of light that was moved
-  /// to other pairs.
+  FormFactors form_factors;  ///< the remaining form factors, rebalanced
+  std::size_t dropped = 0;   ///< number of omitted entries
+  /// Sum of A_i F_ij over the dropped entries, over the sum of all: the share of light that was
+  /// moved to other pairs.
   double share = 0;
   /// Number of entries below the threshold that are kept, without which their rows cannot be
   /// balanced.
@@ -22,11 +22,11 @@ struct DroppedFormFactors {
   double row_error = 0;  ///< largest relative difference of a row's sum from what it was
 };
 
-/// Leaves out tiny form factors and scales the others so that every row sums to what it summed to
+/// Omits tiny form factors and scales the others so that every row sums to what it summed to
 /// before.
 ///
 /// If A_i F_ij = A_j F_ji (to 1e-9), rows and columns are scaled alike, F_ij -> d_i d_j F_ij, so
-/// that this still holds; a pair is left out if both of its form factors are below the threshold.
+/// that this still holds; a pair is omitted if both of its form factors are below the threshold.
 /// Else each row is scaled by itself. Where a row cannot be balanced, because too few of its
 /// entries are left, all of them are kept, and with them those of the same pairs; other rows lose
 /// theirs.

@@ -12,41 +12,18 @@
 
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
-#include "radiosity/form_factors/form_factor_input.h"
 #include "radiosity/form_factors/jacobi.h"
-#include "radiosity/form_factors/pair_moments.h"
+#include "radiosity/form_factors/pair_matrix.h"
 #include "radiosity/linear_solution.h"
 #include "radiosity/ratio.h"
 #include "radiosity/two_sided.h"
 #include "transillum/errors.h"
-#include "transillum/hemicube.h"
-#include "transillum/pair_form_factors.h"
 #include "transillum/study.h"
 
 namespace transillum {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-HemicubeOptions hemicube_options(const SolveOptions& options) {
-  HemicubeOptions hemicubes;
-  if (options.engine_options.resolution > 0) {
-    hemicubes.resolution = options.engine_options.resolution;
-  }
-  hemicubes.memory = options.memory;
-  hemicubes.threads = options.threads;
-  return hemicubes;
-}
-
-PairOptions pair_options(const SolveOptions& options) {
-  PairOptions pairs;
-  if (options.engine_options.points > 0) {
-    pairs.points = options.engine_options.points;
-  }
-  pairs.memory = options.memory;
-  pairs.threads = options.threads;
-  return pairs;
-}
 
 /// Computes the form factors, with a linear basis those of all unknowns, and sets the figures that
 /// differ between the engines.
@@ -66,9 +43,7 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
   statistics.directions = pairs.points;
   IntegratedPairs integrated{0};
   FormFactors form_factors =
-      options.basis == Basis::linear
-          ? pair_moment_factors(scene, pairs, cancellation, progress, integrated)
-          : counted_pair_form_factors(scene, pairs, cancellation, progress, integrated);
+      pair_matrix(scene, pairs, options.basis, cancellation, progress, integrated);
   statistics.integrated_pairs = integrated;
   return form_factors;
 }
@@ -88,7 +63,7 @@ std::vector<double> row_sums(const FormFactors& form_factors, std::size_t per_pa
   return sums;
 }
 
-/// Of values of all unknowns those of phi_0.
+/// The values of phi_0 among the values of all unknowns.
 template <class Value>
 std::vector<Value> means_of(std::vector<Value> values, std::size_t per_patch) {
   if (per_patch > 1) {
@@ -142,6 +117,21 @@ std::vector<LinearPart> linear_parts_of(const std::vector<Rgb>& coefficients) {
     parts.push_back({coefficients[u + 1], coefficients[u + 2]});
   }
   return parts;
+}
+
+/// The form factors of constant functions, T^00 / A_i.
+FormFactors factors_of_means(const FormFactors& of_unknowns) {
+  FormFactors means;
+  means.row_begin.push_back(0);
+  for (std::size_t u = 0; u + 1 < of_unknowns.row_begin.size(); u += linear_unknowns) {
+    for (std::size_t k = of_unknowns.row_begin[u]; k < of_unknowns.row_begin[u + 1];
+         k += linear_unknowns) {
+      means.source.push_back(of_unknowns.source[k] / static_cast<PatchId>(linear_unknowns));
+      means.value.push_back(of_unknowns.value[k]);
+    }
+    means.row_begin.push_back(means.source.size());
+  }
+  return means;
 }
 
 /// The iteration with `form_factors`, with a linear basis those of all unknowns; sets all but what
@@ -206,6 +196,22 @@ double difference(const Solution& a, const Solution& b) {
 }
 
 }  // namespace
+
+HemicubeOptions hemicube_options(const SolveOptions& options) {
+  HemicubeOptions hemicubes{.memory = options.memory, .threads = options.threads};
+  if (options.engine_options.resolution > 0) {
+    hemicubes.resolution = options.engine_options.resolution;
+  }
+  return hemicubes;
+}
+
+PairOptions pair_options(const SolveOptions& options) {
+  PairOptions pairs{.memory = options.memory, .threads = options.threads};
+  if (options.engine_options.points > 0) {
+    pairs.points = options.engine_options.points;
+  }
+  return pairs;
+}
 
 void check_form_factor_options(const SolveOptions& options) {
   options.validate();
@@ -286,7 +292,7 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
   PairSolution result{solved(), points, HUGE_VAL, false};
   while (!result.reached && 2 * points <= EngineOptions::largest_points) {
     points *= 2;
-    result.solution.form_factors.reset();  // the memory limit is that of one matrix
+    result.solution.form_factors.reset();  // the memory limit allows one matrix
     Solution finer = solved();
     result.error = difference(result.solution, finer);
     result.solution = std::move(finer);

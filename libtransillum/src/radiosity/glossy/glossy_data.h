@@ -9,7 +9,7 @@
 
 namespace transillum {
 
-/// What radiance by direction consists of. Arrays by glossy patch and pass have index
+/// Contents of radiance by direction. Arrays by glossy patch and pass have index
 /// g · passes + p. Solutions share it: the solver replaces it, and changes none that may be shared.
 struct GlossyLight::Data {
   std::shared_ptr<const Scene> scene;

@@ -14,14 +14,12 @@
 #include <numbers>
 #include <utility>
 
-#include "base/free_memory.h"
 #include "base/memory_limit.h"
 #include "base/seconds_since.h"
 #include "radiosity/exchange/pass_plan.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
-#include "transillum/at.h"
 #include "transillum/errors.h"
 
 namespace transillum {
@@ -75,9 +73,7 @@ void GlossySolver::Impl::check_radiance_memory(std::size_t patches, std::size_t 
 }
 
 void GlossySolver::Impl::forget_passes() {
-  const PatchId patches = input.scene->patch_count();
-  statistics = std::make_unique<PassStatistics>(*input.scene, true, *input.shot,
-                                                PatchShare(nullptr, patches), 1);
+  statistics = std::make_unique<PassStatistics>(*input.scene, true, *input.shot, input.share(), 1);
   std::vector<char> directional(input.patch_count());
   for (std::size_t i = 0; i < directional.size(); ++i) {
     directional[i] = light->index_of[i] >= 0 ? 1 : 0;
@@ -145,19 +141,18 @@ void GlossySolver::Impl::make_lobes(WorkerThreads& workers, const Observer& obse
     return;
   }
   const auto begin = Clock::now();
-  std::vector<Lobe> lobes;
-  std::vector<Vec3> normals;
+  std::vector<LobePatch> patches;
   for (const PatchId i : glossy) {
-    lobes.push_back(used_lobe(material(static_cast<std::size_t>(i))));
-    normals.push_back(input.scene->patch(i).normal);
+    patches.push_back(
+        {used_lobe(material(static_cast<std::size_t>(i))), input.scene->patch(i).normal});
   }
   auto data = std::make_shared<GlossyLight::Data>(*light);
   data->lobes = std::make_shared<const LobeTables>(
-      lobes, normals, data->directions, old_lobes.get(), workers, input.requested,
+      patches, data->directions, old_lobes.get(), workers, input.requested,
       report_of(SolveProgress::Stage::scaling_lobes, observer));
   if (has_light) {
     const std::vector<Rgb> none(glossy.size());  // changes are of no interest
-    data->lobes->reflect(data->arriving, data->shares, none, none, data->reflected, workers,
+    data->lobes->reflect({data->arriving, data->shares, none, none}, data->reflected, workers,
                          input.requested, {});
   }
   old_lobes = data->lobes;
@@ -245,12 +240,12 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers, const Observer
     }
   }
   const LobeTables::Change of_lobes =
-      next->lobes->reflect(incoming, next->shares, before, after, next->reflected, workers,
+      next->lobes->reflect({incoming, next->shares, before, after}, next->reflected, workers,
                            input.requested, report_of(SolveProgress::Stage::reflecting, observer));
   irradiance.swap(received);
   from_sky.swap(sky_light);
   next->arriving.swap(incoming);
-  light = std::move(next);  // frees that of before, unless a solution shares it
+  light = std::move(next);  // frees the previous light, unless a solution shares it
   incoming.assign(light->arriving.size(), Rgb{});
   has_light = true;
   change.change = std::max(change.change, of_lobes.change);

@@ -18,16 +18,16 @@ namespace transillum {
 
 struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   SolverInput input;
-  std::vector<Material> materials;                 ///< of the scene, or those that replaced them
-  std::vector<std::int32_t> of_patch;              ///< index into them, by patch
+  std::vector<Material> materials;     ///< materials of the scene, or those that replaced them
+  std::vector<std::int32_t> of_patch;  ///< index into them, by patch
   std::shared_ptr<const GlossyLight::Data> light;  ///< replaced, never changed: solutions share it
   std::vector<PatchId> glossy;                     ///< the glossy patches, by index
   std::unique_ptr<PassStatistics> statistics;
   std::unique_ptr<DirectionalExchanges> kept;
   int known_passes = 0;        ///< that `statistics` has, and `kept` where available
   bool kept_finished = false;  ///< all passes are in `kept`
-  bool lobes_pending = false;  ///< light->lobes are not those of `materials` yet
-  std::shared_ptr<const LobeTables> old_lobes;  ///< of which those that fit are copied
+  bool lobes_pending = false;  ///< light->lobes do not belong to `materials` yet
+  std::shared_ptr<const LobeTables> old_lobes;  ///< tables of which those that fit are copied
   bool has_light = false;        ///< an iteration was finished: irradiance and Phi are its
   std::vector<Rgb> irradiance;   ///< H of the last finished iteration, W/m²
   std::vector<Rgb> from_sky;     ///< the part of it from the sky; empty without one
@@ -37,7 +37,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   std::vector<double> sky_seen;  ///< the same by glossy patch and pass, over the patch's area
   std::vector<double> seen;      ///< by glossy patch and pass: area that receivers see of it, m²
   std::vector<IterationRecord> records;
-  double last_change = 0;  ///< of radiance, W/(m² sr)
+  double last_change = 0;  ///< change of radiance, W/(m² sr)
   bool finished = false, converged = false;
   int pass = 0;  ///< passes done in the iteration under way
   double energy_defect = 0;
@@ -46,7 +46,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   SolveProgress::Stage stage = SolveProgress::Stage::passes;
   double stage_share = 0, stage_seconds = 0;
   std::size_t stage_lobes = 0;
-  double reflection_seconds = 0;  ///< of the last iteration
+  double reflection_seconds = 0;  ///< time in the last iteration
 
   explicit Impl(SolverInput solver_input);
 
@@ -59,14 +59,13 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   /// @throws InputError
   void check_count(const std::vector<Material>& given,
                    const std::vector<std::int32_t>& by_patch) const;
-  /// Sets radiance to that of E, or keeps the light that arrived last. The lobes of `materials` are
-  /// scaled by the next iteration.
+  /// Sets radiance to the emission E, or keeps the light that arrived last. The lobes of
+  /// `materials` are scaled by the next iteration.
   void start(Start from = Start::emission);
   /// Numbers the glossy patches.
   /// @throws std::runtime_error where what is kept of them by direction does not fit into memory
   void find_glossy(GlossyLight::Data& data);
   void check_radiance_memory(std::size_t patches, std::size_t directions) const;
-  /// Forgets all passes.
   void forget_passes();
   /// One iteration, or of its passes only the next; returns false where the observer did, or
   /// where passes are left.
@@ -75,10 +74,10 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   SolveStatistics solve_statistics() const;
 
  private:
-  /// What a pass brings, of patches by their number.
+  /// Light that a pass brings, of patches by their number.
   struct PassLight {
     std::vector<Rgb> gathered;
-    Pass pass;  ///< of a new direction: for statistics
+    Pass pass;  ///< for statistics, if the direction is new
     DirectionalExchanges::Run run;
   };
   bool gather_passes(WorkerThreads& workers, const Observer& observer, bool one_pass);

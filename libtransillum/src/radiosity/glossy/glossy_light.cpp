@@ -1,5 +1,4 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <cmath>
 #include <utility>
 
 #include "base/for_each_index.h"

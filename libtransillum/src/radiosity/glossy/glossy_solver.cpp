@@ -3,8 +3,6 @@
 // The public class of glossy solves, and what they report.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "radiosity/channel_sums.h"
 #include "radiosity/glossy/glossy_iteration.h"
 #include "radiosity/ratio.h"
@@ -98,7 +96,7 @@ void GlossySolver::set_materials(const std::vector<Material>& materials,
       s.of_patch.swap(indices);
       throw;
     }
-    data->lobes = nullptr;  // of other patches
+    data->lobes = nullptr;  // they belong to other patches
     s.light = std::move(data);
     s.forget_passes();
   }

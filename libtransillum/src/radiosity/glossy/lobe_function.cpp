@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -94,7 +93,7 @@ struct LobeFunction::Impl {
 
   /// Angles from 0 to pi/2 by a place from 0 to 1: dense toward grazing ones, where s changes most.
   static double angle_of(double place) { return pi / 2 * (1 - (1 - place) * (1 - place)); }
-  /// Of an integral over the hemisphere with the cosine, less the azimuth.
+  /// Weight of a node in an integral over the hemisphere with the cosine, less the azimuth.
   static double weight_of(const Node& node) {
     const double theta = angle_of(node.at);
     return pi * (1 - node.at) * node.weight * std::sin(theta) * std::cos(theta);
@@ -134,7 +133,7 @@ struct LobeFunction::Impl {
 
   static constexpr std::size_t intervals = 128;
   LobeKernel kernel;
-  std::vector<double> logarithms;  ///< of s, at equal steps of the place
+  std::vector<double> logarithms;  ///< logarithms of s, at equal steps of the place
 };
 
 LobeFunction::LobeFunction(const Lobe& lobe, const Cancellation& cancellation)

@@ -17,7 +17,6 @@
 #include "base/for_each_index.h"
 #include "base/seconds_since.h"
 #include "radiosity/glossy/lobe_vectors.h"
-#include "transillum/at.h"
 #include "transillum/glossy.h"
 
 namespace transillum {
@@ -25,7 +24,7 @@ namespace {
 
 /// Rows of a table that a task computes.
 constexpr std::size_t rows_per_task = 64;
-/// What the rows of tables may take while these are scaled, all threads together.
+/// Memory limit for the rows of tables while these are scaled, all threads together.
 constexpr std::size_t most_kept_bytes = std::size_t{1} << 28;
 
 /// Equal for patches whose normals differ by rounding, mostly.
@@ -35,7 +34,7 @@ std::array<std::int64_t, 4> key_of(std::size_t kernel, const Vec3& normal) {
           rounded(normal.z)};
 }
 
-/// Light of a patch as three planes, each value times that of `factor`.
+/// Light of a patch as three planes, each value times the value of `factor`.
 void set_planes(const Rgb* light, const std::vector<double>& factor, std::vector<double>& planes) {
   const std::size_t count = factor.size();
   planes.resize(3 * count);
@@ -125,12 +124,11 @@ class LobeTables::KernelRows {
   bool kept_ = false;
 };
 
-LobeTables::LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals,
-                       const std::vector<Vec3>& directions, const LobeTables* before,
-                       WorkerThreads& workers, const Cancellation& cancellation,
-                       const LobeReport& report)
+LobeTables::LobeTables(std::span<const LobePatch> patches, const std::vector<Vec3>& directions,
+                       const LobeTables* before, WorkerThreads& workers,
+                       const Cancellation& cancellation, const LobeReport& report)
     : directions_(directions) {
-  add_patches(lobes, normals);
+  add_patches(patches);
   if (before != nullptr) {
     copy_tables(*before);
   }
@@ -163,10 +161,11 @@ LobeTables::LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& 
   for_each_with_report(workers, tables_.size(), make, with_size(report, tables_.size()));
 }
 
-void LobeTables::add_patches(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals) {
+void LobeTables::add_patches(std::span<const LobePatch> patches) {
   std::map<std::array<std::int64_t, 4>, std::size_t> known;
-  for (std::size_t g = 0; g < lobes.size(); ++g) {
-    Lobe shape = lobes[g];
+  for (std::size_t g = 0; g < patches.size(); ++g) {
+    const Vec3& normal = patches[g].normal;
+    Lobe shape = patches[g].lobe;
     shape.reflectance = {};
     const auto found = std::find(shapes_.begin(), shapes_.end(), shape);
     const auto kernel = static_cast<std::size_t>(found - shapes_.begin());
@@ -174,9 +173,9 @@ void LobeTables::add_patches(const std::vector<Lobe>& lobes, const std::vector<V
       shapes_.push_back(shape);
       kernels_.emplace_back(shape);
     }
-    const auto [entry, is_new] = known.try_emplace(key_of(kernel, normals[g]), tables_.size());
+    const auto [entry, is_new] = known.try_emplace(key_of(kernel, normal), tables_.size());
     if (is_new) {
-      tables_.push_back({.kernel = kernel, .normal = normals[g]});
+      tables_.push_back({.kernel = kernel, .normal = normal});
       members_.emplace_back();
     }
     table_of_.push_back(entry->second);
@@ -273,12 +272,8 @@ void LobeTables::scale(LobeTable& table, const Hemisphere& above, bool keep_rows
 
 /// For a block of directions, first the rows of the kernel, then patch by patch: its light times
 /// the scales as three planes, the products of the rows with them, and what the lobe spreads.
-LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
-                                       const std::vector<Rgb>& shares,
-                                       const std::vector<Rgb>& lambertian_before,
-                                       const std::vector<Rgb>& lambertian_after,
-                                       std::vector<Rgb>& reflected, WorkerThreads& workers,
-                                       const Cancellation& cancellation,
+LobeTables::Change LobeTables::reflect(const Light& light, std::vector<Rgb>& reflected,
+                                       WorkerThreads& workers, const Cancellation& cancellation,
                                        const LobeReport& report) const {
   const std::size_t count = directions_.size();
   const std::size_t blocks = (count + rows_per_task - 1) / rows_per_task;
@@ -295,20 +290,20 @@ LobeTables::Change LobeTables::reflect(const std::vector<Rgb>& arriving,
     Change& change = changes[task];
     for (const std::size_t g : members_[task / blocks]) {
       cancellation.throw_if_canceled();
-      const Rgb* light = arriving.data() + g * count;
+      const Rgb* arriving = light.arriving.data() + g * count;
       Rgb spread;
       for (std::size_t q = 0; q < count; ++q) {
-        spread += table.spread[q] * light[q];
+        spread += table.spread[q] * arriving[q];
       }
-      set_planes(light, table.scale, planes);
+      set_planes(arriving, table.scale, planes);
       multiply_rows(rows, last - first, planes.data(), 3, count, sums.data());
       for (std::size_t p = first; p < last; ++p) {
         const double* sum = sums.data() + 3 * (p - first);
         Rgb& to = reflected[g * count + p];
-        const Rgb before = to + lambertian_before[g];
-        to = weight() * (shares[g] *
+        const Rgb before = to + light.lambertian_before[g];
+        to = weight() * (light.shares[g] *
                          (table.scale[p] * Rgb{sum[0], sum[1], sum[2]} + table.spread[p] * spread));
-        const Rgb after = to + lambertian_after[g];
+        const Rgb after = to + light.lambertian_after[g];
         change.change = std::max(change.change, max_abs(after - before));
         change.largest = std::max(change.largest, max_abs(after));
       }

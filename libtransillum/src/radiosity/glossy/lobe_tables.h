@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <memory>
+#include <span>
 #include <vector>
 
 #include "base/worker_threads.h"
@@ -22,37 +21,45 @@ struct LobeTable {
   std::size_t kernel = 0;  ///< index of its shape
   Vec3 normal;
   std::vector<double> scale = {}, spread = {};             ///< by pass
-  double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< as GlossyFigures
+  double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< see GlossyFigures
 };
 
 /// Reports on long work: the finished share, 0 to 1, and the number of tables in
 /// all. On the calling thread.
 using LobeReport = std::function<void(double, std::size_t)>;
 
+/// A glossy patch.
+struct LobePatch {
+  Lobe lobe;
+  Vec3 normal;
+};
+
 /// The lobes of all glossy patches on a set of directions: a table for each shape and orientation.
 class LobeTables {
  public:
-  /// @param lobes, normals of the glossy patches
+  /// @param patches the glossy ones
   /// @param before tables of the same directions, from which those that fit are copied; may be null
   /// @param report may be empty
   /// @throws Canceled
-  LobeTables(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals,
-             const std::vector<Vec3>& directions, const LobeTables* before, WorkerThreads& workers,
-             const Cancellation& cancellation, const LobeReport& report);
+  LobeTables(std::span<const LobePatch> patches, const std::vector<Vec3>& directions,
+             const LobeTables* before, WorkerThreads& workers, const Cancellation& cancellation,
+             const LobeReport& report);
 
-  /// reflected = w sum_q f(p, q) arriving_q k for all patches and directions p; both by patch, then
-  /// by pass. Returns the largest change of `reflected` plus `lambertian`, the change of the
-  /// patch's other radiance, and its largest new value, in `largest`.
+  /// By glossy patch.
+  struct Light {
+    std::span<const Rgb> arriving;  ///< and then by pass
+    std::span<const Rgb> shares;    ///< k
+    /// Radiance without the lobe.
+    std::span<const Rgb> lambertian_before, lambertian_after;
+  };
+  /// The largest change of reflected plus other radiance, and its largest new value.
   struct Change {
     double change = 0, largest = 0;
   };
-  /// @param shares k of each patch
-  /// @param lambertian_before, lambertian_after radiance of each patch without its lobe
-  Change reflect(const std::vector<Rgb>& arriving, const std::vector<Rgb>& shares,
-                 const std::vector<Rgb>& lambertian_before,
-                 const std::vector<Rgb>& lambertian_after, std::vector<Rgb>& reflected,
-                 WorkerThreads& workers, const Cancellation& cancellation,
-                 const LobeReport& report) const;
+  /// reflected = w sum_q f(p, q) arriving_q k for all patches and directions p; by patch, then by
+  /// pass.
+  Change reflect(const Light& light, std::vector<Rgb>& reflected, WorkerThreads& workers,
+                 const Cancellation& cancellation, const LobeReport& report) const;
   /// The mean of what arrives at patch `g`, weighted by its lobe toward any direction above it.
   Rgb reflected_toward(const Rgb* arriving, std::size_t g, const Vec3& toward) const;
 
@@ -60,7 +67,7 @@ class LobeTables {
   void write_to(GlossyFigures& figures) const;
 
  private:
-  void add_patches(const std::vector<Lobe>& lobes, const std::vector<Vec3>& normals);
+  void add_patches(std::span<const LobePatch> patches);
   /// Copies tables of the same shape and orientation.
   void copy_tables(const LobeTables& before);
   class KernelRows;
@@ -72,7 +79,7 @@ class LobeTables {
   double weight() const;
 
   std::vector<Vec3> directions_;
-  std::vector<Lobe> shapes_;  ///< of the kernels
+  std::vector<Lobe> shapes_;  ///< shapes of the kernels
   std::vector<LobeKernel> kernels_;
   std::vector<LobeTable> tables_;
   std::vector<std::size_t> table_of_;              ///< by glossy patch

@@ -64,7 +64,7 @@ TRANSILLUM_INLINE std::size_t phong(const LobeRow& row, double least, unsigned e
   return q;
 }
 
-/// As ggx() in lobe_kernel.cpp.
+/// The same as ggx() in lobe_kernel.cpp.
 TRANSILLUM_INLINE std::size_t ggx_values(const LobeRow& row, double alpha2) {
   const Four least = Four{} + 1e-30;
   std::size_t q = 0;

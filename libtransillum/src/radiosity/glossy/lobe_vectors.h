@@ -12,10 +12,10 @@ namespace transillum {
 
 /// A row of a kernel: p of the direction `a` with all directions of a hemisphere.
 struct LobeRow {
-  const double *x, *y, *z, *cosines;  ///< of the directions
+  const double *x, *y, *z, *cosines;  ///< arrays over the directions
   std::size_t count;
   Vec3 a;
-  double cosine;  ///< of `a`
+  double cosine;  ///< cosine of `a`
   double* values;
 };
 

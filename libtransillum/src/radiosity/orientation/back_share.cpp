@@ -24,7 +24,7 @@ constexpr std::size_t path_count = 1U << 13, longest_path = 16, paths_in_block =
 /// Share of the paths below which light meets nothing that counts.
 constexpr double nothing = 1e-3;
 
-/// What a ray from a lit side found.
+/// Findings of a ray from a lit side.
 struct OpenSide {
   bool open = false;         ///< nothing; on a two-sided face, nothing on either side
   bool dark_inside = false;  ///< and the ray back from the same point met a back
@@ -35,7 +35,7 @@ struct Hit {
   PatchId patch = no_patch;
   bool back = false;
 };
-/// Those of one path, the last of which may be a back.
+/// Hits of one path, the last of which may be a back.
 using Path = boost::container::static_vector<Hit, longest_path>;
 
 class RaySampler {
@@ -158,7 +158,7 @@ std::vector<BackCount> shares_of(const std::vector<Count>& counts,
   return shares;
 }
 
-/// What light meets, in sums.
+/// Sums over what light meets.
 struct PathCounts {
   std::vector<Count> materials, groups;
   Count all;
@@ -189,7 +189,7 @@ struct PathCounts {
   }
 };
 
-/// What light meets, and whether the sources emit it out of the scene.
+/// Sums over what light meets, and whether the sources emit it out of the scene.
 struct Light {
   PathCounts met;
   bool turned_away = false;

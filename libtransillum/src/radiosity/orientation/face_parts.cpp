@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Sets of patches that hang together, made consistent: along a shared edge, two consistent patches
-// run in opposite directions. Input: a Scene, whose points are distinct, so that faces hang
-// together by equal coordinates. A union-find structure keeps the parity of each patch relative to
+// Connected components of patches, made consistent: along a shared edge, two consistent patches
+// run in opposite directions. Input: a Scene, whose points are distinct, so that faces are
+// connected by equal coordinates. A union-find structure keeps the parity of each patch relative to
 // its root: a cycle with the wrong parity is a surface with one side only, such as a Moebius strip.
 #include "radiosity/orientation/face_parts.h"
 

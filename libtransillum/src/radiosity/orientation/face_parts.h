@@ -9,7 +9,7 @@
 
 namespace transillum {
 
-/// Patches that hang together.
+/// A connected component of patches.
 struct SurfacePart {
   bool orientable = true;  ///< its patches can be made consistent with each other
   bool closed = true;  ///< consistent, every edge is used as often in one direction as in the other
@@ -18,16 +18,16 @@ struct SurfacePart {
   double volume = 0;   ///< enclosed if closed, m³; > 0: patches of sign 1 face outward
 };
 
-/// The patches of a scene by parts that hang together.
+/// The patches of a scene by connected component.
 ///
-/// Two patches hang together where they alone share an edge, or belong to one face. Of patches on
+/// Two patches are connected where they alone share an edge, or belong to one face. Of patches on
 /// the same points, only the first counts; if they face opposite ways, none does: they are a
 /// two-sided surface already.
 struct SurfaceParts {
   static constexpr std::int32_t none = -1;
 
   std::vector<std::int32_t> part;  ///< by patch: its part, or none
-  std::vector<std::int8_t> sign;   ///< by patch: 1 or -1; those of one sign are consistent, and
+  std::vector<std::int8_t> sign;   ///< by patch: 1 or -1; patches of one sign are consistent, and
                                    ///< most of the part's area has sign 1
   std::vector<PatchId> first;      ///< by patch: the first patch on the same points
   std::vector<SurfacePart> parts;  ///< in the order of their first patches

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Decides which side of each part of a scene is lit, and counts what has to be changed. Input: the
-// parts that hang together (face_parts.h) and what random walks from both of their sides reach
+// connected components (face_parts.h) and what random walks from both of their sides reach
 // (part_exposure.h). Reasons for the rules: decisions/0047-orientation.md.
 #include "transillum/orientation.h"
 
@@ -33,7 +33,7 @@ constexpr double leaking = 0.002;
 /// it may be a room among others.
 constexpr double contents = 0.05;
 
-/// What becomes of a part: `kept` with the orientation of most of its area.
+/// The decision about a part: `kept` with the orientation of most of its area.
 enum class Verdict { kept, opposite, two_sided };
 
 /// `kept` or `opposite`, whichever side has more; `otherwise` if they are alike.
@@ -220,7 +220,7 @@ class Planner {
         counts(description_.groups, [this](std::size_t f) { return description_.group_of(f); });
   }
 
-  /// Counts by material or group; those without changes are left out.
+  /// Counts by material or group, without those that have no changes.
   template <class Kind>
   std::vector<OrientationCount> counts(const std::vector<std::string>& names,
                                        const Kind& kind_of) const {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/for_each_index.h"
 #include "radiosity/orientation/surface_rays.h"
@@ -173,7 +172,7 @@ class ExposureMeter {
   std::vector<PatchId> patches_;          ///< by part
   SurfacePoints points_;
   bool has_light_;
-  double area_ = 0;                      ///< of all patches
+  double area_ = 0;                      ///< area of all patches
   std::vector<std::size_t> first_walk_;  ///< by part; and the end
 };
 

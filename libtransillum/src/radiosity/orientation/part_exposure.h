@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -11,7 +10,7 @@
 
 namespace transillum {
 
-/// What random walks of light reach that start on one side of a part; means over the walks.
+/// Targets of random walks of light that start on one side of a part; means over the walks.
 struct SideExposure {
   double other_area = 0;  ///< area of the patches of other parts reached, relative to all area
   double own_area = 0;    ///< area of the patches of the same part reached, relative to all area
@@ -20,7 +19,7 @@ struct SideExposure {
                           ///< leave the scene, since light can only come from outside
 };
 
-/// Of one part: the side of the fronts of patches with sign 1, and the other side.
+/// Exposures of one part: the side of the fronts of patches with sign 1, and the other side.
 using PartExposure = std::array<SideExposure, 2>;
 
 /// Follows random walks from both sides of every part. A walk is reflected diffusely, on the side

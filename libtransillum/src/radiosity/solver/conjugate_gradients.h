@@ -6,10 +6,10 @@
 
 namespace transillum {
 
-/// What is known of the entries of the matrix S, where K = I - S.
+/// Known properties of the entries of the matrix S, where K = I - S.
 enum class Entries {
   at_least_zero,  ///< with right >= 0: where some x is below 0, the sum of the powers of S diverges
-  any_sign,       ///< it diverges where v·K v < 0 for some v; those of the search are tried
+  any_sign,       ///< diverges where v·K v < 0 for some v; the vectors of the search are tried
 };
 
 /// Solves K x = right for a symmetric positive definite matrix K.

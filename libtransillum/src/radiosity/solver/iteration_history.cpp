@@ -25,11 +25,10 @@ constexpr double tolerances_of_power = 10;
 IterationHistory::IterationHistory(const SolverInput& input, const RadiosityIterate& first)
     : unknowns_(*input.unknowns),
       options_(input.options),
-      remainder_(ReflectedLight(unknowns_.exitance, unknowns_.per_patch), unknowns_.area,
-                 unknowns_.reflectance, unknowns_.per_patch),
+      remainder_(unknowns_.light(), unknowns_.area, unknowns_.reflectance, unknowns_.per_patch),
       b_(first.b()),
       h_(first.h()),
-      mean_(input.options, ReflectedLight(unknowns_.exitance, unknowns_.per_patch)),
+      mean_(input.options, unknowns_.light()),
       start_(input) {
   set_means();
 }
@@ -76,7 +75,7 @@ void IterationHistory::update(const RadiosityIterate& iterate, const std::vector
   const double change = max_norm(changes);
   IterationRecord record{.change = remainder_.relative_change(iterate.b(), changes),
                          .seconds = seconds};
-  // The first change after reopening is that of the directions, not of an iteration.
+  // The first change after reopening comes from the directions, not from an iteration.
   record.contraction = size_since_reopening() == 0 ? 0.0 : ratio_or_zero(change, last_change_);
   last_change_ = change;
   if (semi_iterative()) {
@@ -149,7 +148,7 @@ void IterationHistory::stop(bool complete) {
 
 void IterationHistory::check_contraction() const {
   constexpr std::ptrdiff_t least = 20;
-  // What is left of the start decreases irregularly, and after as many iterations at least to 1/e⁴.
+  // The rest of the start decreases irregularly, and after as many iterations at least to 1/e⁴.
   const double patience =
       semi_iterative() ? static_cast<double>(least) + 4 / (1 - start_.rho_max()) : least;
   if (finished_ || size() < patience || records_.back().change <= rounding) {

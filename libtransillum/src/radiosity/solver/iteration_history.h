@@ -16,7 +16,7 @@ namespace transillum {
 
 /// The finished iterations: their records, B and H they lead to, and whether the solve is done.
 ///
-/// B and H are those of the last iteration; of the semi-iterative scheme after the burn-in the mean
+/// B and H of the last iteration; in the semi-iterative scheme after the burn-in, the mean
 /// over the iterations since (eq. 45).
 class IterationHistory {
  public:
@@ -26,8 +26,8 @@ class IterationHistory {
 
   int size() const { return static_cast<int>(records_.size()); }
   const std::vector<IterationRecord>& records() const { return records_; }
-  const std::vector<Rgb>& b() const { return b_; }  ///< of all unknowns, W/m²
-  /// Of patches: the means of a linear basis, W/m².
+  const std::vector<Rgb>& b() const { return b_; }  ///< values of all unknowns, W/m²
+  /// Values of patches: the means of a linear basis, W/m².
   const std::vector<Rgb>& patch_b() const { return unknowns_.per_patch == 1 ? b_ : mean_b_; }
   const std::vector<Rgb>& patch_h() const { return unknowns_.per_patch == 1 ? h_ : mean_h_; }
   bool finished() const { return finished_; }  ///< no iteration is left to do
@@ -38,14 +38,14 @@ class IterationHistory {
   int burn_in() const { return mean_.burn_in(); }
   /// Whether the iteration under way will count in the mean.
   bool past_burn_in() const { return semi_iterative() && mean_.begins(); }
-  /// What b()[i] becomes if the iteration under way ends with `value`.
+  /// The value of b()[i] if the iteration under way ends with `value`.
   Rgb with(std::size_t i, const Rgb& value) const;
   /// Bound of what b() is off by because the iteration has ended, converged or not: W/m², one per
   /// unknown; empty before the first iteration. Of the semi-iterative scheme what is left of the
   /// start.
   std::vector<Rgb> left() const;
 
-  /// What is left of the start; it gathers along the same passes.
+  /// The rest of the start; it gathers along the same passes.
   StartRemainder& start() { return start_; }
   /// Sets B and H after an iteration that ended with `iterate`, records it and applies the stopping
   /// rule: of the light not yet propagated, or of the error of the mean.
@@ -101,7 +101,7 @@ class IterationHistory {
   SolveOptions options_;
   RemainderBound remainder_;
   std::vector<Rgb> b_, h_;
-  std::vector<Rgb> mean_b_, mean_h_;  ///< of patches; empty where they are the unknowns
+  std::vector<Rgb> mean_b_, mean_h_;  ///< means of patches; empty where they are the unknowns
   IterationMean mean_;                ///< semi-iterative scheme
   StartRemainder start_;              ///< semi-iterative scheme
   std::vector<IterationRecord> records_;

@@ -29,7 +29,7 @@ class IterationMean {
   bool begins() const { return past_; }     ///< whether the iteration under way counts in it
   std::vector<Rgb> b() const { return b_.mean(); }  ///< W/m²
   std::vector<Rgb> h() const { return h_.mean(); }  ///< W/m²
-  /// What b()[i] becomes if the iteration under way ends with B_i = `value`.
+  /// The value of b()[i] if the iteration under way ends with B_i = `value`.
   Rgb with(std::size_t i, const Rgb& value) const;
   /// Upper bound of what the solution exceeds b() by, because of the start, W/m², one per patch.
   std::vector<Rgb> left() const;

@@ -23,11 +23,11 @@ struct IterationUnderWay {
   bool begun = false;
   std::vector<Vec3> directions;  ///< in the order of the passes
   int from_kept_sums = 0;        ///< passes that need not be made: their exchanges are kept
-  std::vector<Rgb> estimate;     ///< of B, W/m²; between iterations B itself
-  std::vector<double> changes;   ///< of the estimate, relative, at each pass made
+  std::vector<Rgb> estimate;     ///< estimate of B, W/m²; between iterations B itself
+  std::vector<double> changes;   ///< changes of the estimate, relative, at each pass made
   std::vector<EstimateChange> changes_of_share;  ///< in a group: those not yet in `changes`
   double seconds = 0;                            ///< wall time so far
-  double energy_defect = 0;                      ///< of the last finished iteration
+  double energy_defect = 0;                      ///< defect of the last finished iteration
 
   /// Ends the iteration, which leads to `b`.
   void end(const std::vector<Rgb>& b) {

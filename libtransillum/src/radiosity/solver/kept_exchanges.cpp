@@ -47,31 +47,6 @@ FormFactors empty_rows(const ExchangeSums& sums, std::size_t patches, std::size_
   return result;
 }
 
-/// The exchanges between unknowns.
-std::vector<Transfer> exchanges_of_unknowns(const Transfers& transfers) {
-  std::vector<Transfer> exchanges;
-  exchanges.reserve(9 * transfers.exchanges.size());
-  for (std::size_t k = 0; k < transfers.exchanges.size();) {
-    // By receiver, its functions, then source, as in Transfers::exchanges.
-    const PatchId receiver = transfers.exchanges[k].receiver;
-    std::size_t end = k;
-    while (end < transfers.exchanges.size() && transfers.exchanges[end].receiver == receiver) {
-      ++end;
-    }
-    for (PatchId a = 0; a < 3; ++a) {
-      for (std::size_t n = k; n < end; ++n) {
-        for (PatchId b = 0; b < 3; ++b) {
-          exchanges.push_back(
-              {3 * receiver + a, 3 * transfers.exchanges[n].source + b,
-               transfers.moments[n].of(static_cast<std::size_t>(a), static_cast<std::size_t>(b))});
-        }
-      }
-    }
-    k = end;
-  }
-  return exchanges;
-}
-
 /// The memory limit less what replicas take besides their sums.
 std::uint64_t memory_for_sums(const SolverInput& input) {
   const std::uint64_t limit = memory_limit(input.options.memory);
@@ -107,7 +82,7 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
 }
 
 ExchangeSums KeptExchanges::empty_sums(std::uint64_t memory) const {
-  return {patches_ * static_cast<PatchId>(per_patch_), two_way_, memory, cancellation_};
+  return {unknown_share_, two_way_, memory, cancellation_};
 }
 
 void KeptExchanges::add_replica() {
@@ -132,34 +107,27 @@ void KeptExchanges::check_available() const {
 }
 
 ExchangeSums::Run KeptExchanges::make_run(const Transfers& transfers) const {
-  ExchangeSums::Run run = sums_.front().make_run(per_patch_ > 1 ? exchanges_of_unknowns(transfers)
-                                                                : transfers.exchanges);
-  if (share_.group != nullptr && !two_way_) {
-    std::erase_if(run,
-                  [this](const Transfer& t) { return !unknown_share_.owned.contains(t.receiver); });
+  if (per_patch_ == 1) {
+    return sums_.front().make_run(transfers.exchanges);
   }
-  return run;
+  std::vector<Transfer> exchanges;
+  exchanges.reserve(per_patch_ * per_patch_ * transfers.exchanges.size());
+  for_each_exchange(transfers, per_patch_,
+                    [&](const Transfer& t, PatchId, PatchId) { exchanges.push_back(t); });
+  return sums_.front().make_run(exchanges);
 }
 
 void KeptExchanges::add(std::size_t r, ExchangeSums::Run run) {
   sums_[r].add(std::move(run));
   // Where one replica does not fit, the others are of no use.
   if (!available()) {
-    for (ExchangeSums& part : sums_) {
-      part.drop();
-    }
-    if (share_.group == nullptr) {
-      check_available();
-    }
+    drop();
   }
 }
 
-void KeptExchanges::agree_dropped(bool dropped) {
-  if (dropped) {
-    for (ExchangeSums& part : sums_) {
-      part.drop();
-    }
-    check_available();
+void KeptExchanges::drop() {
+  for (ExchangeSums& part : sums_) {
+    part.drop();
   }
 }
 
@@ -168,23 +136,19 @@ void KeptExchanges::complete() {
   count();
 }
 
-void KeptExchanges::merge() {
+void KeptExchanges::prepare_to_save() {
   for (ExchangeSums& part : sums_) {
-    part.merge();
+    part.prepare_to_save();
   }
 }
 
 void KeptExchanges::count() {
-  if (share_.group == nullptr) {
-    return;
-  }
-  std::int64_t owned = 0;
+  std::int64_t size = 0;
   for (const ExchangeSums& part : sums_) {
-    owned +=
-        static_cast<std::int64_t>(part.size_of_rows(unknown_share_.first(), unknown_share_.last()));
+    size += static_cast<std::int64_t>(part.size_of_share());
   }
-  share_.group->sums({&owned, 1});
-  size_of_group_ = static_cast<std::size_t>(owned);
+  share_.sums->sums({&size, 1});
+  kept_elsewhere_ = size - static_cast<std::int64_t>(own_size());
 }
 
 void KeptExchanges::add_areas(const Transfers& transfers) {
@@ -215,7 +179,7 @@ std::size_t KeptExchanges::own_size() const {
 }
 
 ExchangeSums KeptExchanges::joined() const {
-  ExchangeSums joined = empty_sums(~std::uint64_t{0});
+  ExchangeSums joined(unknown_share_.patches, two_way_, ~std::uint64_t{0}, cancellation_);
   for (const ExchangeSums& part : sums_) {
     ExchangeSums::Run run;
     run.reserve(part.size());
@@ -233,7 +197,7 @@ ExchangeSums KeptExchanges::joined() const {
 FormFactors KeptExchanges::form_factors(const RadiosityIterate& iterate,
                                         const VisibleAreaSums& areas) const {
   const std::optional<ExchangeSums> all_replicas =
-      sums_.size() > 1 || share_.group != nullptr ? std::optional(joined()) : std::nullopt;
+      sums_.size() > 1 || !share_.is_all() ? std::optional(joined()) : std::nullopt;
   const ExchangeSums& sums = all_replicas ? *all_replicas : sums_.front();
   FormFactors result = empty_rows(sums, static_cast<std::size_t>(patches_), per_patch_, two_way_);
   std::vector<std::size_t> next(result.row_begin.begin(), result.row_begin.end() - 1);

@@ -13,8 +13,8 @@
 namespace transillum {
 
 /// The exchanges of all passes, summed and kept within the memory limit, so that later iterations
-/// need no passes: one ExchangeSums per replica, or one. Their rows and sources are unknowns: with
-/// a linear basis, an exchange of two patches has nine entries.
+/// need no passes: one ExchangeSums per replica, or one. Their rows and sources are unknowns: with n
+/// per patch, an exchange of two patches has n² entries.
 class KeptExchanges {
  public:
   /// @param renews whether each iteration has its own directions; exchanges are then kept only
@@ -34,20 +34,17 @@ class KeptExchanges {
   /// The exchanges of a pass in the order that add() takes. Any thread may call it at any time.
   ExchangeSums::Run make_run(const Transfers& transfers) const;
   /// Adds a pass of replica r. Where it exceeds the limit, everything is dropped.
-  /// @throws MemoryLimitExceeded as check_available(); in a group only agree_dropped() does
   void add(std::size_t r, ExchangeSums::Run run);
   /// Appends sums for one replica, which have the memory that the others leave. After finish().
   void add_replica();
   /// Adds the areas of a pass to renewed_areas(), if each iteration has its own directions and the
   /// exchanges are requested.
   void add_areas(const Transfers& transfers);
-  /// Lets all members of a group drop the exchanges if one had to, and completes nothing else.
-  /// @param dropped whether any member has dropped them
-  /// @throws MemoryLimitExceeded as check_available()
-  void agree_dropped(bool dropped);
-  /// Merges all passes added so far.
-  void merge();
-  /// Completes renewed_areas() and size() in a group.
+  /// Drops everything.
+  void drop();
+  /// To be called before saving.
+  void prepare_to_save();
+  /// Completes renewed_areas() and size().
   void complete();
   /// To be called after the last pass of an iteration, before sums are read.
   void finish();
@@ -55,14 +52,13 @@ class KeptExchanges {
   /// The sums of all replicas.
   KeptSums all() const;
   KeptSums of_replica(std::size_t r) const { return {&sums_[r]}; }
-  /// Number of kept entries; in a group of all members, as of the last complete() or
-  /// finish().
-  std::size_t size() const { return share_.group != nullptr ? size_of_group_ : own_size(); }
+  /// Number of kept entries; of other shares as of the last complete() or finish().
+  std::int64_t size() const { return static_cast<std::int64_t>(own_size()) + kept_elsewhere_; }
   /// Areas of the passes kept, over all iterations, where each has its own directions.
   const VisibleAreaSums& renewed_areas() const { return renewed_areas_; }
 
   /// F_ij = entry (i,j) times the scale that `iterate` gives it. After finish().
-  /// In a group, all on member 0 and none on the others.
+  /// Of several processes, the first has all and the others none.
   /// @param areas of the passes kept
   FormFactors form_factors(const RadiosityIterate& iterate, const VisibleAreaSums& areas) const;
 
@@ -71,13 +67,7 @@ class KeptExchanges {
   static void visit_state(Archive& archive, Self& self) {
     archive(self.requested_);
     for (auto& part : self.sums_) {
-      if (self.share_.group == nullptr) {
-        archive(part);
-      } else if constexpr (Archive::reading) {
-        part.restore_share(archive, self.unknown_share_);
-      } else {
-        part.save_in_group(archive, self.unknown_share_);
-      }
+      archive(part);
     }
     archive(self.renewed_areas_);
   }
@@ -85,19 +75,19 @@ class KeptExchanges {
  private:
   ExchangeSums empty_sums(std::uint64_t memory) const;
   std::size_t own_size() const;
-  /// Computes size() in a group.
+  /// Computes what size() counts besides own_size().
   void count();
-  /// The sum over all replicas; in a group that of all members, on member 0.
+  /// The sum over all replicas; in a group, on member 0, over all members.
   ExchangeSums joined() const;
 
   PatchId patches_;
   std::size_t per_patch_;  ///< unknowns
   bool two_way_;
   PatchShare share_, unknown_share_;
-  std::size_t size_of_group_ = 0;
+  std::int64_t kept_elsewhere_ = 0;  ///< entries of other shares less those also kept here
   bool renews_;
   bool requested_ = false;
-  const char* required_by_ = nullptr;  ///< the option that cannot do without; null: none
+  const char* required_by_ = nullptr;  ///< the option that cannot do without; null if there is none
   Cancellation cancellation_;
   std::uint64_t memory_;            ///< limit, bytes
   std::vector<ExchangeSums> sums_;  ///< one per replica

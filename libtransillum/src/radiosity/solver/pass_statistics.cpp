@@ -17,7 +17,6 @@ PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLig
     : scene_(scene),
       two_way_(two_way),
       share_(share),
-      per_patch_(per_patch),
       areas_(scene.patches().size(), per_patch),
       facing_area_(scene.patches().size()),
       back_seen_(scene.patches().size()),
@@ -26,7 +25,7 @@ PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLig
       shot_(scene, shot, share) {}
 
 void PassStatistics::begin_set() {
-  areas_ = VisibleAreaSums(facing_area_.size(), per_patch_);
+  areas_ = VisibleAreaSums(facing_area_.size(), areas_.per_patch);
   quadrature_errors_.clear();
   complete_errors_ = 0;
 }
@@ -59,10 +58,8 @@ void PassStatistics::add(const Pass& pass) {
 }
 
 void PassStatistics::complete_errors() {
-  if (share_.group != nullptr) {
-    share_.group->maxima(std::span(quadrature_errors_).subspan(complete_errors_));
-    complete_errors_ = quadrature_errors_.size();
-  }
+  share_.sums->maxima(std::span(quadrature_errors_).subspan(complete_errors_));
+  complete_errors_ = quadrature_errors_.size();
 }
 
 void PassStatistics::complete() {
@@ -92,7 +89,7 @@ void PassStatistics::write_to(SolveStatistics& statistics) const {
   statistics.closure_defect_max = closure_relative_;
   statistics.closure_defect_grazing = closure_grazing_;
   statistics.closure_defect_moments = closure_moments_;
-  // Of a two-sided face, the side counts from which less escapes: not the outside of a sealed room.
+  // The side of a two-sided face counts from which less escapes: not the outside of a sealed room.
   double outside = 0;
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
     if (are_two_sides(scene_, i)) {

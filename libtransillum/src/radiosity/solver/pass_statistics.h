@@ -6,15 +6,15 @@
 
 #include "radiosity/error/light_directions.h"
 #include "radiosity/error/shot_check.h"
-#include "radiosity/exchange/pass_runner.h"
 #include "radiosity/exchange/visible_area_sums.h"
 #include "transillum/first_shot.h"
+#include "transillum/patch_sums.h"
 #include "transillum/scene.h"
 #include "transillum/solution.h"
 
 namespace transillum {
 
-/// What is measured along each direction once: areas, closure, counts and the error of the
+/// Measurements along each direction, made once: areas, closure, counts and the error of the
 /// quadrature of the cosine. Later passes along the same direction are not added again.
 class PassStatistics {
  public:
@@ -26,17 +26,17 @@ class PassStatistics {
                  std::size_t per_patch);
 
   /// Starts another set of directions (semi-iterative scheme): clears areas() and
-  /// quadrature_errors(); all other figures go on over all sets.
+  /// quadrature_errors(); all other figures continue over all sets.
   void begin_set();
   /// Adds the first pass along a direction.
   void add(const Pass& pass);
 
-  /// Makes quadrature_errors() those of all patches, in a group.
+  /// Extends quadrature_errors() to all patches, in a group.
   void complete_errors();
-  /// Completes what is summed per patch, in a group.
+  /// Completes what is summed per patch.
   void complete();
 
-  /// Of the current set of directions.
+  /// Areas of the current set of directions.
   const VisibleAreaSums& areas() const { return areas_; }
   /// Entry d: eps (eq. 17) of the first d + 1 passes of the current set, largest over patches.
   const std::vector<double>& quadrature_errors() const { return quadrature_errors_; }
@@ -60,10 +60,9 @@ class PassStatistics {
   const Scene& scene_;
   bool two_way_;
   PatchShare share_;
-  std::size_t per_patch_;
   VisibleAreaSums areas_;
   std::vector<double> quadrature_errors_;
-  std::size_t complete_errors_ = 0;  ///< number of them that are of all patches, in a group
+  std::size_t complete_errors_ = 0;  ///< number of them that are of all patches
   std::vector<double> facing_area_;  ///< per patch: projected area over all passes, both directions
   std::vector<double> back_seen_;    ///< per patch: of that, seen by receivers from its back
   std::vector<double> uncovered_;    ///< per patch: of that, with no patch above

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "radiosity/solver/conjugate_gradients.h"
+#include "transillum/at.h"
 
 namespace transillum {
 
@@ -55,7 +56,7 @@ void RadiosityIterate::begin() {
 }
 
 void RadiosityIterate::begin(const KeptSums& sums) {
-  if (kept_passes_ == 0) {  // of a replica that was just added
+  if (kept_passes_ == 0) {  // for a replica that was just added
     begin();
     return;
   }
@@ -66,50 +67,11 @@ void RadiosityIterate::begin(const KeptSums& sums) {
 }
 
 void RadiosityIterate::add(const Transfers& transfers) {
-  if (unknowns_.per_patch > 1) {
-    add_moments(transfers);
-    return;
-  }
-  for (const Transfer& t : transfers.exchanges) {
-    const auto i = static_cast<std::size_t>(t.receiver);
-    const auto j = static_cast<std::size_t>(t.source);
-    gathered_[i] += t.area * unshot_[j];
-    if (two_way_) {
-      gathered_[j] += t.area * unshot_[i];
-    }
-  }
-  const std::size_t first = share_.first();
-  for (std::size_t i = first; i < share_.last(); ++i) {
-    projected_[i] += transfers.forward[i - first].projected;
-    if (two_way_) {
-      projected_[i] += transfers.backward[i - first].projected;
-    }
-  }
-  if (!sky_areas_.empty()) {
-    add_sky(transfers);
-  }
-  ++passes_;
-}
-
-void RadiosityIterate::add_sky(const Transfers& transfers) {
-  const double ahead = sky_.relative_radiance(transfers.direction);
-  const double behind = sky_.relative_radiance(-transfers.direction);
-  const std::size_t first = share_.first();
-  for (std::size_t i = first; i < share_.last(); ++i) {
-    sky_areas_[i] += ahead * transfers.forward[i - first].uncovered();
-    if (two_way_) {
-      sky_areas_[i] += behind * transfers.backward[i - first].uncovered();
-    }
-  }
-}
-
-void RadiosityIterate::add_moments(const Transfers& transfers) {
   const std::size_t functions = unknowns_.per_patch;
-  for_each_moment(transfers, [&](const Transfer& t, std::size_t a, std::size_t b, double moment) {
-    const std::size_t u = unknowns_.mean_of(t.receiver) + a, v = unknowns_.mean_of(t.source) + b;
-    gathered_[u] += moment * unshot_[v];
+  for_each_exchange(transfers, functions, [this](const Transfer& t, PatchId, PatchId) {
+    at(gathered_, t.receiver) += t.area * at(unshot_, t.source);
     if (two_way_) {
-      gathered_[v] += moment * unshot_[u];
+      at(gathered_, t.source) += t.area * at(unshot_, t.receiver);
     }
   });
   const std::size_t first = share_.first();
@@ -122,32 +84,29 @@ void RadiosityIterate::add_moments(const Transfers& transfers) {
     }
   }
   if (!sky_areas_.empty()) {
-    add_sky_moments(transfers);
+    add_sky(transfers.direction, transfers.forward, transfers.forward_moments);
+    if (two_way_) {
+      add_sky(-transfers.direction, transfers.backward, transfers.backward_moments);
+    }
   }
   ++passes_;
 }
 
-void RadiosityIterate::add_sky_moments(const Transfers& transfers) {
+void RadiosityIterate::add_sky(const Vec3& omega, const std::vector<Coverage>& coverages,
+                               const std::vector<CoverageMoments>& moments) {
+  const double radiance = sky_.relative_radiance(omega);
   const std::size_t first = share_.first(), functions = unknowns_.per_patch;
-  const auto add = [&](const Vec3& omega, const std::vector<Coverage>& coverages,
-                       const std::vector<CoverageMoments>& moments) {
-    const double radiance = sky_.relative_radiance(omega);
-    for (std::size_t i = first; i < share_.last(); ++i) {
-      const double uncovered = coverages[i - first].uncovered();
-      if (uncovered == 0) {
-        continue;
-      }
-      const CoverageMoments& of_patch = moments[i - first];
-      sky_areas_[functions * i] += radiance * uncovered;
-      for (std::size_t a = 0; a < 2; ++a) {
-        sky_areas_[functions * i + 1 + a] +=
-            radiance * (of_patch.projected[a] - of_patch.covered[a]);
-      }
+  for (std::size_t i = first; i < share_.last(); ++i) {
+    const double uncovered = coverages[i - first].uncovered();
+    if (uncovered == 0) {
+      continue;
     }
-  };
-  add(transfers.direction, transfers.forward, transfers.forward_moments);
-  if (two_way_) {
-    add(-transfers.direction, transfers.backward, transfers.backward_moments);
+    sky_areas_[functions * i] += radiance * uncovered;
+    for (std::size_t a = 1; a < functions; ++a) {
+      const CoverageMoments& of_patch = moments[i - first];
+      sky_areas_[functions * i + a] +=
+          radiance * (of_patch.projected[a - 1] - of_patch.covered[a - 1]);
+    }
   }
 }
 

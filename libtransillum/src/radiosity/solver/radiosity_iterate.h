@@ -16,7 +16,7 @@ namespace transillum {
 using KeptSums = std::vector<const ExchangeSums*>;
 
 /// B and H of one set of directions, iteration by iteration (eq. 11): of all passes, or of one
-/// replica's passes. Areas as in VisibleAreaSums. All lists and indices are those of unknowns,
+/// replica's passes. Areas as in VisibleAreaSums. All lists and indices refer to unknowns,
 /// which are patches but with a linear basis.
 class RadiosityIterate {
  public:
@@ -29,16 +29,16 @@ class RadiosityIterate {
   /// Memory that an iterate takes, with its mean over iterations.
   static constexpr std::uint64_t bytes_per_unknown = 8 * sizeof(Rgb);
 
-  const std::vector<Rgb>& b() const { return b_; }  ///< of the last finished iteration, W/m²
+  const std::vector<Rgb>& b() const { return b_; }  ///< B of the last finished iteration, W/m²
   const std::vector<Rgb>& h() const { return h_; }  ///< irradiance, W/m²: B = E + rho H
   /// sum_d sum_j A(i,j,omega_d) (B_j - E_j shot) of the iteration under way, W
   const std::vector<Rgb>& gathered() const { return gathered_; }
-  int passes() const { return passes_; }  ///< of the iteration under way
+  int passes() const { return passes_; }  ///< passes of the iteration under way
 
-  /// Sets B to what follows if every patch gathers the irradiance `gathered`, in addition to that
-  /// of the first shot, W/m².
+  /// Sets B to what follows if every patch gathers the irradiance `gathered`, in addition to the
+  /// irradiance of the first shot, W/m².
   void start_from(const Rgb& gathered);
-  /// Sets B to that of `other`.
+  /// Sets B to the B of `other`.
   void start_from(const RadiosityIterate& other);
   /// Begins an iteration with nothing gathered.
   void begin();
@@ -47,7 +47,7 @@ class RadiosityIterate {
   /// Gathers along the directions of one pass.
   /// @param transfers their coverages are those of the share's patches
   void add(const Transfers& transfers);
-  /// Completes what passes have gathered, in a group. Before it only the values of the share's own
+  /// Completes what passes have gathered. Before it only the values of the share's own
   /// patches are right.
   void complete();
   /// From now on `sums`, finished and of the same directions, stand for the passes so far. For the
@@ -65,7 +65,7 @@ class RadiosityIterate {
   /// The share of what leaves the patch of u that escapes.
   /// @param uncovered, projected, passes as in VisibleAreaSums
   double sky_share(std::size_t u, double uncovered, double projected, int passes) const;
-  /// What u receives from the sky in the passes so far, W/m².
+  /// Irradiance of u from the sky in the passes so far, W/m².
   Rgb sky_irradiance(std::size_t u) const;
   /// Power sent by the part of B that is gathered, in the unit of gathered().
   /// @param column_areas as in VisibleAreaSums, unscaled
@@ -95,12 +95,10 @@ class RadiosityIterate {
  private:
   /// H from what is gathered, the sky included, and B from H.
   Rgb irradiance(std::size_t u, const Rgb& gathered) const;
-  /// What u gathers from patches and sky, W/m².
+  /// Irradiance of u from patches and sky, W/m².
   Rgb gathered_irradiance(std::size_t u) const;
   Rgb radiosity(std::size_t u, const Rgb& irradiance) const;
   void set_radiosity(std::size_t u, const Rgb& b);
-  /// As add(), of a linear basis.
-  void add_moments(const Transfers& transfers);
   void gather(const KeptSums& sums);
   /// image += S values, where S is the total of `sums`, a symmetric matrix.
   void add_symmetric_product(const KeptSums& sums, const std::vector<double>& values,
@@ -109,8 +107,10 @@ class RadiosityIterate {
   double row_scale(std::size_t i, double projected, int passes) const;
   /// The factor from uncovered area in `passes` passes to a share of the hemisphere.
   double sky_scale(std::size_t i, double projected, int passes) const;
-  void add_sky(const Transfers& transfers);
-  void add_sky_moments(const Transfers& transfers);
+  /// Adds what one of the directions of a pass leaves uncovered.
+  /// @param moments empty if each patch has one unknown
+  void add_sky(const Vec3& omega, const std::vector<Coverage>& coverages,
+               const std::vector<CoverageMoments>& moments);
   double row_scale(std::size_t i) const { return row_scale(i, projected_[i], passes_); }
 
   const Unknowns& unknowns_;
@@ -126,8 +126,8 @@ class RadiosityIterate {
   int passes_ = 0;
   std::vector<double> kept_projected_, kept_sky_areas_;
   int kept_passes_ = 0;
-  std::vector<double> scales_;    ///< of rows and columns, if symmetric; else empty
-  std::vector<double> row_sums_;  ///< of the kept sums, scaled; if symmetric
+  std::vector<double> scales_;    ///< scales of rows and columns, if symmetric; else empty
+  std::vector<double> row_sums_;  ///< row sums of the kept sums, scaled; if symmetric
 };
 
 }  // namespace transillum

@@ -21,16 +21,15 @@ bool RadiositySolver::advance(Until until, const Observer& observer) {
       s.begin_iteration();
     }
     if (s.passes_done() < s.passes_needed()) {
-      const bool go_on = until == Until::direction ? s.advance_direction(*this, observer)
-                                                   : s.advance_passes(*this, observer);
+      const int last = until == Until::direction ? s.passes_done() + 1 : s.passes_needed();
+      const bool go_on = s.advance_passes(last, *this, observer);
       if (s.passes_done() < s.passes_needed() && (!go_on || until == Until::direction)) {
         return true;
       }
     }
     s.finish_iteration();
-    const bool stop = observer && !observer(*this);
-    const bool go_on = s.share.group != nullptr ? !s.share.group->any(stop) : !stop;
-    if (!go_on || until != Until::finished) {
+    const bool stop = s.share.sums->any(observer && !observer(*this));
+    if (stop || until != Until::finished) {
       break;
     }
   }
@@ -42,7 +41,6 @@ std::shared_ptr<const Scene> RadiositySolver::shared_scene() const { return impl
 const BspTree& RadiositySolver::tree() const { return *impl_->input.tree; }
 std::shared_ptr<const BspTree> RadiositySolver::shared_tree() const { return impl_->input.tree; }
 const SolveOptions& RadiositySolver::options() const { return impl_->input.options; }
-std::shared_ptr<SolverGroup> RadiositySolver::group() const { return impl_->input.group; }
 std::shared_ptr<const DirectLight> RadiositySolver::direct_light() const {
   return impl_->input.shot;
 }

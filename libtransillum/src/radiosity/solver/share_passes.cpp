@@ -8,7 +8,7 @@
 
 #include "base/worker_threads.h"
 #include "radiosity/exchange/pass_plan.h"
-#include "radiosity/exchange/pass_runner.h"
+#include "radiosity/exchange/sums_in_memory.h"
 #include "radiosity/solver/shares.h"
 #include "radiosity/solver/solver_input.h"
 #include "transillum/at.h"
@@ -64,19 +64,19 @@ void make_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& 
   const std::vector<Vec3> directions = PassPlan(options).directions(0);
   const auto pass_of = [&](int n) { return share.number - 1 + n * share.of; };
   const int count = (options.directions - share.number) / share.of + 1;
-  PassRunner(thread_count(options.threads))
-      .run(
-          0, count,
-          [&](int n) {
-            Pass pass;
-            pass.transfers = engine(at(directions, pass_of(n)), cancellation);
-            return pass;
-          },
-          [&](int n, const Pass& pass) {
-            cancellation.throw_if_canceled();
-            add(pass_of(n), pass.transfers);
-            return true;
-          });
+  PassLoop loop;
+  loop.last = count;
+  loop.threads = thread_count(options.threads);
+  loop.make = [&](int n) {
+    Pass pass;
+    pass.transfers = engine(at(directions, pass_of(n)), cancellation);
+    return pass;
+  };
+  loop.add = [&](int n, const Pass& pass) {
+    cancellation.throw_if_canceled();
+    add(pass_of(n), pass.transfers);
+  };
+  sums_in_memory()->run(loop);
 }
 
 }  // namespace transillum

@@ -45,10 +45,8 @@ void RadiositySolver::Impl::restore(std::istream& in, std::uint64_t size) {
 }
 
 void RadiositySolver::save(std::ostream& out) const {
-  if (impl_->share.group != nullptr) {
-    impl_->complete();
-    impl_->kept.merge();
-  }
+  impl_->complete();
+  impl_->kept.prepare_to_save();
   impl_->save(out);
 }
 void RadiositySolver::restore(std::istream& in, std::uint64_t size) { impl_->restore(in, size); }

@@ -43,17 +43,13 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
     : scene(std::move(solved_scene)),
       options(validated(solve_options)),
       requested(solve_cancellation),
-      cancellation(parts.group ? Cancellation() : solve_cancellation),
       threads(thread_count(options.threads)),
       shot(std::move(parts.shot)),
       tree(std::move(parts.tree)),
       engine(std::move(parts.engine)),
-      group(std::move(parts.group)) {
-  if (group) {
-    group->agree([this] { prepare(); });
-  } else {
-    prepare();
-  }
+      sums(parts.sums ? std::move(parts.sums) : sums_in_memory()),
+      cancellation(sums->own(requested)) {
+  sums->agree([this] { prepare(); });
 }
 
 void SolverInput::prepare() {

@@ -17,17 +17,17 @@ EngineOptions used_engine_options(const SolveOptions& options);
 /// a goal.
 int expected_directions(const SolveOptions& options);
 
-/// What a solve starts from; constant once constructed, so any thread may read it.
+/// The input of a solve; constant once constructed, so any thread may read it.
 struct SolverInput {
   std::shared_ptr<const Scene> scene;
-  SolveOptions options;       ///< validated
-  Cancellation requested;     ///< set from outside
-  Cancellation cancellation;  ///< the same; in a group never set, since members stop together
-  int threads = 1;            ///< options.threads, or the number of cores
+  SolveOptions options;                     ///< validated
+  Cancellation requested;                   ///< set from outside
+  int threads = 1;                          ///< options.threads, or the number of cores
   std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
   std::shared_ptr<const BspTree> tree;
   TransferEngine engine;
-  std::shared_ptr<SolverGroup> group;  ///< null: this process alone
+  std::shared_ptr<PatchSums> sums;  ///< where they are kept
+  Cancellation cancellation;        ///< PatchSums::own() of `requested`
   std::shared_ptr<const Unknowns> unknowns;
   double seconds_first_shot = 0, seconds_bsp = 0;  ///< time spent here; 0 for what was passed in
 
@@ -37,8 +37,8 @@ struct SolverInput {
               const Cancellation& cancellation);
 
   int directions_per_pass() const { return options.two_way ? 2 : 1; }
-  PatchShare share() const { return {group.get(), scene->patch_count()}; }
-  /// @throws Canceled, in a group on every member
+  PatchShare share() const { return {*sums, scene->patch_count()}; }
+  /// @throws Canceled, in every process
   void throw_if_canceled() const { share().throw_if_canceled(requested); }
   std::size_t patch_count() const { return static_cast<std::size_t>(scene->patch_count()); }
 

@@ -70,7 +70,7 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   result.passes_made = timing.passes_made;
   result.threads = input.threads;
   result.kept_form_factors = kept.available();
-  result.form_factors = static_cast<std::int64_t>(kept.size());
+  result.form_factors = kept.size();
   statistics.write_to(result);
   // Other engines are wrong by more than the number of directions tells.
   if (traits_of(input.options.engine).error != EngineTraits::Error::none) {

@@ -28,7 +28,7 @@ RadiositySolver::Impl::Impl(SolverInput solver_input)
                  input.unknowns->per_patch),
       history(input, whole),
       share(input.share()),
-      light(input.unknowns->exitance, input.unknowns->per_patch) {
+      light(input.unknowns->light()) {
   iteration.directions = plan.directions(0);
   iteration.estimate = whole.b();
 }
@@ -63,72 +63,87 @@ void RadiositySolver::Impl::begin_iteration() {
   iteration.from_kept_sums = whole.passes();
   if (iteration.from_kept_sums > 0) {
     update_estimate();
-    if (share.group != nullptr) {
-      share.complete(iteration.estimate);
-    }
+    share.complete(iteration.estimate);
   }
   const double seconds = seconds_since(start);
   timing.seconds_iterate += seconds;
   iteration.seconds += seconds;
 }
 
-bool RadiositySolver::Impl::advance_direction(const RadiositySolver& self,
-                                              const Observer& observer) {
+bool RadiositySolver::Impl::advance_passes(int last, const RadiositySolver& self,
+                                           const Observer& observer) {
   const auto start = Clock::now();
-  const int k = passes_done();
-  if (share.group != nullptr) {
-    return advance_in_group(k + 1, self, observer);
-  }
-  Pass pass = make_pass(k, statistics.areas().passes);
-  timing.seconds_transfers += seconds_since(start);
-  add_pass(k, std::move(pass));
-  iteration.seconds += seconds_since(start);
-  return !observer || observer(self);
-}
-
-bool RadiositySolver::Impl::advance_passes(const RadiositySolver& self, const Observer& observer) {
-  if (share.group != nullptr) {
-    return advance_in_group(passes_needed(), self, observer);
-  }
-  bool going = true;
-  auto last = Clock::now();
+  const double seconds_before = iteration.seconds, adding_before = timing.seconds_iterate;
   // Of the wall time, what all threads together did not spend on adding is the passes'.
-  double wall = 0, adding = -timing.seconds_iterate;
+  const int threads = std::min(input.threads, last - passes_done());
   const auto add_times = [&] {
-    adding += timing.seconds_iterate;
-    timing.seconds_transfers += std::max(0.0, wall - adding / input.threads);
+    const double wall = seconds_since(start);
+    const double adding = timing.seconds_iterate - adding_before;
+    timing.seconds_transfers += std::max(0.0, wall - adding / threads);
+    iteration.seconds = seconds_before + wall;
   };
   const int known = plan.renews() ? 0 : statistics.areas().passes;
+  PassLoop loop;
+  loop.first = passes_done();
+  loop.last = last;
+  loop.threads = input.threads;
+  loop.patches = share.patches;
+  loop.cancellation = input.requested;
+  loop.make = [&](int k) { return make_pass(k, known); };
+  loop.prepare = [&](int k, Pass& pass) { prepare_pass(k, known, pass); };
+  loop.add = [&](int k, Pass pass) {
+    add_pass(k, std::move(pass));
+    iteration.seconds = seconds_before + seconds_since(start);
+  };
+  loop.settle = [&] { settle(); };
+  loop.observe = [&](int) { return !observer || observer(self); };
   try {
-    PassRunner(input.threads)
-        .run(
-            passes_done(), passes_needed(), [this, known](int k) { return make_pass(k, known); },
-            [&](int k, Pass pass) {
-              add_pass(k, std::move(pass));
-              const double now = seconds_since(last);
-              last = Clock::now();
-              wall += now;
-              iteration.seconds += now;
-              if (observer && !observer(self)) {
-                going = false;
-              }
-              return going;
-            });
+    const bool going = share.sums->run(loop);
+    add_times();
+    complete();
+    return going;
+  } catch (const Canceled&) {
+    add_times();
+    complete();
+    throw;
   } catch (...) {
     add_times();
     throw;
   }
-  add_times();
-  return going;
+}
+
+void RadiositySolver::Impl::settle() {
+  std::vector<double> largest{kept.requested() && !kept.available() ? 1.0 : 0.0};
+  for (const EstimateChange& change : iteration.changes_of_share) {
+    largest.insert(largest.end(), {change.change, change.largest, change.largest_of_all});
+  }
+  share.sums->maxima(largest);
+  for (std::size_t k = 1; k < largest.size(); k += 3) {
+    iteration.changes.push_back(
+        EstimateChange{largest[k], largest[k + 1], largest[k + 2]}.relative());
+  }
+  iteration.changes_of_share.clear();
+  statistics.complete_errors();
+  if (largest[0] > 0) {
+    kept.drop();
+    kept.check_available();
+  }
+}
+
+void RadiositySolver::Impl::complete() {
+  const auto start = Clock::now();
+  for_each_iterate([](RadiosityIterate& iterate, const KeptSums&) { iterate.complete(); });
+  history.start().complete();
+  statistics.complete();
+  kept.complete();
+  share.complete(iteration.estimate);
+  timing.seconds_iterate += seconds_since(start);
 }
 
 Pass RadiositySolver::Impl::make_pass(int k, int known) const {
   Pass pass;
   pass.transfers = input.engine(at(iteration.directions, k), input.requested);
   if (is_first_along(k, known)) {
-    if (kept.requested() && share.group == nullptr) {
-      pass.run = kept.make_run(pass.transfers);
-    }
     pass.closure = closure_defect(pass.transfers, *input.scene);
     pass.exchanges = std::ssize(pass.transfers.exchanges);
     for (std::size_t i = 0; i < pass.transfers.forward.size(); ++i) {
@@ -138,6 +153,12 @@ Pass RadiositySolver::Impl::make_pass(int k, int known) const {
     }
   }
   return pass;
+}
+
+void RadiositySolver::Impl::prepare_pass(int k, int known, Pass& pass) const {
+  if (is_first_along(k, known) && kept.requested()) {
+    pass.run = kept.make_run(pass.transfers);
+  }
 }
 
 void RadiositySolver::Impl::add_pass(int k, Pass pass) {
@@ -155,19 +176,14 @@ void RadiositySolver::Impl::add_pass(int k, Pass pass) {
     kept.add_areas(pass.transfers);
   }
   ++timing.passes_made;
-  const EstimateChange change = update_estimate();
-  if (share.group == nullptr) {
-    iteration.changes.push_back(change.relative());
-  } else {
-    iteration.changes_of_share.push_back(change);
-  }
+  iteration.changes_of_share.push_back(update_estimate());
   timing.seconds_iterate += seconds_since(start);
 }
 
 EstimateChange RadiositySolver::Impl::update_estimate() {
   EstimateChange result;
-  const std::size_t per_patch = input.unknowns->per_patch;
-  for (std::size_t u = per_patch * share.first(); u < per_patch * share.last(); ++u) {
+  const PatchShare unknowns = share.of_unknowns(input.unknowns->per_patch);
+  for (std::size_t u = unknowns.first(); u < unknowns.last(); ++u) {
     const Rgb value = history.with(u, whole.estimate(u));
     result.change = std::max(result.change, max_abs(value - iteration.estimate[u]));
     const double reflected = max_abs(light.of(u, value));
@@ -200,7 +216,7 @@ void RadiositySolver::Impl::finish_iteration() {
   timing.seconds_iterate += seconds;
   history.update(whole, changes, iteration.seconds + seconds, complete);
   iteration.end(history.b());
-  check_agreement();
+  share.check_same(history.b());
 }
 
 void RadiositySolver::Impl::add_replica() {
@@ -224,7 +240,7 @@ void RadiositySolver::Impl::append_replica() {
 
 double RadiositySolver::Impl::energy_defect() const {
   Rgb received;
-  // The power is that of the means.
+  // The power follows from the means.
   for (std::size_t u = 0; u < whole.gathered().size(); u += input.unknowns->per_patch) {
     received += whole.gathered()[u];
   }

@@ -10,7 +10,6 @@
 #include <memory>
 
 #include "radiosity/exchange/pass_plan.h"
-#include "radiosity/exchange/pass_runner.h"
 #include "radiosity/solver/iteration_history.h"
 #include "radiosity/solver/iteration_under_way.h"
 #include "radiosity/solver/kept_exchanges.h"
@@ -35,7 +34,7 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
   IterationHistory history;     ///< finished iterations, and the answer so far
   SolverTiming timing;
   PatchShare share;
-  ReflectedLight light;  ///< of the scene
+  ReflectedLight light;  ///< light reflected in the scene
 
   explicit Impl(SolverInput solver_input);
 
@@ -59,33 +58,29 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
 
   /// Starts an iteration from the kept sums, if any; the rest is left to passes.
   void begin_iteration();
-  /// One pass, on this thread. Returns what the observer returns.
-  bool advance_direction(const RadiositySolver& self, const Observer& observer);
-  /// All passes that the iteration still needs, on all threads. They are added in order, so the
-  /// sums have the same bits for any number of threads. Returns false if the observer did.
-  bool advance_passes(const RadiositySolver& self, const Observer& observer);
-  /// The same up to pass `last` - 1, made by all members of a group.
-  bool advance_in_group(int last, const RadiositySolver& self, const Observer& observer);
+  /// Makes the passes up to `last` - 1. They are added in order, so the sums have the same bits for
+  /// any number of threads. Returns false if the observer did.
+  bool advance_passes(int last, const RadiositySolver& self, const Observer& observer);
   /// A pure function of k and `known`, as in is_first_along().
   Pass make_pass(int k, int known) const;
+  /// Sorts the exchanges of pass k, if they are to be kept. Any thread may call it.
+  void prepare_pass(int k, int known, Pass& pass) const;
   /// Adds pass k; in the order of the passes, on one thread at a time.
   void add_pass(int k, Pass pass);
   /// Updates the estimate of B for the share's patches.
   EstimateChange update_estimate();
-  /// To be called on every member after the same passes: completes what is largest per pass, and
-  /// drops the kept exchanges where one member had to. Returns whether all are `going` on.
-  bool agree_after_round(bool going);
-  /// Checks in a group that every member has the same B.
-  /// @throws std::runtime_error
-  void check_agreement() const;
-  /// In a group, completes what is summed per patch, and the estimate of B. Every getter then
-  /// returns the same on every member.
+  /// Completes what is largest over patches in the passes added, and drops the kept exchanges where
+  /// any process had to.
+  /// @throws MemoryLimitExceeded where that is not allowed
+  void settle();
+  /// Completes what is summed per patch, and the estimate of B. Every getter then returns the same
+  /// in every process.
   void complete();
   /// B(n+1) from what was gathered, and the stopping rule (eq. 25).
   void finish_iteration();
   /// Continues with one replica more.
   void add_replica();
-  /// As RadiositySolver::save() and restore()
+  /// The same as RadiositySolver::save() and restore()
   void save(std::ostream& out) const;
   void restore(std::istream& in, std::uint64_t size);
   /// Power received against power sent, before rows are scaled (ALGORITHM.md, oracle 4).
@@ -93,7 +88,7 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
 
   SolveProgress progress() const;
   SolveStatistics solve_statistics() const;
-  /// As RadiositySolver::sky_irradiance()
+  /// The same as RadiositySolver::sky_irradiance()
   std::vector<Rgb> sky_irradiance() const;
   FormFactors form_factors() const;
   ErrorEstimate error_estimate() const;

@@ -21,7 +21,7 @@ Rgb max_of(const Rgb& a, const Rgb& b) {
 
 StartRemainder::StartRemainder(const SolverInput& input)
     : input_(input),
-      light_(input.unknowns->exitance, input.unknowns->per_patch),
+      light_(input.unknowns->light()),
       follows_(traits_of(input.options.scheme).renews_directions) {
   for (PatchId i = 0; i < input.scene->patch_count(); ++i) {
     rho_max_ = max_of(rho_max_, input.scene->reflectance(i));

@@ -26,7 +26,7 @@ class StartRemainder {
   void begin();
   /// Gathers along the directions of one pass.
   void add(const Transfers& transfers);
-  /// Completes what passes have gathered, in a group.
+  /// Completes what passes have gathered.
   void complete();
   /// Ends an iteration which led to `whole`.
   void finish(const RadiosityIterate& whole);
@@ -66,7 +66,7 @@ class StartRemainder {
   Rgb rho_max_;
   std::optional<RadiosityIterate> upper_;
   std::vector<Rgb> left_;
-  std::vector<double> largest_;  ///< of left(), after each iteration followed
+  std::vector<double> largest_;  ///< largest value of left(), after each iteration followed
 };
 
 }  // namespace transillum

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/build/coincidence.h"
+#include "scene/build/patch_builder.h"
 
 #include <algorithm>
 #include <array>

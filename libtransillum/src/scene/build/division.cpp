@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
-#include <optional>
 
 #include "geometry/convex_partition.h"
 #include "scene/build/patch_builder.h"

@@ -19,8 +19,8 @@ struct JoinedFaces {
 /// Joins faces of one plane, up to the rounding of the coordinates, that share edges, the material,
 /// the group and the number of sides. Each joined face is a polygon without holes, in which a
 /// corner occurs once: a wall around a window becomes two faces or more. Corners inside straight
-/// edges of all faces are removed; so the faces meet as before. The face_number of a joined face is
-/// that of its first part, by which the result is ordered.
+/// edges of all faces are removed; so the faces meet as before. A joined face has the
+/// face_number of its first part, by which the result is ordered.
 /// @param original with valid indices; points with equal coordinates are one point in the result
 /// Time: n log n in the corners.
 /// @throws Canceled

@@ -10,7 +10,6 @@
 
 #include "base/invariant.h"
 #include "geometry/polygon_area.h"
-#include "scene/build/coincidence.h"
 #include "scene/build/description_check.h"
 #include "scene/build/precision.h"
 #include "scene/build/refinement.h"

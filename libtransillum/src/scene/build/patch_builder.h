@@ -1,17 +1,17 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#pragma once
-
 // From the faces of a checked SceneDescription to patches, their convex pieces and the report of
 // what was repaired. Faces without area are removed, non-planar ones split into triangles, large
 // ones refined (SceneOptions::max_patch_area).
+#pragma once
 
-#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/build/point_table.h"
 #include "scene/build/polygon_shape.h"
 #include "scene/build/warnings.h"
+#include "transillum/scene.h"
 
 namespace transillum {
 
@@ -89,5 +89,17 @@ class PatchBuilder {
   std::size_t last_refined_ = no_face;
   Warnings warnings_;
 };
+
+/// Pairs (face, earliest face with the same set of distinct points), sorted by the first.
+/// @param welded for each point of the description its number among the distinct ones
+std::vector<std::pair<std::size_t, std::size_t>> coincident_faces(
+    const SceneDescription& description, const std::vector<PointId>& welded);
+
+/// SceneReport::covered_faces.
+/// @param pairs of coincident_faces()
+/// @param patches by face, before refinement or after it; of a refined face the first patch decides
+std::vector<std::int32_t> covered_faces(
+    const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+    const std::vector<Patch>& patches, const std::vector<Material>& materials);
 
 }  // namespace transillum

@@ -9,11 +9,10 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
-#include "base/free_memory.h"
+#include "base/memory_limit.h"
 #include "scene/build/patch_builder.h"
 #include "scene/build/refinement.h"
 #include "transillum/errors.h"
@@ -27,8 +26,8 @@ constexpr int bisections = 60;
 constexpr std::uint64_t bytes_per_patch = 1700, bytes_of_the_program = 40'000'000;
 /// Of a patch in each replica, for each of its unknowns: B, H and what is gathered.
 constexpr std::uint64_t bytes_per_replica = 200;
-/// Of each unknown more than one: the same of the whole, and moments of the passes under way. Of the
-/// same scenes, 1,475 to 1,820 on two threads.
+/// Of each unknown more than one: the same of the whole, and moments of the passes under way. Of
+/// the same scenes, 1,475 to 1,820 on two threads.
 constexpr std::uint64_t bytes_per_unknown = 1800;
 
 /// The triangles and quadrilaterals that a patch is divided into before grids are laid on them.

@@ -42,8 +42,8 @@ struct PlaneIncidences {
   std::vector<bool> movable;               ///< per point: its faces are much wider than rounding
 };
 
-/// Finds the planes of faces, those of coplanar faces together, and all points on the faces: their
-/// corners, and those of others that touch them.
+/// Finds the planes of faces, one for coplanar faces, and all points on the faces: their corners,
+/// and corners of other faces that touch them.
 /// @param points distinct.
 /// @param faces outlines without repeated corners.
 /// @param rounding of coordinates, m.

@@ -2,6 +2,7 @@
 #include "scene/build/refinement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "transillum/at.h"

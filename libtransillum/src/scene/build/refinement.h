@@ -3,7 +3,6 @@
 
 // Refinement of large faces into grids of smaller patches (SceneOptions::max_patch_area).
 
-#include <array>
 #include <vector>
 
 #include "scene/build/point_table.h"

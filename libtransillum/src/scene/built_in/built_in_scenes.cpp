@@ -11,7 +11,7 @@
 #include "scene/build/joining.h"
 #include "scene/build/precision.h"
 #include "scene/built_in/built_in_makers.h"
-#include "scene/built_in/scene_files.h"
+#include "scene/read/scene_readers.h"
 #include "transillum/scene.h"
 
 namespace transillum {
@@ -63,7 +63,7 @@ const std::vector<BuiltIn>& registry() {
 
 /// The file name's ending in lower case if it consists of letters: ".obj", but not "=2.5".
 std::string file_ending(const std::string& spec) {
-  const std::string ending = lower_case(std::filesystem::path(spec).extension().string());
+  const std::string ending = lower_case_ending(spec);
   for (const char c : ending) {
     if (c != '.' && (c < 'a' || c > 'z')) {
       return {};

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "scene/built_in/built_in_makers.h"
-#include "scene/built_in/footprint.h"
 
 namespace transillum {
 namespace {

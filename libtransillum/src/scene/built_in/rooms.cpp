@@ -11,7 +11,7 @@
 namespace transillum {
 namespace {
 
-constexpr double length = 4, width = 5, height = 2.75;         // of a room
+constexpr double length = 4, width = 5, height = 2.75;         // size of a room
 constexpr double partition = 0.25;                             // thickness between two rooms
 constexpr double door_left = 2, door_right = 3, door_top = 2;  // in a partition
 

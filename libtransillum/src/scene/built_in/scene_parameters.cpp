@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/built_in/scene_parameters.h"
+#include "scene/built_in/built_in_makers.h"
 
 #include <fmt/format.h>
 

@@ -11,6 +11,14 @@
 
 namespace transillum {
 
+/// Lowers the channels that ReadOptions::max_reflectance does not allow.
+/// @return the value that they were lowered to; 0 if none was
+double lower_reflectance(Rgb& reflectance, const ReadOptions& options);
+
+/// The same, with a warning if any was lowered. `place` begins it, as "a.ply: face 3: ".
+void lower_reflectance(Rgb& reflectance, const ReadOptions& options, const std::string& place,
+                       Warnings& notes);
+
 /// The materials of a file that has colors instead: one for each color that faces have.
 class FaceMaterials {
  public:

@@ -37,7 +37,7 @@ std::optional<std::filesystem::path> FileSearch::find(const std::filesystem::pat
   if (is_there(folder / name)) {
     return folder / name;
   }
-  // Of a path of another machine, the end may exist here: the file, or some of its folders too.
+  // The end of a path of another machine may exist here: the file, or some of its folders too.
   const std::filesystem::path path = with_slashes(name);
   const auto parts = std::min<std::ptrdiff_t>(std::distance(path.begin(), path.end()), most_parts);
   for (const bool ignore_case : {false, true}) {
@@ -98,7 +98,7 @@ const FileSearch::Entries& FileSearch::entries(const std::filesystem::path& fold
   for (std::size_t k = 0; !error && entry != end && k < most_entries; entry.increment(error), ++k) {
     const std::string name = entry->path().filename().string();
     std::string& kept = known->second[lower_case(name)];
-    // Of names that differ in case only, the same in any order of the folder.
+    // Where names differ in case only, the same one in any order of the folder.
     kept = kept.empty() ? name : std::min(kept, name);
   }
   return known->second;

@@ -12,7 +12,7 @@
 
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
-#include "scene/read/reflectance_limit.h"
+#include "scene/read/face_materials.h"
 
 namespace transillum {
 namespace {
@@ -94,7 +94,7 @@ class MtlDefinitions {
     return completed(
         std::exchange(current_, Definition{{name, {}, {}}, line.number, false, {}, 0, {}, false}));
   }
-  /// A line about the lobe. Diffuse solves do not need it, so what cannot be read is left out.
+  /// A line about the lobe. Diffuse solves do not need it, so what cannot be read is omitted.
   void read_lobe(const TextLine& line) {
     split_words(line.rest, words_, 4);
     std::vector<double> values;

@@ -21,7 +21,7 @@ class MaterialLibrary {
   explicit MaterialLibrary(FileSearch& files) : search_(files) {}
 
   /// Adds the materials of a file, and remarks about it to `notes`. Definitions without a name are
-  /// left out.
+  /// omitted.
   /// @throws InputError "file:line: …"
   void read(const std::filesystem::path& path, Warnings& notes, const Cancellation& cancellation);
 

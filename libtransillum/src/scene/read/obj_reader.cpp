@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // OBJ files: tinyobjloader splits them into vertices, faces and uses of materials, but each line is
 // checked before, and all numbers are read here, as the nearest doubles.
-#include "scene/read/obj_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include <cmath>
 #include <functional>
 #include <istream>
-#include <new>
 #include <set>
 
 #include "base/did_you_mean.h"
@@ -193,7 +192,7 @@ class ObjReader {
     description_.add_face(outline_, current_name_, line_, current_group());
   }
 
-  /// The group of the next face. Groups without faces are left out.
+  /// The group of the next face. Groups without faces are omitted.
   std::int32_t current_group() {
     if (group_ == no_group && !group_name_.empty()) {
       group_ = group_numbers_
@@ -308,7 +307,7 @@ class ObjReader {
     }
   }
 
-  /// Replaces the numbers of used names by those of materials.
+  /// Replaces the numbers of used names by the numbers of materials.
   void resolve_materials() {
     std::vector<std::int64_t> faces(used_names_.size());
     std::int64_t without = 0;
@@ -404,7 +403,7 @@ class ObjReader {
   std::map<std::string, std::int32_t> name_numbers_;
   std::vector<UsedName> used_names_;
   std::int32_t current_name_ = no_name;
-  std::string group_name_;         ///< of the last `g` or `o`; empty: none
+  std::string group_name_;         ///< name in the last `g` or `o`; empty if there is none
   std::int32_t group_ = no_group;  ///< its number, once a face has it
   std::map<std::string, std::int32_t> group_numbers_;
 };
@@ -413,11 +412,7 @@ class ObjReader {
 
 SceneDescription read_obj(const std::filesystem::path& path, const ReadOptions& options,
                           const Cancellation& cancellation) {
-  try {
-    return ObjReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return ObjReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

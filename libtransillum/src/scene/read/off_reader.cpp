@@ -1,11 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/read/off_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <charconv>
-#include <new>
 #include <optional>
 
 #include "base/text_file.h"
@@ -140,7 +139,7 @@ class OffReader {
     description_.add_face(outline_, material, line_);
   }
 
-  /// Of a color, whose first word this is.
+  /// The material of a color, whose first word this is.
   std::int32_t material_at(std::size_t first) {
     std::array<double, 3> c{};
     bool whole = true;
@@ -179,11 +178,7 @@ class OffReader {
 
 SceneDescription read_off(const std::filesystem::path& path, const ReadOptions& options,
                           const Cancellation& cancellation) {
-  try {
-    return OffReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return OffReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

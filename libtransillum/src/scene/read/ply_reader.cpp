@@ -3,7 +3,7 @@
 // A PLY file is a header, which names elements and their properties, and then their values. Every
 // count that it states is checked against what is left of the file before memory is allocated.
 // (decisions/0056-readers-of-formats.md)
-#include "scene/read/ply_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
-#include <cmath>
 #include <cstring>
-#include <new>
 #include <optional>
 
 #include "base/text_file.h"
@@ -96,7 +94,7 @@ double decode(Type type, const std::array<unsigned char, 8>& bytes) {
 struct Property {
   std::string name;
   Type type = Type::float32;
-  std::optional<Type> count;  ///< of lists
+  std::optional<Type> count;  ///< type of the counts of lists
 };
 
 struct Element {
@@ -230,7 +228,7 @@ class PlyReader {
     if (!has_form) {
       fail("the header has no format");
     }
-    // What follows the values of an entry on its line is ignored, if each has a line.
+    // If each entry has a line, text after its values on the line is ignored.
     std::size_t entries = 0;
     for (const Element& element : elements_) {
       entries += element.count;
@@ -499,9 +497,9 @@ class PlyReader {
   const Cancellation& cancellation_;
   const std::string bytes_;
   std::size_t position_ = 0;
-  std::int32_t line_ = 0;  ///< of the header
+  std::int32_t line_ = 0;  ///< line in the header
   Form form_ = Form::ascii;
-  bool has_lines_ = false;  ///< of an ASCII file: every entry has a line
+  bool has_lines_ = false;  ///< in an ASCII file, every entry has a line
   std::vector<Element> elements_;
   SceneDescription description_;
   std::optional<FaceMaterials> materials_;
@@ -521,11 +519,7 @@ class PlyReader {
 
 SceneDescription read_ply(const std::filesystem::path& path, const ReadOptions& options,
                           const Cancellation& cancellation) {
-  try {
-    return PlyReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return PlyReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

@@ -4,7 +4,7 @@
 // lists of arguments, each after its length: texts, whole numbers (always 0) and numbers. A word
 // that begins with a quote ends with the same quote and may hold blanks; one that begins with #
 // begins a comment, which ends with its line.
-#include "scene/read/radiance_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -13,14 +13,13 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <new>
 #include <numbers>
 #include <optional>
 
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
 #include "scene/build/warnings.h"
-#include "scene/read/reflectance_limit.h"
+#include "scene/read/face_materials.h"
 #include "transillum/errors.h"
 
 namespace transillum {
@@ -155,8 +154,8 @@ class RadianceReader {
     if (type == "polygon") {
       add_polygon(modifier, name);
     } else if (is_one_of(type, surface_types)) {
-      notes_.add("surfaces other than polygons, left out",
-                 fmt::format("{}{} {} is not a polygon; left out", place(), type, in_quotes(name)));
+      notes_.add("surfaces other than polygons, omitted",
+                 fmt::format("{}{} {} is not a polygon; omitted", place(), type, in_quotes(name)));
     } else if (is_one_of(type, light_types)) {
       const Rgb radiance = color(type, name);
       define(name, add_material({name, {}, std::numbers::pi * radiance}));
@@ -171,7 +170,7 @@ class RadianceReader {
                              in_quotes(name)));
       define(name, add_material({name, {}, {}}));
     } else {
-      // A pattern, a texture or a mixture: its material is that of its modifier.
+      // A pattern, a texture or a mixture: it has the material of its modifier.
       notes_.add("patterns and other modifiers, ignored",
                  fmt::format("{}{} {} is ignored", place(), type, in_quotes(name)));
       define(name, find(modifier));
@@ -250,7 +249,7 @@ class RadianceReader {
   const std::string text_;
   std::size_t position_ = 0;
   std::int32_t lines_ended_ = 0;  ///< before position_
-  std::int32_t line_ = 1;         ///< of the last word
+  std::int32_t line_ = 1;         ///< line of the last word
   SceneDescription description_;
   Warnings notes_;
   std::vector<double> numbers_;
@@ -262,11 +261,7 @@ class RadianceReader {
 
 SceneDescription read_radiance(const std::filesystem::path& path, const ReadOptions& options,
                                const Cancellation& cancellation) {
-  try {
-    return RadianceReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return RadianceReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/read/stl_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstring>
 #include <map>
-#include <new>
 #include <optional>
 
 #include "base/text_file.h"
@@ -182,11 +181,7 @@ class StlReader {
 
 SceneDescription read_stl(const std::filesystem::path& path, const ReadOptions& options,
                           const Cancellation& cancellation) {
-  try {
-    return StlReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return StlReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

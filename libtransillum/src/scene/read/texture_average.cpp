@@ -68,7 +68,7 @@ struct Histogram {
   }
 };
 
-/// What reading an image ended with, its size, and what was counted or kept.
+/// Result of reading an image: how it ended, its size, and what was counted or kept.
 struct Reading {
   enum class End { broken, too_large, canceled, complete } end = End::broken;
   std::uint64_t width = 0, height = 0;

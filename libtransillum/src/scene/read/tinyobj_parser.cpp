@@ -11,10 +11,9 @@
 namespace transillum {
 namespace {
 
-/// State of the callbacks.
 struct CallbackState {
   const ObjEvents& events;
-  std::vector<int> indices;  ///< of one face, kept to save allocations
+  std::vector<int> indices;  ///< indices of one face, kept to save allocations
 };
 
 CallbackState& state_of(void* user) { return *static_cast<CallbackState*>(user); }

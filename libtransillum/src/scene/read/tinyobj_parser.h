@@ -4,9 +4,6 @@
 #include <functional>
 #include <istream>
 #include <span>
-#include <string>
-
-#include "transillum/vec3.h"
 
 namespace transillum {
 

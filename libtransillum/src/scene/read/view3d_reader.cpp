@@ -2,10 +2,10 @@
 //
 // A line of a View3D file begins with a letter: V defines a vertex, S a surface of three or four of
 // them, O one that only obstructs, N one that only cuts its base. After the geometry, a surface has
-// the number of its base, that of the surface that it is combined with, its emissivity and its
+// the number of its base, the number of the surface it is combined with, its emissivity and its
 // name. In the format 3a, a surface has a shape instead of vertices, and the next line has the
 // origin of its plane, azimuth and tilt in degrees, and the shape in the plane.
-#include "scene/read/view3d_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -14,14 +14,13 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <new>
 #include <numbers>
 #include <optional>
 
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
 #include "scene/build/warnings.h"
-#include "scene/read/reflectance_limit.h"
+#include "scene/read/face_materials.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 
@@ -133,7 +132,7 @@ class View3dReader {
     char kind = 'S';
     std::int32_t line = 0;
     Polygon outline;
-    std::size_t base = 0, combined = 0;  ///< numbers from 1; 0: none
+    std::size_t base = 0, combined = 0;  ///< numbers from 1; 0 if there is none
     double emissivity = 1;
     std::string name;
   };
@@ -429,11 +428,7 @@ class View3dReader {
 
 SceneDescription read_view3d(const std::filesystem::path& path, const ReadOptions& options,
                              const Cancellation& cancellation) {
-  try {
-    return View3dReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return View3dReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

@@ -27,7 +27,7 @@ double difference_of_products(double a, double d, double b, double c) {
   return std::fma(a, d, -bc) + std::fma(-b, c, bc);
 }
 
-/// As cross(a, b), for vectors that are nearly parallel.
+/// cross(a, b) for vectors that are nearly parallel.
 Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
   return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
           difference_of_products(a.x, b.y, a.y, b.x)};
@@ -74,7 +74,8 @@ PolygonSet BspBuilder::take_polygons() {
   return set;
 }
 
-/// Splits large sets node by node, those of one level in parallel; then builds the many subtrees of
+/// Splits large sets node by node, all nodes of one level in parallel; then builds the many
+/// subtrees of
 /// the small ones.
 void BspBuilder::build_parts(TreeInput& input, int threads) {
   std::vector<SubtreeTask> tasks(1);

@@ -13,7 +13,6 @@
 #include "geometry/box_tree.h"
 #include "geometry/form_factor.h"
 #include "scene/build/cover_rank.h"
-#include "transillum/at.h"
 #include "transillum/bsp_tree.h"
 
 namespace transillum {

@@ -6,7 +6,6 @@
 #include <functional>
 #include <vector>
 
-#include "transillum/at.h"
 #include "visibility/bsp/polygon_set.h"
 
 namespace transillum {

@@ -35,7 +35,7 @@ class PlaneSearch {
   Choice best(const PolygonSet& set, bool one_sided);
 
  private:
-  /// Of a polygon of the sample, along the normal.
+  /// Extent of a polygon of the sample along the normal.
   struct Interval {
     double low, high;
     bool flat() const { return low == high; }

@@ -27,10 +27,9 @@ struct PolygonSet {
 
   std::vector<Polygon> polygons;
   std::vector<BspTree::Corner> corners;
-  std::vector<Vec3> places;  ///< of the corners, m
+  std::vector<Vec3> places;  ///< positions of the corners, m
 
   std::size_t size() const { return polygons.size(); }
-  /// Adds a polygon of another set.
   void add(const PolygonSet& from, const Polygon& polygon) {
     const auto begin = static_cast<std::uint32_t>(corners.size());
     corners.insert(corners.end(), from.corners.begin() + polygon.begin,

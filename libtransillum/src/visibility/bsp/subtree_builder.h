@@ -1,18 +1,55 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstdint>
+#include <functional>
+#include <thread>
 #include <unordered_map>
 #include <vector>
 
 #include "transillum/bsp_tree.h"
-#include "visibility/bsp/build_progress.h"
 #include "visibility/bsp/clean_planes.h"
 #include "visibility/bsp/plane_search.h"
 #include "visibility/bsp/polygon_set.h"
 
 namespace transillum {
+
+/// Reports the share of the work of building a tree that is done. Any thread may add work; only the
+/// thread that constructed this reports, so that shares never decrease.
+class BuildProgress {
+ public:
+  /// Of sorting `polygons`: n times log2 n.
+  static std::int64_t work(std::size_t polygons) {
+    return static_cast<std::int64_t>(polygons) * std::bit_width(polygons);
+  }
+
+  /// @param report may be empty; not copied.
+  BuildProgress(std::size_t polygons, const std::function<void(double)>& report)
+      : total_(static_cast<double>(std::max<std::int64_t>(1, work(polygons)))), report_(report) {}
+
+  void add(std::int64_t work) {
+    const std::int64_t done = done_.fetch_add(work, std::memory_order_relaxed) + work;
+    if (!report_ || std::this_thread::get_id() != thread_) {
+      return;
+    }
+    const double share = std::min(1.0, static_cast<double>(done) / total_);
+    if (share >= reported_ + least_step) {
+      reported_ = share;
+      report_(share);
+    }
+  }
+
+ private:
+  static constexpr double least_step = 0.005;
+  const double total_;
+  const std::function<void(double)>& report_;
+  const std::thread::id thread_ = std::this_thread::get_id();
+  std::atomic<std::int64_t> done_ = 0;
+  double reported_ = 0;
+};
 
 /// What the builders of all subtrees share.
 struct TreeInput {
@@ -32,7 +69,7 @@ struct SubtreeTask {
   PolygonSet set;
   std::int32_t parent = BspTree::no_node;  ///< a node, by its number in the parent's Subtree
   bool front = true;                       ///< the side of that node
-  int depth = 1;                           ///< of the subtree's root
+  int depth = 1;                           ///< depth of the subtree's root
   bool peeled = false;                     ///< the one-sided planes have just been used
 };
 
@@ -53,8 +90,8 @@ struct Subtree {
   std::vector<BspTree::Corner> corners;
   std::vector<NewPoint> points;
   std::vector<NewLine> lines;
-  std::vector<SubtreeTask> open;  ///< what remains to be built
-  int depth = 0;                  ///< of the deepest node, from the tree's root
+  std::vector<SubtreeTask> open;  ///< subtrees that remain to be built
+  int depth = 0;                  ///< depth of the deepest node, from the tree's root
 };
 
 /// Builds subtrees top down, without recursion: chooses a plane for a set of polygons, splits those

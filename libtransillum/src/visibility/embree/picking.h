@@ -13,7 +13,7 @@ namespace transillum {
 struct PickedPoint {
   PatchId patch = no_patch;  ///< the patch hit
   double distance = 0;       ///< from the ray's origin, m
-  Vec3 point;                ///< of the intersection, m
+  Vec3 point;                ///< the intersection, m
   bool lit_side = false;     ///< the front side was hit, which emits and receives
 };
 

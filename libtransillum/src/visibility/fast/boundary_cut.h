@@ -17,7 +17,7 @@ namespace transillum {
 /// The segments form closed loops: each end point is the start point of another segment, bit for
 /// bit. Coordinates in grid units, relative to an origin chosen by the caller.
 struct BoundarySegments {
-  static constexpr std::size_t max_count = 64;  ///< of a region that is cut
+  static constexpr std::size_t max_count = 64;  ///< most segments of a region that is cut
   /// Each cut segment may leave two parts; backends write up to eight more at once.
   static constexpr std::size_t capacity = 2 * max_count + 8;
   std::size_t count = 0;

@@ -7,7 +7,6 @@
 #if defined(__x86_64__)
 #include <immintrin.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -84,8 +83,8 @@ struct Parts {
 struct Four {
   unsigned all = 0;     ///< lanes in use, one bit each
   unsigned inside = 0;  ///< lanes with a part inside
-  unsigned starts = 0;  ///< of these, lanes whose inside part starts on a line
-  unsigned ends = 0;    ///< and lanes whose inside part ends on a line
+  unsigned starts = 0;  ///< lanes whose inside part starts on a line
+  unsigned ends = 0;    ///< lanes whose inside part ends on a line
   __m256d all_lanes;    ///< `all`, as lanes
   __m256d ax, ay, bx, by;
   __m256d ux, uy;  ///< b - a

@@ -99,8 +99,8 @@ TRANSILLUM_AVX512 void set_avx512(Cutter& cutter, const GridPoint* corners, std:
 struct Eight {
   __mmask8 all;     ///< lanes in use
   __mmask8 inside;  ///< lanes with a part inside
-  __mmask8 starts;  ///< of these, lanes whose inside part starts on a line
-  __mmask8 ends;    ///< and lanes whose inside part ends on a line
+  __mmask8 starts;  ///< lanes whose inside part starts on a line
+  __mmask8 ends;    ///< lanes whose inside part ends on a line
   __m512d ax, ay, bx, by;
   __m512d ux, uy;  ///< b - a
   __m512d first, last;

@@ -236,7 +236,7 @@ double BoundaryView::subtract(std::int32_t candidate) {
   }
   outside_count_ = next_region_->count;
   double twice_area = cut_.twice_area;
-  // Of a convex cutter's outline, no more than the region's bounds can be in the region.
+  // The part of a convex cutter's outline in the region is no longer than the region's bounds.
   const double noise = 0.25 * cutter_.tolerance * std::min(cutter_.perimeter, 8 * reach_);
   failed_ = by.cut_needle || is_inaccurate(noise, by) || !add_edges(twice_area) ||
             next_region_->count > BoundarySegments::max_count;

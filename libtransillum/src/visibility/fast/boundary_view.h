@@ -96,10 +96,10 @@ class BoundaryView {
   double area_ = 0, region_area_ = 0;
   bool failed_ = false;
   FragmentWindow window_;
-  Extent extent_;         ///< of the region, relative to origin_
-  Extent origin_extent_;  ///< of origin_, to be added to extent_
+  Extent extent_;         ///< extent of the region, relative to origin_
+  Extent origin_extent_;  ///< extent of origin_, to be added to extent_
   BoundarySegments* region_ = &segments_[0];
-  BoundarySegments* next_region_ = &segments_[1];  ///< what subtract() leaves of the region
+  BoundarySegments* next_region_ = &segments_[1];  ///< the rest of the region after subtract()
 };
 
 }  // namespace transillum

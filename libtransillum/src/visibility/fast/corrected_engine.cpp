@@ -28,7 +28,7 @@ namespace {
 /// A fragment with a smaller share of its area open is treated as hidden.
 constexpr double hidden = 1e-6;
 
-/// What all passes share.
+/// Data that all passes share.
 struct CorrectedScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
@@ -105,7 +105,7 @@ class CorrectedPass {
     double seen;     ///< the part of it that is treated as visible
   };
 
-  /// Collects the fragments above whose boxes overlap that of fragment k, nearest first.
+  /// Collects the fragments above whose boxes overlap the box of fragment k, nearest first.
   void find_candidates(std::int32_t k) {
     const FragmentWindow window = window_of(at(projected_.boxes, k));
     candidates_.clear();
@@ -191,7 +191,7 @@ class CorrectedPass {
   ConvexOverlap overlap_;
   std::vector<double> open_below_;        ///< per fragment: area visible from below
   std::vector<std::int32_t> last_query_;  ///< per fragment: the last fragment whose query met it
-  std::vector<Candidate> candidates_;     ///< of the current query
+  std::vector<Candidate> candidates_;     ///< candidates of the current query
   double open_ = 0;                       ///< area of the current query's fragment not yet covered
 };
 

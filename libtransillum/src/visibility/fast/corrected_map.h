@@ -15,18 +15,18 @@ namespace transillum {
 struct CorrectedMap {
   /// A projected fragment.
   struct Part {
-    PatchId patch;        ///< of the fragment
-    bool front_facing;    ///< it receives; its back is visible, and `open` is not used
-    double area;          ///< of its projection, m², > 0
+    PatchId patch;        ///< patch of the fragment
+    bool front_facing;    ///< the fragment receives; its back is visible, and `open` is not used
+    double area;          ///< area of its projection, m², > 0
     double open;          ///< visible part according to the engine, m²; may be negative
     double exact;         ///< visible part, exact, m²
     std::uint32_t begin;  ///< first index in `corners`
     std::uint32_t end;    ///< one past the last index
   };
 
-  PlaneFrame frame;           ///< of the direction
+  PlaneFrame frame;           ///< frame of the direction
   std::vector<Part> parts;    ///< in the order of the steps: farthest along omega first
-  std::vector<Vec2> corners;  ///< of all parts
+  std::vector<Vec2> corners;  ///< corners of all parts
 
   /// Corners of a part.
   std::span<const Vec2> outline(const Part& part) const {

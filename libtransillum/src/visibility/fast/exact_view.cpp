@@ -112,7 +112,7 @@ void ExactView::begin_query(std::int32_t fragment, const FragmentBins::Bin& bin)
   bin_ = bin;
   Polygon& polygon = polygons_[remaining_[0]];
   for (const LineId line : {low_x, low_y, high_x, high_y}) {
-    const EdgeRef ref = add_edge(bin_line(line), line, made_by_cut, made_by_cut);
+    const EdgeRef ref = add_edge(bin_line(line), {line, made_by_cut, made_by_cut});
     const Sides sides = measure_sides(polygon, ref);
     if (sides.left == 0) {
       free_.push_back(remaining_[0]);
@@ -156,7 +156,7 @@ void ExactView::load_corners(const ProjectedFragments::Fragment& fragment, Polyg
 }
 
 void ExactView::load_edges(const ProjectedFragments::Fragment& fragment, Polygon& polygon) {
-  const bool plain = outlines_.outlines[fragment.outline].plain;
+  const bool plain = outlines_.outlines[fragment.outline].plain && fragment.changed < 0;
   for (std::uint32_t k = 0; k < polygon.count; ++k) {
     const FragmentOutlines::Corner corner = projected_.corner_of(outlines_, fragment, k);
     if (plain) {
@@ -165,35 +165,33 @@ void ExactView::load_edges(const ProjectedFragments::Fragment& fragment, Polygon
       const GridPoint &from = projected_.corners[fragment.begin + k],
                       &to = projected_.corners[fragment.begin + next];
       polygon.edge[k] = add_edge(polygon.x[k], polygon.y[k], static_cast<Real>(to.x - from.x),
-                                 static_cast<Real>(to.y - from.y), corner.line, corner.point,
-                                 polygon.point[next]);
+                                 static_cast<Real>(to.y - from.y),
+                                 {corner.line, corner.point, polygon.point[next]});
     } else {
       const BspTree::Line& points = at(outlines_.lines, corner.line);
-      polygon.edge[k] =
-          add_edge(projected_.line_of(outlines_, corner), corner.line,
-                   corner.forward ? points.a : points.b, corner.forward ? points.b : points.a);
+      polygon.edge[k] = add_edge(projected_.line_of(outlines_, corner),
+                                 {corner.line, corner.forward ? points.a : points.b,
+                                  corner.forward ? points.b : points.a});
     }
   }
 }
 
-ExactView::EdgeRef ExactView::add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from,
-                                       PointId to) {
+ExactView::EdgeRef ExactView::add_edge(Real x, Real y, Real dx, Real dy, LineName line) {
   const Real length = std::abs(dx) + std::abs(dy);
   const Real slack = long_rounding * (reach_ + std::abs(x) + std::abs(y)) + corner_offset;
   // Never shrinks, so that memory is reused.
   if (edges_.size() <= edge_count_) {
     edges_.resize(2 * edge_count_ + 16);
   }
-  edges_[edge_count_] = {dx, dy, dy * x - dx * y, length, slack, line, from, to};
+  edges_[edge_count_] = {dx, dy, dy * x - dx * y, length, slack, line.id, line.from, line.to};
   return static_cast<EdgeRef>(2 * edge_count_++);
 }
 
-ExactView::EdgeRef ExactView::add_edge(const GridLine& through, LineId line, PointId from,
-                                       PointId to) {
+ExactView::EdgeRef ExactView::add_edge(const GridLine& through, LineName line) {
   return add_edge(static_cast<Real>(through.a.x - origin_.x),
                   static_cast<Real>(through.a.y - origin_.y),
                   static_cast<Real>(through.b.x - through.a.x),
-                  static_cast<Real>(through.b.y - through.a.y), line, from, to);
+                  static_cast<Real>(through.b.y - through.a.y), line);
 }
 
 /// An edge of a bin's square, the square on its left.
@@ -215,6 +213,8 @@ GridLine ExactView::grid_line(const Edge& edge) const {
   if (edge.line < 0) {
     return bin_line(edge.line);
   }
+  TRANSILLUM_INVARIANT(edge.from != made_by_cut && edge.to != made_by_cut,
+                       "grid points define the line of an edge");
   return {at(projected_.grid.points, edge.from), at(projected_.grid.points, edge.to)};
 }
 
@@ -452,7 +452,7 @@ void ExactView::split_in_half(std::uint32_t index) {
   const std::size_t middle = whole.count / 2;
   const EdgeRef chord =
       add_edge(whole.x[middle], whole.y[middle], whole.x[0] - whole.x[middle],
-               whole.y[0] - whole.y[middle], halving_line, made_by_cut, made_by_cut);
+               whole.y[0] - whole.y[middle], {halving_line, made_by_cut, made_by_cut});
   first.count = middle + 1;
   first.edge[middle] = chord;
   second.count = 0;

@@ -26,8 +26,8 @@
 //   done()          remaining_ is empty, or its area is rounding only
 // clang-format on
 //
-// edges_ holds the lines of all edges: [0, kept_edges_) are those of the polygons above, and
-// [kept_edges_, edge_count_) those of the current candidate. They are discarded when the next
+// edges_ holds the lines of all edges: [0, kept_edges_) for the polygons above, and
+// [kept_edges_, edge_count_) for the current candidate. They are discarded when the next
 // candidate is loaded, unless the candidate has cut a polygon: its parts refer to them.
 //
 // Notation: an index is a position in polygons_; a ref is an EdgeRef; k is a corner, and edge k
@@ -94,20 +94,24 @@ class ExactView {
   }
 
  private:
-  static constexpr std::size_t max_corners = 48;      ///< of a polygon
+  static constexpr std::size_t max_corners = 48;      ///< most corners of a polygon
   static constexpr std::size_t halving_corners = 24;  ///< a polygon with more is split in half
   static constexpr PointId made_by_cut = FragmentOutlines::no_point;
   // In place of LineIds: the sides of a bin's square, and the chord of a polygon split in half.
   static constexpr LineId low_x = -2, low_y = -3, high_x = -4, high_y = -5, halving_line = -6;
 
   using Real = long double;
+  struct LineName {
+    LineId id;
+    PointId from, to;  ///< grid points that define the line, in its direction, or made_by_cut
+  };
   /// A directed line. The polygon of an edge lies on its left: dx y - dy x + c > 0.
   struct Edge {
     Real dx, dy, c;
     Real length;  ///< |dx| + |dy|
     Real slack;   ///< bound on the apparent distance from the line, by rounding, of a point on it
     LineId line;
-    PointId from, to;  ///< grid points that define the line, in its direction, or made_by_cut
+    PointId from, to;  ///< as of LineName
   };
   /// Twice an index in edges_, plus 1 if the edge runs against its line.
   using EdgeRef = std::int32_t;
@@ -144,8 +148,8 @@ class ExactView {
   void start_query(std::int32_t fragment, const GridPoint& origin);
   void load_corners(const ProjectedFragments::Fragment& fragment, Polygon& polygon) const;
   void load_edges(const ProjectedFragments::Fragment& fragment, Polygon& polygon);
-  EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from, PointId to);
-  EdgeRef add_edge(const GridLine& through, LineId line, PointId from, PointId to);
+  EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineName line);
+  EdgeRef add_edge(const GridLine& through, LineName line);
   GridLine bin_line(LineId line) const;
   GridLine grid_line(const Edge& edge) const;
   const Edge& edge_of(EdgeRef ref) const { return at(edges_, ref >> 1); }
@@ -175,18 +179,18 @@ class ExactView {
   PassCounts& counts_;
 
   GridPoint origin_;
-  FragmentBins::Bin bin_{};  ///< of the query; only if the polygons have edges on its sides
+  FragmentBins::Bin bin_{};  ///< bin of the query; only if the polygons have edges on its sides
   std::vector<Edge> edges_;  ///< the first edge_count_ are in use
   std::size_t edge_count_ = 0;
   std::size_t kept_edges_ = 0;  ///< the first ones, to which polygons of the pool refer
   Real reach_ = 0;              ///< largest |x| + |y| of the querying fragment
   Real candidate_reach_ = 0;    ///< the same of the candidate
-  Real candidate_perimeter_ = 0, candidate_area_ = 0;  ///< of the projected outline
-  Real area_ = 0;  ///< of the querying fragment, or of its part in the bin
+  Real candidate_perimeter_ = 0, candidate_area_ = 0;  ///< measures of the projected outline
+  Real area_ = 0;  ///< area of the querying fragment, or of its part in the bin
   Real remaining_area_ = 0;
-  Real max_area_ = 0;  ///< bound on the area still to be found: that of a needle, which cuts may
-                       ///< exceed; infinite otherwise
-  FragmentWindow window_;          ///< of all remaining polygons
+  Real max_area_ = 0;      ///< bound on the area still to be found: a needle's area, which cuts may
+                           ///< exceed; infinite otherwise
+  FragmentWindow window_;  ///< window of all remaining polygons
   std::vector<Polygon> polygons_;  ///< the pool; see the states above
   std::vector<std::uint32_t> remaining_, new_parts_, free_;
   std::vector<Polygon> covered_parts_;  ///< by the last subtract(); if keep_covered_

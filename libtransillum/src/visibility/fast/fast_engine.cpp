@@ -36,14 +36,14 @@ using Clock = std::chrono::steady_clock;
 /// Fragments in more bins than this run one query per bin.
 constexpr std::int32_t max_bins_per_query = 8;
 
-/// What all passes share.
+/// Data that all passes share.
 struct FastScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
   FragmentOutlines outlines;
   bool backs_hidden = false;        ///< fronts_see_no_backs()
   std::optional<PatchShaft> shaft;  ///< if set, only fragments in it take part
-  /// Of all patches, if passes have moments; else null.
+  /// Bases of all patches, if passes have moments; else null.
   std::shared_ptr<const std::vector<LinearBasis>> bases;
 
   FastScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
@@ -182,8 +182,8 @@ class FastPass {
   bool nothing_is_covered_twice() const {
     // Corners are about a grid unit off their lines: allows 2^10 units times the scene's 2^60.
     const double rounding = 0x1p10 * 0x1p60 * area_unit_;
-    // What is nearer to each other than planes are thick, as the parts of a patch that rounding has
-    // bent, may be in any order.
+    // Fragments nearer to each other than planes are thick, as the parts of a patch that rounding
+    // has bent, may be in any order.
     const auto unordered = [this](std::size_t i) {
       return BspTree::thickness(*shared_.scene) *
              perimeter_of(*shared_.scene, static_cast<PatchId>(i));
@@ -351,7 +351,8 @@ class FastPass {
     }
   }
 
-  /// As accumulate(), for the integrals with basis functions; the exchange is in found_ already.
+  /// The same as accumulate(), for the integrals with basis functions; the exchange is in found_
+  /// already.
   template <Toward toward>
   void accumulate_moments(std::int32_t fragment, std::int32_t visible,
                           const TransferMoments& moments) {

@@ -46,7 +46,7 @@ class FragmentBins {
   struct Region {
     std::int64_t x, y;
     int shift;               ///< its width is 2^shift grid units
-    std::size_t begin, end;  ///< of its fragments, in lists_
+    std::size_t begin, end;  ///< range of its fragments in lists_
   };
   /// The cells of a region that a fragment's box covers.
   struct Cells {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -83,7 +82,7 @@ class FragmentMoments {
  private:
   struct OfPatch {
     BasisGradient gradient;  ///< per grid unit
-    GridPoint center;        ///< of the basis, projected
+    GridPoint center;        ///< center of the basis, projected
     bool ready = false;
   };
 

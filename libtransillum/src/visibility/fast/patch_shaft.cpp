@@ -2,7 +2,6 @@
 #include "visibility/fast/patch_shaft.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "transillum/at.h"
 

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Projection of the BSP tree's fragments for one direction: corners come from GridProjection, the
-// order from BspTree::order(). Fragments that are too thin for the grid are left out; needles cut
+// order from BspTree::order(). Fragments that are too thin for the grid are omitted; needles cut
 // by the tree get their areas from their lines instead of their rounded corners.
 #include "visibility/fast/projected_fragments.h"
 
@@ -18,9 +18,9 @@ namespace {
 
 // Grid units.
 constexpr double min_width = 2;
-constexpr int max_offset = 16;  ///< of a corner beyond the line of another corner's edge
+constexpr int max_offset = 16;  ///< distance of a corner beyond the line of another corner's edge
 
-/// Of the squared diagonal of an outline: what has less area is a needle.
+/// Share of the squared diagonal of an outline: an outline with less area is a needle.
 constexpr double needle_share = 0x1p-11;
 
 /// Whether two lines through a rounded corner may meet far away from it.
@@ -50,7 +50,7 @@ long double right_turn(const GridPoint& a, const GridPoint& b, const GridPoint& 
 }
 
 /// Whether the outline turns left everywhere, up to rounding. An outline seen edge-on within
-/// rounding may not; it is left out, as by FragmentProjector.
+/// rounding may not; it is omitted, as by FragmentProjector.
 bool is_convex(const GridPoint* outline, std::size_t count, double area) {
   for (std::size_t k = 0; k < count; ++k) {
     if (64 * right_turn(outline[k], outline[(k + 1) % count], outline[(k + 2) % count]) >
@@ -99,7 +99,7 @@ FragmentBox box_of(const GridPoint* outline, std::size_t count) {
   return box;
 }
 
-/// Of the bounds along x and y.
+/// Squared diagonal of the bounds along x and y.
 double squared_diagonal_of(const FragmentBox& box) {
   const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
   const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
@@ -363,7 +363,7 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
   }
   const FragmentBox box = box_of(first, count);
   const double area = 0.5 * std::abs(twice_area);
-  // Of a small fragment far from the grid's center, the box is mostly rounding.
+  // The box of a small fragment far from the grid's center is mostly rounding.
   double size = squared_diagonal_of(box);
   if (area < needle_share * size) {
     size = squared_diagonal_of(first, count);

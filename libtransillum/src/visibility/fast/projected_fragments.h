@@ -34,9 +34,9 @@ struct FragmentOutlines {
   };
   struct Corner {
     PointId point;
-    LineId line;   ///< of the edge to the next corner
+    LineId line;   ///< line of the edge to the next corner
     bool forward;  ///< that edge runs along its line from a to b
-    bool exact;    ///< it is a defining point of both its edges' lines
+    bool exact;    ///< the corner is a defining point of both its edges' lines
   };
   std::vector<BspTree::Line> lines;  ///< the tree's, then the diagonals
   std::vector<Corner> corners;
@@ -47,10 +47,10 @@ struct FragmentOutlines {
   /// (decisions/0048-precision-of-files.md).
   struct Join {
     FragmentId first, last;
-    std::uint32_t outline;  ///< of the polygon
+    std::uint32_t outline;  ///< outline of the polygon
   };
   std::vector<Join> joins;
-  double median_area = 0;             ///< of the patches, square meters
+  double median_area = 0;             ///< median area of the patches, square meters
   std::vector<std::int32_t> join_of;  ///< per fragment: in `joins`, or -1; empty if there are none
 
   /// @param scene of the tree.
@@ -117,7 +117,7 @@ inline float rounded_up(double units) {
 }
 
 /// All fragments of a tree projected along one direction, in BSP order: those farthest toward omega
-/// first. Fragments seen edge-on are left out; a fragment with more than
+/// first. Fragments seen edge-on are omitted; a fragment with more than
 /// FragmentOutlines::max_corners corners is several here, one per outline.
 struct ProjectedFragments {
   struct Fragment {
@@ -128,7 +128,7 @@ struct ProjectedFragments {
     bool cut_needle;  ///< cut by the tree so thin that its corners are off their lines by more than
                       ///< accuracy allows: see position_of()
     std::int32_t changed;  ///< first of its own corners in changed_corners_, or -1: the outline's
-    double area;           ///< of the projection, in square grid units; > 0
+    double area;           ///< area of the projection, in square grid units; > 0
   };
   /// Errors of areas, relative to patch_area(), must be below this.
   static constexpr double accuracy = 0x1p-37;
@@ -180,10 +180,10 @@ struct ProjectedFragments {
 
  private:
   const Scene* scene_ = nullptr;
-  /// Of fragments that lost corners by rounding, counter-clockwise.
+  /// Corners of fragments that lost corners by rounding, counter-clockwise.
   std::vector<FragmentOutlines::Corner> changed_corners_;
   Vec3 omega_;
-  double median_area_ = 0;  ///< of the patches, square meters
+  double median_area_ = 0;  ///< median area of the patches, square meters
 
   void prefetch(const FragmentOutlines& outlines, const std::vector<FragmentId>& order,
                 std::size_t index) const;

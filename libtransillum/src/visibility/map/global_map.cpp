@@ -184,7 +184,7 @@ class GlobalMap {
   /// CGAL's insertion cannot be interrupted, so each map must be small.
   static constexpr std::size_t max_boundaries_per_tile = 64;
 
-  /// A fragment in BSP order; edge-on ones are left out.
+  /// A fragment in BSP order; edge-on ones are omitted.
   struct RankedFragment {
     PatchId patch;
     bool front_facing;

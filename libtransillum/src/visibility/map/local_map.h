@@ -21,8 +21,6 @@
 #include <iterator>
 #include <limits>
 #include <optional>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "transillum/at.h"
@@ -107,7 +105,7 @@ class Recorder {
 template <class Number, class RecorderType>
 class LocalMap {
  public:
-  /// @param bases of all patches, for Transfers::moments; null: it has none
+  /// @param bases of all patches, for Transfers::moments; null if it has none
   LocalMap(const Scene& scene, const BspTree& tree, const Vec3& omega,
            const Cancellation& cancellation, RecorderType recorder,
            const std::vector<LinearBasis>* bases = nullptr)

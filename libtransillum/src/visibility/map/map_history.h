@@ -26,12 +26,12 @@ class MapHistory {
     std::int32_t row = MapRecord::no_row;  ///< the polygon's row; no_row if it is edge-on
     bool front_facing = false;             ///< the patch receives for omega
     std::int32_t cut = 0;                  ///< rows of V that it consumed, wholly or in part
-    std::int32_t exchanges = 0;            ///< of them, those it exchanges light with
+    std::int32_t exchanges = 0;            ///< rows among them that it exchanges light with
     std::int32_t map_size = 0;             ///< rows of V after the step
-    double area = 0;                       ///< of the polygon
+    double area = 0;                       ///< area of the polygon
     double covered = 0;                    ///< part of it with something above: the inside list
     double exchanged = 0;                  ///< part of it that exchanges light
-    double smallest = 0;                   ///< of the rows made by the step; 0: none were made
+    double smallest = 0;  ///< area of the smallest row made by the step; 0 if none was made
 
     /// |area - covered| / area: the open part of the polygon, which for a receiver is the closure
     /// defect; 0 up to rounding in a closed scene.

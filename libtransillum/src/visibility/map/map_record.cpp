@@ -1,5 +1,4 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <span>
 #include <vector>
 
 #include "geometry/polygon_area.h"

@@ -242,7 +242,7 @@ class RegionFinder {
   const MapRecord& record_;
   Vec2 point_;
   PlaneRegion rest_;
-  PlaneRegion::Box box_;              ///< of rest_ before the others are subtracted
+  PlaneRegion::Box box_;              ///< bounds of rest_ before the others are subtracted
   std::vector<std::int32_t> others_;  ///< rows of fragments that do not cover the point
   std::vector<Polygon> parts_;
 };

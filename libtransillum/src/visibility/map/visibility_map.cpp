@@ -88,7 +88,7 @@ VisibilityMap map_from_below(const RecordedDirection& direction) {
 
 VisibilityMap map_of_receiver(const RecordedDirection& direction, PatchId receiver) {
   const MapRecord& record = direction.record;
-  // The receiver's own polygon has its facing, but its row comes after those of what it sees.
+  // The receiver's own polygon has its facing, but its row comes after the rows of what it sees.
   std::vector<bool> receives_at(record.order.size(), false);  // by step
   MapMaker maker(record, receiver);
   for (const MapRecord::Row& row : record.rows) {

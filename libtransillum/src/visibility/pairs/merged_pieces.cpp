@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Merges coplanar patches, as those of refined faces, into one polygon where that is convex, so
+// Merges coplanar patches, as in refined faces, into one polygon where the union is convex, so
 // that fewer blockers have to be tested (ExchangeFinder). Input: the patches and pieces of a scene.
 #include "visibility/pairs/merged_pieces.h"
 

@@ -10,7 +10,7 @@ namespace transillum {
 
 /// Coplanar patches that form one convex polygon.
 struct MergedFace {
-  std::vector<PatchId> patches;  ///< at least 2, ascending; if two-sided, those of one side
+  std::vector<PatchId> patches;  ///< at least 2, ascending; if two-sided, patches of one side
   Corners outline;
   double bend = 0;  ///< largest distance of the patches' corners from the outline's plane, m
 };
@@ -21,13 +21,13 @@ std::vector<MergedFace> merged_faces(const Scene& scene);
 /// A convex polygon of one or several patches.
 struct MergedPiece {
   Corners outline;
-  double bend = 0;               ///< of the MergedFace, or of the piece itself, m
-  std::vector<PatchId> patches;  ///< that it is a piece of; if two-sided, those of the first side
+  double bend = 0;               ///< bend of the MergedFace, or of the piece itself, m
+  std::vector<PatchId> patches;  ///< patches of this piece; if two-sided, patches of the first side
 };
-/// Convex polygons whose union is that of the scene's patches; they may overlap: those of
+/// Convex polygons with the same union as the scene's patches; they may overlap: the outlines of
 /// merged_faces(), and the pieces of the other patches.
 std::vector<MergedPiece> merged_pieces(const Scene& scene);
-/// Of each patch: itself, or of the second side of a two-sided one the first.
+/// Per patch: itself, or for the second side of a two-sided one the first side.
 std::vector<PatchId> first_sides(const Scene& scene);
 
 }  // namespace transillum

@@ -18,7 +18,6 @@
 #include "visibility/pairs/point_view.h"
 #include "visibility/pairs/refined_cells.h"
 #include "visibility/pairs/shaft.h"
-#include "visibility/pairs/smooth_cells.h"
 
 namespace transillum {
 namespace {
@@ -101,7 +100,7 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
     part_begin_[i + 1] = parts_.size();
   }
   for (MergedFace& face : merged_faces(scene)) {
-    // Of two-sided faces, the patches of both sides alternate.
+    // The patches of both sides of a two-sided face alternate.
     if (static_cast<std::size_t>(face.patches.back() - face.patches.front()) + 1 ==
         face.patches.size()) {
       face.outline = scaled(face.outline, scale_);
@@ -237,7 +236,7 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
 struct ExchangeFinder::Sampled {
   bool p_is_smaller;
   Outline small, large;
-  const Vec3& normal;  ///< of `small`
+  const Vec3& normal;  ///< normal of `small`
   double size;         ///< radius of `small` over the distance
 
   Sampled(const FacingPolygons& facing, double tolerance)
@@ -435,22 +434,6 @@ void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
 }
 
 void ExchangeFinder::for_each_after(
-    PatchId i, const std::function<void()>& tick,
-    const std::function<void(PatchId j, const PatchExchange&)>& visit) const {
-  for_each_range_after(i, [&](PatchId begin, PatchId end, const Numbers* among) {
-    for (PatchId j = begin; j < end; ++j) {
-      if (tick) {
-        tick();
-      }
-      const PatchExchange exchange = between(i, j, among, false, tick);
-      if (exchange.area > 0) {
-        visit(j, exchange);
-      }
-    }
-  });
-}
-
-void ExchangeFinder::for_each_moments_after(
     PatchId i, const std::vector<LinearBasis>& bases, const std::function<void()>& tick,
     const std::function<void(PatchId j, const PatchExchange&, const TransferMoments&)>& visit)
     const {
@@ -461,7 +444,8 @@ void ExchangeFinder::for_each_moments_after(
       }
       const PatchExchange exchange = between(i, j, among, false, tick);
       if (exchange.area > 0) {
-        TransferMoments moments = moments_between(i, j, bases, among, tick);
+        TransferMoments moments =
+            bases.empty() ? TransferMoments() : moments_between(i, j, bases, among, tick);
         moments.of(0, 0) = exchange.area;
         visit(j, exchange, moments);
       }

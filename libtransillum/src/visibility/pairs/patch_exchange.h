@@ -26,7 +26,7 @@ struct PatchExchange {
 
 /// Form factors of single pairs of patches, with blockers between them.
 ///
-/// If nothing reaches into the shaft between the two, the form factor is that of the polygons.
+/// If nothing reaches into the shaft between the two, the polygons alone give the form factor.
 /// Otherwise the smaller patch is sampled by points, and the form factor from each point to the
 /// visible part of the larger patch is computed exactly: the error decreases about as the square of
 /// the distance between points, or in proportion to it if a blocker touches the smaller patch. It
@@ -52,16 +52,13 @@ class ExchangeFinder {
   /// Past thousands of blockers, one pair takes minutes.
   /// @param tick if set, called often, on this thread; may throw to abandon the query.
   PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {}) const;
-  /// Calls visit(j, exchange) for the patches j > i with which i exchanges light, in order. Faster
-  /// than pair by pair: blockers are first found for all patches of a face, and no error is
-  /// estimated.
-  void for_each_after(PatchId i, const std::function<void()>& tick,
-                      const std::function<void(PatchId j, const PatchExchange&)>& visit) const;
-  /// The same with moments for a linear basis: T^ab(i,j) over all directions, T^00 being the area
-  /// of for_each_after(), to the bit. The others are found by points of the smaller patch, also
-  /// where nothing blocks; of the larger one exactly.
-  /// @param bases of all patches
-  void for_each_moments_after(
+  /// Calls visit(j, exchange, moments) for the patches j > i with which i exchanges light, in
+  /// order. Faster than pair by pair: blockers are first found for all patches of a face, and no
+  /// error is estimated. The moments are T^ab(i,j) over all directions, T^00 being the area. The
+  /// others are found by points of the smaller patch, also where nothing blocks; of the larger one
+  /// exactly.
+  /// @param bases of all patches; empty: T^00 alone is found
+  void for_each_after(
       PatchId i, const std::vector<LinearBasis>& bases, const std::function<void()>& tick,
       const std::function<void(PatchId j, const PatchExchange&, const TransferMoments&)>& visit)
       const;
@@ -78,16 +75,16 @@ class ExchangeFinder {
   struct Part {
     Corners corners;
     HalfSpace front;
-    double bend;  ///< of the piece
+    double bend;  ///< bend of the piece
   };
   struct Blocker {
     Corners outline;
     double bend;
-    std::vector<PatchId> patches;  ///< as MergedPiece::patches
+    std::vector<PatchId> patches;  ///< equal to MergedPiece::patches
 
     bool is_of(PatchId i) const { return std::binary_search(patches.begin(), patches.end(), i); }
   };
-  /// What two polygons belong to.
+  /// The patches that two polygons belong to.
   struct Sides {
     PatchId of_p, of_q;  ///< first sides
     Bends bends;
@@ -139,10 +136,10 @@ class ExchangeFinder {
   double tolerance_;  ///< in that unit
   std::vector<PatchId> first_sides_;
   std::vector<Blocker> blockers_;
-  BoxTree tree_;  ///< of blockers_
+  BoxTree tree_;  ///< tree of blockers_
   std::vector<Part> parts_;
   std::vector<std::size_t> part_begin_;
-  std::vector<MergedFace> faces_;  ///< of consecutive patches
+  std::vector<MergedFace> faces_;  ///< faces of consecutive patches
 };
 
 }  // namespace transillum

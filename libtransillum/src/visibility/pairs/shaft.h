@@ -34,7 +34,7 @@ class Shaft {
 
   double tolerance_;
   Bends bends_;
-  Corners corners_;   ///< of p, then of q
+  Corners corners_;   ///< corners of p, then of q
   std::size_t of_p_;  ///< number of corners of p
   CenteredBox box_;
   boost::container::small_vector<HalfSpace, 16> sides_;  ///< the hull is their intersection

@@ -8,7 +8,7 @@
 #include "transillum/cancellation.h"
 #include "transillum/transfers.h"
 #include "visibility/pixels/patch_heights.h"
-#include "visibility/pixels/visibility_sink.h"
+#include "visibility/pixels/pixel_grid.h"
 
 namespace transillum {
 

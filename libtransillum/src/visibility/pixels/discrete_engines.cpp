@@ -13,7 +13,6 @@
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pixels/counted_transfers.h"
-#include "visibility/pixels/newell_order.h"
 #include "visibility/pixels/painter.h"
 #include "visibility/pixels/pixel_engines.h"
 #include "visibility/pixels/zbuffer.h"
@@ -25,8 +24,9 @@ int resolution_of(const EngineOptions& options) {
   return options.resolution > 0 ? options.resolution : EngineOptions::default_resolution;
 }
 
-void paint(const Scene& scene, const BspTree& tree, PaintersOrder order, const PixelGrid& grid,
-           const PatchHeights& heights, VisibilitySink& sink, const Cancellation& cancellation) {
+void paint(PaintersOrder order, const PixelScene& view, VisibilitySink& sink,
+           const Cancellation& cancellation) {
+  const auto& [scene, tree, grid, heights] = view;
   if (order == PaintersOrder::newell) {
     const PieceOutlines pieces(scene, grid);
     Painter(pieces, grid, heights, sink, cancellation)
@@ -39,10 +39,10 @@ void paint(const Scene& scene, const BspTree& tree, PaintersOrder order, const P
 }
 
 /// `fragments`, sorted by Newell's order of the pieces that they are parts of.
-std::vector<FragmentId> in_newell_order(const Scene& scene, const BspTree& tree,
+std::vector<FragmentId> in_newell_order(const PixelScene& view,
                                         std::span<const FragmentId> fragments,
-                                        const PixelGrid& grid, const PatchHeights& heights,
                                         const Cancellation& cancellation) {
+  const auto& [scene, tree, grid, heights] = view;
   const PieceOutlines pieces(scene, grid);
   const std::vector<std::int32_t> order = newell_order(scene, grid, pieces, heights, cancellation);
   std::vector<std::size_t> rank(scene.pieces().size(), order.size());  // edge-on ones last
@@ -70,43 +70,41 @@ std::vector<FragmentId> in_newell_order(const Scene& scene, const BspTree& tree,
 
 }  // namespace
 
-void sample_visibility(Engine engine, const Scene& scene, const BspTree& tree,
-                       const EngineOptions& options, const PixelGrid& grid,
-                       const PatchHeights& heights, VisibilitySink& sink,
+void sample_visibility(const PixelEngine& engine, const PixelScene& view, VisibilitySink& sink,
                        const Cancellation& cancellation) {
-  switch (engine) {
+  switch (engine.engine) {
     case Engine::zbuffer:
-      return fill_zbuffer(scene, grid, heights, sink, cancellation);
+      return fill_zbuffer(view.scene, view.grid, view.heights, sink, cancellation);
     case Engine::painter:
-      return paint(scene, tree, options.order, grid, heights, sink, cancellation);
+      return paint(engine.options.order, view, sink, cancellation);
     case Engine::rays:
-      return trace_lines(scene, options.seed, grid, heights, nullptr, sink, cancellation);
+      return trace_lines(engine.options.seed, view, nullptr, sink, cancellation);
     default:
-      fail_without_pixels(engine);
+      fail_without_pixels(engine.engine);
   }
 }
 
-void sample_visibility(Engine engine, const Scene& scene, const BspTree& tree,
-                       std::span<const FragmentId> fragments, const EngineOptions& options,
-                       const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink,
+void sample_visibility(const PixelEngine& engine, const PixelScene& view,
+                       std::span<const FragmentId> fragments, VisibilitySink& sink,
                        const Cancellation& cancellation) {
-  switch (engine) {
+  const auto& [scene, tree, grid, heights] = view;
+  switch (engine.engine) {
     case Engine::zbuffer:
       return fill_zbuffer(tree, fragments, grid, heights, sink, cancellation);
     case Engine::painter: {
       const SnappedFragments outlines(tree, grid);
       Painter painter(outlines, grid, heights, sink, cancellation);
-      if (options.order == PaintersOrder::bsp) {
+      if (engine.options.order == PaintersOrder::bsp) {
         return painter.paint(fragments);
       }
-      return painter.paint(in_newell_order(scene, tree, fragments, grid, heights, cancellation));
+      return painter.paint(in_newell_order(view, fragments, cancellation));
     }
     case Engine::rays: {
       const ProcessedFragments processed(scene, tree, fragments, grid.frame());
-      return trace_lines(scene, options.seed, grid, heights, &processed, sink, cancellation);
+      return trace_lines(engine.options.seed, view, &processed, sink, cancellation);
     }
     default:
-      fail_without_pixels(engine);
+      fail_without_pixels(engine.engine);
   }
 }
 
@@ -128,7 +126,7 @@ TransferEngine painter_engine(std::shared_ptr<const Scene> scene,
     const PixelGrid grid(*scene, omega, resolution);
     const PatchHeights heights(*scene, grid.frame(), grid.snapping());
     CountedTransfers counted(*scene, heights, cancellation);
-    paint(*scene, *tree, order, grid, heights, counted, cancellation);
+    paint(order, {*scene, *tree, grid, heights}, counted, cancellation);
     return counted.finish(omega, grid.area());
   };
 }

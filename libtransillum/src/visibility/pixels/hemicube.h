@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -35,9 +34,9 @@ class Hemicube {
   /// A convex polygon in the cube's frame, where the patch's normal is up.
   struct Polygon {
     std::span<const Vec3> corners;
-    Vec3 normal;  ///< of its plane, normal·p = offset
+    Vec3 normal;  ///< normal of its plane, normal·p = offset
     double offset;
-    Vec3 center;  ///< of a ball that contains it
+    Vec3 center;  ///< center of a ball that contains it
     double radius;
     PatchId patch;  ///< no_patch: absorbs
   };

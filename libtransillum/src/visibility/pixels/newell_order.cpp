@@ -3,7 +3,7 @@
 // Newell, Newell and Sancha's depth sort of a scene's pieces along one direction. Heights are
 // measured along omega from the transillumination plane; outlines are tested in integer grid
 // coordinates (PixelGrid). Piece numbers are indexes into Scene::pieces().
-#include "visibility/pixels/newell_order.h"
+#include "visibility/pixels/painter.h"
 
 #include <fmt/format.h>
 
@@ -274,7 +274,7 @@ class NewellOrder {
   const PieceOutlines& outlines_;
   const PatchHeights& heights_;
   const Cancellation& cancellation_;
-  PlaneIndex index_;  ///< of the pieces not in order_ yet
+  PlaneIndex index_;  ///< index of the pieces not in order_ yet
   std::vector<HeightPoint> points_;
   std::vector<PieceState> states_;
   std::vector<std::int32_t> pending_;  ///< stack: each must come after the next

@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "transillum/at.h"
@@ -40,7 +39,7 @@ class PatchHeights {
 
  private:
   struct PatchPlane {
-    double cosine = 0;  ///< n·omega; 0: edge-on
+    double cosine = 0;  ///< n·omega; 0 if edge-on
     double at_origin = 0, along_x = 0, along_y = 0;
     double slack = 0;  ///< bound of a height's rounding error, meters
   };

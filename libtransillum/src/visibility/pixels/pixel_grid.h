@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "transillum/scene.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum {
@@ -63,6 +64,16 @@ class PixelGrid {
   Vec2 corner_{};
   int columns_ = 1, rows_ = 1, bits_ = 1;
   double side_ = 1, area_ = 1;
+};
+
+/// Receives what a discrete engine finds at its sample points.
+class VisibilitySink {
+ public:
+  virtual ~VisibilitySink() = default;
+  /// In the pixels of `row` from column `begin` up to, not including, `end`, patch `below` is the
+  /// next one below patch `above` (no_patch: `below` is the topmost). The calls for a pixel go from
+  /// above downward, one per patch.
+  virtual void record(int row, int begin, int end, PatchId below, PatchId above) = 0;
 };
 
 }  // namespace transillum

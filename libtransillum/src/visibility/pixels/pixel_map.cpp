@@ -30,10 +30,10 @@ class ItemBuffer : public VisibilitySink {
       return;
     }
     for (int column = begin; column < end; ++column) {
-      const std::size_t at = map_.index(column, row);
-      map_.items[at] = from_below ? below : above;
+      const std::size_t pixel = map_.index(column, row);
+      map_.items[pixel] = from_below ? below : above;
       if (!from_below) {
-        map_.window[at] = true;
+        map_.window[pixel] = true;
       }
     }
   }
@@ -89,26 +89,24 @@ PixelMap map_from(const Scene& scene, const Vec3& omega, int resolution, PatchId
 
 }  // namespace
 
-PixelMap pixel_map(Engine engine, const std::shared_ptr<const Scene>& scene,
-                   const std::shared_ptr<const BspTree>& tree, const Vec3& omega, PatchId receiver,
-                   const EngineOptions& options, const Cancellation& cancellation) {
-  return map_from(*scene, omega, options.resolution, receiver, cancellation,
+PixelMap pixel_map(const PixelEngine& engine, const Scene& scene, const BspTree& tree,
+                   const Vec3& omega, PatchId receiver, const Cancellation& cancellation) {
+  return map_from(scene, omega, engine.options.resolution, receiver, cancellation,
                   [&](const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink) {
-                    sample_visibility(engine, *scene, *tree, options, grid, heights, sink,
-                                      cancellation);
+                    sample_visibility(engine, {scene, tree, grid, heights}, sink, cancellation);
                   });
 }
 
-PixelMap pixel_map_after(Engine engine, const Scene& scene, const BspTree& tree,
-                         const MapRecord& record, std::int32_t step, const EngineOptions& options,
+PixelMap pixel_map_after(const PixelEngine& engine, const Scene& scene, const BspTree& tree,
+                         const MapRecord& record, std::int32_t step,
                          const Cancellation& cancellation) {
   const std::span<const FragmentId> all(record.order);
   const auto fragments = all.first(static_cast<std::size_t>(step + 1));
-  return map_from(scene, record.frame.omega, options.resolution, no_patch, cancellation,
-                  [&](const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink) {
-                    sample_visibility(engine, scene, tree, fragments, options, grid, heights, sink,
-                                      cancellation);
-                  });
+  return map_from(
+      scene, record.frame.omega, engine.options.resolution, no_patch, cancellation,
+      [&](const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink) {
+        sample_visibility(engine, {scene, tree, grid, heights}, fragments, sink, cancellation);
+      });
 }
 
 namespace {
@@ -121,7 +119,7 @@ class Rectangles {
       : pixels_(pixels), map_(map), cancellation_(cancellation) {}
 
   /// Calls add(patch, rectangle) for all rectangles. of(index) is the patch that a pixel shows;
-  /// pixels that show `nothing` are left out.
+  /// pixels that show `nothing` are omitted.
   template <class Of, class Add>
   void find(PatchId nothing, Of of, Add add) {
     std::map<std::pair<int, PatchId>, Run> open;  // by first column and item
@@ -180,7 +178,7 @@ std::vector<Vec2> borders(const PixelMap& pixels) {
     const bool inside = column >= 0 && column < pixels.columns && row >= 0 && row < pixels.rows;
     return inside ? pixels.items[pixels.index(column, row)] : no_patch;
   };
-  const auto at = [&](int column, int row) -> Vec2 {
+  const auto corner = [&](int column, int row) -> Vec2 {
     return {pixels.corner.x + column * pixels.side, pixels.corner.y + row * pixels.side};
   };
   for (int row = 0; row <= pixels.rows; ++row) {
@@ -190,7 +188,7 @@ std::vector<Vec2> borders(const PixelMap& pixels) {
         ++end;
       }
       if (end > begin) {
-        ends.insert(ends.end(), {at(begin, row), at(end, row)});
+        ends.insert(ends.end(), {corner(begin, row), corner(end, row)});
       }
       begin = end + 1;
     }
@@ -202,7 +200,7 @@ std::vector<Vec2> borders(const PixelMap& pixels) {
         ++end;
       }
       if (end > begin) {
-        ends.insert(ends.end(), {at(column, begin), at(column, end)});
+        ends.insert(ends.end(), {corner(column, begin), corner(column, end)});
       }
       begin = end + 1;
     }

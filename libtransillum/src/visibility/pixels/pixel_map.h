@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "transillum/visibility_map.h"
@@ -15,9 +14,9 @@ struct PixelMap {
   static constexpr int default_resolution = 128;   ///< pixels along the longer side
   static constexpr int largest_resolution = 1024;  ///< pixels along the longer side
 
-  PlaneFrame frame;             ///< of the direction
-  Vec2 corner;                  ///< of the first pixel, m along frame.u and frame.v
-  double side = 0;              ///< of a pixel, m
+  PlaneFrame frame;             ///< frame of the direction
+  Vec2 corner;                  ///< corner of the first pixel, m along frame.u and frame.v
+  double side = 0;              ///< side of a pixel, m
   int columns = 0;              ///< pixels along u
   int rows = 0;                 ///< pixels along v
   PatchId receiver = no_patch;  ///< seen from this patch; no_patch: from below the scene
@@ -32,30 +31,34 @@ struct PixelMap {
   }
 };
 
+/// An engine that has_pixels().
+struct PixelEngine {
+  Engine engine;               ///< zbuffer, painter or rays
+  EngineOptions options = {};  ///< resolution 0 means PixelMap::default_resolution
+};
+
 /// Whether an engine samples the plane in pixels: zbuffer, painter and rays do.
 bool has_pixels(Engine engine);
 
 /// Runs engine zbuffer, painter or rays (one line per pixel) on one direction.
-/// @param engine one that has_pixels().
+/// @param engine with its options.
 /// @param scene the scene.
 /// @param tree BSP tree of `scene`.
 /// @param omega unit.
 /// @param receiver a patch, or no_patch: what is visible from below the scene.
-/// @param options of the engine; resolution 0 means PixelMap::default_resolution.
 /// @param cancellation checked during the pass.
 /// @throws InputError for another engine or a resolution above largest_resolution
 /// @throws Canceled
-PixelMap pixel_map(Engine engine, const std::shared_ptr<const Scene>& scene,
-                   const std::shared_ptr<const BspTree>& tree, const Vec3& omega,
-                   PatchId receiver = no_patch, const EngineOptions& options = {},
+PixelMap pixel_map(const PixelEngine& engine, const Scene& scene, const BspTree& tree,
+                   const Vec3& omega, PatchId receiver = no_patch,
                    const Cancellation& cancellation = {});
 
 /// The item buffer of the polygons processed up to step `step` of a recorded direction, seen from
 /// below.
 /// @throws InputError as pixel_map(); also where PaintersOrder::newell fails
 /// @throws Canceled
-PixelMap pixel_map_after(Engine engine, const Scene& scene, const BspTree& tree,
-                         const MapRecord& record, std::int32_t step, const EngineOptions& options,
+PixelMap pixel_map_after(const PixelEngine& engine, const Scene& scene, const BspTree& tree,
+                         const MapRecord& record, std::int32_t step,
                          const Cancellation& cancellation = {});
 
 /// The item buffer as a map for files and pictures: adjacent pixels of a row that show the same

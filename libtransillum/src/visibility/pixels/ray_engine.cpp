@@ -79,6 +79,7 @@ class LineGrid {
   }
 
   std::int64_t packets() const { return packets_; }
+  bool gridded() const { return gridded_; }
   /// Area that one line represents, m².
   double area_of_line() const { return size_.x * size_.y / (rows() * columns()); }
 
@@ -134,22 +135,29 @@ struct PacketHits {
   }
 };
 
+/// A scene along one direction.
+struct RayScene {
+  const Scene& scene;
+  const EmbreeScene& embree;
+  const PlaneFrame& frame;
+  const PatchHeights& heights;
+  const ProcessedFragments* processed = nullptr;  ///< all there is; null: the whole scene
+};
+
 /// All lines of one direction.
 class RayPass {
  public:
-  RayPass(const Scene& scene, const EmbreeScene& embree, const LineGrid& grid, bool gridded,
-          const PlaneFrame& frame, const PatchHeights& heights, const ProcessedFragments* processed,
-          VisibilitySink& sink, const Cancellation& cancellation)
-      : scene_(scene),
-        embree_(embree),
+  RayPass(const RayScene& view, const LineGrid& grid, VisibilitySink& sink,
+          const Cancellation& cancellation)
+      : scene_(view.scene),
+        embree_(view.embree),
         cancellation_(cancellation),
-        gridded_(gridded),
-        frame_(frame),
+        frame_(view.frame),
         grid_(grid),
-        heights_(heights),
-        processed_(processed),
+        heights_(view.heights),
+        processed_(view.processed),
         sink_(sink),
-        packet_hits_{embree, {}} {
+        packet_hits_{view.embree, {}} {
     set_directions();
   }
 
@@ -194,10 +202,11 @@ class RayPass {
       rays_.tfar[k] = HUGE_VALF;
       packet_hits_.patches[k].clear();
     }
-    embree_.all_hits(lines_.valid.data(), rays_, gridded_, PacketHits::collect, &packet_hits_);
+    embree_.all_hits(lines_.valid.data(), rays_, grid_.gridded(), PacketHits::collect,
+                     &packet_hits_);
   }
 
-  /// Sets hits_ to those of line k, sorted from above, each patch once.
+  /// Sets hits_ to the hits of line k, sorted from above, each patch once.
   void sort_hits(std::size_t k) {
     hits_.clear();
     for (const PatchId i : packet_hits_.patches[k]) {
@@ -255,28 +264,27 @@ class RayPass {
   const Scene& scene_;
   const EmbreeScene& embree_;
   const Cancellation& cancellation_;
-  bool gridded_;
   const PlaneFrame& frame_;
   const LineGrid& grid_;
   const PatchHeights& heights_;
-  const ProcessedFragments* processed_;  ///< all there is; null: the whole scene
+  const ProcessedFragments* processed_;
   VisibilitySink& sink_;
 
   // The current packet.
   LineGrid::Packet lines_;
   RTCRay16 rays_{};
   PacketHits packet_hits_;
-  std::vector<Hit> hits_;  ///< of one line
+  std::vector<Hit> hits_;  ///< hits of one line
 };
 
 }  // namespace
 
-void trace_lines(const Scene& scene, std::uint64_t seed, const PixelGrid& grid,
-                 const PatchHeights& heights, const ProcessedFragments* processed,
+void trace_lines(std::uint64_t seed, const PixelScene& view, const ProcessedFragments* processed,
                  VisibilitySink& sink, const Cancellation& cancellation) {
-  const EmbreeScene embree(scene, cancellation);
-  const LineGrid lines(grid, true, key_of(grid.frame().omega, seed));
-  RayPass(scene, embree, lines, true, grid.frame(), heights, processed, sink, cancellation).run();
+  const EmbreeScene embree(view.scene, cancellation);
+  const PlaneFrame& frame = view.grid.frame();
+  const LineGrid lines(view.grid, true, key_of(frame.omega, seed));
+  RayPass({view.scene, embree, frame, view.heights, processed}, lines, sink, cancellation).run();
 }
 
 TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options) {
@@ -296,8 +304,7 @@ TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOption
             ? LineGrid(PixelGrid(*scene, omega, options.resolution), options.gridded, key)
             : LineGrid(plane_window(*scene, frame), options.lines_per_patch * scene->patch_count(),
                        options.gridded, key);
-    RayPass(*scene, *embree, grid, options.gridded, frame, heights, nullptr, counted, cancellation)
-        .run();
+    RayPass({*scene, *embree, frame, heights}, grid, counted, cancellation).run();
     return counted.finish(omega, grid.area_of_line());
   };
 }

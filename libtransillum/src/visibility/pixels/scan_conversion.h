@@ -98,7 +98,7 @@ class ScanConverter {
 
   const PixelGrid& grid_;
   int first_ = 0, end_ = 0, low_ = 0, high_ = 0;
-  std::vector<Span> spans_;  ///< of the rows from first_ on; `nothing` between polygons
+  std::vector<Span> spans_;  ///< spans of the rows from first_ on; `nothing` between polygons
 };
 
 }  // namespace transillum

@@ -198,9 +198,9 @@ class ZBuffer {
   VisibilitySink& sink_;
   const Cancellation& cancellation_;
   ScanConverter converter_;
-  std::vector<Span> spans_;            ///< of the current band
+  std::vector<Span> spans_;            ///< spans of the current band
   std::vector<std::int64_t> depth_;    ///< number of patches over each pixel of the current row
-  std::vector<Sample> samples_;        ///< of a part of a row, pixel by pixel
+  std::vector<Sample> samples_;        ///< samples of a part of a row, pixel by pixel
   std::vector<std::size_t> list_end_;  ///< in samples_, by pixel
   std::vector<PatchId> run_;           ///< the list of the pixels from run_begin_
   int run_begin_ = 0;

@@ -7,7 +7,6 @@
 #include "transillum/cancellation.h"
 #include "visibility/pixels/patch_heights.h"
 #include "visibility/pixels/pixel_grid.h"
-#include "visibility/pixels/visibility_sink.h"
 
 namespace transillum {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
 
 #include "visibility/plane/map_polygon.h"
 
@@ -15,7 +14,7 @@ class FragmentProjector {
   FragmentProjector(const BspTree& tree, const BasicProjection<Number>& projection)
       : tree_(tree), projection_(projection) {}
 
-  /// Projects `fragment`. Returns false if it is seen edge-on and must be left out.
+  /// Projects `fragment`. Returns false if it is seen edge-on and must be omitted.
   bool project(const BspTree::Fragment& fragment) {
     outline_.clear();
     for (const BspTree::Corner& corner : tree_.corners(fragment)) {
@@ -49,7 +48,7 @@ class FragmentProjector {
 
   /// Makes the outline turn left everywhere; returns whether that is possible. Pieces are planar
   /// only to rounding, so the outline of one seen edge-on within rounding may not turn left, and is
-  /// left out. Where right turns are small compared with the area, an edge is removed that has the
+  /// omitted. Where right turns are small compared with the area, an edge is removed that has the
   /// outline on its outer side: seen along its length, its direction is rounding. Right turns of
   /// nearly collinear corners are kept.
   bool make_convex() {

@@ -10,7 +10,8 @@ namespace transillum {
 /// x86's 64 bits suffice at little cost (decisions/0003-extended-precision.md).
 using Real = long double;
 
-/// What the maps require of a number type besides arithmetic and signs; also specialized for
+/// The functions that the maps require of a number type besides arithmetic and signs; also
+/// specialized for
 /// Rational (decisions/0008-exact-numbers.md).
 template <class Number>
 struct MapNumber;

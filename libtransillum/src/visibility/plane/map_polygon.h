@@ -171,7 +171,7 @@ class BasicMapClipper {
   std::vector<Polygon> outside_;
   std::size_t outside_count_ = 0;
   Number inside_area_{};
-  std::vector<Number> sides_;  ///< of the corners given to measure_sides(), > 0 inside
+  std::vector<Number> sides_;  ///< sides of the corners given to measure_sides(), > 0 inside
 };
 using MapClipper = BasicMapClipper<Real>;
 

@@ -140,7 +140,7 @@ class OverlapMoments {
   /// Adds the boundary segment from p to q, relative to the apex; the overlap is on its left.
   void add(Real px, Real py, Real qx, Real qy) {
     const Real twice_area = px * qy - py * qx;
-    // Of the integrals of a product f g over the triangle: A/12 (2 f_p g_p + 2 f_q g_q + f_p g_q +
+    // The integral of a product f g over the triangle is A/12 (2 f_p g_p + 2 f_q g_q + f_p g_q +
     // f_q g_p), where f and g are 0 at the apex.
     std::array<Real, 2> other_p, other_q;
     for (std::size_t b = 0; b < 2; ++b) {
@@ -183,7 +183,7 @@ class OverlapMoments {
  private:
   BasisAtApex<Real> own_, other_;
   std::array<Real, 2> first_own_{}, first_other_{};  ///< 6 times the integrals of the rises
-  std::array<std::array<Real, 2>, 2> second_{};      ///< 12 times those of their products
+  std::array<std::array<Real, 2>, 2> second_{};      ///< 12 times the integrals of their products
 };
 
 }  // namespace transillum

@@ -7,11 +7,11 @@
 
 namespace transillum {
 
-/// What two engines find of one pair of patches.
+/// Findings of two engines on one pair of patches.
 struct PairDifference {
-  PatchId receiver;  ///< what sees the source along omega
-  PatchId source;    ///< what is seen
-  double first;      ///< A(receiver, source, omega), m², by the first; 0: none
+  PatchId receiver;  ///< the patch that sees the source along omega
+  PatchId source;    ///< the patch that is seen
+  double first;      ///< A(receiver, source, omega), m², by the first; 0 if not found
   double other;      ///< by the other
 };
 

@@ -104,7 +104,7 @@ class TransferSums {
     Area projected{}, covered{};
   };
   struct OfPatch {
-    SideSums sides[2];  ///< as receiver for omega, and for -omega
+    SideSums sides[2];  ///< sums as receiver for omega, and for -omega
     Area back_seen{};
   };
   struct Exchange {
@@ -167,7 +167,7 @@ class TransferSums {
 
   std::vector<OfPatch> patches_;
   std::vector<Exchange> exchanges_;
-  std::vector<TransferMoments> moments_;  ///< of exchanges_; empty without moments
+  std::vector<TransferMoments> moments_;  ///< moments of exchanges_; empty without moments
   std::vector<CoverageMoments> forward_moments_, backward_moments_;
 };
 

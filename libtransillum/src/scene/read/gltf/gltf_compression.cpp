@@ -16,7 +16,6 @@
 #include <meshoptimizer.h>
 #include <tiny_gltf.h>
 
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>

@@ -13,7 +13,7 @@
 
 namespace transillum {
 
-/// What a view compressed by meshoptimizer states.
+/// Description of a view compressed by meshoptimizer.
 struct MeshoptView {
   std::size_t count = 0, stride = 0;
   std::string mode, filter;
@@ -26,10 +26,10 @@ std::vector<unsigned char> decode_meshopt(const MeshoptView& view,
 
 /// The data of a vertex attribute of a mesh compressed by Draco.
 struct DracoAttribute {
-  int component_type = 0;  ///< as of accessors
+  int component_type = 0;  ///< component type, as of accessors
   std::size_t components = 0;
   std::vector<unsigned char> bytes;
-  double rounding = 0;  ///< half a unit of quantized numbers; 0: not quantized
+  double rounding = 0;  ///< half a unit of quantized numbers; 0 if not quantized
 };
 
 struct DracoMesh {
@@ -38,7 +38,7 @@ struct DracoMesh {
   std::map<std::uint32_t, DracoAttribute> attributes;
 };
 
-/// Decodes a mesh and those of its attributes that have these numbers.
+/// Decodes a mesh and the attributes that have these numbers.
 /// @param largest_count of vertices and of triangles
 /// @throws InputError without a place
 DracoMesh decode_draco(std::span<const unsigned char> bytes,

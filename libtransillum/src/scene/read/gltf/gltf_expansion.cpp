@@ -200,7 +200,7 @@ class Expansion {
     return types[components - 1];
   }
 
-  /// As the accessor says that the file has in place of the compressed data.
+  /// Whether the accessor that the file has in place of the compressed data is normalized.
   bool is_normalized(const tinygltf::Primitive& primitive, const std::string& name) const {
     const auto found = primitive.attributes.find(name);
     return found != primitive.attributes.end() && found->second >= 0 &&

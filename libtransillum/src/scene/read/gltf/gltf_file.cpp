@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "base/json_text.h"
@@ -178,7 +177,7 @@ void GltfFile::load(std::string bytes) {
 void GltfFile::check_extensions(const std::vector<std::string>& required) const {
   std::vector<std::string> unknown;
   for (const std::string& extension : required) {
-    // Those that change where surfaces are, or how they are stored. Materials have a fallback.
+    // Extensions that change where surfaces are, or how they are stored. Materials have a fallback.
     const bool of_materials = extension.starts_with("KHR_materials_") ||
                               extension.starts_with("KHR_texture_") ||
                               extension == "EXT_texture_webp" || extension == "KHR_lights_punctual";

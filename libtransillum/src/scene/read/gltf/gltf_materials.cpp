@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Materials of glTF describe more than diffuse surfaces and lobes. What is left out is noted: what
-// a diffuse solve leaves out of a metal, and what is transparent.
+// Materials of glTF describe more than diffuse surfaces and lobes. Omissions are noted: what a
+// diffuse solve omits of a metal, and what is transparent.
 #include "scene/read/gltf/gltf_materials.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace transillum {
 namespace {
 
-/// Of all decoded textures together; 12 bytes each.
+/// Limit for all decoded textures together; 12 bytes each.
 constexpr std::uint64_t most_decoded_pixels = std::uint64_t{1} << 27;
 constexpr double lumens_per_watt = 683;
 
@@ -62,7 +62,7 @@ TextureWrap wrap_of(int mode) {
                                                          : TextureWrap::repeat;
 }
 
-/// What surfaces that are no metals reflect without entering it (glTF 2.0, appendix B).
+/// Share that non-metals reflect at their surface, without its entering (glTF 2.0, appendix B).
 constexpr double dielectric_share = 0.04;
 /// A smoother surface is a mirror, which no set of directions resolves.
 constexpr double least_roughness = 0.01;

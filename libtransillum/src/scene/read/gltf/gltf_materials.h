@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,10 +33,10 @@ struct SurfaceColors {
 /// average of its texture.
 class GltfMaterials {
  public:
-  /// What a primitive's vertices have for its material.
+  /// Data of a primitive's vertices for its material.
   struct Vertices {
     std::map<int, std::vector<double>> texture_points;  ///< u, v; by set
-    std::vector<double> colors;                         ///< r, g, b; empty: none
+    std::vector<double> colors;                         ///< r, g, b; empty if there are none
   };
 
   GltfMaterials(const GltfFile& file, const ReadOptions& options, Warnings& notes,
@@ -72,7 +71,7 @@ class GltfMaterials {
     Rgb base{1, 1, 1};
     double metallic = 1, roughness = 1;
     Rgb exitance;
-    /// What the lobe reflects, where a file has it; else by the base color.
+    /// The lobe's reflectance, where a file has it; else the base color gives it.
     std::optional<Rgb> specular = std::nullopt;
     bool double_sided = false, dark = false;
     std::optional<Texture> base_texture, metallic_texture, emissive_texture;

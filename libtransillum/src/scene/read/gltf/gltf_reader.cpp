@@ -3,7 +3,7 @@
 // From the nodes of a glTF file to faces. Triangles are read with one material each as the file has
 // them; after they are joined, each face gets rho and E, averaged over its triangles where textures
 // or colors of vertices make them differ.
-#include "scene/read/gltf/gltf_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -11,16 +11,15 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <new>
 #include <set>
 
 #include "scene/build/description_check.h"
 #include "scene/build/joining.h"
 #include "scene/build/warnings.h"
+#include "scene/read/face_materials.h"
 #include "scene/read/gltf/gltf_expansion.h"
 #include "scene/read/gltf/gltf_file.h"
 #include "scene/read/gltf/gltf_materials.h"
-#include "scene/read/reflectance_limit.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -156,7 +155,7 @@ class GltfReader {
     return order;
   }
 
-  /// Those of the scene that is to be shown first; of a file without scenes, all without a parent.
+  /// Root nodes of the scene to be shown first; in a file without scenes, all without a parent.
   std::vector<int> root_nodes() const {
     if (!model().scenes.empty()) {
       const auto shown = static_cast<std::size_t>(std::max(model().defaultScene, 0));
@@ -454,7 +453,7 @@ class GltfReader {
     const Rgb rho =
         metal ? rounded(mean.reflectance, {1, 1, 1}) : rounded(mean.reflectance, plain.reflectance);
     const Rgb e = rounded(mean.exitance, plain.exitance);
-    // Of other materials the lobe is nearly the same everywhere, but where a texture has it.
+    // For other materials the lobe is nearly the same everywhere, but where a texture has it.
     const bool of_face = metal || max_abs(mean.lobe - plain.lobe) > 1 / part_count ||
                          std::abs(mean.roughness - plain.roughness) > 1 / roughness_parts;
     const SurfaceColors used{
@@ -493,13 +492,13 @@ class GltfReader {
                     options_.photometric ? " / 683 (from cd/m2)" : " (as radiance, W/(m2 sr))"));
     note(left_out_.without_material, fmt::format("meshes have no material; rho = {}, E = 0 assumed",
                                                  options_.default_reflectance));
-    note(left_out_.lines, "meshes of points or lines, left out");
-    note(left_out_.without_positions, "meshes without positions, left out");
-    note(left_out_.without_extent, "nodes whose scale is 0, left out");
+    note(left_out_.lines, "meshes of points or lines, omitted");
+    note(left_out_.without_positions, "meshes without positions, omitted");
+    note(left_out_.without_extent, "nodes whose scale is 0, omitted");
     note(left_out_.skins, "nodes with a skin, taken in their rest pose");
     note(left_out_.morphs, "meshes with morph targets, taken without them");
     note(static_cast<std::int64_t>(model().lights.size()),
-         "lights without a surface (KHR_lights_punctual), left out: only surfaces emit");
+         "lights without a surface (KHR_lights_punctual), omitted: only surfaces emit");
   }
 
   struct LeftOut {
@@ -515,7 +514,7 @@ class GltfReader {
   SceneDescription description_;        ///< triangles; face_material: number in the file
   std::vector<SurfaceColors> varying_;  ///< by triangle; empty: no texture or color of a vertex
   double rounding_ = 0;
-  std::size_t first_point_ = 0;  ///< of the primitive that is read
+  std::size_t first_point_ = 0;  ///< first point of the primitive that is read
   std::string place_, group_name_;
   std::int32_t group_ = no_group;
   LeftOut left_out_;
@@ -525,11 +524,7 @@ class GltfReader {
 
 SceneDescription read_gltf(const std::filesystem::path& path, const ReadOptions& options,
                            const Cancellation& cancellation) {
-  try {
-    return GltfReader(path, options, cancellation).read();
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return GltfReader(path, options, cancellation).read();
 }
 
 }  // namespace transillum

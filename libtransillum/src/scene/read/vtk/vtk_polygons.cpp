@@ -17,7 +17,6 @@
 #include "scene/build/description_check.h"
 #include "scene/build/warnings.h"
 #include "scene/read/face_materials.h"
-#include "scene/read/reflectance_limit.h"
 #include "scene/read/texture_average.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -94,7 +93,7 @@ class SceneOfPolygons {
       throw InputError(file_.name + ": has no polygons");
     }
     if (file_.other_cells > 0) {
-      notes_.add("notes", fmt::format("{}: {} vertices and lines are no polygons; left out",
+      notes_.add("notes", fmt::format("{}: {} vertices and lines are no polygons; omitted",
                                       file_.name, file_.other_cells));
     }
     materials_->note(notes_, "");

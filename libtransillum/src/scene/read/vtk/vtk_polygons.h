@@ -15,7 +15,7 @@ namespace transillum {
 struct VtkArray {
   std::string name;
   std::size_t components = 1;
-  bool has_bytes = false;      ///< of type unsigned char
+  bool has_bytes = false;      ///< its type is unsigned char
   std::vector<double> values;  ///< `components` per point or cell
 };
 
@@ -27,11 +27,11 @@ struct VtkCells {
 
 /// Polygons of VTK as a file has them, nothing checked but the number of values of each array.
 struct VtkPolygons {
-  std::string name;                ///< of the file
+  std::string name;                ///< name of the file
   std::vector<double> points;      ///< x, y, z of each
   VtkCells polygons, strips;       ///< strips of triangles
   std::size_t other_cells = 0;     ///< vertices and lines, whose data come first
-  std::vector<VtkArray> of_cells;  ///< those that is_read_by_scenes()
+  std::vector<VtkArray> of_cells;  ///< arrays that is_read_by_scenes() accepts
   std::vector<VtkArray> of_points;
   std::string cell_scalars, point_scalars;     ///< names of the arrays to show; may be empty
   std::vector<std::string> materials, groups;  ///< names, by number
@@ -41,7 +41,7 @@ struct VtkPolygons {
 /// result, or colors in bytes.
 bool is_read_by_scenes(const std::string& name, std::size_t components, bool has_bytes);
 
-/// The scene of polygons. rho and E are those of the arrays of a result, else rho is the color of
+/// The scene of polygons. rho and E come from the arrays of a result, else rho is the color of
 /// the cell or the mean color of its points.
 /// @throws InputError naming the file, the polygon and what is wrong
 /// @throws Canceled

@@ -3,7 +3,7 @@
 // A legacy VTK file is lines, each a keyword with counts, and after some of them numbers: as text,
 // or in binary with the most significant byte first. Every count is checked against what is left of
 // the file before memory is allocated. (decisions/0059-vtk-files.md)
-#include "scene/read/vtk/vtk_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <new>
 #include <optional>
 
 #include "base/text_file.h"
@@ -141,7 +140,7 @@ class VtkReader {
       fail(in_quotes(words_[0]) + " is neither ASCII nor BINARY");
     }
     require_line("DATASET");
-    if (keyword_ == "field") {  // of the whole file
+    if (keyword_ == "field") {  // fields of the whole file
       read_field();
       require_line("DATASET");
     }
@@ -455,7 +454,7 @@ class VtkReader {
   bool is_binary_ = false, has_points_ = false;
   std::size_t points_ = 0;
   Data data_ = Data::none;
-  std::size_t entries_ = 0;  ///< of each array of data_
+  std::size_t entries_ = 0;  ///< number of entries in each array of data_
   VtkPolygons file_;
 };
 
@@ -463,11 +462,7 @@ class VtkReader {
 
 SceneDescription read_vtk(const std::filesystem::path& path, const ReadOptions& options,
                           const Cancellation& cancellation) {
-  try {
-    return scene_of(VtkReader(path, cancellation).read(), options, cancellation);
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  return scene_of(VtkReader(path, cancellation).read(), options, cancellation);
 }
 
 }  // namespace transillum

@@ -319,7 +319,7 @@ class VtpFile::HeaderParser {
   std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
   std::string section_, error_;
   Array* array_ = nullptr;      ///< whose element is open
-  std::size_t text_begin_ = 0;  ///< of the text after the last tag in it
+  std::size_t text_begin_ = 0;  ///< begin of the text after the last tag in it
   std::size_t tag_ = 0;         ///< position of the tag AppendedData
   int pieces_ = 0;
   bool is_vtk_ = false, stopped_ = false, complete_ = false, is_raw_ = false;

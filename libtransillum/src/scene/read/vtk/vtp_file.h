@@ -5,9 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,9 +20,9 @@ namespace transillum {
 /// All functions throw InputError naming the file.
 class VtpFile {
  public:
-  /// What a file says about an array.
+  /// The type of an array, as the file states it.
   struct Kind {
-    std::string type;  ///< as "Float64"
+    std::string type;  ///< such as "Float64"
     std::size_t components = 1;
   };
 
@@ -41,7 +39,7 @@ class VtpFile {
   std::size_t points() const { return points_; }
   std::size_t polygons() const { return polygons_; }
   std::size_t strips() const { return strips_; }
-  /// Number of vertices and lines, whose cell data come before those of polygons.
+  /// Number of vertices and lines, whose cell data come before the data of polygons.
   std::size_t other_cells() const { return other_cells_; }
   std::size_t cells() const { return other_cells_ + polygons_ + strips_; }
   [[noreturn]] void fail(const std::string& what) const;
@@ -51,7 +49,7 @@ class VtpFile {
   bool has(const char* section, const std::string& name) const;
   /// Names of the arrays of a section, sorted.
   std::vector<std::string> names(const char* section) const;
-  /// The array named as the scalars of a section; empty: none.
+  /// The array named as the scalars of a section; empty if there is none.
   std::string scalars(const char* section) const;
   Kind kind(const char* section, const std::string& name) const;
   /// Number of entries of a field data array.
@@ -68,7 +66,7 @@ class VtpFile {
   enum class Form { text, base64, raw };
   struct Array {
     Kind kind;
-    std::size_t entries = 0;  ///< of field data only
+    std::size_t entries = 0;  ///< for field data only
     Form form = Form::text;
     bool appended = false;
     std::size_t begin = 0;  ///< in the file, or in the appended data
@@ -95,8 +93,8 @@ class VtpFile {
   std::string name_;
   const Cancellation& cancellation_;
   std::string text_;
-  std::size_t data_begin_ = 0;    ///< of the appended data in text_
-  std::size_t header_bytes_ = 4;  ///< of a number of a header
+  std::size_t data_begin_ = 0;    ///< begin of the appended data in text_
+  std::size_t header_bytes_ = 4;  ///< size of a number in a header
   bool packed_ = false;           ///< by zlib
   bool swapped_ = false;          ///< its byte order is not this machine's
   std::size_t points_ = 0, polygons_ = 0, strips_ = 0, other_cells_ = 0;

@@ -1,14 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/read/vtk/vtp_reader.h"
+#include "scene/read/scene_readers.h"
 
 #include <fmt/format.h>
-
-#include <new>
 
 #include "base/text_file.h"
 #include "scene/read/vtk/vtk_polygons.h"
 #include "scene/read/vtk/vtp_file.h"
-#include "transillum/errors.h"
 
 namespace transillum {
 namespace {
@@ -54,24 +51,20 @@ std::vector<std::string> names_of(const VtpFile& file, const std::string& name) 
 
 SceneDescription read_vtp(const std::filesystem::path& path, const ReadOptions& options,
                           const Cancellation& cancellation) {
-  try {
-    const VtpFile file(path, cancellation, largest_scene_file);
-    VtkPolygons polygons;
-    polygons.name = file.name();
-    polygons.points = file.numbers("Points", "Points", 3, file.points());
-    polygons.polygons = cells_of(file, "Polys", file.polygons());
-    polygons.strips = cells_of(file, "Strips", file.strips());
-    polygons.other_cells = file.other_cells();
-    polygons.of_cells = arrays_of(file, "CellData", file.cells());
-    polygons.of_points = arrays_of(file, "PointData", file.points());
-    polygons.cell_scalars = file.scalars("CellData");
-    polygons.point_scalars = file.scalars("PointData");
-    polygons.materials = names_of(file, "materials");
-    polygons.groups = names_of(file, "groups");
-    return scene_of(polygons, options, cancellation);
-  } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": not enough memory");
-  }
+  const VtpFile file(path, cancellation, largest_scene_file);
+  VtkPolygons polygons;
+  polygons.name = file.name();
+  polygons.points = file.numbers("Points", "Points", 3, file.points());
+  polygons.polygons = cells_of(file, "Polys", file.polygons());
+  polygons.strips = cells_of(file, "Strips", file.strips());
+  polygons.other_cells = file.other_cells();
+  polygons.of_cells = arrays_of(file, "CellData", file.cells());
+  polygons.of_points = arrays_of(file, "PointData", file.points());
+  polygons.cell_scalars = file.scalars("CellData");
+  polygons.point_scalars = file.scalars("PointData");
+  polygons.materials = names_of(file, "materials");
+  polygons.groups = names_of(file, "groups");
+  return scene_of(polygons, options, cancellation);
 }
 
 }  // namespace transillum

@@ -1,0 +1,28 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+// Results as text for people.
+
+#include <string>
+#include <vector>
+
+#include "radiosity/analysis/power_table.h"
+#include "transillum/solution.h"
+#include "transillum/study.h"
+
+namespace transillum::cli {
+
+/// A short table of a solve.
+std::string solve_summary(const Solution& solution);
+/// Warnings about a result that is not an error, such as too few directions.
+std::vector<std::string> solve_warnings(const Solution& solution);
+
+/// Powers by group or material, and the strongest exchanges between them where they are known.
+/// Scenes without color get one number per cell, others three.
+std::string power_report(const PowerTable& table, PartsBy by);
+
+/// A table of a study: errors, slopes, and the passes and time to reach 1 % and 0.1 %.
+std::string study_summary(const Scene& scene, const StudyOptions& options, const Study& study,
+                          ErrorMeasure error);
+
+}  // namespace transillum::cli
