@@ -11,6 +11,7 @@
 namespace transillum {
 namespace {
 
+using testing::operator+;
 using testing::read_file;
 using testing::run_alone;
 using testing::run_mpi;
@@ -25,12 +26,8 @@ testing::ProgramResult run_in(int processes, const Words& words) {
 /// Interrupts a solve in `first` processes once it has been saved, and continues it in others.
 void expect_same_after_resuming(const Words& scheme, int first, const std::vector<int>& then) {
   const TemporaryFolder folder;
-  Words words{"solve", "cornell-box", "-q"};
-  words.insert(words.end(), scheme.begin(), scheme.end());
   const auto command = [&](const Words& more) {
-    Words all = words;
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return Words{"solve", "cornell-box", "-q"} + scheme + more;
   };
   const auto whole = run_alone(command({"--out", folder / "whole.csv"}));
   ASSERT_EQ(whole.status, 0) << whole.err;

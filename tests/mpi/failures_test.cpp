@@ -8,7 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "mpi_run.h"
@@ -19,6 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::mpi_command;
+using testing::operator+;
 using testing::read_file;
 using testing::run_mpi;
 using testing::RunningProgram;
@@ -165,11 +165,7 @@ TEST(Failures, NeedNoRoot) {
     return;
   }
   const Words nobody_runs{"setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups"};
-  const auto with = [](Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  };
-  if (testing::run_program(with(nobody_runs, {"test", "-x", TRANSILLUM_MPI_PROGRAM})).status != 0) {
+  if (testing::run_program(nobody_runs + Words{"test", "-x", TRANSILLUM_MPI_PROGRAM}).status != 0) {
     GTEST_SKIP() << "others than root cannot reach " << TRANSILLUM_MPI_PROGRAM;
   }
   const TemporaryFolder folder;
@@ -177,10 +173,10 @@ TEST(Failures, NeedNoRoot) {
   ASSERT_EQ(::chown(folder.path().c_str(), nobody, nobody), 0);
   const Words command =
       mpi_command(3, {"solve", "cornell-box", "-m", "16", "--out", folder / "b.csv", "-q"});
-  const auto run = testing::run_program(
-      with(with({"-u", "OMPI_ALLOW_RUN_AS_ROOT", "HOME=" + folder.path().string()}, nobody_runs),
-           command),
-      {}, {}, folder.path());
+  const auto run =
+      testing::run_program(Words{"-u", "OMPI_ALLOW_RUN_AS_ROOT", "HOME=" + folder.path().string()} +
+                               nobody_runs + command,
+                           {}, {}, folder.path());
   EXPECT_EQ(run.status, 0) << run.err;
   struct stat file = {};
   ASSERT_EQ(::stat((folder / "b.csv").c_str(), &file), 0);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "unit/program_run.h"
+#include "support/program_run.h"
 
 namespace transillum::testing {
 

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // transillum-mpi writes the same bytes as transillum, for any number of processes.
-#include <gmock/gmock.h>
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "mpi_run.h"
@@ -11,6 +11,7 @@ namespace transillum {
 namespace {
 
 using testing::read_file;
+using testing::operator+;
 using testing::run_alone;
 using testing::run_mpi;
 using testing::TemporaryFolder;
@@ -66,49 +67,44 @@ void expect_same_bytes(Words options, const std::vector<int>& ranks) {
 
 const Words box{"cornell-box"};
 
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 TEST(SameBits, ForAnyNumberOfProcesses) {
   expect_same_bytes({"cornell-box", "--max-patch-area", "0.1", "-m", "100", "--by", "group"},
                     {1, 2, 3, 7});
 }
 
 TEST(SameBits, LinearBasis) {
-  expect_same_bytes(with(box, {"-m", "40", "--basis", "linear"}), {2, 3});
-  expect_same_bytes(with(box, {"-m", "40", "--basis", "linear", "--one-way", "--replicas", "2"}),
+  expect_same_bytes(box + Words{"-m", "40", "--basis", "linear"}, {2, 3});
+  expect_same_bytes(box + Words{"-m", "40", "--basis", "linear", "--one-way", "--replicas", "2"},
                     {2});
-  expect_same_bytes(with(box, {"-m", "40", "--basis", "linear", "--scheme", "conjugate-gradients",
-                               "--sky", "0.3"}),
+  expect_same_bytes(box + Words{"-m", "40", "--basis", "linear", "--scheme", "conjugate-gradients",
+                                "--sky", "0.3"},
                     {3});
 }
 
-TEST(SameBits, OneWay) { expect_same_bytes(with(box, {"-m", "65", "--one-way"}), {2, 3}); }
+TEST(SameBits, OneWay) { expect_same_bytes(box + Words{"-m", "65", "--one-way"}, {2, 3}); }
 
-TEST(SameBits, Replicas) { expect_same_bytes(with(box, {"-m", "64", "--replicas", "4"}), {3}); }
+TEST(SameBits, Replicas) { expect_same_bytes(box + Words{"-m", "64", "--replicas", "4"}, {3}); }
 
 TEST(SameBits, Growing) {
-  expect_same_bytes(with(box, {"-m", "128", "--scheme", "growing"}), {2, 3});
+  expect_same_bytes(box + Words{"-m", "128", "--scheme", "growing"}, {2, 3});
 }
 
 TEST(SameBits, SemiIterative) {
-  expect_same_bytes(with(box, {"-m", "16", "--scheme", "semi-iterative", "--iterations", "10"}),
+  expect_same_bytes(box + Words{"-m", "16", "--scheme", "semi-iterative", "--iterations", "10"},
                     {3, 7});
 }
 
 TEST(SameBits, ConjugateGradients) {
-  expect_same_bytes(with(box, {"-m", "64", "--scheme", "conjugate-gradients", "--normalize",
-                               "symmetric", "--replicas", "2"}),
+  expect_same_bytes(box + Words{"-m", "64", "--scheme", "conjugate-gradients", "--normalize",
+                                "symmetric", "--replicas", "2"},
                     {3});
 }
 
 TEST(SameBits, NormalizedRows) {
-  expect_same_bytes(with(box, {"-m", "64", "--normalize", "rows", "--sky", "1,2,3"}), {3});
+  expect_same_bytes(box + Words{"-m", "64", "--normalize", "rows", "--sky", "1,2,3"}, {3});
 }
 
-TEST(SameBits, Accuracy) { expect_same_bytes(with(box, {"--accuracy", "5%"}), {3, 7}); }
+TEST(SameBits, Accuracy) { expect_same_bytes(box + Words{"--accuracy", "5%"}, {3, 7}); }
 
 /// The solves run by default, and to an accuracy; with sources, both would end after one iteration.
 TEST(SameBits, SmallLamp) {
@@ -118,41 +114,32 @@ TEST(SameBits, SmallLamp) {
 }
 
 TEST(SameBits, FirstShot) {
-  expect_same_bytes(with(box, {"-m", "64", "--first-shot", "auto"}), {3});
+  expect_same_bytes(box + Words{"-m", "64", "--first-shot", "auto"}, {3});
 }
 
 TEST(SameBits, EngineLocal) {
-  expect_same_bytes(with(box, {"-m", "32", "--engine", "local"}), {3});
+  expect_same_bytes(box + Words{"-m", "32", "--engine", "local"}, {3});
 }
 
 TEST(SameBits, EngineZbuffer) {
-  expect_same_bytes(with(box, {"-m", "32", "--engine", "zbuffer", "--resolution", "128"}), {3});
+  expect_same_bytes(box + Words{"-m", "32", "--engine", "zbuffer", "--resolution", "128"}, {3});
 }
 
 TEST(SameBits, WhereFormFactorsDoNotFit) {
-  expect_same_bytes(with(box, {"-m", "16", "--memory", "1k"}), {3});
+  expect_same_bytes(box + Words{"-m", "16", "--memory", "1k"}, {3});
 }
 
 TEST(SameBits, TwoThreadsInEachProcess) {
-  expect_same_bytes(with(box, {"-m", "64", "--threads", "2"}), {3});
+  expect_same_bytes(box + Words{"-m", "64", "--threads", "2"}, {3});
 }
 
 TEST(SameBits, SeriesOfResults) {
   const TemporaryFolder folder;
   for (const std::string name : {"alone", "shared"}) {
-    const Words words{"solve",
-                      "cornell-box",
-                      "-q",
-                      "-m",
-                      "64",
-                      "--iterations",
-                      "2",
-                      "--out",
-                      folder / (name + ".vtp"),
-                      "--series",
-                      folder / (name + ".pvd"),
-                      "--series-every",
-                      "10"};
+    const Words words = Words{"solve", "cornell-box", "-q", "-m", "64", "--iterations", "2"} +
+                        Words{"--out",          folder / (name + ".vtp"),
+                              "--series",       folder / (name + ".pvd"),
+                              "--series-every", "10"};
     const auto run = name == "alone" ? run_alone(words) : run_mpi(3, words);
     ASSERT_EQ(run.status, 0) << run.err;
   }

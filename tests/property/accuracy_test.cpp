@@ -11,9 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "support/imperfect_scenes.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"

@@ -10,7 +10,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <numeric>
 
 #include "support/imperfect_scenes.h"
 #include "support/pair_scenes.h"

@@ -1,11 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // ALGORITHM.md, oracle 7: the engines agree to 1e-10 of the patch's area on all scenes.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>

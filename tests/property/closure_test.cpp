@@ -1,9 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // ALGORITHM.md, oracles 1 and 2: sums of the transfers of closed scenes.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <map>
 #include <string>
 #include <tuple>

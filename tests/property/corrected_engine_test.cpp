@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "support/canceled.h"
 #include "support/scenes.h"
 #include "support/transfer_difference.h"
 #include "transillum/at.h"
@@ -159,9 +159,7 @@ TEST(CorrectedEngine, SolvesWithSmallError) {
 
 TEST(CorrectedEngine, StopsWhenCanceled) {
   const Engines engines(load_scene("rooms"));
-  Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(engines.corrected(normalized(Vec3{1, 2, 3}), cancellation), Canceled);
+  EXPECT_THROW(engines.corrected(normalized(Vec3{1, 2, 3}), testing::canceled()), Canceled);
 }
 
 /// The map agrees with the engine's transfers: area that is not open has been transferred.

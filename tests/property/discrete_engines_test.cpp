@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "support/canceled.h"
 #include "support/pair_areas.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
@@ -257,9 +258,7 @@ TEST_P(DiscreteEngines, CanBeCanceledAndCheckTheResolution) {
   for (const int resolution : {-1, EngineOptions::largest_resolution + 1}) {
     EXPECT_THROW(engine_of(GetParam(), scene, {.resolution = resolution}), InputError);
   }
-  Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(engine_of(GetParam(), scene)({0, 0, 1}, cancellation), Canceled);
+  EXPECT_THROW(engine_of(GetParam(), scene)({0, 0, 1}, testing::canceled()), Canceled);
 }
 
 }  // namespace

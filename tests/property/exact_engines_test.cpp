@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The engines with exact numbers, against known answers, and all maps against each other
 // (ALGORITHM.md, oracle 7).
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <random>
 #include <thread>
 
+#include "support/canceled.h"
 #include "support/scenes.h"
 #include "support/stopping.h"
 #include "transillum/engine.h"
@@ -95,9 +97,7 @@ TEST_P(ExactEngines, StopImmediatelyWhenCanceled) {
   const auto scene = load_scene("cornell-box");
   const TransferEngine engine =
       make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(engine({0, 0, 1}, cancellation), Canceled);
+  EXPECT_THROW(engine({0, 0, 1}, testing::canceled()), Canceled);
 }
 
 TEST_P(ExactEngines, StopQuicklyWhenCanceledDuringAPass) {

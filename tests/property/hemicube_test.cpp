@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "radiosity/form_factors/hemicube_image.h"
+#include "support/canceled.h"
+#include "support/form_factor_rows.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -20,23 +22,9 @@
 namespace transillum::hemicube_test {
 namespace {
 
+using testing::form_factor;
+using testing::row_sum;
 using testing::Sketch;
-
-double row_sum(const FormFactors& f, PatchId i) {
-  const auto row = static_cast<std::size_t>(i);
-  return std::accumulate(f.value.begin() + static_cast<std::ptrdiff_t>(f.row_begin[row]),
-                         f.value.begin() + static_cast<std::ptrdiff_t>(f.row_begin[row + 1]), 0.0);
-}
-
-double factor(const FormFactors& f, PatchId i, PatchId j) {
-  const auto row = static_cast<std::size_t>(i);
-  for (std::size_t k = f.row_begin[row]; k < f.row_begin[row + 1]; ++k) {
-    if (f.source[k] == j) {
-      return f.value[k];
-    }
-  }
-  return 0;
-}
 
 std::vector<Vec3> square(double half, double z, bool up) {
   std::vector<Vec3> outline{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
@@ -84,7 +72,7 @@ TEST(HemicubeFactors, ConvergeAsPixelsShrink) {
   const double r = std::sqrt(1.25);
   const double exact = 4 / std::numbers::pi * (0.5 / r) * std::atan(0.5 / r);
   const auto error = [&](int resolution) {
-    return std::abs(factor(hemicube_form_factors(*scene, {.resolution = resolution}), 0, 1) -
+    return std::abs(form_factor(hemicube_form_factors(*scene, {.resolution = resolution}), 0, 1) -
                     exact);
   };
   EXPECT_LT(error(16), 0.05);
@@ -124,12 +112,12 @@ TEST(HemicubeFactors, NearerPatchesHideAndBackSidesAbsorb) {
       .face(square(9, 2, false), gray)
       .face(square(2, 3, false), gray);
   const FormFactors seen = hemicube_form_factors(*sketch.scene(), {.resolution = 64});
-  EXPECT_GT(factor(seen, 0, 1), 0.5);
-  EXPECT_GT(factor(seen, 0, 2), 0.2);
-  EXPECT_EQ(factor(seen, 0, 3), 0);
+  EXPECT_GT(form_factor(seen, 0, 1), 0.5);
+  EXPECT_GT(form_factor(seen, 0, 2), 0.2);
+  EXPECT_EQ(form_factor(seen, 0, 3), 0);
   sketch.face(square(1, 0.5, true), gray);
   const FormFactors shaded = hemicube_form_factors(*sketch.scene(), {.resolution = 64});
-  EXPECT_EQ(factor(shaded, 0, 1), 0);
+  EXPECT_EQ(form_factor(shaded, 0, 1), 0);
   EXPECT_LT(row_sum(shaded, 0), 0.3);
 }
 
@@ -148,7 +136,7 @@ TEST(HemicubeFactors, ALightCoversTheCeilingAroundIt) {
     }
     sketch.face(square(0.1, 0, true), gray);
     const FormFactors f = hemicube_form_factors(*sketch.scene(), {.resolution = 128});
-    EXPECT_NEAR(factor(f, 2, light_first ? 0 : 1), 0.1042, 5e-3);
+    EXPECT_NEAR(form_factor(f, 2, light_first ? 0 : 1), 0.1042, 5e-3);
   }
 }
 
@@ -234,7 +222,7 @@ TEST(HemicubeImage, HasTheFormFactorsOfTheEngine) {
     for (const PatchId i : {0, scene->patch_count() / 2, scene->patch_count() - 1}) {
       const HemicubeImage image = hemicube_image(scene, tree, i, {.resolution = 32});
       for (PatchId j = 0; j < scene->patch_count(); ++j) {
-        EXPECT_EQ(at(image.form_factors, j), factor(f, i, j)) << spec;
+        EXPECT_EQ(at(image.form_factors, j), form_factor(f, i, j)) << spec;
       }
     }
   }
@@ -309,9 +297,8 @@ TEST(HemicubeSolve, RefusesUnsupportedOptions) {
   EXPECT_THROW(solve_with([](auto& o) { o.engine_options.resolution = 63; }), InputError);
   EXPECT_THROW(solve_with([](auto& o) { o.engine_options.resolution = 4096; }), InputError);
   EXPECT_THROW(solve_with([](auto& o) { o.memory = 100; }), std::runtime_error);
-  Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(solve_by_form_factors(scene, {.engine = Engine::hemicube}, cancellation), Canceled);
+  EXPECT_THROW(solve_by_form_factors(scene, {.engine = Engine::hemicube}, testing::canceled()),
+               Canceled);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // ALGORITHM.md 6.12: moments of exchanges, for a linear basis. Oracles 1, 2, 5 and 7 for them.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>

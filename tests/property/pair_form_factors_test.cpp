@@ -4,7 +4,7 @@
 // agreement with passes, which share nothing with them but the scene.
 #include "transillum/pair_form_factors.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

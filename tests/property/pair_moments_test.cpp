@@ -3,7 +3,8 @@
 // Engine pairs with linear functions (ALGORITHM.md 5.9, 6.12): moments from a point against a
 // quadrature, closure of the moments, and agreement with passes, which share nothing with pairs but
 // the scene.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>

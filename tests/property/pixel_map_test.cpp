@@ -11,6 +11,7 @@
 #include <random>
 #include <sstream>
 
+#include "support/canceled.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 #include "transillum/errors.h"
@@ -240,9 +241,8 @@ TEST(PixelMap, RefusesEnginesWithoutPixelsAndBadResolutions) {
         pixel_map({Engine::painter, {.resolution = resolution}}, *scene, *tree, up, no_patch),
         InputError);
   }
-  Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(pixel_map({Engine::painter}, *scene, *tree, up, no_patch, cancellation), Canceled);
+  EXPECT_THROW(pixel_map({Engine::painter}, *scene, *tree, up, no_patch, testing::canceled()),
+               Canceled);
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The engine rays: counts of lines must agree with the areas of the local map within their
 // statistical errors.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <thread>
 
+#include "support/canceled.h"
 #include "support/pair_areas.h"
 #include "support/scenes.h"
 #include "transillum/engine.h"
@@ -276,9 +278,7 @@ TEST(RayEngine, CanBeCanceledAndChecksTheNumberOfLines) {
     EXPECT_THROW(make_engine(Engine::rays, scene, nullptr, {.lines_per_patch = lines}), InputError);
   }
   const TransferEngine rays = make_engine(Engine::rays, scene, nullptr);
-  Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(rays({0, 0, 1}, cancellation), Canceled);
+  EXPECT_THROW(rays({0, 0, 1}, testing::canceled()), Canceled);
 }
 
 /// Rows are normalized by the sums of the same lines, so the furnace is exact for any lines.

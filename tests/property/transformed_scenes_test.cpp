@@ -10,10 +10,9 @@
 // Its projected area changes by 2 d times its perimeter. A part that is seen has edges of any
 // patches: its area changes by 2 d times the sum of all perimeters.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>

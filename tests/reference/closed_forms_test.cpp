@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Answers known in closed form (ALGORITHM.md, oracles 3, 4 and 6).
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

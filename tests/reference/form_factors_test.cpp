@@ -1,9 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Form factors by rays and by passes, against formulas and against each other.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "support/form_factor_rows.h"
 #include "support/scenes.h"
 #include "transillum/errors.h"
 #include "transillum/form_factors.h"
@@ -14,29 +16,12 @@
 namespace transillum::form_factors_test {
 namespace {
 
+using testing::form_factor;
+using testing::row_sum;
 using testing::Sketch;
 
 constexpr double parallel_unit_squares = 0.1998248957;       // at distance 1
 constexpr double perpendicular_unit_squares = 0.2000437761;  // with a common edge
-
-double entry(const FormFactors& f, PatchId i, PatchId j) {
-  const auto row = static_cast<std::size_t>(i);
-  for (std::size_t k = f.row_begin[row]; k < f.row_begin[row + 1]; ++k) {
-    if (f.source[k] == j) {
-      return f.value[k];
-    }
-  }
-  return 0;
-}
-
-double row_sum(const FormFactors& f, PatchId i) {
-  const auto row = static_cast<std::size_t>(i);
-  double sum = 0;
-  for (std::size_t k = f.row_begin[row]; k < f.row_begin[row + 1]; ++k) {
-    sum += f.value[k];
-  }
-  return sum;
-}
 
 std::shared_ptr<const Scene> squares(const std::vector<Vec3>& second,
                                      const SceneOptions& options = {}) {
@@ -56,7 +41,7 @@ TEST(Gather, MatchesTheClosedForms) {
     constexpr int trials = 50, rays = 4000;
     for (std::uint64_t seed = 0; seed < trials; ++seed) {
       const FormFactors f = gather_form_factors(*scene, {.rays_per_patch = rays, .seed = seed});
-      for (const double error : {entry(f, 0, 1) - exact, entry(f, 1, 0) - exact}) {
+      for (const double error : {form_factor(f, 0, 1) - exact, form_factor(f, 1, 0) - exact}) {
         sum += error;
         squares_sum += error * error;
       }
@@ -67,7 +52,7 @@ TEST(Gather, MatchesTheClosedForms) {
     EXPECT_LT(deviation, 0.6 * std::sqrt(exact * (1 - exact) / rays));
     EXPECT_LT(std::abs(sum / (2 * trials)), 3.5 * deviation / std::sqrt(2 * trials));
     const FormFactors fine = gather_form_factors(*scene, {.rays_per_patch = 1 << 20});
-    EXPECT_NEAR(entry(fine, 0, 1), exact, 1e-4);
+    EXPECT_NEAR(form_factor(fine, 0, 1), exact, 1e-4);
   }
 }
 
@@ -76,8 +61,8 @@ TEST(Gather, CoincidentOppositeSquaresAreHitOnTheirLitSides) {
   const std::vector<Vec3> ceiling{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
   const auto two_sided = squares(ceiling, {.two_sided = true});  // patches 0, 1 and 2, 3
   const FormFactors f = gather_form_factors(*two_sided, {.rays_per_patch = 100000});
-  EXPECT_NEAR(entry(f, 0, 2), parallel_unit_squares, 1e-3);
-  EXPECT_EQ(entry(f, 0, 3), 0);
+  EXPECT_NEAR(form_factor(f, 0, 2), parallel_unit_squares, 1e-3);
+  EXPECT_EQ(form_factor(f, 0, 3), 0);
   EXPECT_EQ(row_sum(f, 1), 0);
   EXPECT_EQ(row_sum(f, 3), 0);
   const auto turned = squares({ceiling.rbegin(), ceiling.rend()});
@@ -111,7 +96,7 @@ TEST(Gather, IsReciprocalWithinNoise) {
   int pairs = 0;
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
     for (PatchId j = 0; j < i; ++j) {
-      const double there = entry(f, i, j), back = entry(f, j, i);
+      const double there = form_factor(f, i, j), back = form_factor(f, j, i);
       if (there == 0 && back == 0) {
         continue;
       }

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 

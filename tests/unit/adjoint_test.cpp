@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "radiosity/form_factors/light_paths.h"
+#include "support/form_factor_rows.h"
 #include "transillum/at.h"
 #include "transillum/material_changes.h"
 #include "transillum/radiosity_solver.h"
@@ -19,17 +19,11 @@
 namespace transillum::adjoint_test {
 namespace {
 
+using testing::form_factors_of;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr double tight = 1e-13;
-
-FormFactors form_factors_of(const std::shared_ptr<const Scene>& scene,
-                            const SolveOptions& options) {
-  RadiositySolver solver(scene, options);
-  solver.advance(RadiositySolver::Until::finished);
-  return solver.form_factors();
-}
 
 double luminance(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 

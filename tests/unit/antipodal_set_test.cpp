@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Sampling::antipodal: M directions that are evenly spread together with their opposites.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,14 +4,15 @@
 // of its radiosity, pixel by pixel. The test runs nightly, and only where Chromium is installed and
 // TRANSILLUM_THREE is the folder of the npm package three (`npm install three` makes
 // node_modules/three). TRANSILLUM_PICTURES: a folder for the picture of the room.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "io/results/srgb.h"
-#include "program_run.h"
+#include "support/program_run.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/solution.h"

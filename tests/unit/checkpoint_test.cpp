@@ -14,7 +14,6 @@
 
 #include "io/runs/study_checkpoint.h"
 #include "support/refusal.h"
-#include "support/scenes.h"
 #include "support/temporary_folder.h"
 
 namespace transillum::checkpoint_test {
@@ -27,19 +26,12 @@ using Until = RadiositySolver::Until;
 
 std::shared_ptr<const Scene> box() { return load_scene("cornell-box"); }
 
-bool same_bits(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
-  const auto same = [](const Rgb& x, const Rgb& y) {
-    return x.r == y.r && x.g == y.g && x.b == y.b;
-  };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
-}
-
 /// All results of a finished solve, except times.
 void expect_same(const RadiositySolver& a, const RadiositySolver& b) {
-  EXPECT_TRUE(same_bits(a.radiosity(), b.radiosity()));
-  EXPECT_TRUE(same_bits(a.irradiance(), b.irradiance()));
-  EXPECT_TRUE(same_bits(a.sky_irradiance(), b.sky_irradiance()));
-  EXPECT_TRUE(same_bits(a.error_estimate().standard_error, b.error_estimate().standard_error));
+  EXPECT_TRUE(a.radiosity() == b.radiosity());
+  EXPECT_TRUE(a.irradiance() == b.irradiance());
+  EXPECT_TRUE(a.sky_irradiance() == b.sky_irradiance());
+  EXPECT_TRUE(a.error_estimate().standard_error == b.error_estimate().standard_error);
   EXPECT_EQ(a.error_estimate().rms_limit, b.error_estimate().rms_limit);
   EXPECT_EQ(a.form_factor_sums(), b.form_factor_sums());
   EXPECT_EQ(a.sky_shares(), b.sky_shares());
@@ -102,35 +94,26 @@ void expect_all_states_lead_to_the_same(const std::shared_ptr<const Scene>& scen
 }
 
 TEST(Checkpoint, EveryStateLeadsToTheSameBits) {
-  const SolveOptions plain{.directions = 40};
-  expect_all_states_lead_to_the_same(box(), plain);
-  SolveOptions one_way = plain;
-  one_way.two_way = false;
-  one_way.normalize = Normalization::rows;
-  expect_all_states_lead_to_the_same(box(), one_way);
-  SolveOptions replicas = plain;
-  replicas.replicas = 4;
-  replicas.first_shot = 0;
-  expect_all_states_lead_to_the_same(box(), replicas);
-  SolveOptions sky = plain;
-  sky.sky.exitance = {10, 20, 30};
-  sky.engine = Engine::local;
-  expect_all_states_lead_to_the_same(load_scene("boards"), sky);
+  expect_all_states_lead_to_the_same(box(), {.directions = 40});
+  expect_all_states_lead_to_the_same(
+      box(), {.directions = 40, .two_way = false, .normalize = Normalization::rows});
+  expect_all_states_lead_to_the_same(box(), {.directions = 40, .first_shot = 0, .replicas = 4});
+  expect_all_states_lead_to_the_same(
+      load_scene("boards"),
+      {.directions = 40, .engine = Engine::local, .sky = {.exitance = {10, 20, 30}}});
 }
 
 TEST(Checkpoint, EveryStateOfEverySchemeLeadsToTheSameBits) {
-  SolveOptions growing{.directions = 40, .scheme = Scheme::growing};
-  expect_all_states_lead_to_the_same(box(), growing);
-  SolveOptions gradients{.directions = 40,
-                         .normalize = Normalization::symmetric,
-                         .scheme = Scheme::conjugate_gradients};
-  expect_all_states_lead_to_the_same(box(), gradients);
-  SolveOptions averaged{.directions = 5, .scheme = Scheme::semi_iterative, .replicas = 2};
-  averaged.averaged_iterations = 40;
-  expect_all_states_lead_to_the_same(box(), averaged, 11);
+  expect_all_states_lead_to_the_same(box(), {.directions = 40, .scheme = Scheme::growing});
+  expect_all_states_lead_to_the_same(box(), {.directions = 40,
+                                             .normalize = Normalization::symmetric,
+                                             .scheme = Scheme::conjugate_gradients});
+  expect_all_states_lead_to_the_same(
+      box(),
+      {.directions = 5, .scheme = Scheme::semi_iterative, .replicas = 2, .averaged_iterations = 40},
+      11);
   // Form factors are not kept: every iteration makes the passes again.
-  SolveOptions passes{.directions = 10, .tolerance = 1e-3, .memory = 1};
-  expect_all_states_lead_to_the_same(box(), passes);
+  expect_all_states_lead_to_the_same(box(), {.directions = 10, .tolerance = 1e-3, .memory = 1});
 }
 
 /// The sums exceed the memory limit in the middle: exactly when they do depends on what is stored.
@@ -196,7 +179,7 @@ TEST(Checkpoint, AnAccuracyIsReachedByTheSameStages) {
   for (const int events : {1, 10, 24, 40, 90, 150}) {
     SCOPED_TRACE(events);
     const Solution resumed = interrupted_solve(options, events, folder.path() / "a.tck");
-    EXPECT_TRUE(same_bits(whole.radiosity, resumed.radiosity));
+    EXPECT_TRUE(whole.radiosity == resumed.radiosity);
     EXPECT_EQ(whole.accuracy->error, resumed.accuracy->error);
     EXPECT_EQ(whole.accuracy->passes_made, resumed.accuracy->passes_made);
     EXPECT_EQ(whole.accuracy->stages.size(), resumed.accuracy->stages.size());
@@ -213,12 +196,10 @@ class CheckpointFile : public ::testing::Test {
       session.advance(SolveSession::Until::direction);
     }
     Checkpoint(file_, *scene_, options_).save(session);
-    std::ostringstream text;
-    text << std::ifstream(file_, std::ios::binary).rdbuf();
-    content_ = text.str();
+    content_ = test::read_file(file_);
   }
   std::string refusal_of(const std::string& content) {
-    std::ofstream(file_, std::ios::binary) << content;
+    test::write_text(file_, content);
     return refusal([&] { resume(scene_, options_); });
   }
   void resume(const std::shared_ptr<const Scene>& scene, const SolveOptions& options) const {
@@ -251,36 +232,37 @@ TEST_F(CheckpointFile, IsRefusedWhereverABitIsWrong) {
 }
 
 TEST_F(CheckpointFile, IsRefusedByAnotherSolveWhichNamesTheDifference) {
-  const auto refused = [this](const std::shared_ptr<const Scene>& scene, const SolveOptions& o) {
-    return refusal([&] { resume(scene, o); });
+  const auto refused = [this](const SolveOptions& o) {
+    return refusal([&] { resume(scene_, o); });
+  };
+  const auto refused_scene = [this](const SceneDescription& d) {
+    return refusal([&] { resume(std::make_shared<const Scene>(d), options_); });
   };
   SolveOptions other = options_;
   other.directions = 13;
-  EXPECT_THAT(refused(scene_, other), HasSubstr("directions is 12 there and 13 here"));
+  EXPECT_THAT(refused(other), HasSubstr("directions is 12 there and 13 here"));
   other = options_;
   other.engine = Engine::local;
-  EXPECT_THAT(refused(scene_, other), HasSubstr("engine is \"fast\" there and \"local\" here"));
+  EXPECT_THAT(refused(other), HasSubstr("engine is \"fast\" there and \"local\" here"));
   other = options_;
   other.sky.exitance = {1, 1, 1};
-  EXPECT_THAT(refused(scene_, other), HasSubstr("sky is not given there and 1 here"));
+  EXPECT_THAT(refused(other), HasSubstr("sky is not given there and 1 here"));
   other = options_;
   other.goal.accuracy = 0.1;
-  EXPECT_THAT(refused(scene_, other), HasSubstr("accuracy is not given there and 0.1 here"));
-  EXPECT_THAT(refused(load_scene("furnace"), options_),
+  EXPECT_THAT(refused(other), HasSubstr("accuracy is not given there and 0.1 here"));
+  EXPECT_THAT(refused_scene(describe_scene("furnace")),
               HasSubstr("of another scene: \"cornell-box\" has 27 patches, this one has"));
   SceneDescription description = describe_scene("cornell-box");
   description.materials.front().reflectance.r += 1e-9;
-  EXPECT_THAT(refused(std::make_shared<const Scene>(description), options_),
-              HasSubstr("its reflectances or exitances differ"));
+  EXPECT_THAT(refused_scene(description), HasSubstr("its reflectances or exitances differ"));
   description = describe_scene("cornell-box");
   description.points.front().x += 1e-9;
-  EXPECT_THAT(refused(std::make_shared<const Scene>(description), options_),
-              HasSubstr("its polygons differ"));
+  EXPECT_THAT(refused_scene(description), HasSubstr("its polygons differ"));
   // Memory and threads may differ.
   other = options_;
   other.threads = 3;
   other.memory = 1u << 30;
-  EXPECT_EQ(refused(scene_, other), "");
+  EXPECT_EQ(refused(other), "");
 }
 
 TEST_F(CheckpointFile, OfAnotherKindOrPlaceIsRefused) {

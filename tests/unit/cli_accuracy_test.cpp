@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "transillum/files.h"
 
 namespace transillum::testing {
@@ -15,11 +15,11 @@ using ::testing::HasSubstr;
 
 TEST(CliAccuracy, ChoosesPassesAndReportsWhatItReached) {
   const TemporaryFolder folder;
-  const ProgramResult result = run_program({"solve", "rooms", "--accuracy", "0.5%", "--first-shot",
-                                            "none", "--stats", folder / "s.json"});
-  ASSERT_EQ(result.status, 0) << result.err;
+  const ProgramResult result =
+      expect_success({"solve", "rooms", "--accuracy", "0.5%", "--first-shot", "none", "--stats",
+                      folder / "s.json"});
   EXPECT_THAT(result.out, HasSubstr("0.5 % asked, reached: rms error at most"));
-  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  const auto json = read_json(folder / "s.json");
   const auto& accuracy = json.at("accuracy");
   EXPECT_TRUE(accuracy.at("reached"));
   EXPECT_EQ(accuracy.at("asked"), 0.005);
@@ -35,9 +35,7 @@ TEST(CliAccuracy, IsNotMeasuredByASmallLamp) {
   const TemporaryFolder folder;
   const std::string lamp = std::string(TRANSILLUM_DATA_DIR) + "/corpus/small-lamp.obj";
   const auto walls = [&](const std::vector<std::string>& options) {
-    std::vector<std::string> words{"solve", lamp, "-q", "--out", folder / "b.vtp"};
-    words.insert(words.end(), options.begin(), options.end());
-    EXPECT_EQ(run_program(words).status, 0);
+    expect_success(Arguments{"solve", lamp, "-q", "--out", folder / "b.vtp"} + options);
     std::vector<Rgb> b = read_result(folder / "b.vtp").radiosity;
     b.resize(6);
     return b;
@@ -53,72 +51,62 @@ TEST(CliAccuracy, IsNotMeasuredByASmallLamp) {
 /// The first shot is made automatically, unless the option is given.
 TEST(CliAccuracy, ShootsLampsFirst) {
   const TemporaryFolder folder;
-  const ProgramResult shot = run_program({"solve", "cornell-box", "--max-patch-area", "0.03",
-                                          "--accuracy", "0.01", "--stats", folder / "s.json"});
-  ASSERT_EQ(shot.status, 0) << shot.err;
-  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  const ProgramResult shot = expect_success({"solve", "cornell-box", "--max-patch-area", "0.03",
+                                             "--accuracy", "0.01", "--stats", folder / "s.json"});
+  const auto json = read_json(folder / "s.json");
   EXPECT_EQ(json.at("options").at("first-shot"), "auto");
   EXPECT_GT(json.at("first_shot").at("sources"), 0);
   EXPECT_EQ(json.at("light_directions"), 0);
 }
 
 TEST(CliAccuracy, EndsWithTheTime) {
-  const ProgramResult result = run_program({"solve", "furnace", "--seconds", "0.2"});
-  ASSERT_EQ(result.status, 0) << result.err;
+  const ProgramResult result = expect_success({"solve", "furnace", "--seconds", "0.2"});
   EXPECT_THAT(result.out, HasSubstr("within the time given, time is up: rms error at most"));
 }
 
 TEST(CliAccuracy, OfEnginePairsTakesPoints) {
   const ProgramResult result =
-      run_program({"solve", "boards", "--engine", "pairs", "--accuracy", "0.1%"});
-  ASSERT_EQ(result.status, 0) << result.err;
+      expect_success({"solve", "boards", "--engine", "pairs", "--accuracy", "0.1%"});
   EXPECT_THAT(result.out, HasSubstr("0.1 % asked, reached: estimated error"));
 }
 
 TEST(CliAccuracy, WarnsWhereItCannotBeTrusted) {
   const ProgramResult result =
-      run_program({"solve", "stars", "-m", "64", "--replicas", "4", "--max-patch-area", "1"});
-  ASSERT_EQ(result.status, 0) << result.err;
+      expect_success({"solve", "stars", "-m", "64", "--replicas", "4", "--max-patch-area", "1"});
   EXPECT_THAT(result.err, HasSubstr("the error estimate cannot be trusted"));
   EXPECT_THAT(result.err, HasSubstr("--first-shot 0"));
 }
 
 TEST(CliAccuracy, CountsPatchesWhoseErrorsCannotBeTrusted) {
   const TemporaryFolder folder;
-  const ProgramResult result =
-      run_program({"solve", "stars", "-m", "512", "--replicas", "4", "--stats", folder / "s.json"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  const ProgramResult result = expect_success(
+      {"solve", "stars", "-m", "512", "--replicas", "4", "--stats", folder / "s.json"});
+  const auto json = read_json(folder / "s.json");
   const auto& count = json.at("error_estimate").at("uncertain_patches");
   EXPECT_GT(count, 0);
   EXPECT_THAT(result.err, HasSubstr("standard errors of " + count.dump() + " patches cannot be"));
 }
 
 TEST(CliAccuracy, RefusesWhatItCannotKeep) {
-  const std::pair<std::vector<std::string>, std::string> calls[] = {
-      {{"--accuracy", "0"}, "--accuracy: \"0\" is not a percentage"},
-      {{"--accuracy", "100%"}, "--accuracy: \"100%\" is not"},
-      {{"--accuracy", "1 percent"}, "--accuracy: \"1 percent\" is not"},
-      {{"--accuracy", "1%", "-m", "64"}, "--directions: not used with an accuracy"},
-      {{"--accuracy", "1%", "--replicas", "8"}, "--replicas: not used with an accuracy"},
-      {{"--accuracy", "1%", "--iterations", "3"}, "number of iterations"},
-      {{"--accuracy", "1%", "--scheme", "growing"}, "growing"},
-      {{"--accuracy", "1%", "--engine", "painter"}, "engine painter"},
-      {{"--accuracy", "1%", "--engine", "hemicube"}, "accuracy"},
-      {{"--accuracy", "1%", "--accuracy-of", "patch:99999"}, "there is no patch 99999"},
-      {{"--accuracy", "1%", "--accuracy-of", "best"}, "--accuracy-of: \"best\" is not rms, max"},
-      {{"--accuracy-of", "max"}, "--accuracy-of: used only with an accuracy"},
-      {{"--seconds", "0"}, "--seconds: \"0\" is not greater than 0"},
-      {{"--seconds", "nan"}, "--seconds"},
-  };
-  for (const auto& [options, expected] : calls) {
-    std::vector<std::string> call{"solve", "furnace", "-q"};
-    call.insert(call.end(), options.begin(), options.end());
-    const ProgramResult result = run_program(call);
-    EXPECT_EQ(result.status, 2) << expected;
-    EXPECT_THAT(result.err, HasSubstr(expected));
-    EXPECT_EQ(result.out, "");
-  }
+  expect_all_refused(
+      {"solve", "furnace", "-q"},
+      {
+          {{"--accuracy", "0"}, "--accuracy: \"0\" is not a percentage"},
+          {{"--accuracy", "100%"}, "--accuracy: \"100%\" is not"},
+          {{"--accuracy", "1 percent"}, "--accuracy: \"1 percent\" is not"},
+          {{"--accuracy", "1%", "-m", "64"}, "--directions: not used with an accuracy"},
+          {{"--accuracy", "1%", "--replicas", "8"}, "--replicas: not used with an accuracy"},
+          {{"--accuracy", "1%", "--iterations", "3"}, "number of iterations"},
+          {{"--accuracy", "1%", "--scheme", "growing"}, "growing"},
+          {{"--accuracy", "1%", "--engine", "painter"}, "engine painter"},
+          {{"--accuracy", "1%", "--engine", "hemicube"}, "accuracy"},
+          {{"--accuracy", "1%", "--accuracy-of", "patch:99999"}, "there is no patch 99999"},
+          {{"--accuracy", "1%", "--accuracy-of", "best"},
+           "--accuracy-of: \"best\" is not rms, max"},
+          {{"--accuracy-of", "max"}, "--accuracy-of: used only with an accuracy"},
+          {{"--seconds", "0"}, "--seconds: \"0\" is not greater than 0"},
+          {{"--seconds", "nan"}, "--seconds"},
+      });
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "program_run.h"
+#include "support/program_run.h"
 
 namespace transillum::testing {
 namespace {
@@ -18,38 +18,31 @@ using ::testing::Not;
 const Arguments shining{"solve", "cornell-box", "-q", "-m", "24", "--lobe", "white=0.2,8"};
 
 TEST(CliGlossy, IsRefusedInOneLineWhereItIsNotAvailable) {
-  const std::pair<Arguments, const char*> calls[] = {
-      {{"--engine", "hemicube"}, "which have no directions"},
-      {{"--engine", "pairs"}, "which have no directions"},
-      {{"--one-way"}, "not available with one-way passes"},
-      {{"--basis", "linear"}, "not available with a linear basis"},
-      {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
-      {{"--scheme", "growing"}, "another scheme than fixed"},
-      {{"--scheme", "semi-iterative"}, "another scheme than fixed"},
-      {{"--scheme", "conjugate-gradients"}, "another scheme than fixed"},
-      {{"--first-shot", "auto"}, "not available with a first shot"},
-      {{"--replicas", "2"}, "not available with replicas"},
-      {{"--accuracy", "1%"}, "an accuracy or a time limit"},
-      {{"--seconds", "1"}, "an accuracy or a time limit"},
-      {{"--factors", "f.npz"}, "--factors: not used with --glossy"},
-      {{"--by", "material"}, "--by: not used with --glossy"},
-      {{"--series", "s.pvd"}, "--series: not used with --glossy"},
-      {{"--checkpoint", "c.tck"}, "--checkpoint: not used with --glossy"},
-      {{"--eye", "1,2"}, "three finite numbers X,Y,Z"},
-      {{"--eye", "1,2,3"}, "--eye: used only with a .csv, .vtp, .ply or .png file"},
-      {{"--lobe", "white=0.5"}, "is not NAME=SHARE,EXPONENT"},
-      {{"--lobe", "white=0.5,-1"}, "the exponent of the lobe (Ns) is -1"},
-  };
-  for (const auto& [options, message] : calls) {
-    SCOPED_TRACE(::testing::PrintToString(options));
-    const ProgramResult result = run_program(shining + Arguments{"--glossy"} + options);
-    EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.err, HasSubstr(message));
-    EXPECT_EQ(line_count(result.err), 1U) << result.err;
-  }
-  const ProgramResult eye = run_program(shining + Arguments{"--eye", "1,2,3"});
-  EXPECT_EQ(eye.status, 2);
-  EXPECT_THAT(eye.err, HasSubstr("--eye: used only with --glossy"));
+  expect_all_refused(
+      shining + Arguments{"--glossy"},
+      {
+          {{"--engine", "hemicube"}, "which have no directions"},
+          {{"--engine", "pairs"}, "which have no directions"},
+          {{"--one-way"}, "not available with one-way passes"},
+          {{"--basis", "linear"}, "not available with a linear basis"},
+          {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
+          {{"--scheme", "growing"}, "another scheme than fixed"},
+          {{"--scheme", "semi-iterative"}, "another scheme than fixed"},
+          {{"--scheme", "conjugate-gradients"}, "another scheme than fixed"},
+          {{"--first-shot", "auto"}, "not available with a first shot"},
+          {{"--replicas", "2"}, "not available with replicas"},
+          {{"--accuracy", "1%"}, "an accuracy or a time limit"},
+          {{"--seconds", "1"}, "an accuracy or a time limit"},
+          {{"--factors", "f.npz"}, "--factors: not used with --glossy"},
+          {{"--by", "material"}, "--by: not used with --glossy"},
+          {{"--series", "s.pvd"}, "--series: not used with --glossy"},
+          {{"--checkpoint", "c.tck"}, "--checkpoint: not used with --glossy"},
+          {{"--eye", "1,2"}, "three finite numbers X,Y,Z"},
+          {{"--eye", "1,2,3"}, "--eye: used only with a .csv, .vtp, .ply or .png file"},
+          {{"--lobe", "white=0.5"}, "is not NAME=SHARE,EXPONENT"},
+          {{"--lobe", "white=0.5,-1"}, "the exponent of the lobe (Ns) is -1"},
+      });
+  expect_refused(shining + Arguments{"--eye", "1,2,3"}, "--eye: used only with --glossy");
 }
 
 TEST(CliGlossy, WorksWithTheOtherOptions) {
@@ -65,22 +58,19 @@ TEST(CliGlossy, WorksWithTheOtherOptions) {
                                {"--rotate", "3"}};
   for (const Arguments& option : options) {
     SCOPED_TRACE(::testing::PrintToString(option));
-    const ProgramResult result = run_program(shining + Arguments{"--glossy"} + option);
-    EXPECT_EQ(result.status, 0) << result.err;
+    expect_success(shining + Arguments{"--glossy"} + option);
   }
 }
 
 TEST(CliGlossy, FilesHaveTheRadianceTowardAnEye) {
   TemporaryFolder folder;
-  const ProgramResult result =
-      run_program(shining + Arguments{"--glossy", "--eye", "0.3,0.3,0.1", "--out", folder / "r.csv",
-                                      "--out", folder / "r.ply", "--out", folder / "r.vtp",
-                                      "--stats", folder / "s.json"});
-  ASSERT_EQ(result.status, 0) << result.err;
+  expect_success(shining + Arguments{"--glossy", "--eye", "0.3,0.3,0.1", "--out", folder / "r.csv",
+                                     "--out", folder / "r.ply", "--out", folder / "r.vtp",
+                                     "--stats", folder / "s.json"});
   EXPECT_THAT(read_file(folder / "r.csv"),
               HasSubstr(",rho_lobe_r,rho_lobe_g,rho_lobe_b,L_r,L_g,L_b\n"));
   EXPECT_THAT(read_file(folder / "r.ply"), HasSubstr("property double L_b\nend_header"));
-  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  const auto json = read_json(folder / "s.json");
   EXPECT_EQ(json["options"]["glossy"], true);
   EXPECT_GT(json["glossy"]["patches"], 10);
   EXPECT_GT(json["glossy"]["transfer_bytes"], 0);
@@ -92,20 +82,15 @@ TEST(CliGlossy, DrawsAPictureFromAnEye) {
   TemporaryFolder folder;
   const Arguments eye{"--eye", "-0.1,0.3,-0.5", "--target", "0.3,0.2,0.3", "--up", "0,1,0"};
   for (const Arguments& glossy : {Arguments{"--glossy"}, Arguments{}}) {
-    const ProgramResult result =
-        run_program(shining + glossy + eye + Arguments{"--out", folder / "r.png"});
-    ASSERT_EQ(result.status, 0) << result.err;
+    expect_success(shining + glossy + eye + Arguments{"--out", folder / "r.png"});
     const std::string png = read_file(folder / "r.png");
     EXPECT_EQ(png.substr(1, 3), "PNG");
     EXPECT_GT(png.size(), 10'000U);
   }
-  const ProgramResult without = run_program(shining + Arguments{"--out", folder / "r.png"});
-  EXPECT_EQ(without.status, 2);
-  EXPECT_THAT(without.err, HasSubstr("a .png picture requires --eye X,Y,Z"));
-  const ProgramResult target =
-      run_program(shining + Arguments{"--target", "1,2,3", "--out", folder / "r.ply"});
-  EXPECT_EQ(target.status, 2);
-  EXPECT_THAT(target.err, HasSubstr("--target: used only with a .png file"));
+  expect_refused(shining + Arguments{"--out", folder / "r.png"},
+                 "a .png picture requires --eye X,Y,Z");
+  expect_refused(shining + Arguments{"--target", "1,2,3", "--out", folder / "r.ply"},
+                 "--target: used only with a .png file");
 }
 
 TEST(CliGlossy, SaysWhatItDoesWithLobes) {
@@ -131,10 +116,9 @@ TEST(CliGlossy, SolvesWithAwkwardLobes) {
   for (const char* lobe :
        {"white=3,1000000", "white=0.5,0", "white=1,96.078431", "white=1e-12,1e9"}) {
     SCOPED_TRACE(lobe);
-    const ProgramResult result = run_program({"solve", "cornell-box", "-q", "-m", "24", "--lobe",
-                                              lobe, "--glossy", "--stats", folder / "s.json"});
-    ASSERT_EQ(result.status, 0) << result.err;
-    const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+    expect_success({"solve", "cornell-box", "-q", "-m", "24", "--lobe", lobe, "--glossy", "--stats",
+                    folder / "s.json"});
+    const auto json = read_json(folder / "s.json");
     EXPECT_EQ(json["converged"], true);
     EXPECT_LE(json["glossy"]["sum_defect"], 1e-13);
     EXPECT_LE(json["energy_defect"], 1e-12);
@@ -151,9 +135,8 @@ TEST(CliGlossy, DiffuseSolvesIgnoreLobes) {
 TEST(CliGlossy, LobesAreWrittenAndRead) {
   TemporaryFolder folder;
   const std::string file = folder / "s.obj";
-  const ProgramResult written = run_program({"scene", "cornell-box", "--lobe", "white=0.2,8",
-                                             "--lobe", "red=0.1,0.2,0.3,2.5", "--out", file});
-  ASSERT_EQ(written.status, 0) << written.err;
+  expect_success({"scene", "cornell-box", "--lobe", "white=0.2,8", "--lobe", "red=0.1,0.2,0.3,2.5",
+                  "--out", file});
   EXPECT_THAT(read_file(folder / "s.mtl"), HasSubstr("Ks 0.1 0.2 0.3\nNs 2.5\n"));
   const Arguments rest{"-q", "-m", "24", "--glossy", "--out", "-"};
   EXPECT_EQ(run_program(Arguments{"solve", file} + rest).out,

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "support/wait_until.h"
 
 namespace transillum::testing {
@@ -53,7 +53,7 @@ TEST_F(CliInterruption, SavesResultsSoFarAndExitsWith130) {
     EXPECT_EQ(result.status, 130) << result.err;
     EXPECT_THAT(result.err, HasSubstr("interrupted; the results so far are saved"));
     EXPECT_THAT(folder.names(), ElementsAre("a.csv", "a.json"));
-    const auto json = nlohmann::json::parse(read_file(folder / "a.json"));
+    const auto json = read_json(folder / "a.json");
     EXPECT_FALSE(json.at("complete"));
     EXPECT_EQ(json.at("iterations"), 0);
     EXPECT_TRUE(json.at("energy_defect").is_null());
@@ -124,9 +124,8 @@ TEST_F(CliInterruption, EnginesWithoutDirectionsSaveNothingAndReportWhy) {
                              "pairs/s",
                              "% of the pairs were computed, but B requires all of them"}}) {
     const TemporaryFolder folder;
-    std::vector<std::string> call{"solve", "sphere-flake:levels=1", "--out", folder / "a.csv"};
-    call.insert(call.end(), run.options.begin(), run.options.end());
-    RunningProgram program(call);
+    RunningProgram program(Arguments{"solve", "sphere-flake:levels=1", "--out", folder / "a.csv"} +
+                           run.options);
     ASSERT_TRUE(program.reports(run.progress)) << program.err_so_far();
     program.send(SIGINT);
     const ProgramResult result = program.wait();

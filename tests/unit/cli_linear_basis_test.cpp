@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_solve.h"
@@ -24,28 +24,21 @@ using ::testing::Not;
 const Arguments linear_box{"solve", "cornell-box", "-q", "--basis", "linear"};
 
 TEST(CliLinearBasis, IsRefusedInOneLineWhereItIsNotAvailable) {
-  const std::pair<Arguments, const char*> calls[] = {
-      {{"--engine", "global"}, "engine global does not have"},
-      {{"--engine", "zbuffer"}, "engine zbuffer does not have"},
-      {{"--engine", "painter"}, "engine painter does not have"},
-      {{"--engine", "rays"}, "engine rays does not have"},
-      {{"--engine", "corrected"}, "engine corrected does not have"},
-      {{"--engine", "hemicube"}, "engine hemicube does not have"},
-      {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
-      {{"--scheme", "semi-iterative"}, "not available with the semi-iterative scheme"},
-      {{"--first-shot", "auto"}, "not available with a first shot"},
-      {{"--factors", "f.npz"}, "not used with --factors"},
-  };
-  for (const auto& [options, message] : calls) {
-    SCOPED_TRACE(::testing::PrintToString(options));
-    const ProgramResult result = run_program(linear_box + Arguments{"-m", "8"} + options);
-    EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.err, HasSubstr(message));
-    EXPECT_EQ(line_count(result.err), 1U) << result.err;
-  }
-  const ProgramResult unknown = run_program({"solve", "furnace", "--basis", "quadratic"});
-  EXPECT_EQ(unknown.status, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("choose one of constant, linear"));
+  expect_all_refused(
+      linear_box + Arguments{"-m", "8"},
+      {
+          {{"--engine", "global"}, "engine global does not have"},
+          {{"--engine", "zbuffer"}, "engine zbuffer does not have"},
+          {{"--engine", "painter"}, "engine painter does not have"},
+          {{"--engine", "rays"}, "engine rays does not have"},
+          {{"--engine", "corrected"}, "engine corrected does not have"},
+          {{"--engine", "hemicube"}, "engine hemicube does not have"},
+          {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
+          {{"--scheme", "semi-iterative"}, "not available with the semi-iterative scheme"},
+          {{"--first-shot", "auto"}, "not available with a first shot"},
+          {{"--factors", "f.npz"}, "not used with --factors"},
+      });
+  expect_refused({"solve", "furnace", "--basis", "quadratic"}, "choose one of constant, linear");
 }
 
 TEST(CliLinearBasis, WorksWithTheOtherOptions) {
@@ -57,16 +50,14 @@ TEST(CliLinearBasis, WorksWithTheOtherOptions) {
                                {"--engine", "exact"}};
   for (const Arguments& option : options) {
     SCOPED_TRACE(::testing::PrintToString(option));
-    const ProgramResult result = run_program(linear_box + Arguments{"-m", "16"} + option);
-    EXPECT_EQ(result.status, 0) << result.err;
+    expect_success(linear_box + Arguments{"-m", "16"} + option);
   }
   // Exchanges by form factors of constant functions would differ.
   const ProgramResult table = run_program(linear_box + Arguments{"-m", "16", "--by", "material"});
   EXPECT_THAT(table.out, HasSubstr("absorbed, W"));
   EXPECT_THAT(table.out, Not(HasSubstr("power, W")));
   EXPECT_THAT(table.err, HasSubstr("exchanges between groups are not available"));
-  const ProgramResult accuracy = run_program(linear_box + Arguments{"--accuracy", "10%"});
-  EXPECT_EQ(accuracy.status, 0) << accuracy.err;
+  expect_success(linear_box + Arguments{"--accuracy", "10%"});
 }
 
 TEST(CliLinearBasis, PairsHaveFunctionsToo) {
@@ -76,8 +67,7 @@ TEST(CliLinearBasis, PairsHaveFunctionsToo) {
        {Arguments{}, Arguments{"--points", "8"}, Arguments{"--accuracy", "1%"},
         Arguments{"--iterations", "3"}, Arguments{"--threads", "2"}}) {
     SCOPED_TRACE(::testing::PrintToString(option));
-    const ProgramResult result = run_program(pairs + option + Arguments{"--out", folder / "r.vtp"});
-    ASSERT_EQ(result.status, 0) << result.err;
+    expect_success(pairs + option + Arguments{"--out", folder / "r.vtp"});
     EXPECT_EQ(read_result(folder / "r.vtp").linear_parts.size(), 27U);
   }
   for (const Arguments& option : {Arguments{"--normalize", "rows"}, Arguments{"--replicas", "4"},
@@ -90,9 +80,8 @@ TEST(CliLinearBasis, PairsHaveFunctionsToo) {
   }
   // Beside passes, in a study: both are compared with linear passes.
   const ProgramResult study =
-      run_program({"study", "cornell-box", "-m", "256", "--engines", "fast,pairs", "--basis",
-                   "constant,linear", "--no-cache", "-q", "--out", "-"});
-  ASSERT_EQ(study.status, 0) << study.err;
+      expect_success({"study", "cornell-box", "-m", "256", "--engines", "fast,pairs", "--basis",
+                      "constant,linear", "--no-cache", "-q", "--out", "-"});
   EXPECT_THAT(study.out, HasSubstr("pairs/linear"));
 }
 
@@ -128,8 +117,7 @@ TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
   for (const char* ending : {"csv", "vtp", "ply", "glb", "gltf"}) {
     call = call + Arguments{"--out", folder / (std::string("r.") + ending)};
   }
-  const ProgramResult solved = run_program(call);
-  ASSERT_EQ(solved.status, 0) << solved.err;
+  expect_success(call);
   const Solution solution = read_result(folder / "r.vtp");
   ASSERT_EQ(solution.linear_parts.size(), solution.radiosity.size());
   const std::string csv = read_file(folder / "r.csv");
@@ -151,7 +139,7 @@ TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
     corners += solution.scene->outline(i).size();
   }
   EXPECT_THAT(vtp, HasSubstr("NumberOfPoints=\"" + std::to_string(corners) + "\""));
-  const auto statistics = nlohmann::json::parse(read_file(folder / "r.json"));
+  const auto statistics = read_json(folder / "r.json");
   EXPECT_EQ(statistics["options"]["basis"], "linear");
   EXPECT_LE(statistics["closure_defect_moments"], 1e-10);
   EXPECT_GE(statistics["negative_corners"], 0);
@@ -168,10 +156,7 @@ TEST(CliLinearBasis, WarnsOfMeansBelowZero) {
 TEST(CliLinearBasis, ShardsCheckpointsAndThreadsGiveTheSameBits) {
   const TemporaryFolder folder;
   const Arguments solve = linear_box + Arguments{"-m", "60", "--max-patch-area", "0.3"};
-  const auto expect_ok = [](const Arguments& arguments) {
-    const ProgramResult result = run_program(arguments);
-    ASSERT_EQ(result.status, 0) << result.err;
-  };
+  const auto expect_ok = [](const Arguments& arguments) { expect_success(arguments); };
   expect_ok(solve + Arguments{"--out", folder / "whole.csv", "--threads", "1"});
   const std::string whole = read_file(folder / "whole.csv");
   expect_ok(solve + Arguments{"--out", folder / "threads.csv", "--threads", "3"});
@@ -186,7 +171,7 @@ TEST(CliLinearBasis, ShardsCheckpointsAndThreadsGiveTheSameBits) {
   expect_ok(solve +
             Arguments{"--checkpoint", folder / "c.tck", "--resume", "--out", folder / "b.csv"});
   EXPECT_TRUE(read_file(folder / "b.csv") == whole);
-  // A checkpoint of the other basis is refused.
+  // A checkpoint of the other basis is refused, after the note of the number of patches.
   const ProgramResult other = run_program({"solve", "cornell-box", "-m", "60", "--max-patch-area",
                                            "0.3", "--checkpoint", folder / "c.tck", "--resume"});
   EXPECT_EQ(other.status, 2);
@@ -197,18 +182,15 @@ TEST(CliLinearBasis, CompareMeasuresFunctionsOfDifferentPatches) {
   const TemporaryFolder folder;
   const auto solve = [&](const std::string& basis, const std::string& area,
                          const std::string& name) {
-    const ProgramResult result =
-        run_program({"solve", "cornell-box", "-q", "-m", "64", "--basis", basis, "--max-patch-area",
-                     area, "--out", folder / name});
-    ASSERT_EQ(result.status, 0) << result.err;
+    expect_success({"solve", "cornell-box", "-q", "-m", "64", "--basis", basis, "--max-patch-area",
+                    area, "--out", folder / name});
   };
   solve("constant", "0.01", "fine.vtp");
   solve("constant", "0.3", "constant.vtp");
   solve("linear", "0.3", "linear.vtp");
   const auto error = [&](const std::string& name) {
     const ProgramResult result =
-        run_program({"compare", folder / "fine.vtp", folder / name, "--functions"});
-    EXPECT_EQ(result.status, 0) << result.err;
+        expect_success({"compare", folder / "fine.vtp", folder / name, "--functions"});
     const std::string label = "L2 of functions";
     const std::size_t at = result.out.find(label);
     return at == std::string::npos ? -1.0 : std::stod(result.out.substr(at + label.size()));
@@ -220,9 +202,8 @@ TEST(CliLinearBasis, CompareMeasuresFunctionsOfDifferentPatches) {
 
 TEST(CliLinearBasis, StudiesMeasureFunctions) {
   const ProgramResult result =
-      run_program({"study", "furnace", "--max-patch-area", "0.5", "-m", "16,64", "--sampling",
-                   "antipodal", "--basis", "constant,linear", "--no-cache", "-q", "--out", "-"});
-  ASSERT_EQ(result.status, 0) << result.err;
+      expect_success({"study", "furnace", "--max-patch-area", "0.5", "-m", "16,64", "--sampling",
+                      "antipodal", "--basis", "constant,linear", "--no-cache", "-q", "--out", "-"});
   EXPECT_THAT(result.out, HasSubstr("antipodal/constant,"));
   EXPECT_THAT(result.out, HasSubstr("antipodal/linear,"));
   EXPECT_EQ(line_count(result.out), 5U);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "support/sanitizers.h"
 
 namespace transillum::testing {
@@ -49,7 +49,7 @@ TEST_F(CliMemory, ThreadsThatDoNotStartAreDoneWithout) {
     return std::vector<std::string>{"solve", "cornell-box", "-q",        "-m",   "16",
                                     "--out", folder / name, "--threads", threads};
   };
-  ASSERT_EQ(run_program(solve("a.csv", "1")).status, 0);
+  expect_success(solve("a.csv", "1"));
   const ProgramResult result = run(solve("b.csv", "200"), 500);
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.err, "");
@@ -207,9 +207,8 @@ TEST(CliFullDisk, TheReasonOfAFailedSceneIsGiven) {
 
 TEST(CliFullDisk, ACacheThatCannotBeCreatedIsAWarning) {
   const ProgramResult result =
-      run_program({"study", "furnace", "-q", "--directions", "8", "--sampling", "fibonacci",
-                   "--reference", "8", "--cache", "/proc/no/such/folder"});
-  EXPECT_EQ(result.status, 0) << result.err;
+      expect_success({"study", "furnace", "-q", "--directions", "8", "--sampling", "fibonacci",
+                      "--reference", "8", "--cache", "/proc/no/such/folder"});
   EXPECT_THAT(result.err, HasSubstr("the reference is not cached: /proc/no/such/folder: cannot be "
                                     "created: No such file or directory"));
 }

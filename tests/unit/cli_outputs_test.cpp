@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#include "program_run.h"
+#include "support/program_run.h"
 
 namespace transillum::testing {
 namespace {
@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 class CliOutputs : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(run({"scene", "furnace", "--out", "mats.obj"}).status, 0);
+    expect_success({"scene", "furnace", "--out", "mats.obj"}, folder_.path());
     fs::rename(folder_ / "mats.obj", folder_ / "a.obj");
-    ASSERT_EQ(run({"solve", "furnace", "-m", "64", "--replicas", "4", "--stats", "s.json"}).status,
-              0);
+    expect_success({"solve", "furnace", "-m", "64", "--replicas", "4", "--stats", "s.json"},
+                   folder_.path());
     names_ = folder_.names();
     for (const std::string& name : names_) {
       contents_.push_back(read_file(folder_ / name));
@@ -35,12 +35,8 @@ class CliOutputs : public ::testing::Test {
   }
 
   /// Exit status 2, one line, and all files unchanged.
-  void expect_refused(const std::vector<std::string>& arguments, const std::string& expected) {
-    SCOPED_TRACE(::testing::PrintToString(arguments));
-    const ProgramResult result = run(arguments);
-    EXPECT_EQ(result.status, 2);
-    EXPECT_EQ(line_count(result.err), 1U) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(expected));
+  void expect_refused(const Arguments& arguments, const std::string& expected) {
+    testing::expect_refused(arguments, expected, folder_.path());
     for (std::size_t k = 0; k < names_.size(); ++k) {
       EXPECT_EQ(read_file(folder_ / names_[k]), contents_[k]) << names_[k];
     }
@@ -86,7 +82,7 @@ TEST_F(CliOutputs, NoCommandWritesAFileTwice) {
   expect_refused({"study", "furnace", "-m", "8", "-o", "new.svg", "--plot", "./new.svg"}, twice);
   fs::create_symlink("b.mtl", folder_ / "b.obj");
   expect_refused({"scene", "furnace", "-o", "b.obj"}, twice);
-  EXPECT_EQ(run({"directions", "-m", "8", "-o", "/dev/null", "--stats"}).status, 0);
+  expect_success({"directions", "-m", "8", "-o", "/dev/null", "--stats"}, folder_.path());
 }
 
 TEST_F(CliOutputs, ALoopOfLinksIsRefused) {
@@ -203,12 +199,9 @@ TEST_F(CliOutputs, APictureFromThePointInItsMiddleIsRefusedBeforeTheSolve) {
 
 TEST(CliOutputOrder, AFileMayBeNamedBeforeTheScene) {
   const TemporaryFolder folder;
-  EXPECT_EQ(
-      run_program({"solve", "-q", "-m", "8", "--out", folder / "a.csv", "cornell-box"}).status, 0);
-  EXPECT_EQ(run_program(
-                {"study", "-q", "--no-cache", "-m", "8", "--plot", folder / "a.svg", "cornell-box"})
-                .status,
-            0);
+  expect_success({"solve", "-q", "-m", "8", "--out", folder / "a.csv", "cornell-box"});
+  expect_success(
+      {"study", "-q", "--no-cache", "-m", "8", "--plot", folder / "a.svg", "cornell-box"});
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.csv", "a.svg"}));
 }
 

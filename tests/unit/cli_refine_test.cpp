@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "transillum/files.h"
 
 namespace transillum::testing {
@@ -19,33 +19,27 @@ using ::testing::HasSubstr;
 const Arguments whole_box{"solve", "cornell-box", "-m", "64"};
 
 TEST(CliRefine, RefusesInOneLineWhatItCannotDo) {
-  const std::pair<Arguments, const char*> calls[] = {
-      {{"--refine-by", "jump"}, "refine-by: requires patches"},
-      {{"--refine-by", "edge", "--patches", "60"}, "choose one of jump, error"},
-      {{"--refine-by", "jump", "--max-patch-area", "1"}, "refine-by: requires patches"},
-      {{"--refine-until", "1%"}, "--refine-by"},
-      {{"--refine-by", "jump", "--patches", "60", "--refine-until", "2"}, "--refine-until"},
-      {{"--refine-by", "jump", "--patches", "60", "--seconds", "9"}, "no time limit"},
-      {{"--refine-by", "jump", "--patches", "60", "--shard", "1/2", "-o", "a.tsh"}, "--shard"},
-      {{"--refine-by", "jump", "--patches", "60", "--factors", "f.npz"}, "--factors"},
-      {{"--refine-by", "jump", "--patches", "60", "--engine", "hemicube"}, "engine hemicube"},
-  };
-  for (const auto& [options, message] : calls) {
-    SCOPED_TRACE(::testing::PrintToString(options));
-    const ProgramResult result = run_program(whole_box + options);
-    EXPECT_EQ(result.status, 2);
-    EXPECT_THAT(result.err, HasSubstr(message));
-    EXPECT_EQ(line_count(result.err), 1U) << result.err;
-  }
+  expect_all_refused(
+      whole_box,
+      {
+          {{"--refine-by", "jump"}, "refine-by: requires patches"},
+          {{"--refine-by", "edge", "--patches", "60"}, "choose one of jump, error"},
+          {{"--refine-by", "jump", "--max-patch-area", "1"}, "refine-by: requires patches"},
+          {{"--refine-until", "1%"}, "--refine-by"},
+          {{"--refine-by", "jump", "--patches", "60", "--refine-until", "2"}, "--refine-until"},
+          {{"--refine-by", "jump", "--patches", "60", "--seconds", "9"}, "no time limit"},
+          {{"--refine-by", "jump", "--patches", "60", "--shard", "1/2", "-o", "a.tsh"}, "--shard"},
+          {{"--refine-by", "jump", "--patches", "60", "--factors", "f.npz"}, "--factors"},
+          {{"--refine-by", "jump", "--patches", "60", "--engine", "hemicube"}, "engine hemicube"},
+      });
 }
 
 TEST(CliRefine, PrintsItsRoundsAndKeepsThemInTheStatistics) {
   const TemporaryFolder folder;
   const std::string stats = folder / "stats.json", out = folder / "out.vtp";
   for (const char* by : {"jump", "error"}) {
-    const ProgramResult result = run_program(
+    const ProgramResult result = expect_success(
         whole_box + Arguments{"--refine-by", by, "--patches", "100", "--stats", stats, "-o", out});
-    ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.err,
                 ContainsRegex("round 1: 27 patches, (RMS jump|L2 error) [0-9.]+ % of B"));
     const auto json = nlohmann::json::parse(std::ifstream(stats));
@@ -64,10 +58,9 @@ TEST(CliRefine, GoesOnFromItsCheckpoint) {
   const std::string whole = folder / "whole.csv", resumed = folder / "resumed.csv",
                     checkpoint = folder / "run.tck";
   const Arguments refined = whole_box + Arguments{"--refine-by", "jump", "--patches", "60"};
-  ASSERT_EQ(run_program(refined + Arguments{"-o", whole, "--checkpoint", checkpoint}).status, 0);
+  expect_success(refined + Arguments{"-o", whole, "--checkpoint", checkpoint});
   const ProgramResult again =
-      run_program(refined + Arguments{"-o", resumed, "--checkpoint", checkpoint, "--resume"});
-  EXPECT_EQ(again.status, 0);
+      expect_success(refined + Arguments{"-o", resumed, "--checkpoint", checkpoint, "--resume"});
   EXPECT_THAT(again.err, HasSubstr("resumes after"));
   EXPECT_EQ(read_file(whole), read_file(resumed));
 }

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "program_run.h"
+#include "support/program_run.h"
 
 namespace transillum::testing {
 namespace {
@@ -65,20 +65,18 @@ TEST(CliSceneOptions, WithoutLightSolveNamesTheRemedy) {
 }
 
 TEST(CliSceneOptions, TheNamedRemedyWorks) {
-  const ProgramResult result = run_program(
+  const ProgramResult result = expect_success(
       {"solve", corpus + "no-materials.obj", "-q", "-m", "8", "--emission", "light=10", "-o", "-"});
-  EXPECT_EQ(result.status, 0) << result.err;
   const std::vector<std::string> exitances = column(result.out, exitance_column);
   EXPECT_EQ(exitances, (std::vector<std::string>{"0", "0", "0", "0", "0", "10"}));
   EXPECT_GT(std::stod(column(result.out, b_column)[0]), 0);
 }
 
 TEST(CliSceneOptions, LightsAndReflectancesAreGivenSeveralTimes) {
-  const ProgramResult result = run_program(
+  const ProgramResult result = expect_success(
       {"solve", corpus + "materials.obj", "-q", "-m", "8", "--out=-", "--emission", "face:0=1,2,3",
        "--emission", "lights of the ceiling=4", "--reflectance", "room=.25", "--reflectance",
        "face:1=.125", "--default-reflectance", ".75", "--max-reflectance", ".9"});
-  ASSERT_EQ(result.status, 0) << result.err;
   const auto exitances = column(result.out, exitance_column);
   const auto reflectances = column(result.out, reflectance_column);
   EXPECT_EQ(exitances[0], "1");
@@ -113,18 +111,15 @@ TEST(CliSceneOptions, UnknownNamesAreRefused) {
 TEST(CliSceneOptions, LengthsAreScaled) {
   for (const std::vector<std::string>& option :
        {std::vector<std::string>{"--scale", "0.01"}, {"--units", "cm"}}) {
-    std::vector<std::string> call{"solve", corpus + "materials.obj", "-q", "-m", "8", "-o", "-"};
-    call.insert(call.end(), option.begin(), option.end());
-    const ProgramResult result = run_program(call);
-    ASSERT_EQ(result.status, 0) << result.err;
+    const ProgramResult result = expect_success(
+        Arguments{"solve", corpus + "materials.obj", "-q", "-m", "8", "-o", "-"} + option);
     EXPECT_NEAR(std::stod(column(result.out, area_column)[0]), 1e-4, 1e-18);
   }
 }
 
 TEST(CliSceneOptions, TheNumberOfPatchesIsToldBeforeTheyAreMade) {
   const ProgramResult result =
-      run_program({"solve", "cornell-box", "-m", "8", "--patches", "2000", "-o", "-"});
-  ASSERT_EQ(result.status, 0) << result.err;
+      expect_success({"solve", "cornell-box", "-m", "8", "--patches", "2000", "-o", "-"});
   const auto patches = static_cast<double>(line_count(result.out) - 1);
   EXPECT_NEAR(patches, 2000, 100);
   EXPECT_THAT(result.err, StartsWith("transillum: " + std::to_string(line_count(result.out) - 1) +
@@ -144,9 +139,8 @@ TEST(CliSceneOptions, TheNumberOfPatchesIsToldBeforeTheyAreMade) {
 
 TEST(CliSceneOptions, SceneWritesTheChangedScene) {
   const TemporaryFolder folder;
-  const ProgramResult written = run_program({"scene", corpus + "materials.obj", "--units", "mm",
-                                             "--emission", "room=2", "--out", folder / "s.obj"});
-  ASSERT_EQ(written.status, 0) << written.err;
+  expect_success({"scene", corpus + "materials.obj", "--units", "mm", "--emission", "room=2",
+                  "--out", folder / "s.obj"});
   EXPECT_THAT(read_file(folder / "s.obj"),
               AllOf(HasSubstr("g room\n"), HasSubstr("g lights of the ceiling\n"),
                     HasSubstr("g default\n"), HasSubstr("v 0.001 ")));
@@ -160,9 +154,8 @@ TEST(CliSceneOptions, SceneWritesTheChangedScene) {
 TEST(CliSceneOptions, CoveredFacesAreNamed) {
   const TemporaryFolder folder;
   const ProgramResult result =
-      run_program({"solve", corpus + "coincident.obj", "-m", "8", "--emission", "face:2=1",
-                   "--stats", folder / "s.json", "-o", "-"});
-  ASSERT_EQ(result.status, 0) << result.err;
+      expect_success({"solve", corpus + "coincident.obj", "-m", "8", "--emission", "face:2=1",
+                      "--stats", folder / "s.json", "-o", "-"});
   EXPECT_THAT(
       result.err,
       HasSubstr("coincident.obj:6: face 0: covered by a face on the same points: it gets no "
@@ -173,8 +166,7 @@ TEST(CliSceneOptions, CoveredFacesAreNamed) {
 TEST(CliStandardOutput, TakesTheCsvOfOut) {
   const TemporaryFolder folder;
   const ProgramResult file =
-      run_program({"solve", "furnace", "-m", "8", "-o", folder / "r.csv", "-o", "-"});
-  ASSERT_EQ(file.status, 0) << file.err;
+      expect_success({"solve", "furnace", "-m", "8", "-o", folder / "r.csv", "-o", "-"});
   EXPECT_EQ(file.out, read_file(folder / "r.csv")) << "nothing else is mixed with it";
   EXPECT_THAT(file.err, HasSubstr("B mean, W/m2"));
   const std::vector<std::vector<std::string>> calls{

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "program_run.h"
+#include "support/program_run.h"
 
 namespace transillum::testing {
 namespace {
@@ -125,7 +125,7 @@ TEST(CliStreams, MessagesDoNotGetIntoFilesIfStreamsAreClosed) {
     arguments.push_back(folder / file);
     return arguments;
   };
-  ASSERT_EQ(run_program(with("a.csv")).status, 0);
+  expect_success(with("a.csv"));
   ASSERT_EQ(run_program(with("b.csv"), closed_stream, closed_stream).status, 0);
   EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "b.csv"));
   EXPECT_THAT(folder.names(), ElementsAre("a.csv", "b.csv"));

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "options/option_table.h"
-#include "program_run.h"
+#include "support/program_run.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 
@@ -14,12 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-using Call = std::vector<std::string>;
-
-Call joined(Call first, const Call& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
+using Call = Arguments;
 
 const Call by_directions{"solve", "furnace", "-q", "-m", "8"};
 const Call by_hemicubes{"solve", "furnace", "-q", "--engine", "hemicube"};
@@ -98,50 +93,40 @@ const Unused unused[] = {
 TEST(CliUnusedOptions, AreRefused) {
   const TemporaryFolder folder;
   for (const Unused& one : unused) {
-    const Call arguments = joined(one.call, one.options);
-    SCOPED_TRACE(::testing::PrintToString(arguments));
-    const ProgramResult result = run_program(arguments, {}, {}, folder.path().string());
-    EXPECT_EQ(result.status, 2);
-    EXPECT_EQ(result.out, "");
-    EXPECT_EQ(line_count(result.err), 1U) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(one.expected));
+    expect_refused(one.call + one.options, one.expected, folder.path().string());
   }
   EXPECT_THAT(folder.names(), ::testing::IsEmpty());
 }
 
 TEST(CliUnusedOptions, AreAcceptedWhereTheyHaveAnEffect) {
   const Call calls[] = {
-      joined(by_directions, {"--engine", "rays", "--resolution", "64", "--seed", "2"}),
-      joined(by_directions, {"--engine", "painter", "--order", "newell", "--resolution", "64"}),
-      joined(by_directions, {"--sampling", "sobol", "--seed", "2", "--one-way"}),
-      joined(by_directions, {"--replicas", "2", "--seed", "2"}),
-      joined(by_directions,
-             {"--scheme", "semi-iterative", "--iterations", "9", "--burn-in", "2", "--seed", "2"}),
-      joined(by_hemicubes, {"--resolution", "16", "--iterations", "3", "--scheme", "fixed"}),
-      joined(factors, {"--engine", "zbuffer", "-m", "8", "--resolution", "64"}),
-      joined(factors, {"--engine", "rays", "--rays", "10", "--seed", "2"}),
-      joined(by_pairs, {"--points", "16", "--iterations", "3", "--scheme", "fixed"}),
-      joined(factors, {"--engine", "pairs", "--points", "16"}),
-      joined(factors, {"--engine", "hemicube", "--resolution", "16"}),
-      joined(map, {"--out", "m.svg", "--out", "m.json", "--size", "300"}),
+      by_directions + Call{"--engine", "rays", "--resolution", "64", "--seed", "2"},
+      by_directions + Call{"--engine", "painter", "--order", "newell", "--resolution", "64"},
+      by_directions + Call{"--sampling", "sobol", "--seed", "2", "--one-way"},
+      by_directions + Call{"--replicas", "2", "--seed", "2"},
+      by_directions +
+          Call{"--scheme", "semi-iterative", "--iterations", "9", "--burn-in", "2", "--seed", "2"},
+      by_hemicubes + Call{"--resolution", "16", "--iterations", "3", "--scheme", "fixed"},
+      factors + Call{"--engine", "zbuffer", "-m", "8", "--resolution", "64"},
+      factors + Call{"--engine", "rays", "--rays", "10", "--seed", "2"},
+      by_pairs + Call{"--points", "16", "--iterations", "3", "--scheme", "fixed"},
+      factors + Call{"--engine", "pairs", "--points", "16"},
+      factors + Call{"--engine", "hemicube", "--resolution", "16"},
+      map + Call{"--out", "m.svg", "--out", "m.json", "--size", "300"},
       {"directions", "-m", "4", "--sampling", "random", "--seed", "2"},
       {"bounds", "--reflectance", "0.5", "-m", "64", "--tolerance", "0.1"},
-      joined(study, {"--rotations", "2", "--seed", "2"}),
-      joined(study,
-             {"--engines", "fast,zbuffer:64,painter", "--resolution", "32", "--order", "bsp"}),
+      study + Call{"--rotations", "2", "--seed", "2"},
+      study + Call{"--engines", "fast,zbuffer:64,painter", "--resolution", "32", "--order", "bsp"},
   };
   const TemporaryFolder folder;
   for (const Call& arguments : calls) {
-    SCOPED_TRACE(::testing::PrintToString(arguments));
-    const ProgramResult result = run_program(arguments, {}, {}, folder.path().string());
-    EXPECT_EQ(result.status, 0) << result.err;
+    expect_success(arguments, folder.path().string());
   }
 }
 
 TEST(CliUnusedOptions, ZbufferFormFactorsDependOnTheResolution) {
   const auto with = [](const std::string& resolution) {
-    return run_program(
-               joined(factors, {"--engine", "zbuffer", "-m", "8", "--resolution", resolution}))
+    return run_program(factors + Call{"--engine", "zbuffer", "-m", "8", "--resolution", resolution})
         .out;
   };
   EXPECT_NE(with("16"), with("64"));

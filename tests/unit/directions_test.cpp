@@ -1,5 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

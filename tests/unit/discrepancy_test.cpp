@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sampling/discrepancy.h"
+#include "support/canceled.h"
 
 namespace transillum::discrepancy_test {
 namespace {
@@ -163,12 +164,10 @@ TEST(QuadratureError, MatchesEquation17) {
 }
 
 TEST(Discrepancies, CanBeCanceled) {
-  const Cancellation cancellation;
-  cancellation.cancel();
   const auto set = make_directions(Sampling::sobol, 500, 1);
-  EXPECT_THROW(star_discrepancy(set, cancellation), Canceled);
-  EXPECT_THROW(cap_discrepancy(set, cancellation), Canceled);
-  EXPECT_THROW(quadrature_errors(spread_normals(3), set, true, cancellation), Canceled);
+  EXPECT_THROW(star_discrepancy(set, testing::canceled()), Canceled);
+  EXPECT_THROW(cap_discrepancy(set, testing::canceled()), Canceled);
+  EXPECT_THROW(quadrature_errors(spread_normals(3), set, true, testing::canceled()), Canceled);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "scene_test_support.h"
-#include "support/imperfect_scenes.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/solution.h"

@@ -15,6 +15,7 @@
 #include <sstream>
 #include <string>
 #include <vector>
+#include "support/temporary_folder.h"
 
 namespace transillum::documents_test {
 namespace {
@@ -24,11 +25,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 fs::path source_folder() { return fs::path(TRANSILLUM_DATA_DIR).parent_path(); }
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// All *.md files, without build folders and hidden ones.
 std::vector<fs::path> documents() {
@@ -48,7 +44,7 @@ std::vector<fs::path> documents() {
 
 /// The lines of a document outside fenced code blocks.
 std::vector<std::string> prose_lines(const fs::path& document) {
-  std::istringstream text(text_of(document));
+  std::istringstream text(test::read_file(document));
   std::vector<std::string> lines;
   bool in_code = false;
   for (std::string line; std::getline(text, line);) {
@@ -125,7 +121,7 @@ TEST(Documents, HaveNoBrokenLinks) {
 
 TEST(Documents, TheIndexOfDecisionsIsComplete) {
   const fs::path folder = source_folder() / "libtransillum/decisions";
-  const std::string index = text_of(folder / "README.md");
+  const std::string index = test::read_file(folder / "README.md");
   int highest = 0;
   std::set<int> numbers;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -136,7 +132,7 @@ TEST(Documents, TheIndexOfDecisionsIsComplete) {
     const int number = std::stoi(name.substr(0, 4));
     const std::string title = "# " + std::to_string(number) + ". ";
     EXPECT_THAT(index, HasSubstr("| [" + std::to_string(number) + "](" + name + ") |"));
-    EXPECT_TRUE(text_of(entry.path()).starts_with(title)) << name;
+    EXPECT_TRUE(test::read_file(entry.path()).starts_with(title)) << name;
     EXPECT_TRUE(numbers.insert(number).second) << "two decisions have the number " << number;
     highest = std::max(highest, number);
   }
@@ -157,7 +153,7 @@ TEST(Documents, DecisionsHaveOneForm) {
     if (name == "README.md") {
       continue;
     }
-    const std::string text = text_of(entry.path());
+    const std::string text = test::read_file(entry.path());
     const std::size_t question = text.find("\n**Question.** "),
                       decision = text.find("\n**Decision");
     EXPECT_NE(question, std::string::npos) << name << " asks no question";
@@ -180,7 +176,7 @@ TEST(Documents, DecisionsNamedInSourcesExist) {
       if (extension != ".h" && extension != ".cpp") {
         continue;
       }
-      const std::string text = text_of(entry.path());
+      const std::string text = test::read_file(entry.path());
       for (std::sregex_iterator match(text.begin(), text.end(), reference), end; match != end;
            ++match) {
         ++count;
@@ -199,10 +195,10 @@ TEST(Documents, CppOfTheCookbookIsInAnExample) {
   for (const fs::directory_entry& entry :
        fs::directory_iterator(source_folder() / "libtransillum/examples")) {
     if (entry.path().extension() == ".cpp") {
-      examples += text_of(entry.path());
+      examples += test::read_file(entry.path());
     }
   }
-  const std::string cookbook = text_of(source_folder() / "libtransillum/COOKBOOK.md");
+  const std::string cookbook = test::read_file(source_folder() / "libtransillum/COOKBOOK.md");
   const std::string open = "```cpp\n";
   int count = 0;
   for (std::size_t begin = cookbook.find(open); begin != std::string::npos;

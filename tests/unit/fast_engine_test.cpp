@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Engine fast in cases where its shortcuts might fail, against the local map and known answers.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include <thread>
 
 #include "scene/build/closed_surface.h"
+#include "support/canceled.h"
 #include "support/map_on_failure.h"
 #include "support/scenes.h"
 #include "support/stopping.h"
@@ -244,7 +246,8 @@ Sketch tiles(bool up) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   for (int k = 0; k < tiles_across * tiles_across; ++k) {
-    const double x = k % tiles_across, y = k / tiles_across, z = up ? 0 : 3;
+    const int row = k / tiles_across;
+    const double x = k % tiles_across, y = row, z = up ? 0 : 3;
     const std::vector<Vec3> tile{{x, y, z}, {x + 1, y, z}, {x + 1, y + 1, z}, {x, y + 1, z}};
     sketch.face(up ? tile : turned_over(tile), gray);
   }
@@ -431,9 +434,7 @@ TEST(FastEngine, CutsAlongEdgesThatContinueOneAnother) {
 
 TEST(FastEngine, ThrowsWhenCanceled) {
   const Fast fast(load_scene("sphere-flake"));
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(fast.run({0, 0, 1}, cancellation), Canceled);
+  EXPECT_THROW(fast.run({0, 0, 1}, testing::canceled()), Canceled);
 }
 
 TEST(FastEngine, StopsQuicklyWhenCanceledDuringAPass) {

@@ -17,8 +17,7 @@
 
 #include "io/results/sensor_files.h"
 #include "io/results/study_csv.h"
-#include "program_run.h"
-#include "support/scenes.h"
+#include "support/program_run.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
 #include "visibility/pixels/pixel_map.h"
@@ -93,7 +92,7 @@ void add_keys(const nlohmann::json& json, const std::string& prefix, std::set<st
 
 std::set<std::string> keys_of(const std::string& path) {
   std::set<std::string> keys;
-  add_keys(nlohmann::json::parse(read_file(path)), "", keys);
+  add_keys(read_json(path), "", keys);
   return keys;
 }
 
@@ -206,16 +205,11 @@ TEST_F(FileTables, Maps) {
 }
 
 TEST_F(FileTables, DirectionsAndBounds) {
-  ASSERT_EQ(
-      run_program({"directions", "-m", "16", "--stats", folder_ / "d.json", "--scene", "furnace"})
-          .status,
-      0);
+  expect_success({"directions", "-m", "16", "--stats", folder_ / "d.json", "--scene", "furnace"});
   EXPECT_THAT(keys_of(folder_ / "d.json"), ::testing::ContainerEq(leaf_keys("Directions JSON")));
   write_statistics(folder_ / "s.json", {.solve = options_}, solve(scene_, options_));
-  ASSERT_EQ(run_program({"bounds", "furnace", "-m", "16", "--run", folder_ / "s.json", "--out",
-                         folder_ / "b.json"})
-                .status,
-            0);
+  expect_success(
+      {"bounds", "furnace", "-m", "16", "--run", folder_ / "s.json", "--out", folder_ / "b.json"});
   EXPECT_THAT(keys_of(folder_ / "b.json"), ::testing::ContainerEq(leaf_keys("Bounds JSON")));
 }
 

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "support/scenes.h"
+#include "support/canceled.h"
+#include "support/refusal.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/solution.h"
@@ -114,9 +115,7 @@ TEST(FirstShot, IsIncludedBeforeTheFirstPass) {
     EXPECT_TRUE(solver.radiosity()[k] ==
                 scene->exitance(i) + scene->reflectance(i) * light->irradiance[k]);
   }
-  Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(RadiositySolver(scene, options, {}, cancellation), Canceled);
+  EXPECT_THROW(RadiositySolver(scene, options, {}, testing::canceled()), Canceled);
 }
 
 TEST(FirstShot, OptionsAreParsedAndChecked) {
@@ -124,12 +123,9 @@ TEST(FirstShot, OptionsAreParsedAndChecked) {
   EXPECT_EQ(first_shot_from_name("auto"), first_shot_where_it_pays);
   EXPECT_EQ(first_shot_from_name("2.5e3"), 2500.0);
   for (const char* name : {"", "-1", "nan", "inf", "12x", "Auto"}) {
-    try {
-      first_shot_from_name(name);
-      ADD_FAILURE() << name;
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("is not none, auto or a number of at least 0"));
-    }
+    EXPECT_THAT(test::refusal([&] { first_shot_from_name(name); }),
+                HasSubstr("is not none, auto or a number of at least 0"))
+        << name;
   }
   SolveOptions options;
   options.first_shot = -2;

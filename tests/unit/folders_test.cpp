@@ -3,6 +3,7 @@
 // Holds the includes of libtransillum and of the viewer to the tables of ARCHITECTURE.md: which
 // folder may include which, and which layer may use the public headers of which. A violation is
 // reported with file and line. Includes must also form no cycle between files.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -153,7 +154,7 @@ std::vector<std::string> folder_violations(const std::vector<Include>& includes,
     if (row == rules.may_include.end()) {
       found.push_back(place(include) + ": folder " + from + " is not in the table");
     } else if (from != to && !row->second.contains(to)) {
-      found.push_back(place(include) + ": " + from + " may not include " + to);
+      found.push_back(fmt::format("{}: {} may not include {}", place(include), from, to));
     }
   }
   return found;
@@ -216,7 +217,7 @@ class CycleSearch {
     if (const auto edges = edges_.find(unit); edges != edges_.end()) {
       for (const auto& [next, include] : edges->second) {
         if (std::find(path_.begin(), path_.end(), next) != path_.end()) {
-          found_.push_back(include + " closes a cycle through " + next);
+          found_.push_back(fmt::format("{} closes a cycle through {}", include, next));
         } else {
           visit(next);
         }

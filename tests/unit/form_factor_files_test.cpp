@@ -16,14 +16,16 @@
 #include "io/factors/factor_formats.h"
 #include "io/factors/npy_array.h"
 #include "io/factors/zip_archive.h"
-#include "program_run.h"
 #include "radiosity/form_factors/small_form_factors.h"
+#include "support/form_factor_rows.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/pair_form_factors.h"
 #include "transillum/radiosity_solver.h"
+#include "transillum/solution.h"
 #include "transillum/solve_options.h"
 
 namespace transillum::testing::form_factor_files_test {
@@ -33,12 +35,6 @@ using test::refusal;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-FormFactors of_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& options) {
-  RadiositySolver solver(scene, options);
-  solver.advance(RadiositySolver::Until::finished);
-  return solver.form_factors();
-}
-
 void expect_equal(const FormFactors& a, const FormFactors& b) {
   EXPECT_TRUE(a.row_begin == b.row_begin);
   EXPECT_TRUE(a.source == b.source);
@@ -47,12 +43,8 @@ void expect_equal(const FormFactors& a, const FormFactors& b) {
 
 std::vector<double> row_sums(const FormFactors& f) {
   std::vector<double> sums;
-  for (std::size_t i = 0; i + 1 < f.row_begin.size(); ++i) {
-    double sum = 0;
-    for (std::size_t k = f.row_begin[i]; k < f.row_begin[i + 1]; ++k) {
-      sum += f.value[k];
-    }
-    sums.push_back(sum);
+  for (PatchId i = 0; i + 1 < std::ssize(f.row_begin); ++i) {
+    sums.push_back(row_sum(f, i));
   }
   return sums;
 }
@@ -61,7 +53,7 @@ class FormFactorFiles : public ::testing::Test {
  protected:
   std::string path(const char* name) const { return folder_ / name; }
   std::string refused(const std::string& name) const {
-    const std::string sentence = refusal([&] { read_form_factors(folder_ / name); });
+    std::string sentence = refusal([&] { read_form_factors(folder_ / name); });
     EXPECT_THAT(sentence, StartsWith(folder_ / name));
     EXPECT_EQ(sentence.find('\n'), std::string::npos);
     return sentence;
@@ -73,7 +65,7 @@ class FormFactorFiles : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::shared_ptr<const Scene> scene_ = load_scene("cornell-box");
-  FormFactors form_factors_ = of_passes(scene_, {.directions = 16});
+  FormFactors form_factors_ = form_factors_of(scene_, {.directions = 16});
 };
 
 TEST_F(FormFactorFiles, AreReadBackBitForBit) {
@@ -180,21 +172,22 @@ TEST_F(FormFactorFiles, ArraysThatAreNoMatrixAreRefused) {
       zip.add("data.npy", head("<f8", value.size()), bytes(value));
       zip.finish();
     });
+    return "x.npz";
   };
-  archive("csr", {2, 2}, {0, 1, 2}, {1, 0}, {0.5, 0.25});
-  EXPECT_EQ(read_form_factors(path("x.npz")).form_factors.size(), 2U);
-  archive("coo", {2, 2}, {0, 1, 2}, {1, 0}, {0.5, 0.25});
-  EXPECT_THAT(refused("x.npz"), HasSubstr("a matrix of format `coo`"));
-  archive("csr", {2, 3}, {0, 1, 2}, {1, 0}, {0.5, 0.25});
-  EXPECT_THAT(refused("x.npz"), HasSubstr("not square"));
-  archive("csr", {2, 2}, {0, 2, 1}, {1, 0}, {0.5, 0.25});
-  EXPECT_THAT(refused("x.npz"), HasSubstr("do not fit"));
-  archive("csr", {2, 2}, {0, 3, 2}, {1, 0}, {0.5, 0.25});
-  EXPECT_THAT(refused("x.npz"), HasSubstr("row 0 ends at 3"));
-  archive("csr", {2, 2}, {0, 1, 2}, {1, 2}, {0.5, 0.25});
-  EXPECT_THAT(refused("x.npz"), HasSubstr("row 1 has column 2"));
-  archive("csr", {2, 2}, {0, 1, 2}, {1, 0}, {0.5, NAN});
-  EXPECT_THAT(refused("x.npz"), HasSubstr("patches 1 and 0 is nan"));
+  const std::string good = archive("csr", {2, 2}, {0, 1, 2}, {1, 0}, {0.5, 0.25});
+  EXPECT_EQ(read_form_factors(path(good.c_str())).form_factors.size(), 2U);
+  EXPECT_THAT(refused(archive("coo", {2, 2}, {0, 1, 2}, {1, 0}, {0.5, 0.25})),
+              HasSubstr("a matrix of format `coo`"));
+  EXPECT_THAT(refused(archive("csr", {2, 3}, {0, 1, 2}, {1, 0}, {0.5, 0.25})),
+              HasSubstr("not square"));
+  EXPECT_THAT(refused(archive("csr", {2, 2}, {0, 2, 1}, {1, 0}, {0.5, 0.25})),
+              HasSubstr("do not fit"));
+  EXPECT_THAT(refused(archive("csr", {2, 2}, {0, 3, 2}, {1, 0}, {0.5, 0.25})),
+              HasSubstr("row 0 ends at 3"));
+  EXPECT_THAT(refused(archive("csr", {2, 2}, {0, 1, 2}, {1, 2}, {0.5, 0.25})),
+              HasSubstr("row 1 has column 2"));
+  EXPECT_THAT(refused(archive("csr", {2, 2}, {0, 1, 2}, {1, 0}, {0.5, NAN})),
+              HasSubstr("patches 1 and 0 is nan"));
 }
 
 TEST_F(FormFactorFiles, TextsThatAreNoMatrixAreRefused) {
@@ -238,7 +231,7 @@ TEST_F(FormFactorFiles, OfAnotherSceneAreRefused) {
 TEST_F(FormFactorFiles, OfASceneInWhichAnObjectHasMovedAreRefused) {
   const auto scene = box_in_cube(4, 1).scene();
   const auto other = box_in_cube(4, 1, [](const Vec3& p) { return p + Vec3{0.05, 0, 0}; }).scene();
-  const FormFactors form_factors = of_passes(scene, {.directions = 16});
+  const FormFactors form_factors = form_factors_of(scene, {.directions = 16});
   for (const char* name : {"f.npz", "f.mtx"}) {
     write_form_factors(path(name), *scene, form_factors);
     StoredFormFactors stored = read_form_factors(path(name));
@@ -302,7 +295,7 @@ double share_below(const Scene& scene, const FormFactors& all, double threshold)
 /// Rows and reciprocity of a closed scene stay, and only tiny form factors go.
 TEST_F(FormFactorFiles, DroppingKeepsRowSumsAndReciprocity) {
   const auto scene = load_scene("cornell-box", {.max_patch_area = 0.05});
-  const FormFactors all = of_passes(scene, {.directions = 64});
+  const FormFactors all = form_factors_of(scene, {.directions = 64});
   const double threshold = 2e-3;
   const DroppedFormFactors rest = drop_small_form_factors(*scene, all, threshold);
   EXPECT_GT(rest.dropped, all.size() / 20);
@@ -317,7 +310,7 @@ TEST_F(FormFactorFiles, DroppingKeepsRowSumsAndReciprocity) {
 /// such row made all of the matrix stay.
 TEST_F(FormFactorFiles, DroppingGoesOnWhereSomeRowsCannotBeBalanced) {
   const auto scene = load_scene("cornell-box", {.max_patch_area = 0.05});
-  const FormFactors all = of_passes(scene, {.directions = 64});
+  const FormFactors all = form_factors_of(scene, {.directions = 64});
   for (const double threshold : {0.03, 0.05, 0.1}) {
     const DroppedFormFactors rest = drop_small_form_factors(*scene, all, threshold);
     EXPECT_GT(rest.dropped, 2 * all.size() / 3) << threshold;
@@ -349,10 +342,14 @@ TEST_F(FormFactorFiles, DroppingKeepsWhatCannotBeBalanced) {
   EXPECT_THAT(refusal([&] { drop_small_form_factors(*scene, f, 1); }), HasSubstr("threshold"));
 }
 
+/// Programs that run in a temporary folder.
 class CliFactorFiles : public ::testing::Test {
  protected:
-  ProgramResult run(const std::vector<std::string>& arguments) const {
-    return run_program(arguments, {}, {}, folder_.path().string());
+  ProgramResult run(const Arguments& arguments) const {
+    return expect_success(arguments, folder_.path());
+  }
+  void refused(const Arguments& arguments, const std::string& expected) const {
+    expect_refused(arguments, expected, folder_.path());
   }
   std::string path(const char* name) const { return folder_ / name; }
   TemporaryFolder folder_;
@@ -360,16 +357,12 @@ class CliFactorFiles : public ::testing::Test {
 
 TEST_F(CliFactorFiles, SolvesWithStoredFormFactors) {
   for (const char* file : {"f.npz", "f.mtx"}) {
-    ASSERT_EQ(run({"factors", "cornell-box", "-m", "32", "--out", file}).status, 0);
+    run({"factors", "cornell-box", "-m", "32", "--out", file});
     const ProgramResult stored =
         run({"solve", "cornell-box", "--factors", file, "--tolerance", "1e-12", "--out", "b.vtp"});
-    ASSERT_EQ(stored.status, 0) << stored.err;
     EXPECT_THAT(stored.err, HasSubstr(" given, "));
-    ASSERT_EQ(
-        run({"solve", "cornell-box", "-m", "32", "--tolerance", "1e-12", "-q", "--out", "a.vtp"})
-            .status,
-        0);
-    EXPECT_EQ(run({"compare", "a.vtp", "b.vtp", "--tolerance", "1e-10"}).status, 0);
+    run({"solve", "cornell-box", "-m", "32", "--tolerance", "1e-12", "-q", "--out", "a.vtp"});
+    run({"compare", "a.vtp", "b.vtp", "--tolerance", "1e-10"});
   }
 }
 
@@ -379,42 +372,29 @@ TEST_F(CliFactorFiles, OfAMovedObjectAreRefusedAndOfAnUnknownSceneWarnedOf) {
   write_obj(path("after.obj"), box_in_cube(4, 1, [](const Vec3& p) {
                                  return p + Vec3{0.05, 0, 0};
                                }).description());
-  ASSERT_EQ(run({"factors", "before.obj", "-m", "32", "--out", "f.mtx"}).status, 0);
-  const ProgramResult same = run({"solve", "before.obj", "--factors", "f.mtx", "-q"});
-  EXPECT_EQ(same.status, 0);
-  EXPECT_EQ(same.err, "");
-  const ProgramResult other = run({"solve", "after.obj", "--factors", "f.mtx"});
-  EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.err, HasSubstr("f.mtx: the form factors are of other polygons"));
+  run({"factors", "before.obj", "-m", "32", "--out", "f.mtx"});
+  EXPECT_EQ(run({"solve", "before.obj", "--factors", "f.mtx", "-q"}).err, "");
+  refused({"solve", "after.obj", "--factors", "f.mtx"},
+          "f.mtx: the form factors are of other polygons");
   std::string text = read_file(path("f.mtx"));
   text.erase(text.find("%polygons"), text.find("%area") - text.find("%polygons"));
   write_text(path("f.mtx"), text);
-  const ProgramResult unknown = run({"solve", "after.obj", "--factors", "f.mtx", "-q"});
-  EXPECT_EQ(unknown.status, 0);
-  EXPECT_THAT(unknown.err, HasSubstr("warning: f.mtx: "));
+  EXPECT_THAT(run({"solve", "after.obj", "--factors", "f.mtx", "-q"}).err,
+              HasSubstr("warning: f.mtx: "));
 }
 
 TEST_F(CliFactorFiles, LeavesOutTinyOnesAndNamesWhatIsWrong) {
   const ProgramResult all = run({"factors", "cornell-box", "-m", "32"});
   const ProgramResult rest = run({"factors", "cornell-box", "-m", "32", "--drop", "0.01"});
-  EXPECT_EQ(rest.status, 0);
   EXPECT_LT(line_count(rest.out), line_count(all.out));
   EXPECT_THAT(rest.err, HasSubstr("form factors omitted"));
-  const auto refused = [&](const std::vector<std::string>& arguments) {
-    const ProgramResult result = run(arguments);
-    EXPECT_EQ(result.status, 2) << result.err;
-    EXPECT_EQ(line_count(result.err), 1U);
-    return result.err;
-  };
-  EXPECT_THAT(refused({"factors", "furnace", "--drop", "1"}), HasSubstr("--drop"));
-  EXPECT_THAT(refused({"factors", "furnace", "--out", "f.txt"}), HasSubstr("must end in .csv"));
-  ASSERT_EQ(run({"factors", "furnace", "-m", "8", "--out", "f.npz"}).status, 0);
-  EXPECT_THAT(refused({"solve", "cornell-box", "--factors", "f.npz"}),
-              HasSubstr("f.npz: the form factors are of 12 patches"));
-  EXPECT_THAT(refused({"solve", "furnace", "--factors", "f.npz", "-m", "8"}),
-              HasSubstr("not used with --factors"));
-  EXPECT_THAT(refused({"solve", "furnace", "--factors", "f.npz", "--sky", "1"}),
-              HasSubstr("not used with --factors"));
+  refused({"factors", "furnace", "--drop", "1"}, "--drop");
+  refused({"factors", "furnace", "--out", "f.txt"}, "must end in .csv");
+  run({"factors", "furnace", "-m", "8", "--out", "f.npz"});
+  refused({"solve", "cornell-box", "--factors", "f.npz"},
+          "f.npz: the form factors are of 12 patches");
+  refused({"solve", "furnace", "--factors", "f.npz", "-m", "8"}, "not used with --factors");
+  refused({"solve", "furnace", "--factors", "f.npz", "--sky", "1"}, "not used with --factors");
 }
 
 }  // namespace

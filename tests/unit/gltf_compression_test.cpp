@@ -160,16 +160,9 @@ GltfText by_draco(const Sheet& sheet, const Bytes& bytes) {
 }
 
 SceneDescription read(const std::string& bytes, const ReadOptions& options = {.join = false}) {
-  const test::TemporaryFolder folder;
-  return describe_scene(folder.write("a.glb", bytes), options);
+  return test::read_scene("a.glb", bytes, options);
 }
-std::string refusal_of(const GltfText& file) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.write("a.glb", file.glb());
-  const std::string message = test::refusal([&] { (void)describe_scene(path); });
-  const std::size_t found = message.find("a.glb");
-  return found == std::string::npos ? message : message.substr(found);
-}
+std::string refusal_of(const GltfText& file) { return test::scene_refusal("a.glb", file.glb()); }
 
 /// The corners of all faces, each face from its least corner on; faces in any order.
 std::vector<std::array<Vec3, 3>> triangles_of(const SceneDescription& d) {

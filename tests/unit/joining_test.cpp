@@ -13,6 +13,7 @@
 #include <random>
 
 #include "scene_test_support.h"
+#include "support/canceled.h"
 #include "transillum/at.h"
 
 namespace transillum::joining_test {
@@ -235,9 +236,7 @@ TEST(Joining, PassesFacesWithoutAreaOn) {
 TEST(Joining, IsCanceled) {
   Mesh mesh;
   mesh.add_box(60);
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(join_faces(mesh.description, cancellation), Canceled);
+  EXPECT_THROW(join_faces(mesh.description, testing::canceled()), Canceled);
 }
 
 }  // namespace

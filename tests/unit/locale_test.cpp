@@ -12,8 +12,8 @@
 #include "base/text_file.h"
 #include "io/drawing/line_chart.h"
 #include "io/results/study_csv.h"
-#include "program_run.h"
 #include "support/comma_locale.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
@@ -87,6 +87,16 @@ std::map<std::string, std::string> files_written(const Solution& solution) {
   return contents;
 }
 
+/// Calls `check` in the locale C and in one with a decimal comma.
+void expect_with_and_without_comma(const std::function<void()>& check) {
+  check();
+  const CommaLocale locale;
+  if (!locale.problem().empty()) {
+    GTEST_SKIP() << locale.problem();
+  }
+  check();
+}
+
 TEST(Locale, NumbersBeyondTheRangeOfDouble) {
   const auto check = [] {
     const std::pair<const char*, double> cases[] = {
@@ -111,12 +121,7 @@ TEST(Locale, NumbersBeyondTheRangeOfDouble) {
     EXPECT_EQ(parse_number("." + std::string(400, '0') + "1"), 0);
     EXPECT_EQ(parse_number("1,5"), std::nullopt);
   };
-  check();
-  const CommaLocale locale;
-  if (!locale.problem().empty()) {
-    GTEST_SKIP() << locale.problem();
-  }
-  check();
+  expect_with_and_without_comma(check);
 }
 
 TEST(Locale, FilesAreTheSameWithADecimalComma) {
@@ -124,14 +129,12 @@ TEST(Locale, FilesAreTheSameWithADecimalComma) {
   const Solution solution = solve(scene, SolveOptions{.directions = 16});
   const auto expected = files_written(solution);
   ASSERT_GE(expected.size(), 16U);
-  const CommaLocale locale;
-  if (!locale.problem().empty()) {
-    GTEST_SKIP() << locale.problem();
-  }
-  const auto written = files_written(solution);
-  for (const auto& [name, content] : expected) {
-    EXPECT_TRUE(written.at(name) == content) << name;
-  }
+  expect_with_and_without_comma([&] {
+    const auto written = files_written(solution);
+    for (const auto& [name, content] : expected) {
+      EXPECT_TRUE(written.at(name) == content) << name;
+    }
+  });
 }
 
 TEST(Locale, ErrorsAndParametersAreTheSameWithADecimalComma) {
@@ -143,31 +146,17 @@ TEST(Locale, ErrorsAndParametersAreTheSameWithADecimalComma) {
     EXPECT_THAT(refusal([] { check_json("[1.5e400]", "a.json"); }), HasSubstr("`1.5e400`"));
     EXPECT_EQ(refusal([] { check_json("[1.5]", "a.json"); }), "");
   };
-  check();
-  const CommaLocale locale;
-  if (!locale.problem().empty()) {
-    GTEST_SKIP() << locale.problem();
-  }
-  check();
+  expect_with_and_without_comma(check);
 }
 
 TEST(Locale, TheProgramWritesTheSameWithADecimalComma) {
-  const TemporaryFolder folder;
-  const std::vector<std::string> call = {
-      "solve", "furnace", "-m", "16", "--tolerance", "0.5e-3", "--max-patch-area", "0.25", "--out"};
-  const auto solve_to = [&](const std::string& name) {
-    std::vector<std::string> arguments = call;
-    arguments.push_back(folder / name);
-    const ProgramResult result = run_program(arguments);
-    EXPECT_EQ(result.status, 0) << result.err;
-    return read_file(folder / name);
+  const auto solution = [] {
+    return expect_success({"solve", "furnace", "-q", "-m", "16", "--tolerance", "0.5e-3",
+                           "--max-patch-area", "0.25", "--out", "-"})
+        .out;
   };
-  const std::string expected = solve_to("a.csv");
-  const CommaLocale locale;
-  if (!locale.problem().empty()) {
-    GTEST_SKIP() << locale.problem();
-  }
-  EXPECT_EQ(solve_to("b.csv"), expected);
+  const std::string expected = solution();
+  expect_with_and_without_comma([&] { EXPECT_EQ(solution(), expected); });
 }
 
 }  // namespace

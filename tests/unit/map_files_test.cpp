@@ -25,7 +25,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -500,7 +500,7 @@ TEST_F(MapFiles, EmptyMapsCanBeWritten) {
     EXPECT_NE(parsed(read_file(folder_ / "m.svg")), nullptr);
     EXPECT_THAT(read_file(folder_ / "m.svg"), HasSubstr(reason));
     EXPECT_GT(Picture(folder_ / "m.png").width(), 100);
-    EXPECT_THAT(nlohmann::json::parse(read_file(folder_ / "m.json")).at("polygons"), IsEmpty());
+    EXPECT_THAT(read_json(folder_ / "m.json").at("polygons"), IsEmpty());
   }
   EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(edge_on, 0)), HasSubstr("edge-on"));
   EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(from_above, 0)),

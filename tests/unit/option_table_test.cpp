@@ -8,6 +8,7 @@
 
 #include <set>
 
+#include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/errors.h"
 #include "transillum/solve_session.h"
@@ -44,12 +45,10 @@ TEST(OptionTable, RefusesValuesOfAnotherType) {
                                    {"engine", "3"},
                                    {"sky", "{}"},
                                    {"directions", "null"}}) {
-    try {
-      option(name).from_json(read, json);
-      ADD_FAILURE() << name << ' ' << json;
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("expected"));
-    }
+    EXPECT_THAT(
+        test::refusal([&, name = name, json = json] { option(name).from_json(read, json); }),
+        HasSubstr("expected"))
+        << name << ' ' << json;
   }
   EXPECT_EQ(read, RunOptions{});
 }

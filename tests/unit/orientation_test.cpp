@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "scene_test_support.h"
+#include "support/canceled.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/form_factor_solve.h"
@@ -218,10 +219,8 @@ TEST(OrientationPlan, IsAppliedOnceAndCanBeAppliedAgain) {
 }
 
 TEST(OrientationPlan, IsCanceled) {
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(plan_orientation(room().description(), 0, cancellation), Canceled);
-  EXPECT_THROW(back_share(*room().scene(), 0, cancellation), Canceled);
+  EXPECT_THROW(plan_orientation(room().description(), 0, testing::canceled()), Canceled);
+  EXPECT_THROW(back_share(*room().scene(), 0, testing::canceled()), Canceled);
 }
 
 TEST(TwoSidedFaces, GiveTwoPatchesEach) {

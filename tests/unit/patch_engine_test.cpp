@@ -4,9 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "support/scenes.h"
 #include "visibility/fast/patch_shaft.h"
 

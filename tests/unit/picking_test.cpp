@@ -1,6 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <gmock/gmock.h>
 
+#include "visibility/embree/picking.h"
+
+#include <gtest/gtest.h>
+#include "support/canceled.h"
 #include "support/scenes.h"
 #include "visibility/embree/picking.h"
 
@@ -69,9 +72,7 @@ TEST(Picker, HitsTwoSidedFacesOnTheSideOfTheRay) {
 
 TEST(Picker, CanBeCanceled) {
   const auto scene = load_scene("sphere-flake:levels=1");
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(Picker(scene, cancellation), Canceled);
+  EXPECT_THROW(Picker(scene, testing::canceled()), Canceled);
 }
 
 TEST(Picker, IsAccurateFromFarAway) {

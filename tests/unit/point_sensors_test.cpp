@@ -10,7 +10,8 @@
 
 #include "geometry/form_factor.h"
 #include "io/results/sensor_files.h"
-#include "program_run.h"
+#include "support/form_factor_rows.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
@@ -24,14 +25,6 @@ namespace {
 using test::refusal;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-double row_sum(const FormFactors& f, std::size_t i) {
-  double sum = 0;
-  for (std::size_t k = f.row_begin[i]; k < f.row_begin[i + 1]; ++k) {
-    sum += f.value[k];
-  }
-  return sum;
-}
 
 Vec3 random_unit(std::mt19937& random) {
   std::normal_distribution<double> normal;
@@ -74,13 +67,13 @@ TEST(PointSensors, InClosedRoomsRowsSumToOne) {
       turned.push_back({turn(s.position + 1e-9 * s.normal), normalized(turn(s.normal))});
     }
     const FormFactors f = sensor_form_factors(scene, turned);
-    for (std::size_t i = 0; i < turned.size(); ++i) {
+    for (PatchId i = 0; i < std::ssize(turned); ++i) {
       EXPECT_NEAR(row_sum(f, i), 1, 1e-7) << i;
     }
   }
   const FormFactors on_surfaces =
       sensor_form_factors(*room().scene(), std::span(sensors).subspan(60));
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (PatchId i = 0; i < 3; ++i) {
     EXPECT_NEAR(row_sum(on_surfaces, i), 1, 1e-12) << i;
   }
 }
@@ -181,40 +174,30 @@ TEST(PointSensors, BadFilesAreRefused) {
 
 TEST(CliSensors, WritesFormFactorsAndIrradiance) {
   const TemporaryFolder folder;
-  const auto run = [&](const std::vector<std::string>& arguments) {
-    return run_program(arguments, {}, {}, folder.path().string());
+  const auto run = [&](const Arguments& arguments) {
+    return expect_success(arguments, folder.path());
   };
   write_text(folder / "p.csv", "0.5,0.5,0.5,0,0,1\n0.4,0.5,0.5,1,0,0\n");
-  ASSERT_EQ(run({"solve", "furnace", "-m", "16", "--normalize", "rows", "--tolerance", "1e-12",
-                 "-q", "--out", "r.vtp"})
-                .status,
-            0);
+  run({"solve", "furnace", "-m", "16", "--normalize", "rows", "--tolerance", "1e-12", "-q", "--out",
+       "r.vtp"});
   const ProgramResult factors = run({"factors", "furnace", "--points", "p.csv"});
-  EXPECT_EQ(factors.status, 0) << factors.err;
   EXPECT_THAT(factors.out, StartsWith("point,j,F\n0,"));
-  const ProgramResult light = run({"factors", "furnace", "--points", "p.csv", "--result", "r.vtp",
-                                   "--irradiance", "h.csv", "--out", "f.csv"});
-  EXPECT_EQ(light.status, 0) << light.err;
+  run({"factors", "furnace", "--points", "p.csv", "--result", "r.vtp", "--irradiance", "h.csv",
+       "--out", "f.csv"});
   EXPECT_EQ(read_file(folder / "f.csv"), factors.out);
   EXPECT_THAT(read_file(folder / "h.csv"), StartsWith("point,x,y,z,nx,ny,nz,H_r,H_g,H_b,F_sum\n"));
   EXPECT_EQ(line_count(read_file(folder / "h.csv")), 3U);
-  const auto refused = [&](const std::vector<std::string>& arguments) {
-    const ProgramResult result = run(arguments);
-    EXPECT_EQ(result.status, 2) << result.err;
-    EXPECT_EQ(line_count(result.err), 1U);
-    return result.err;
+  const Refusal refusals[] = {
+      {{"boards", "--points", "p.csv", "--result", "r.vtp", "--irradiance", "-"},
+       "r.vtp: the result is not of boards: one has"},
+      {{"furnace", "--points", "p.csv", "--result", "r.vtp"}, "used together"},
+      {{"furnace", "--irradiance", "-"}, "used only with --points FILE"},
+      {{"furnace", "--points", "p.csv", "-m", "8"}, "not used with --points FILE"},
+      {{"furnace", "--points", "p.csv", "--out", "p.csv"}, "would overwrite the input file"},
   };
-  EXPECT_THAT(
-      refused({"factors", "boards", "--points", "p.csv", "--result", "r.vtp", "--irradiance", "-"}),
-      HasSubstr("r.vtp: the result is not of boards: one has"));
-  EXPECT_THAT(refused({"factors", "furnace", "--points", "p.csv", "--result", "r.vtp"}),
-              HasSubstr("used together"));
-  EXPECT_THAT(refused({"factors", "furnace", "--irradiance", "-"}),
-              HasSubstr("used only with --points FILE"));
-  EXPECT_THAT(refused({"factors", "furnace", "--points", "p.csv", "-m", "8"}),
-              HasSubstr("not used with --points FILE"));
-  EXPECT_THAT(refused({"factors", "furnace", "--points", "p.csv", "--out", "p.csv"}),
-              HasSubstr("would overwrite the input file"));
+  for (const auto& [arguments, expected] : refusals) {
+    expect_refused(Arguments{"factors"} + arguments, expected, folder.path());
+  }
 }
 
 }  // namespace

@@ -6,9 +6,8 @@
 
 #include <gmock/gmock.h>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
-#include "support/scenes.h"
 #include "transillum/at.h"
 
 namespace transillum::testing::power_table_test {
@@ -142,8 +141,7 @@ TEST(PowerTable, KnowsWhatIsNotKnown) {
 
 TEST(CliSolveBy, PrintsTheTable) {
   const ProgramResult table =
-      run_program({"solve", "cornell-box", "-m", "32", "--by", "material", "-q"});
-  EXPECT_EQ(table.status, 0) << table.err;
+      expect_success({"solve", "cornell-box", "-m", "32", "--by", "material", "-q"});
   EXPECT_THAT(table.out, ContainsRegex("material +patches +area, m2 +emitted, W"));
   EXPECT_THAT(table.out, HasSubstr("escaped, W"));
   EXPECT_THAT(table.out, ContainsRegex("total +[0-9]+ "));
@@ -156,30 +154,21 @@ TEST(CliSolveBy, PrintsTheTable) {
   const TemporaryFolder folder;
   write_text(folder / "open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const ProgramResult sky =
-      run_program({"solve", folder / "open.obj", "-m", "16", "--sky", "2", "--by", "group"});
-  EXPECT_EQ(sky.status, 0) << sky.err;
+      expect_success({"solve", folder / "open.obj", "-m", "16", "--sky", "2", "--by", "group"});
   EXPECT_THAT(sky.out, HasSubstr("from the sky, W"));
 }
 
 TEST(CliSolveSky, ChecksItsOptions) {
-  const auto refused = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"solve", "boards", "-m", "8"});
-    const ProgramResult result = run_program(arguments);
-    EXPECT_EQ(result.status, 2);
-    EXPECT_EQ(line_count(result.err), 1U);
-    return result.err;
-  };
-  EXPECT_THAT(refused({"--sky", "1,2"}), HasSubstr("--sky: \"1,2\" is not one or three numbers"));
-  EXPECT_THAT(refused({"--sky", "-1"}), HasSubstr("--sky"));
-  EXPECT_THAT(refused({"--sky-model", "uniform"}), HasSubstr("used only with a sky"));
-  EXPECT_THAT(refused({"--sky", "1", "--sky-model", "blue"}), HasSubstr("model of the sky"));
-  EXPECT_THAT(refused({"--sky", "1", "--up", "0,1,0"}), HasSubstr("cie-overcast"));
+  expect_all_refused({"solve", "boards", "-m", "8"},
+                     {{{"--sky", "1,2"}, "--sky: \"1,2\" is not one or three numbers"},
+                      {{"--sky", "-1"}, "--sky"},
+                      {{"--sky-model", "uniform"}, "used only with a sky"},
+                      {{"--sky", "1", "--sky-model", "blue"}, "model of the sky"},
+                      {{"--sky", "1", "--up", "0,1,0"}, "cie-overcast"}});
   EXPECT_THAT(run_program({"solve", "boards", "--sky", "1", "--engine", "pairs"}).err,
               HasSubstr("backs of patches"));
-  EXPECT_EQ(run_program({"solve", "boards", "-m", "8", "--sky", "1,2,3", "--sky-model",
-                         "cie-overcast", "--up", "-1,0,0"})
-                .status,
-            0);
+  expect_success({"solve", "boards", "-m", "8", "--sky", "1,2,3", "--sky-model", "cie-overcast",
+                  "--up", "-1,0,0"});
 }
 
 }  // namespace

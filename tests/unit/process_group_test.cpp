@@ -2,11 +2,12 @@
 //
 // A solve shared by several members: its results have the bits of a solve alone. The members are
 // threads here; tests/mpi has processes.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <mutex>
 #include <sstream>
 
@@ -96,7 +97,8 @@ Outcome solved(const SolveOptions& options, const std::shared_ptr<PatchSums>& gr
 void expect_same(const Outcome& outcome, const Outcome& expected, int rank) {
   ASSERT_EQ(outcome.values.size(), expected.values.size());
   for (std::size_t k = 0; k < expected.values.size(); ++k) {
-    ASSERT_EQ(std::memcmp(&outcome.values[k], &expected.values[k], sizeof(double)), 0)
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(outcome.values[k]),
+              std::bit_cast<std::uint64_t>(expected.values[k]))
         << "value " << k << ": " << outcome.values[k] << " instead of " << expected.values[k];
   }
   if (rank == 0) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "support/temporary_folder.h"
 #include "transillum/transillum.h"
 
 namespace transillum::public_headers_test {
@@ -16,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path folder = fs::path(TRANSILLUM_DATA_DIR) / "../libtransillum/include/transillum";
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// All first groups of a regular expression in a text.
 std::set<std::string> matches(const std::string& text, const char* expression) {
@@ -40,13 +36,13 @@ TEST(PublicHeaders, AreAllIncludedByTransillumH) {
     }
   }
   EXPECT_GT(expected.size(), 30U);
-  EXPECT_EQ(matches(content_of(folder / "transillum.h"), R"re(#include "transillum/(.*)")re"),
+  EXPECT_EQ(matches(test::read_file(folder / "transillum.h"), R"re(#include "transillum/(.*)")re"),
             expected);
 }
 
 TEST(PublicHeaders, IncludeOnlyEachOtherAndTheStandardLibrary) {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string text = content_of(entry.path());
+    const std::string text = test::read_file(entry.path());
     for (const std::string& header : matches(text, "#include +([^\n]*)")) {
       EXPECT_TRUE(
           std::regex_match(header, std::regex(R"re(<[a-z_]+>|"transillum/[a-z0-9_]+\.h")re")))
@@ -57,7 +53,8 @@ TEST(PublicHeaders, IncludeOnlyEachOtherAndTheStandardLibrary) {
 
 TEST(PublicHeaders, NameNoCommandLineOption) {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    EXPECT_EQ(matches(content_of(entry.path()), "[^-\\w](--[a-z][-a-z]+)"), std::set<std::string>())
+    EXPECT_EQ(matches(test::read_file(entry.path()), "[^-\\w](--[a-z][-a-z]+)"),
+              std::set<std::string>())
         << entry.path();
   }
 }
@@ -65,7 +62,7 @@ TEST(PublicHeaders, NameNoCommandLineOption) {
 // decisions/0068-exported-symbols.md
 TEST(PublicHeaders, OpenTheExportedNamespace) {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename(), text = content_of(entry.path());
+    const std::string name = entry.path().filename(), text = test::read_file(entry.path());
     const auto opened = matches(text, "\n(namespace [^\n]*transillum \\{)\n");
     if (name != "export.h" && name != "transillum.h") {
       EXPECT_EQ(opened, std::set<std::string>{"namespace TRANSILLUM_API transillum {"}) << name;
@@ -77,12 +74,13 @@ TEST(PublicHeaders, OpenTheExportedNamespace) {
 TEST(PublicHeaders, DeclareTheirClassesFirst) {
   std::set<std::string> classes;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    classes.merge(matches(content_of(entry.path()), "\n(?:class|struct) (\\w+)[ ;]"));
+    classes.merge(matches(test::read_file(entry.path()), "\n(?:class|struct) (\\w+)[ ;]"));
   }
   EXPECT_GT(classes.size(), 80U);
   for (const auto& entry : fs::recursive_directory_iterator(folder / "../../src")) {
     if (entry.is_regular_file()) {
-      for (const auto& declared : matches(content_of(entry.path()), "\n(?:class|struct) (\\w+);")) {
+      for (const auto& declared :
+           matches(test::read_file(entry.path()), "\n(?:class|struct) (\\w+);")) {
         EXPECT_FALSE(classes.contains(declared)) << entry.path() << " declares " << declared;
       }
     }

@@ -5,13 +5,11 @@
 #include <gmock/gmock.h>
 #include <png.h>
 
-#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "io/results/srgb.h"
-#include "program_run.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"

@@ -18,7 +18,7 @@
 #include <limits>
 #include <random>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/files.h"

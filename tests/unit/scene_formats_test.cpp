@@ -17,39 +17,14 @@
 namespace transillum::scene_formats_test {
 namespace {
 
+using test::cube_corners;
+using test::cube_squares;
+using test::expect_cube;
+using test::read_scene;
+using test::scene_refusal;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
-
-SceneDescription read(const std::string& name, const std::string& text,
-                      const ReadOptions& options = {}) {
-  const test::TemporaryFolder folder;
-  return describe_scene(folder.write(name, text), options);
-}
-/// The message, without the folder.
-std::string refusal_of(const std::string& name, const std::string& text) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.write(name, text);
-  const std::string message = test::refusal([&] { (void)describe_scene(path); });
-  const std::size_t found = message.find(name);
-  return found == std::string::npos ? message : message.substr(found);
-}
-
-const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-/// The faces point outward.
-const std::vector<std::vector<int>> squares{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                            {2, 3, 7, 6}, {0, 4, 7, 3}, {1, 2, 6, 5}};
-
-void expect_cube(const SceneDescription& d) {
-  const Scene scene(d);
-  ASSERT_EQ(scene.patch_count(), 6);
-  for (PatchId i = 0; i < 6; ++i) {
-    EXPECT_DOUBLE_EQ(scene.patch(i).area, 1);
-    EXPECT_GT(dot(scene.patch(i).normal, scene.patch(i).center - Vec3{0.5, 0.5, 0.5}), 0);
-  }
-  EXPECT_EQ(scene.points().size(), 8U);
-}
 
 // PLY -----------------------------------------------------------------------------------------
 
@@ -75,13 +50,13 @@ std::string ply(const std::string& form) {
       put(text, number, big);
     }
   };
-  for (const Vec3& p : corners) {
+  for (const Vec3& p : cube_corners) {
     add(p.x);
     add(static_cast<float>(p.y));
     add(static_cast<std::int16_t>(p.z));
   }
   add(std::uint32_t{7});
-  for (const auto& square : squares) {
+  for (const auto& square : cube_squares) {
     add(std::uint8_t{255});
     add(std::uint8_t{0});
     add(std::uint8_t{188});
@@ -95,7 +70,7 @@ std::string ply(const std::string& form) {
 
 TEST(SceneFormats, PlyIsReadInAllItsForms) {
   for (const std::string form : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-    const SceneDescription d = read("cube.ply", ply(form));
+    const SceneDescription d = read_scene("cube.ply", ply(form));
     expect_cube(d);
     ASSERT_THAT(d.materials, SizeIs(1)) << form;
     // 255 is 1, which is lowered; 188 of 255 is a half in linear light.
@@ -111,12 +86,12 @@ TEST(SceneFormats, PlyTakesColorsOfVerticesAndTheProgramsOwnProperties) {
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
       "property float y\nproperty float z\n";
   const SceneDescription colored =
-      read("a.ply", head +
-                        "property float red\nproperty float green\nproperty float blue\n"
-                        "element face 1\nproperty list uchar int vertex_index\nend_header\n"
-                        "0 0 0 .75 0 0 1 0 0 0 .75 0 0 1 0 0 0 .75 3 0 1 2\n");
+      read_scene("a.ply", head +
+                              "property float red\nproperty float green\nproperty float blue\n"
+                              "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+                              "0 0 0 .75 0 0 1 0 0 0 .75 0 0 1 0 0 0 .75 3 0 1 2\n");
   EXPECT_EQ(colored.materials[0].reflectance, (Rgb{0.25, 0.25, 0.25}));
-  const SceneDescription own = read(
+  const SceneDescription own = read_scene(
       "b.ply", head +
                    "element face 1\nproperty list uchar int vertex_index\nproperty double E_r\n"
                    "property double E_g\nproperty double E_b\nproperty double rho_r\n"
@@ -125,22 +100,22 @@ TEST(SceneFormats, PlyTakesColorsOfVerticesAndTheProgramsOwnProperties) {
   EXPECT_EQ(own.materials[0].exitance, (Rgb{7, 8, 9}));
   EXPECT_EQ(own.materials[0].reflectance, (Rgb{0.5, 0.25, 0.125}));
   const SceneDescription plain =
-      read("c.ply",
-           head +
-               "element face 1\nproperty list uchar int vertex_index\nend_header\n"
-               "0 0 0 1 0 0 0 1 0 3 0 1 2\n",
-           {.default_reflectance = 0.25});
+      read_scene("c.ply",
+                 head +
+                     "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+                     "0 0 0 1 0 0 0 1 0 3 0 1 2\n",
+                 {.default_reflectance = 0.25});
   EXPECT_EQ(plain.materials[0].reflectance, (Rgb{0.25, 0.25, 0.25}));
   EXPECT_THAT(plain.notes, ElementsAre(HasSubstr("1 of 1 faces have no color; rho = 0.25")));
 }
 
 TEST(SceneFormats, PlyIgnoresWhatFollowsOnALineAndUnknownLinesOfTheHeader) {
   const SceneDescription d =
-      read("a.ply",
-           "ply\nformat ascii 1.0\nCreated by hand\nelement vertex 3\nproperty float x\n"
-           "property float y\nproperty float z\nelement face 2\n"
-           "property list uchar int vertex_index\nend_header\n"
-           "0 0 0 1\n1 0 0 1\n0 1 0\n3 0 1 2 9 1 1\n3 2 1 0\n");
+      read_scene("a.ply",
+                 "ply\nformat ascii 1.0\nCreated by hand\nelement vertex 3\nproperty float x\n"
+                 "property float y\nproperty float z\nelement face 2\n"
+                 "property list uchar int vertex_index\nend_header\n"
+                 "0 0 0 1\n1 0 0 1\n0 1 0\n3 0 1 2 9 1 1\n3 2 1 0\n");
   EXPECT_THAT(d.outline(1), ElementsAre(2, 1, 0));
   EXPECT_THAT(d.notes, ::testing::Contains(HasSubstr("a.ply:3: `Created` is not a keyword")));
 }
@@ -150,9 +125,9 @@ TEST(SceneFormats, PlyRefusesWhatIsBroken) {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
-    return refusal_of("a.ply", text);
+    return scene_refusal("a.ply", text);
   };
-  EXPECT_EQ(refusal_of("a.ply", "solid\n"),
+  EXPECT_EQ(scene_refusal("a.ply", "solid\n"),
             "a.ply:1: is not a PLY file: its first line must be `ply`");
   EXPECT_EQ(
       with("element vertex 8", "element vertex 9999999999"),
@@ -164,11 +139,11 @@ TEST(SceneFormats, PlyRefusesWhatIsBroken) {
   EXPECT_EQ(with("4 0 3 2 1", "4 0 3 x 1"), "a.ply: face 0: `x` is not a number");
   EXPECT_EQ(with("4 0 3 2 1", "250 0 3 2 1").find("a.ply: face 0: a list of 250 numbers"), 0U);
   const std::string binary = ply("binary_little_endian");
-  EXPECT_THAT(refusal_of("a.ply", binary.substr(0, binary.size() - 3)),
+  EXPECT_THAT(scene_refusal("a.ply", binary.substr(0, binary.size() - 3)),
               HasSubstr("a.ply: face 5: a list of 4 numbers does not fit into the file"));
-  EXPECT_THAT(refusal_of("a.ply", binary.substr(0, binary.size() - 90)),
+  EXPECT_THAT(scene_refusal("a.ply", binary.substr(0, binary.size() - 90)),
               HasSubstr("the file ends before it"));
-  EXPECT_THAT(refusal_of("a.ply", good.substr(0, 100)), HasSubstr("the header has no end"));
+  EXPECT_THAT(scene_refusal("a.ply", good.substr(0, 100)), HasSubstr("the header has no end"));
 }
 
 /// A triangle with these three numbers of each color in the form that the program writes.
@@ -189,7 +164,7 @@ std::string ply_of_values(const std::string& names, const std::string& values) {
 // 10,000.
 TEST(SceneFormats, NumbersGivenAsReflectanceKeepAllTheirDigits) {
   const auto rho_of = [](const std::string& name, const std::string& text) {
-    return read(name, text).materials[0].reflectance;
+    return read_scene(name, text).materials[0].reflectance;
   };
   const Rgb digits{0.9999, 0.123456789012345, 1e-9};
   EXPECT_EQ(rho_of("a.ply", ply_of_values("rho", "0.9999 0.123456789012345 1e-9")), digits);
@@ -204,20 +179,20 @@ TEST(SceneFormats, NumbersGivenAsReflectanceKeepAllTheirDigits) {
 }
 
 TEST(SceneFormats, NumbersAboveOneAreLoweredWithAWarning) {
-  EXPECT_THAT(read("a.ply", ply_of_values("rho", "1.5 0.5 0.5")).notes,
+  EXPECT_THAT(read_scene("a.ply", ply_of_values("rho", "1.5 0.5 0.5")).notes,
               ElementsAre(HasSubstr("a.ply: face 0: reflectance rho 1.5 0.5 0.5 is lowered to "
                                     "0.98")));
-  EXPECT_THAT(read("a.ply", ply_of_values("", "1.5 0.5 0.5")).notes,
+  EXPECT_THAT(read_scene("a.ply", ply_of_values("", "1.5 0.5 0.5")).notes,
               ElementsAre(HasSubstr("rho 1.5 0.5 0.5 is lowered to 0.98")));
-  EXPECT_THAT(read("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 254.5 1 1\n").notes,
+  EXPECT_THAT(read_scene("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 254.5 1 1\n").notes,
               ElementsAre(HasSubstr("a.off:6: reflectance rho 254.5 1 1 is lowered to 0.98")));
-  EXPECT_THAT(read("a.rad",
-                   "void plastic w 0 0 5 1.5 .5 .5 0 0\nw polygon p 0 0 9 0 0 0 1 0 0 0 "
-                   "1 0\n")
+  EXPECT_THAT(read_scene("a.rad",
+                         "void plastic w 0 0 5 1.5 .5 .5 0 0\nw polygon p 0 0 9 0 0 0 1 0 0 0 "
+                         "1 0\n")
                   .notes,
               ElementsAre(HasSubstr("a.rad:1: material `w`: reflectance rho 1.5 0.5 0.5 is "
                                     "lowered to 0.98")));
-  EXPECT_EQ(refusal_of("a.ply", ply_of_values("rho", "-1 0 0")),
+  EXPECT_EQ(scene_refusal("a.ply", ply_of_values("rho", "-1 0 0")),
             "a.ply: face 0: rho -1 is not a finite number of at least 0");
 }
 
@@ -228,7 +203,7 @@ const std::string strips_head =
 TEST(SceneFormats, PlyStripsOfTrianglesAreRead) {
   const std::string points = "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 5 5 5\n";
   const SceneDescription d =
-      read("a.ply", strips_head + "end_header\n" + points + "9 0 1 2 3 4 -1 2 3 4\n");
+      read_scene("a.ply", strips_head + "end_header\n" + points + "9 0 1 2 3 4 -1 2 3 4\n");
   ASSERT_EQ(d.face_count(), 4U);
   const Scene scene(d);
   for (PatchId i = 0; i < 4; ++i) {
@@ -236,9 +211,9 @@ TEST(SceneFormats, PlyStripsOfTrianglesAreRead) {
     EXPECT_DOUBLE_EQ(scene.patch(i).normal.z, 1);
   }
   EXPECT_THAT(d.outline(1), ElementsAre(2, 1, 3));
-  EXPECT_THAT(refusal_of("a.ply", strips_head + "end_header\n" + points + "3 0 1 -2\n"),
+  EXPECT_THAT(scene_refusal("a.ply", strips_head + "end_header\n" + points + "3 0 1 -2\n"),
               HasSubstr("a.ply: tristrips 0: vertex -2 does not exist"));
-  EXPECT_THAT(refusal_of("a.ply", strips_head + "end_header\n" + points + "3 0 1 6\n"),
+  EXPECT_THAT(scene_refusal("a.ply", strips_head + "end_header\n" + points + "3 0 1 6\n"),
               HasSubstr("vertex 6 does not exist; there are 6"));
 }
 
@@ -246,11 +221,11 @@ TEST(SceneFormats, PlyStripsOfTrianglesAreRead) {
 
 std::string text_stl() {
   std::string text = "solid cube\n";
-  for (const auto& s : squares) {
+  for (const auto& s : cube_squares) {
     for (const auto& t : {std::array{s[0], s[1], s[2]}, {s[0], s[2], s[3]}}) {
       text += " facet normal 0 0 0\n  outer loop\n";
       for (const int c : t) {
-        const Vec3& p = corners[static_cast<std::size_t>(c)];
+        const Vec3& p = cube_corners[static_cast<std::size_t>(c)];
         text += "   vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " +
                 std::to_string(p.z) + "\n";
       }
@@ -263,11 +238,11 @@ std::string text_stl() {
 std::string binary_stl(const std::string& header) {
   std::string bytes = header + std::string(80 - header.size(), ' ');
   put(bytes, std::uint32_t{12}, false);
-  for (const auto& s : squares) {
+  for (const auto& s : cube_squares) {
     for (const auto& t : {std::array{s[0], s[1], s[2]}, {s[0], s[2], s[3]}}) {
       bytes += std::string(12, '\0');
       for (const int c : t) {
-        const Vec3& p = corners[static_cast<std::size_t>(c)];
+        const Vec3& p = cube_corners[static_cast<std::size_t>(c)];
         for (const double v : {p.x, p.y, p.z}) {
           put(bytes, static_cast<float>(v), false);
         }
@@ -280,46 +255,47 @@ std::string binary_stl(const std::string& header) {
 
 TEST(SceneFormats, StlIsReadAsTextAndBinaryAndJoined) {
   for (const std::string& text : {text_stl(), binary_stl("made by a test"), binary_stl("solid")}) {
-    const SceneDescription d = read("cube.stl", text);
+    const SceneDescription d = read_scene("cube.stl", text);
     expect_cube(d);
     EXPECT_THAT(d.notes, ElementsAre(HasSubstr("12 of 12 faces have no color (STL has none)"),
                                      HasSubstr("12 faces joined to 6")));
-    EXPECT_EQ(read("cube.stl", text, {.join = false}).face_count(), 12U);
+    EXPECT_EQ(read_scene("cube.stl", text, {.join = false}).face_count(), 12U);
   }
-  EXPECT_THAT(read("cube.stl", text_stl()).groups, ElementsAre("cube"));
+  EXPECT_THAT(read_scene("cube.stl", text_stl()).groups, ElementsAre("cube"));
 }
 
 TEST(SceneFormats, StlInCapitalsIsText) {
   std::string text = text_stl();
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  const SceneDescription d = read("cube.stl", text);
+  const SceneDescription d = read_scene("cube.stl", text);
   expect_cube(d);
   EXPECT_THAT(d.groups, ElementsAre("CUBE"));
 }
 
 TEST(SceneFormats, StlRefusesWhatIsBroken) {
-  EXPECT_EQ(refusal_of("a.stl", "x"), "a.stl: is not an STL file: it has no 84 bytes");
-  EXPECT_THAT(refusal_of("a.stl", binary_stl("").substr(0, 300)),
+  EXPECT_EQ(scene_refusal("a.stl", "x"), "a.stl: is not an STL file: it has no 84 bytes");
+  EXPECT_THAT(scene_refusal("a.stl", binary_stl("").substr(0, 300)),
               HasSubstr("12 triangles take 684 bytes, the file has 300"));
   std::string text = text_stl();
   text.replace(text.find("endloop"), 7, "endlop");
-  EXPECT_EQ(refusal_of("a.stl", text), "a.stl:7: `endlop` is not a line of an STL file");
+  EXPECT_EQ(scene_refusal("a.stl", text), "a.stl:7: `endlop` is not a line of an STL file");
   text = text_stl();
   text.replace(text.find("vertex"), 8, "normal 0");
-  EXPECT_THAT(refusal_of("a.stl", text), HasSubstr("a.stl:4: `normal` is not a line"));
-  EXPECT_EQ(refusal_of("a.stl", text_stl().substr(0, 80)), "a.stl: the file ends within a facet");
-  EXPECT_EQ(refusal_of("a.stl", "solid\nendsolid\n"), "a.stl: has no triangles");
+  EXPECT_THAT(scene_refusal("a.stl", text), HasSubstr("a.stl:4: `normal` is not a line"));
+  EXPECT_EQ(scene_refusal("a.stl", text_stl().substr(0, 80)),
+            "a.stl: the file ends within a facet");
+  EXPECT_EQ(scene_refusal("a.stl", "solid\nendsolid\n"), "a.stl: has no triangles");
 }
 
 // OFF -----------------------------------------------------------------------------------------
 
 std::string off(const std::string& head, const std::string& color) {
   std::string text = head;
-  for (const Vec3& p : corners) {
+  for (const Vec3& p : cube_corners) {
     text += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
   }
-  for (const auto& s : squares) {
+  for (const auto& s : cube_squares) {
     text += "4";
     for (const int c : s) {
       text += " " + std::to_string(c);
@@ -332,23 +308,23 @@ std::string off(const std::string& head, const std::string& color) {
 TEST(SceneFormats, OffIsReadWithAndWithoutColors) {
   for (const std::string head : {"OFF\n8 6 12\n", "OFF 8 6 0\n",
                                  "# a cube\nOFF\n\n8 6 0 # counts\n", "8 6 12\n", "OFF8 6 12\n"}) {
-    expect_cube(read("cube.off", off(head, "")));
+    expect_cube(read_scene("cube.off", off(head, "")));
   }
-  const SceneDescription whole = read("cube.off", off("OFF\n8 6 12\n", " 0 188 0 255"));
+  const SceneDescription whole = read_scene("cube.off", off("OFF\n8 6 12\n", " 0 188 0 255"));
   EXPECT_NEAR(whole.materials[0].reflectance.g, 0.5, 0.01);
-  const SceneDescription fraction = read("cube.off", off("OFF\n8 6 12\n", " 0.5 0.25 0.0"));
+  const SceneDescription fraction = read_scene("cube.off", off("OFF\n8 6 12\n", " 0.5 0.25 0.0"));
   EXPECT_EQ(fraction.materials[0].reflectance, (Rgb{0.5, 0.25, 0}));
 }
 
 TEST(SceneFormats, OffRefusesWhatIsBroken) {
-  EXPECT_EQ(refusal_of("a.off", "OFF\n8 6 0\n0 0 0\n"),
+  EXPECT_EQ(scene_refusal("a.off", "OFF\n8 6 0\n0 0 0\n"),
             "a.off:3: the file ends before vertex 1 of 8");
-  EXPECT_THAT(refusal_of("a.off", off("OFF\n8 6 12\n", " 0 0 256")), HasSubstr("color 256"));
-  EXPECT_THAT(refusal_of("a.off", "OFF\n99999 1 0\n"),
+  EXPECT_THAT(scene_refusal("a.off", off("OFF\n8 6 12\n", " 0 0 256")), HasSubstr("color 256"));
+  EXPECT_THAT(scene_refusal("a.off", "OFF\n99999 1 0\n"),
               HasSubstr("`99999` is not a number of lines"));
-  EXPECT_THAT(refusal_of("a.off", "OFF BINARY\n"), HasSubstr("is a binary OFF file"));
-  EXPECT_THAT(refusal_of("a.off", "4OFF\n1 1 1\n"), HasSubstr("`4OFF`"));
-  EXPECT_EQ(refusal_of("a.off", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n"),
+  EXPECT_THAT(scene_refusal("a.off", "OFF BINARY\n"), HasSubstr("is a binary OFF file"));
+  EXPECT_THAT(scene_refusal("a.off", "4OFF\n1 1 1\n"), HasSubstr("`4OFF`"));
+  EXPECT_EQ(scene_refusal("a.off", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n"),
             "a.off:4: face 0: vertex `1` does not exist; there are 1");
 }
 
@@ -364,7 +340,7 @@ const std::string view3d =
     "S 7 3 2 6 7 0 5 0.9 east\nO 8 9 10 11 0\nEnd of data\nwhat follows is not read\n";
 
 TEST(SceneFormats, View3dCutsSubsurfacesOutOfTheirBase) {
-  const SceneDescription d = read("room.vs3", view3d);
+  const SceneDescription d = read_scene("room.vs3", view3d);
   const Scene scene(d);
   EXPECT_THAT(scene.report().warnings, SizeIs(0));
   double south = 0, total = 0;
@@ -397,7 +373,7 @@ const std::string view3d_shapes =
     "O 9 R\n 1 1 1  0 30  1 1\nEnd of data\n";
 
 TEST(SceneFormats, View3dShapesInPlanesMakeTheSameRoom) {
-  const SceneDescription d = read("room.vs3", view3d_shapes);
+  const SceneDescription d = read_scene("room.vs3", view3d_shapes);
   const Scene scene(d);
   ASSERT_EQ(scene.patch_count(), 9);
   double total = 0;
@@ -425,7 +401,7 @@ TEST(SceneFormats, View3dRefusesBrokenShapes) {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = view3d_shapes;
     text.replace(text.find(from), from.size(), to);
-    return refusal_of("a.vs3", text);
+    return scene_refusal("a.vs3", text);
   };
   EXPECT_EQ(with("S 5 Q", "S 5 H"),
             "a.vs3:14: `H` is no shape; shapes are R (rectangle), Q (quadrilateral) and T "
@@ -440,7 +416,7 @@ TEST(SceneFormats, View3dRefusesWhatIsBroken) {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = view3d;
     text.replace(text.find(from), from.size(), to);
-    return refusal_of("a.vs3", text);
+    return scene_refusal("a.vs3", text);
   };
   EXPECT_EQ(with("F 3\n", "F 2\n"),
             "a.vs3:3: only geometry in three dimensions (F 3 or F 3a) can be read");
@@ -449,7 +425,7 @@ TEST(SceneFormats, View3dRefusesWhatIsBroken) {
   EXPECT_THAT(with("S 1 1 2 3 4", "S 1 1 2 13 4"), HasSubstr("a.vs3:18: a vertex of a surface"));
   EXPECT_THAT(with("0.25 window", "1.25 window"), HasSubstr("a.vs3:21: the emissivity must be"));
   EXPECT_THAT(with("V 4 0 3 0", "V 4 0 nan 0"), HasSubstr("not a finite point"));
-  EXPECT_EQ(refusal_of("a.vs3", "T nothing\n"), "a.vs3: has no surfaces");
+  EXPECT_EQ(scene_refusal("a.vs3", "T nothing\n"), "a.vs3: has no surfaces");
 }
 
 // Radiance ------------------------------------------------------------------------------------
@@ -463,7 +439,7 @@ const std::string radiance =
     "stripes alias other red\nother polygon wall 0 0 9 0 0 0 0 1 0 0 0 1\n";
 
 TEST(SceneFormats, RadiancePolygonsHaveTheDiffusePartOfTheirMaterials) {
-  const SceneDescription d = read("a.rad", radiance);
+  const SceneDescription d = read_scene("a.rad", radiance);
   ASSERT_EQ(d.face_count(), 3U);
   const auto material = [&](std::size_t f) {
     return d.materials[static_cast<std::size_t>(d.face_material[f])];
@@ -478,11 +454,11 @@ TEST(SceneFormats, RadiancePolygonsHaveTheDiffusePartOfTheirMaterials) {
 
 TEST(SceneFormats, RadianceWordsInQuotesMayHoldBlanks) {
   const SceneDescription d =
-      read("a.rad",
-           "void plastic \"my red # paint\" 0 0 5 .8 .4 .2 0 0 # a comment 7\n"
-           "\"my red # paint\" polygon 'the \"long\" wall' 0 0 9 0 0 0 0 1 0 0 0 1\n"
-           "void brightfunc b\n2 \"a b\" c\n0 0\nvoid plastic w#1 0 0 5 1e-1 1e-1 1e-1 0 0\n"
-           "w#1 polygon \"\" 0 0 9 0 0 0 0 1 0 0 0 1\n");
+      read_scene("a.rad",
+                 "void plastic \"my red # paint\" 0 0 5 .8 .4 .2 0 0 # a comment 7\n"
+                 "\"my red # paint\" polygon 'the \"long\" wall' 0 0 9 0 0 0 0 1 0 0 0 1\n"
+                 "void brightfunc b\n2 \"a b\" c\n0 0\nvoid plastic w#1 0 0 5 1e-1 1e-1 1e-1 0 0\n"
+                 "w#1 polygon \"\" 0 0 9 0 0 0 0 1 0 0 0 1\n");
   ASSERT_EQ(d.face_count(), 2U);
   const auto material = [&](std::size_t f) {
     return d.materials[static_cast<std::size_t>(d.face_material[f])];
@@ -491,41 +467,41 @@ TEST(SceneFormats, RadianceWordsInQuotesMayHoldBlanks) {
   EXPECT_EQ(material(0).reflectance, (Rgb{0.8, 0.4, 0.2}));
   EXPECT_EQ(material(1).name, "w#1");
   EXPECT_THAT(d.groups, ElementsAre("the \"long\" wall", ""));
-  EXPECT_EQ(refusal_of("a.rad", "void plastic 'red 0 0\n 5 .8 .4 .2 0 0\n"),
+  EXPECT_EQ(scene_refusal("a.rad", "void plastic 'red 0 0\n 5 .8 .4 .2 0 0\n"),
             "a.rad:1: the quotes of `red 0 0` do not end on their line");
 }
 
 TEST(SceneFormats, RadianceRefusesCommandsAndWhatIsBroken) {
-  EXPECT_THAT(refusal_of("a.rad", "void plastic a 0 0 5 1 1 1 0 0\n!xform -t 1 0 0 b.rad\n"),
+  EXPECT_THAT(scene_refusal("a.rad", "void plastic a 0 0 5 1 1 1 0 0\n!xform -t 1 0 0 b.rad\n"),
               HasSubstr("a.rad:2: `!xform -t 1 0 0 b.rad` is a command, which is not run"));
-  EXPECT_EQ(refusal_of("a.rad", "void polygon a 0 0 8 1 2 3 4 5 6 7 8\n"),
+  EXPECT_EQ(scene_refusal("a.rad", "void polygon a 0 0 8 1 2 3 4 5 6 7 8\n"),
             "a.rad:1: polygon `a` has 8 numbers; three for each of three corners or more are "
             "required");
-  EXPECT_EQ(refusal_of("a.rad", "void polygon a 0 0 999\n"),
+  EXPECT_EQ(scene_refusal("a.rad", "void polygon a 0 0 999\n"),
             "a.rad:1: `999` is not a number of arguments");
-  EXPECT_EQ(refusal_of("a.rad", "void polygon a 0 0 9 1 2\n"),
+  EXPECT_EQ(scene_refusal("a.rad", "void polygon a 0 0 9 1 2\n"),
             "a.rad:1: the file ends within a primitive");
-  EXPECT_EQ(refusal_of("a.rad", "void plastic a 0 0 5 -1 1 1 0 0\n"),
+  EXPECT_EQ(scene_refusal("a.rad", "void plastic a 0 0 5 -1 1 1 0 0\n"),
             "a.rad:1: plastic `a`: -1 is not a color");
-  EXPECT_EQ(refusal_of("a.rad", "void plastic a 0 0 5 1 1 1 0 0\n"), "a.rad: has no polygons");
+  EXPECT_EQ(scene_refusal("a.rad", "void plastic a 0 0 5 1 1 1 0 0\n"), "a.rad: has no polygons");
 }
 
 // All -----------------------------------------------------------------------------------------
 
 TEST(SceneFormats, AByteOrderMarkIsNoPartOfAFile) {
   const std::string mark = "\xef\xbb\xbf";
-  expect_cube(read("a.ply", mark + ply("ascii")));
-  expect_cube(read("a.ply", mark + ply("binary_big_endian")));
-  expect_cube(read("a.off", mark + off("OFF\n8 6 12\n", "")));
-  expect_cube(read("a.stl", mark + text_stl()));
+  expect_cube(read_scene("a.ply", mark + ply("ascii")));
+  expect_cube(read_scene("a.ply", mark + ply("binary_big_endian")));
+  expect_cube(read_scene("a.off", mark + off("OFF\n8 6 12\n", "")));
+  expect_cube(read_scene("a.stl", mark + text_stl()));
 }
 
 TEST(SceneFormats, AreFoundByTheEndingInAnyCaseAndListedWhenItIsUnknown) {
-  expect_cube(read("CUBE.STL", text_stl()));
+  expect_cube(read_scene("CUBE.STL", text_stl()));
   EXPECT_TRUE(is_scene_file("a.Glb"));
   EXPECT_TRUE(is_scene_file("a.vtp"));
   EXPECT_FALSE(is_scene_file("a.csv"));
-  EXPECT_EQ(refusal_of("a.step", "x"),
+  EXPECT_EQ(scene_refusal("a.step", "x"),
             "a.step: not a scene file; scene files end in .obj, .gltf, .glb, .ply, .stl, .off, "
             ".rad, .vs3, .vtp, .vtk");
 }

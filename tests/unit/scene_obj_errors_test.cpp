@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene_test_support.h"
+#include "support/canceled.h"
 
 namespace transillum::scene_obj_errors_test {
 namespace {
@@ -205,9 +206,7 @@ TEST(ObjFile, ReadingStopsWhenCanceled) {
   for (int i = 0; i < 10'000; ++i) {
     text += "v 0 0 0\n";
   }
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(load_scene(folder.write("s.obj", text), {}, {}, cancellation), Canceled);
+  EXPECT_THROW(load_scene(folder.write("s.obj", text), {}, {}, testing::canceled()), Canceled);
 }
 
 }  // namespace

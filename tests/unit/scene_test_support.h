@@ -3,8 +3,11 @@
 
 // Small scene descriptions and measurements of scenes for the scene tests.
 
-#include <memory>
+#include <gtest/gtest.h>
+
+#include <span>
 #include <string>
+#include <vector>
 
 #include "support/refusal.h"
 #include "support/temporary_folder.h"
@@ -31,6 +34,37 @@ inline SceneDescription polygon(const std::vector<Vec3>& points) {
     outline.push_back(static_cast<PointId>(i));
   }
   return polygons(points, {outline});
+}
+
+/// Describes a scene in a file of this name and content.
+inline SceneDescription read_scene(const std::string& name, const std::string& content,
+                                   const ReadOptions& options = {}) {
+  const TemporaryFolder folder;
+  return describe_scene(folder.write(name, content), options);
+}
+/// The message that refuses such a file, from its name on.
+inline std::string scene_refusal(const std::string& name, const std::string& content) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write(name, content);
+  const std::string message = refusal([&] { (void)describe_scene(path); });
+  const std::size_t found = message.find(name);
+  return found == std::string::npos ? message : message.substr(found);
+}
+
+/// Corners and outward faces of the unit cube.
+inline const std::vector<Vec3> cube_corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                            {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+inline const std::vector<std::vector<int>> cube_squares{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                                        {2, 3, 7, 6}, {0, 4, 7, 3}, {1, 2, 6, 5}};
+
+inline void expect_cube(const SceneDescription& description) {
+  const Scene scene(description);
+  ASSERT_EQ(scene.patch_count(), 6);
+  for (PatchId i = 0; i < 6; ++i) {
+    EXPECT_DOUBLE_EQ(scene.patch(i).area, 1);
+    EXPECT_GT(dot(scene.patch(i).normal, scene.patch(i).center - Vec3{0.5, 0.5, 0.5}), 0);
+  }
+  EXPECT_EQ(scene.points().size(), 8U);
 }
 
 /// Newell vector of an outline: its normal times twice its area.

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "program_run.h"
+#include "support/program_run.h"
 #include "transillum/scene.h"
 
 namespace transillum::scripts_test {

@@ -6,7 +6,6 @@
 // against 4,096 passes.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

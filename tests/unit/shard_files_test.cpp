@@ -23,13 +23,6 @@ using test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-bool same_bits(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
-  const auto same = [](const Rgb& x, const Rgb& y) {
-    return x.r == y.r && x.g == y.g && x.b == y.b;
-  };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
-}
-
 class Shards : public ::testing::Test {
  protected:
   std::vector<std::string> write(int count, const SolveOptions& options,
@@ -71,8 +64,8 @@ TEST_F(Shards, HaveTheBitsOfOneSolve) {
     const Solution whole = solve(scene_, options);
     for (const int count : {1, 3, 25}) {
       const Solution solution = merged(write(count, options), options);
-      EXPECT_TRUE(same_bits(whole.radiosity, solution.radiosity));
-      EXPECT_TRUE(same_bits(whole.irradiance, solution.irradiance));
+      EXPECT_TRUE(whole.radiosity == solution.radiosity);
+      EXPECT_TRUE(whole.irradiance == solution.irradiance);
       EXPECT_EQ(whole.form_factor_sums, solution.form_factor_sums);
       EXPECT_EQ(whole.sky_shares, solution.sky_shares);
       EXPECT_EQ(whole.statistics.closure_defect_max, solution.statistics.closure_defect_max);

@@ -5,10 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <stdexcept>
 
-#include "support/scenes.h"
 #include "transillum/errors.h"
 
 namespace transillum::solve_session_test {

@@ -9,13 +9,13 @@
 #include <vtkPNGReader.h>
 #include <vtkSmartPointer.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "io/drawing/study_chart.h"
 #include "io/results/reference_cache.h"
-#include "program_run.h"
+#include "support/canceled.h"
+#include "support/program_run.h"
 #include "support/scenes.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
@@ -387,11 +387,9 @@ TEST(ReferenceCache, ReportsThatAReferenceCannotBeStored) {
 TEST(ReferenceCache, StoresNothingWhenTheSolveIsCanceled) {
   const TemporaryFolder folder;
   const ReferenceCache cache(folder / "cache");
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(find_or_solve_reference(cache, box().scene, box().tree, reference_options(8), {},
-                                       cancellation),
-               Canceled);
+  EXPECT_THROW(
+      find_or_solve_reference(cache, box().scene, box().tree, reference_options(8), {}, canceled()),
+      Canceled);
   EXPECT_FALSE(cache.find(*box().scene, reference_options(8)));
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "radiosity/exchange/exchange_sums.h"
+#include "support/canceled.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/bsp_tree.h"
@@ -153,10 +154,8 @@ TEST(BspTree, SplitsFewFacesOfTheSphereFlake) {
 
 TEST(BspTree, ThrowsWhenCanceled) {
   const auto scene = load_scene("furnace");
-  const Cancellation cancellation;
-  cancellation.cancel();
-  EXPECT_THROW(BspTree(*scene, cancellation), Canceled);
-  EXPECT_THROW(BspTree(*scene).order({0, 0, 1}, cancellation), Canceled);
+  EXPECT_THROW(BspTree(*scene, testing::canceled()), Canceled);
+  EXPECT_THROW(BspTree(*scene).order({0, 0, 1}, testing::canceled()), Canceled);
 }
 
 /// Among coincident faces, receiving ones come before emitting ones; a lamp covers its ceiling.

@@ -19,9 +19,9 @@
 #include <functional>
 #include <random>
 
-#include "program_run.h"
+#include "scene_test_support.h"
+#include "support/program_run.h"
 #include "support/refusal.h"
-#include "support/scenes.h"
 #include "transillum/files.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
@@ -30,36 +30,23 @@
 namespace transillum::testing::vtk_reader_test {
 namespace {
 
+using test::cube_corners;
+using test::cube_squares;
+using test::expect_cube;
 using test::refusal;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-/// The faces point outward.
-const std::vector<std::vector<int>> squares{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                            {2, 3, 7, 6}, {0, 4, 7, 3}, {1, 2, 6, 5}};
-
-void expect_cube(const SceneDescription& description) {
-  const Scene scene(description);
-  ASSERT_EQ(scene.patch_count(), 6);
-  for (PatchId i = 0; i < 6; ++i) {
-    EXPECT_DOUBLE_EQ(scene.patch(i).area, 1);
-    EXPECT_GT(dot(scene.patch(i).normal, scene.patch(i).center - Vec3{0.5, 0.5, 0.5}), 0);
-  }
-  EXPECT_EQ(scene.points().size(), 8U);
-}
-
 vtkNew<vtkPolyData> cube() {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  for (const Vec3& p : corners) {
+  for (const Vec3& p : cube_corners) {
     points->InsertNextPoint(p.x, p.y, p.z);
   }
   vtkNew<vtkCellArray> polygons;
-  for (const auto& square : squares) {
+  for (const auto& square : cube_squares) {
     polygons->InsertNextCell(static_cast<int>(square.size()));
     for (const int p : square) {
       polygons->InsertCellPoint(p);
@@ -216,7 +203,7 @@ std::string legacy(int version, bool binary) {
   };
   text += binary ? "BINARY\n" : "ASCII\n";
   text += "DATASET POLYDATA\nPOINTS 8 double\n";
-  for (const Vec3& p : corners) {
+  for (const Vec3& p : cube_corners) {
     for (const double value : {p.x, p.y, p.z}) {
       add(value);
     }
@@ -224,7 +211,7 @@ std::string legacy(int version, bool binary) {
   text += "\nMETADATA\nINFORMATION 0\n\n";
   if (version < 5) {
     text += "POLYGONS 6 30\n";
-    for (const auto& square : squares) {
+    for (const auto& square : cube_squares) {
       add(std::int32_t{4});
       for (const int p : square) {
         add(std::int32_t{p});
@@ -236,7 +223,7 @@ std::string legacy(int version, bool binary) {
       add(4 * k);
     }
     text += "\nCONNECTIVITY vtktypeint64\n";
-    for (const auto& square : squares) {
+    for (const auto& square : cube_squares) {
       for (const int p : square) {
         add(std::int64_t{p});
       }

@@ -3,6 +3,7 @@
 // Tests and programs wait for conditions, not for times: a fixed pause is too short on a busy
 // machine and too long on any other. Two helpers sleep between two checks of a condition; no other
 // file of the repository calls a function that sleeps.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -82,7 +83,7 @@ TEST(Waits, AreForConditions) {
         if (helpers.contains(name)) {
           pausing_helpers.insert(name);
         } else {
-          found.push_back(name + ":" + pause);
+          found.push_back(fmt::format("{}:{}", name, pause));
         }
       }
     }

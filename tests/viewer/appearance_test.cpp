@@ -18,6 +18,7 @@
 #include "state/watches.h"
 #include "stepping/event_table.h"
 #include "stepping/watch_chart.h"
+#include "test_files.h"
 #include "user_guide.h"
 #include "widgets/full_screen.h"
 #include "widgets/theme.h"

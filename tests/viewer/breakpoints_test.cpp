@@ -51,6 +51,33 @@ struct Direction {
   const MapHistory& history() const { return map->history; }
 };
 
+/// A snapshot of the direction's scene, of 10 directions and their opposites, with B as it is.
+SolverSnapshot snapshot_of(const Direction& d, const std::vector<Rgb>& radiosity) {
+  SolverSnapshot snapshot;
+  snapshot.loaded = d.scene;
+  snapshot.progress.passes = 10;
+  snapshot.kept_radiosity = {std::make_shared<const std::vector<Rgb>>(radiosity)};
+  return snapshot;
+}
+
+/// Another B for each patch.
+std::vector<Rgb> uneven_radiosity(const Scene& scene) {
+  std::vector<Rgb> radiosity;
+  for (PatchId p = 0; p < scene.patch_count(); ++p) {
+    radiosity.push_back({1.0 + p, 2.0 + p, 0.5 * p});
+  }
+  return radiosity;
+}
+
+/// A focus before the first step of the direction.
+struct FocusOn : Focus {
+  explicit FocusOn(const Direction& d) {
+    begin_run(1);
+    go_to({0, 0, -1});
+    show_map(d.map);
+  }
+};
+
 std::vector<std::int32_t> steps_where(const MapHistory& history, const Breakpoint& breakpoint) {
   Breakpoints breakpoints;
   breakpoints.add(breakpoint);
@@ -361,16 +388,9 @@ class BreakpointsTest : public QObject {
   void a_global_map_is_traversed_at_the_probed_point() {
     const Direction d("furnace", {0, 0.2, 1});
     const Scene& scene = *d.scene->scene;
-    SolverSnapshot snapshot;
-    snapshot.loaded = d.scene;
-    snapshot.progress.passes = 10;
-    snapshot.options.two_way = true;
     const std::vector<Rgb> radiosity(static_cast<std::size_t>(scene.patch_count()), {1, 2, 3});
-    snapshot.kept_radiosity = {std::make_shared<const std::vector<Rgb>>(radiosity)};
-    Focus focus;
-    focus.begin_run(1);
-    focus.go_to({0, 0, -1});
-    focus.show_map(d.map);
+    const SolverSnapshot snapshot = snapshot_of(d, radiosity);
+    FocusOn focus(d);
     QVERIFY(!region_state(focus, snapshot));
     QVERIFY(current_lines(focus, MapKind::global) == std::vector<CodeLine>{CodeLine::global_map});
     const Vec3 middle = d.scene->scene->bounds().center();
@@ -415,30 +435,14 @@ class BreakpointsTest : public QObject {
     // Summed over the steps of a direction, line `gather` is eq. 11 for that direction.
     const Direction d("cornell-box");
     const Scene& scene = *d.scene->scene;
-    SolverSnapshot snapshot;
-    snapshot.loaded = d.scene;
-    snapshot.progress.passes = 10;
-    snapshot.options.two_way = true;
-    std::vector<Rgb> radiosity;
-    for (PatchId p = 0; p < scene.patch_count(); ++p) {
-      radiosity.push_back({1.0 + p, 2.0 + p, 0.5 * p});
-    }
-    snapshot.kept_radiosity = {std::make_shared<const std::vector<Rgb>>(radiosity)};
-
-    Focus focus;
-    focus.begin_run(1);
+    const std::vector<Rgb> radiosity = uneven_radiosity(scene);
+    const SolverSnapshot snapshot = snapshot_of(d, radiosity);
+    FocusOn focus(d);
     std::vector<Rgb> sums(radiosity.size());
-    const auto go_to = [&](std::int32_t k) {
-      focus.go_to({0, 0, k});
-      if (!focus.map()) {
-        focus.show_map(d.map);
-      }
-    };
-    go_to(-1);
     QVERIFY(!algorithm_state(focus, snapshot, no_patch));
     QVERIFY(current_lines(focus, MapKind::local) == std::vector<CodeLine>{CodeLine::empty_map});
     for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
-      go_to(k);
+      focus.go_to({0, 0, k});
       const auto state = algorithm_state(focus, snapshot, no_patch);
       QVERIFY(state.has_value());
       QCOMPARE(state->directions, 20);
@@ -497,22 +501,15 @@ class BreakpointsTest : public QObject {
   void the_steps_of_a_direction_sum_to_the_linear_equation() {
     const Direction d("cornell-box");
     const Scene& scene = *d.scene->scene;
-    SolverSnapshot snapshot;
-    snapshot.loaded = d.scene;
-    snapshot.progress.passes = 10;
-    snapshot.options.basis = Basis::linear;
-    std::vector<Rgb> radiosity;
+    const std::vector<Rgb> radiosity = uneven_radiosity(scene);
     std::vector<LinearPart> parts;
     for (PatchId p = 0; p < scene.patch_count(); ++p) {
-      radiosity.push_back({1.0 + p, 2.0 + p, 0.5 * p});
       parts.push_back({{0.1 * p, -0.2, 0.3}, {1, 0.02 * p, -0.5}});
     }
-    snapshot.kept_radiosity = {std::make_shared<const std::vector<Rgb>>(radiosity)};
+    SolverSnapshot snapshot = snapshot_of(d, radiosity);
+    snapshot.options.basis = Basis::linear;
     snapshot.kept_linear_parts = {std::make_shared<const std::vector<LinearPart>>(parts)};
-    Focus focus;
-    focus.begin_run(1);
-    focus.go_to({0, 0, -1});
-    focus.show_map(d.map);
+    FocusOn focus(d);
     std::vector<Rgb> sums(radiosity.size());
     for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
       focus.go_to({0, 0, k});

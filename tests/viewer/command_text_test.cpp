@@ -15,6 +15,7 @@
 #include <QTemporaryDir>
 
 #include "solved_window.h"
+#include "test_files.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer::command_text_test {
@@ -135,9 +136,7 @@ class CommandTextTest : public QObject {
     const QString file = folder.filePath("map.json");
     QVERIFY(
         !output_of(copied(solved, "copy_step") + " --out " + file + " && echo written").isEmpty());
-    QFile written(file);
-    QVERIFY(written.open(QIODevice::ReadOnly));
-    const QJsonArray polygons = QJsonDocument::fromJson(written.readAll())["polygons"].toArray();
+    const QJsonArray polygons = QJsonDocument::fromJson(contents_of(file))["polygons"].toArray();
     const VisibilityMap shown =
         map_after(focus.map()->record(),
                   focus.position().step - (step >= 0 && phase == static_cast<int>(Phase::before)));

@@ -21,6 +21,7 @@
 #include "solve/settings_panel.h"
 #include "solved_window.h"
 #include "state/breakpoints.h"
+#include "test_files.h"
 #include "widgets/engine_text.h"
 
 namespace transillum::viewer::compare_test {
@@ -250,11 +251,9 @@ class CompareTest : public QObject {
     QVERIFY(solved.ready);
     const QTemporaryDir folder;
     const QString path = folder.filePath("compare.json");
-    QFile file(path);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write(R"({"title": "Engines", "pages": [{"text": "Two.", "show": {"scene": "cornell-box",
+    write_file(path,
+               R"({"title": "Engines", "pages": [{"text": "Two.", "show": {"scene": "cornell-box",
       "options": {"directions": 16}, "layout": "inspect", "panels": ["compare"]}}]})");
-    file.close();
     const auto* view = solved.window->findChild<CompareView*>();
     solved.window->files().open(path);
     // This is checked at each turn of the event loop, because a screenshot could be taken there.

@@ -13,6 +13,7 @@
 #include <QTest>
 #include <algorithm>
 
+#include "test_files.h"
 #include "transillum/files.h"
 #include "transillum/scene.h"
 #include "transillum/solve_options.h"
@@ -25,15 +26,10 @@ namespace {
 const QString folder = QStringLiteral(TRANSILLUM_SOURCE "/viewer/desktop/");
 const QString entry_file = folder + "org.transillum.Viewer.desktop";
 
-QString text_of(const QString& path) {
-  QFile file(path);
-  return file.open(QFile::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
-}
-
 /// The value of a key of the menu entry.
 QString entry(const QString& key) {
   const QRegularExpression line("^" + key + "=(.*)$", QRegularExpression::MultilineOption);
-  return line.match(text_of(entry_file)).captured(1);
+  return line.match(test::contents_of(entry_file)).captured(1);
 }
 
 /// Names of all files that the viewer opens.
@@ -83,7 +79,7 @@ class DesktopTest : public QObject {
 
   void the_types_are_valid() {
     validate("update-mime-database", {"-n", data_.path() + "/mime"});
-    const QString text = text_of(folder + "org.transillum.Viewer.xml");
+    const QString text = test::contents_of(folder + "org.transillum.Viewer.xml");
     QVERIFY(text.contains("*.transillum.json"));
   }
 
@@ -96,11 +92,11 @@ class DesktopTest : public QObject {
   }
   void the_description_is_valid() {
     QFETCH(QString, pictures);
-    QString text = text_of(folder + "org.transillum.Viewer.metainfo.xml.in");
+    QString text = test::contents_of(folder + "org.transillum.Viewer.metainfo.xml.in");
     text.replace("@PROJECT_VERSION@", "0.1.0").replace("@TRANSILLUM_DATE@", "2026-11-23");
     QString screenshots;
     if (!pictures.isEmpty()) {
-      screenshots = text_of(folder + "screenshots.xml.in");
+      screenshots = test::contents_of(folder + "screenshots.xml.in");
       auto pictures_in_it = QRegularExpression("@/(.*\\.png)<").globalMatch(screenshots);
       QVERIFY(pictures_in_it.hasNext());
       while (pictures_in_it.hasNext()) {
@@ -112,12 +108,10 @@ class DesktopTest : public QObject {
     text.replace("@TRANSILLUM_SCREENSHOTS@", screenshots);
     text.replace("@TRANSILLUM_URL@",
                  pictures.isEmpty() ? "" : "<url type=\"homepage\">https://example.org</url>\n");
-    QFile file(data_.filePath("org.transillum.Viewer.metainfo.xml"));
-    QVERIFY(file.open(QFile::WriteOnly));
-    file.write(text.toUtf8());
-    file.close();
+    const QString file =
+        test::write_file(data_.filePath("org.transillum.Viewer.metainfo.xml"), text.toUtf8());
     // Newer versions take no description without a home page.
-    validate("appstreamcli", {"validate", "--no-net", file.fileName()},
+    validate("appstreamcli", {"validate", "--no-net", file},
              pictures.isEmpty() ? "url-homepage-missing" : "");
   }
 
@@ -162,9 +156,7 @@ class DesktopTest : public QObject {
       options.directions = 8;
       write_result(file.toStdString(), solve(load_scene("furnace"), options));
     } else {
-      QFile session(file);
-      QVERIFY(session.open(QFile::WriteOnly));
-      session.write(R"({"show": {"scene": "furnace", "options": {"directions": 8}}})");
+      test::write_file(file, R"({"show": {"scene": "furnace", "options": {"directions": 8}}})");
     }
     QFile::remove(picture);
     // Runs the entry's Exec, with the file for %f.

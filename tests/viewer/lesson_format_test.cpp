@@ -9,6 +9,7 @@
 
 #include "lessons/lesson.h"
 #include "registered.h"
+#include "test_files.h"
 #include "transillum/errors.h"
 
 namespace transillum::viewer::lesson_format_test {
@@ -21,8 +22,7 @@ std::string lesson(const std::string& pages) {
 }
 
 QString description() {
-  QFile file(QStringLiteral(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md"));
-  return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+  return QString::fromUtf8(test::contents_of(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md"));
 }
 
 std::string repeated(const std::string& text, int count) {

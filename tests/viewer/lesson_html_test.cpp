@@ -14,6 +14,7 @@
 #include "lessons/lesson_html.h"
 #include "lessons/lesson_panel.h"
 #include "solved_window.h"
+#include "test_files.h"
 #include "transillum/at.h"
 #include "window/lesson_export.h"
 
@@ -31,11 +32,6 @@ const char* const lesson_text = R"({"title": "Two <pages>", "pages": [
    "question": {"kind": "number", "ask": "How many?", "answer": {"figure": "steps"},
                 "then": "That is all."}},
   {"title": "Two", "text": "The end.", "show": {"focus": "newest"}}]})";
-
-QByteArray content(const QString& path) {
-  QFile file(path);
-  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
 
 int count(const QByteArray& text, const char* pattern) {
   int found = 0;
@@ -56,11 +52,8 @@ struct Exported {
   QString path = folder.filePath("lesson.html");
 
   Exported() {
-    QFile file(folder.filePath("mine.json"));
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write(lesson_text);
-    file.close();
-    window->files().try_open(file.fileName());
+    const QString file = write_file(folder.filePath("mine.json"), lesson_text);
+    window->files().try_open(file);
     QVERIFY(wait_for([this] { return window->settled(); }));
   }
   void finish() {
@@ -114,7 +107,7 @@ class LessonHtmlTest : public QObject {
   void a_lesson_becomes_one_file() {
     Exported exported;
     exported.finish();
-    const QByteArray html = content(exported.path);
+    const QByteArray html = contents_of(exported.path);
     const QString kept = qEnvironmentVariable("TRANSILLUM_PICTURES");
     if (!kept.isEmpty()) {
       QFile::copy(exported.path, kept + "/lesson.html");
@@ -167,20 +160,17 @@ class LessonHtmlTest : public QObject {
     }
     Exported exported;
     exported.finish();
-    QByteArray html = content(exported.path);
+    QByteArray html = contents_of(exported.path);
     // The script clicks, and writes the visible polygons into the title.
     html.replace("</body>", R"(<script>
       document.querySelector('.on').click();
       document.title = document.querySelector('output').textContent + ': ' +
         [...document.querySelectorAll('svg.map polygon')].filter(
           p => getComputedStyle(p).display !== 'none').length;</script></body>)");
-    QFile file(exported.folder.filePath("clicked.html"));
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write(html);
-    file.close();
+    const QString file = write_file(exported.folder.filePath("clicked.html"), html);
     QProcess process;
-    process.start(browser, {"--headless", "--no-sandbox", "--disable-gpu", "--dump-dom",
-                            "file://" + file.fileName()});
+    process.start(browser,
+                  {"--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", "file://" + file});
     QVERIFY(process.waitForFinished(60000));
     const auto map = exported.window->focus.map();
     const auto polygons = map->record().map_after(4).size();  // the fifth step

@@ -14,6 +14,7 @@
 #include "scene/callout_layer.h"
 #include "solved_window.h"
 #include "stepping/algorithm_view.h"
+#include "test_files.h"
 #include "transillum/at.h"
 #include "window/export_actions.h"
 #include "window/view_state_applier.h"
@@ -38,12 +39,6 @@ struct Taught {
   const Focus& focus() const { return window->focus; }
 };
 
-void write(const QString& path, const QByteArray& text) {
-  QFile file(path);
-  QVERIFY(file.open(QIODevice::WriteOnly));
-  file.write(text);
-}
-
 /// A window that shows the first page of a lesson.
 struct Opened : Taught {
   QTemporaryDir folder;
@@ -51,7 +46,7 @@ struct Opened : Taught {
 
   explicit Opened(const QByteArray& lesson) {
     const QString path = folder.filePath("lesson.json");
-    write(path, lesson);
+    write_file(path, lesson);
     window->files().try_open(path);
     ready = settles();
   }
@@ -113,7 +108,7 @@ class LessonsTest : public QObject {
     TestWindow& window = *taught.window;
     const QTemporaryDir folder;
     const QString path = folder.filePath("mine.json");
-    write(path, R"({"title": "Mine", "pages": [
+    write_file(path, R"({"title": "Mine", "pages": [
       {"title": "One", "text": "first", "show": {"layout": "teach", "scene": "furnace",
         "options": {"directions": 16}, "solve": 5, "select": 4}},
       {"title": "Two", "text": "second", "show": {"focus": {"direction": 9, "step": 3,
@@ -226,7 +221,7 @@ class LessonsTest : public QObject {
     TestWindow& window = *taught.window;
     const QTemporaryDir folder;
     const QString path = folder.filePath("named.json");
-    write(path, R"({"title": "T", "pages": [
+    write_file(path, R"({"title": "T", "pages": [
       {"text": "One.", "show": {"layout": "teach", "scene": "cornell-box",
         "options": {"directions": 8}, "focus": {"direction": 5, "step": "last"}},
        "callouts": [{"text": "the top", "patch": 16}, {"text": "here", "point": [0.2, 0.3, 0.1]}]},
@@ -240,8 +235,7 @@ class LessonsTest : public QObject {
     const auto exported_map = [&] {
       exports.write_map_picture(folder.filePath("map.svg"));
       exports.write_map_picture(folder.filePath("map.png"));
-      QFile file(folder.filePath("map.svg"));
-      return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+      return contents_of(folder.filePath("map.svg"));
     };
     // There, the top is behind other patches.
     QVERIFY(exported_map().contains(">here</text>"));
@@ -335,8 +329,9 @@ class LessonsTest : public QObject {
     const std::size_t lessons = taught.panel->lessons().size();
     const QTemporaryDir folder;
     const QString path = folder.filePath("bad.json");
-    write(path,
-          R"({"title": "T", "pages": [{"text": ""}, {"text": "", "show": {"panels": ["mop"]}}]})");
+    write_file(
+        path,
+        R"({"title": "T", "pages": [{"text": ""}, {"text": "", "show": {"panels": ["mop"]}}]})");
     taught.window->files().try_open(path);
     const QString message = taught.window->banner_text();
     QVERIFY2(message.contains("bad.json, page 2") && message.contains("mop"), qPrintable(message));
@@ -348,7 +343,7 @@ class LessonsTest : public QObject {
     Taught taught;
     const QTemporaryDir folder;
     const QString path = folder.filePath("lost.json");
-    write(path, R"({"title": "T", "pages": [{"text": "", "show": {"scene": "lost.obj"}},
+    write_file(path, R"({"title": "T", "pages": [{"text": "", "show": {"scene": "lost.obj"}},
                     {"text": "", "show": {"scene": "furnace", "options": {"directions": 4}}}]})");
     taught.window->files().try_open(path);
     QVERIFY(wait_for([&] { return taught.window->banner_text().contains("lost.obj"); }));
@@ -361,7 +356,7 @@ class LessonsTest : public QObject {
     Taught taught;
     const QTemporaryDir folder;
     const QString path = folder.filePath("beyond.json");
-    write(path, R"({"title": "T", "pages": [
+    write_file(path, R"({"title": "T", "pages": [
       {"text": "", "show": {"scene": "furnace", "options": {"directions": 4}, "select": 99}},
       {"text": "", "show": {"select": 1, "focus": {"direction": 5}}}]})");
     taught.window->files().try_open(path);
@@ -372,9 +367,8 @@ class LessonsTest : public QObject {
   }
 
   void every_panel_is_described() {
-    QFile file(QStringLiteral(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md"));
-    QVERIFY(file.open(QIODevice::ReadOnly));
-    const QByteArray text = file.readAll();
+    const QByteArray text =
+        contents_of(QStringLiteral(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md"));
     const Taught taught;
     const std::vector<std::string> panels = taught.window->parts().docks.panels();
     QVERIFY(panels.size() > 10);

@@ -13,6 +13,7 @@
 
 #include "inspected_window.h"
 #include "patches/path_panel.h"
+#include "test_files.h"
 
 namespace transillum::viewer::light_paths_test {
 
@@ -114,9 +115,7 @@ class LightPathsTest : public QObject {
     QTRY_COMPARE(shown.table->rowCount(), 3);
     const QTemporaryDir folder;
     shown.panel->write(folder.filePath("paths.csv"));
-    QFile file(folder.filePath("paths.csv"));
-    QVERIFY(file.open(QIODevice::ReadOnly));
-    const QList<QByteArray> lines = file.readAll().trimmed().split('\n');
+    const QList<QByteArray> lines = contents_of(folder.filePath("paths.csv")).trimmed().split('\n');
     QCOMPARE(lines.size(), 5);
     double shares = 0;
     for (int line = 1; line < 5; ++line) {
@@ -129,9 +128,8 @@ class LightPathsTest : public QObject {
     }
     QVERIFY(std::abs(shares - 1) < 1e-8 * largest / luminance(shown.expected().radiosity));
     shown.panel->write(folder.filePath("paths.json"));
-    QFile json(folder.filePath("paths.json"));
-    QVERIFY(json.open(QIODevice::ReadOnly));
-    const QJsonObject root = QJsonDocument::fromJson(json.readAll()).object();
+    const QJsonObject root =
+        QJsonDocument::fromJson(contents_of(folder.filePath("paths.json"))).object();
     QCOMPARE(root["receiver"].toInt(), 4);
     QCOMPARE(root["paths"].toArray().size(), 3);
     QCOMPARE(root["paths"].toArray()[0].toObject()["patches"].toArray().last().toInt(), 4);

@@ -14,6 +14,7 @@
 
 #include "patches/material_panel.h"
 #include "solved_window.h"
+#include "test_files.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/relight.h"
@@ -63,19 +64,14 @@ struct Opened {
   bool ready = false;
 
   explicit Opened(bool turned = false, const QByteArray& materials = {}) {
-    write("room.obj", room(turned));
-    write("none.mtl", materials.isEmpty() ? QByteArray("newmtl white\nKd .7 .7 .7\n"
-                                                       "newmtl gray\nKd .4 .3 .2\n")
-                                          : materials);
+    write_file(path, room(turned));
+    write_file(folder.filePath("none.mtl"), materials.isEmpty()
+                                                ? QByteArray("newmtl white\nKd .7 .7 .7\n"
+                                                             "newmtl gray\nKd .4 .3 .2\n")
+                                                : materials);
     window = make_window(32);
     window->open(path);
     ready = settles();
-  }
-  void write(const char* name, const QByteArray& text) const {
-    QFile file(folder.filePath(name));
-    if (file.open(QIODevice::WriteOnly)) {
-      file.write(text);
-    }
   }
   bool settles() const {
     return wait_for([this] {

@@ -5,12 +5,12 @@
 #include <QLineEdit>
 #include <QProcess>
 #include <QTemporaryDir>
-#include <clocale>
 #include <cstdlib>
 
 #include "../support/comma_locale.h"
 #include "lessons/session_file.h"
 #include "solved_window.h"
+#include "test_files.h"
 
 namespace transillum::viewer::locale_test {
 
@@ -51,13 +51,10 @@ class LocaleTest : public QObject {
       QSKIP(locale.problem().c_str());
     }
     const QTemporaryDir folder;
-    QFile file(folder.filePath("far.obj"));
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("v 0 0 0\nv 1.5e400 0 0\nv 0 1 0\nf 1 2 3\n");
-    file.close();
+    const QString file =
+        write_file(folder.filePath("far.obj"), "v 0 0 0\nv 1.5e400 0 0\nv 0 1 0\nf 1 2 3\n");
     QProcess process;
-    process.start(TRANSILLUM_VIEWER,
-                  {file.fileName(), "--screenshot", folder.filePath("window.png")});
+    process.start(TRANSILLUM_VIEWER, {file, "--screenshot", folder.filePath("window.png")});
     QVERIFY(process.waitForFinished(60000));
     QCOMPARE(process.exitStatus(), QProcess::NormalExit);
     QCOMPARE(process.exitCode(), 2);

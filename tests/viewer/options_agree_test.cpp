@@ -6,9 +6,7 @@
 #include <QTest>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>

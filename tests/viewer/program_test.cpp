@@ -11,6 +11,7 @@
 #include <csignal>
 
 #include "registered.h"
+#include "test_files.h"
 
 namespace transillum::viewer::program_test {
 
@@ -81,12 +82,6 @@ class Program {
   QProcess process_;
   QStringList arguments_;
 };
-
-void write(const QString& path, const QByteArray& text) {
-  QFile file(path);
-  QVERIFY(file.open(QIODevice::WriteOnly));
-  file.write(text);
-}
 
 }  // namespace
 
@@ -179,7 +174,7 @@ class ProgramTest : public QObject {
     QFETCH(const QByteArray, expected);
     const QTemporaryDir folder;
     const QString session = folder.filePath("s.json"), picture = folder.filePath("a.png");
-    write(session, "{\"show\": {" + show + "}}");
+    test::write_file(session, "{\"show\": {" + show + "}}");
     Program program({session, "--screenshot", picture});
     program.start();
     QCOMPARE(program.status(), 2);
@@ -192,7 +187,7 @@ class ProgramTest : public QObject {
   void a_lesson_that_selects_no_patch_of_its_scene_ends_a_screenshot() {
     const QTemporaryDir folder;
     const QString lesson = folder.filePath("l.json"), picture = folder.filePath("a.png");
-    write(lesson, R"({"title": "T", "pages": [{"text": "x", "show": {
+    test::write_file(lesson, R"({"title": "T", "pages": [{"text": "x", "show": {
                       "scene": "furnace", "options": {"directions": 16}, "select": 99}}]})");
     Program program({"--lesson", lesson, "--screenshot", picture});
     program.start();

@@ -14,13 +14,13 @@
 #include <QTextBrowser>
 #include <QToolButton>
 #include <cmath>
-#include <set>
 
 #include "lessons/figure_values.h"
 #include "lessons/lesson_panel.h"
 #include "lessons/question_box.h"
 #include "scene/error_view.h"
 #include "solved_window.h"
+#include "test_files.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer::questions_test {
@@ -69,11 +69,8 @@ struct Class {
            wait_for([this] { return window->settled(); });
   }
   void open(const std::string& lesson) {
-    QFile file(folder.filePath("mine.json"));
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write(lesson.c_str());
-    file.close();
-    window->files().try_open(file.fileName());
+    const QString file = write_file(folder.filePath("mine.json"), lesson.c_str());
+    window->files().try_open(file);
     QVERIFY(settles());
   }
   void open_built_in(int lesson, int page) {
@@ -406,17 +403,13 @@ class QuestionsTest : public QObject {
   void a_damaged_tally_is_reported_and_kept() {
     Class room;
     const QByteArray damaged = "{\"tally\": 3}";
-    QFile file(room.folder.filePath("mine.tally.json"));
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write(damaged);
-    file.close();
+    const QString file = write_file(room.folder.filePath("mine.tally.json"), damaged);
     room.open(page_with(boards_question));
     QVERIFY(room.window->banner_text().contains("mine.tally.json"));
     room.window->findChild<QRadioButton*>("choice_1")->click();
     room.action("question_count")->trigger();
     QVERIFY(room.text("question_counts").contains("1 answer"));
-    QVERIFY(file.open(QIODevice::ReadOnly));
-    QCOMPARE(file.readAll(), damaged);
+    QCOMPARE(contents_of(file), damaged);
   }
 
   // Random, Hammersley and the default, on one scale: the pictures get darker in this order.
@@ -524,9 +517,8 @@ class QuestionsTest : public QObject {
   }
 
   void every_figure_is_described() {
-    QFile file(QStringLiteral(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md"));
-    QVERIFY(file.open(QIODevice::ReadOnly));
-    const QString text = QString::fromUtf8(file.readAll());
+    const QString text = QString::fromUtf8(
+        contents_of(QStringLiteral(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md")));
     for (const std::string& name : figure_names()) {
       QVERIFY2(text.contains("`\"" + QString::fromStdString(name) + "\"`"), name.c_str());
     }

@@ -7,6 +7,7 @@
 #include <QTemporaryDir>
 
 #include "solved_window.h"
+#include "test_files.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "window/export_actions.h"
@@ -95,10 +96,7 @@ class ResultTest : public QObject {
 
   void an_error_names_the_unreadable_file() {
     const QString bad = folder_.filePath("bad.vtp");
-    QFile file(bad);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("<VTKFile type=\"PolyData\">");
-    file.close();
+    write_file(bad, "<VTKFile type=\"PolyData\">");
     const auto window = make_window();
     window->files().try_open(bad);
     QVERIFY(wait_for([&] { return !window->banner_text().isEmpty(); }));

@@ -64,11 +64,6 @@ QPushButton* accepting(const QDialog& dialog) {
   return nullptr;
 }
 
-QByteArray bytes_of(const QString& path) {
-  QFile file(path);
-  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
-
 /// Opens the file as the user does, and waits for it.
 bool opens(TestWindow& window, const QString& path) {
   const auto before = window.scene.loaded();
@@ -272,27 +267,19 @@ class SceneFilesTest : public QObject {
   void a_file_of_each_format_can_be_dropped() {
     QFETCH(QString, file);
     const QTemporaryDir folder;
-    const QString path = folder.filePath(file);
-    QFile written(path);
-    QVERIFY(written.open(QIODevice::WriteOnly));
     // The first byte of the corpus chooses the reader that is fuzzed.
     const QString corpus = QStringLiteral(TRANSILLUM_SOURCE "/data/corpus/fuzz/formats/") + file;
-    written.write(file.endsWith(".obj")
-                      ? "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nf 1 2 3\nf 6 5 4\n"
-                      : bytes_of(corpus).mid(1));
-    written.close();
+    const QString path =
+        write_file(folder.filePath(file),
+                   file.endsWith(".obj")
+                       ? "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nf 1 2 3\nf 6 5 4\n"
+                       : contents_of(corpus).mid(1));
     const auto window = make_window(16);
-    QMimeData data;
-    data.setUrls({QUrl::fromLocalFile(path)});
     // The file is dropped over the scene: the child under the pointer leaves the event to the
     // window.
     auto* under = window->childAt(window->rect().center());
     QVERIFY(under);
-    QDragEnterEvent enter(QPoint(5, 5), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(window.get(), &enter);
-    QVERIFY(enter.isAccepted() && !under->acceptDrops());
-    QDropEvent drop(QPointF(5, 5), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(window.get(), &drop);
+    QVERIFY(drop_file(*window, path) && !under->acceptDrops());
     QVERIFY2(wait_for([&] { return window->scene.loaded() && window->settled(); }, 10000),
              qPrintable(window->banner_text()));
     QVERIFY2(window->windowTitle().startsWith(file), qPrintable(window->windowTitle()));
@@ -312,8 +299,8 @@ class SceneFilesTest : public QObject {
       QVERIFY(wait_for([&] { return !exports->writing(); }));
       const QString other = folder.filePath(QString("b") + ending);
       write_result(other.toStdString(), solution_of(*solved.window->snapshot()), display);
-      QVERIFY(!bytes_of(path).isEmpty());
-      QCOMPARE(bytes_of(path), bytes_of(other));
+      QVERIFY(!contents_of(path).isEmpty());
+      QCOMPARE(contents_of(path), contents_of(other));
     }
     QVERIFY_EXCEPTION_THROWN(exports->write_colors(folder.filePath("none/a.glb"), display),
                              InputError);

@@ -7,6 +7,7 @@
 #include <QTest>
 
 #include "registered.h"
+#include "test_files.h"
 
 namespace transillum::viewer::screenshot_test {
 
@@ -80,22 +81,18 @@ class ScreenshotTest : public QObject {
 
   void exports_a_lesson() {
     const QTemporaryDir folder;
-    QFile lesson(folder.filePath("mine.json"));
-    QVERIFY(lesson.open(QIODevice::WriteOnly));
-    lesson.write(R"({"title": "T", "pages": [
+    const QString lesson =
+        test::write_file(folder.filePath("mine.json"), R"({"title": "T", "pages": [
       {"title": "One", "text": "a", "show": {"scene": "furnace", "focus": {"direction": 1}}},
       {"title": "Two", "text": "b"}]})");
-    lesson.close();
     const auto export_to = [&](const QString& path) {
-      return run({"--lesson", lesson.fileName(), "--export-lesson", path});
+      return run({"--lesson", lesson, "--export-lesson", path});
     };
     const QString path = folder.filePath("lesson.html");
     const Outcome outcome = export_to(path);
     QCOMPARE(outcome.error, QByteArray());
     QCOMPARE(outcome.status, 0);
-    QFile page(path);
-    QVERIFY(page.open(QIODevice::ReadOnly));
-    QCOMPARE(page.readAll().count("<section>"), 2);
+    QCOMPARE(test::contents_of(path).count("<section>"), 2);
     // A folder has the name of the file.
     QVERIFY(QDir(folder.path()).mkdir("b.html"));
     const Outcome refused = export_to(folder.filePath("b.html"));

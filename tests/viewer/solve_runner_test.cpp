@@ -12,6 +12,7 @@
 #include "registered.h"
 #include "support/stopping.h"
 #include "support/wait_until.h"
+#include "test_files.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer::solve_runner_test {
@@ -131,10 +132,7 @@ class SolveRunnerTest : public QObject {
   void a_checkpoint_that_does_not_fit_is_left_out() {
     const QTemporaryDir folder;
     const QString left = folder.filePath("left.tck");
-    QFile file(left);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("transillum checkpoint 1\n{}\n00000000");
-    file.close();
+    test::write_file(left, "transillum checkpoint 1\n{}\n00000000");
     Watched watched;
     watched.runner.resume_from(left.toStdString());
     watched.open("cornell-box", 60);

@@ -16,6 +16,7 @@
 #include "solve/study_chart.h"
 #include "solved_window.h"
 #include "support/number_text.h"
+#include "test_files.h"
 #include "transillum/files.h"
 #include "transillum/solve_session.h"
 #include "widgets/banner.h"
@@ -105,9 +106,7 @@ class StudyTest : public QObject {
       shown.dialog->save(folder.filePath(name));
     }
     QCOMPARE(QImage(folder.filePath("s.png")).size(), QSize(1600, 960));
-    QFile csv(folder.filePath("s.csv"));
-    QVERIFY(csv.open(QIODevice::ReadOnly));
-    QCOMPARE(csv.readAll().count('\n'), 1 + 2 * 3);
+    QCOMPARE(contents_of(folder.filePath("s.csv")).count('\n'), 1 + 2 * 3);
     QVERIFY(QFile(folder.filePath("s.svg")).size() > 1000);
     shown.dialog->save(folder.filePath("s.pdf"));
     QVERIFY(!QFile::exists(folder.filePath("s.pdf")));

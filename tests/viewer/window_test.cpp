@@ -1,22 +1,15 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <QAbstractItemView>
 #include <QAbstractSpinBox>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QHeaderView>
 #include <QLabel>
-#include <QLineEdit>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
-#include <QScreen>
-#include <QScrollBar>
 #include <QSlider>
 #include <QTableView>
 #include <QTemporaryDir>
-#include <QTimer>
-#include <QToolBar>
 #include <QToolButton>
 #include <QUrl>
 #include <QVBoxLayout>
@@ -27,7 +20,6 @@
 #include "scene/color_controls.h"
 #include "scene/welcome_page.h"
 #include "solved_window.h"
-#include "transillum/at.h"
 #include "window/view_state_applier.h"
 
 namespace transillum::viewer::window_test {
@@ -237,78 +229,6 @@ class WindowTest : public QObject {
     QTest::mouseClick(canvas, Qt::LeftButton, {}, middle);
     QCOMPARE(solved.window->selection.patch(), patch);
     QCOMPARE(solved.text("patch_id"), QString::number(patch));
-  }
-
-  void actions_control_the_solve() {
-    const SolvedScene solved("cornell-box");
-    QVERIFY(solved.ready);
-    // Solve again with many directions.
-    solved.window->runner.restart(
-        [] {
-          SolveOptions options;
-          options.directions = 100000;
-          return options;
-        }(),
-        {});
-    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.passes == 100000; }));
-    solved.trigger("one_direction");
-    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction == 1; }));
-    QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
-    solved.trigger("run");
-    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction > 20; }));
-    solved.trigger("pause");
-    QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
-    const int at = solved.window->snapshot()->progress.direction;
-    QVERIFY(solved.text("phase").startsWith("Paused"));
-    // No other pass was made in between: the next pass follows directly.
-    solved.trigger("one_direction");
-    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction > at; }));
-    QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
-    QCOMPARE(solved.window->snapshot()->progress.direction, at + 1);
-    solved.trigger("stop");
-    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction == 0; }));
-  }
-
-  void a_bad_file_is_reported_and_the_old_scene_stays() {
-    const SolvedScene solved("furnace");
-    QVERIFY(solved.ready);
-    const QTemporaryDir folder;
-    QFile file(folder.filePath("broken.obj"));
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n");
-    file.close();
-    solved.window->open(file.fileName());
-    QVERIFY(wait_for([&] { return !solved.window->banner_text().isEmpty(); }));
-    QVERIFY2(solved.window->banner_text().contains("broken.obj"),
-             qPrintable(solved.window->banner_text()));
-    QVERIFY(solved.text("scene_summary").contains("furnace"));
-    QVERIFY(solved.scene_view->isVisible());
-  }
-
-  void a_dropped_file_opens() {
-    const QTemporaryDir folder;
-    const QString path = folder.filePath("dropped.obj");
-    QFile materials(folder.filePath("dropped.mtl"));
-    QVERIFY(materials.open(QIODevice::WriteOnly));
-    materials.write("newmtl m\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
-    materials.close();
-    QFile file(path);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write(
-        "mtllib dropped.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\n"
-        "v 0 1 1\nusemtl m\nf 1 2 3 4\nf 8 7 6 5\n");
-    file.close();
-    const auto window = make_window();
-    QMimeData data;
-    data.setUrls({QUrl::fromLocalFile(path)});
-    QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(window.get(), &enter);
-    QVERIFY(enter.isAccepted());
-    QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(window.get(), &drop);
-    QVERIFY(wait_for([&] { return window->snapshot() != nullptr; }));
-    QCOMPARE(window->snapshot()->radiosity.size(), std::size_t{2});
-    QVERIFY(window->windowTitle().contains("dropped.obj"));
   }
 
   void fits_the_screen_of_a_projector() {
@@ -564,97 +484,6 @@ class WindowTest : public QObject {
     window->findChild<QAction*>("projector")->trigger();
     QVERIFY(wider);
     QVERIFY(fits);
-  }
-
-  void another_scene_has_its_own_patch_area() {
-    const auto window = make_window(8);
-    window->set_options(SolveOptions{.directions = 8}, {false, 0.05});
-    window->files().open_scene("cornell-box");
-    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
-    const std::size_t refined = window->snapshot()->radiosity.size();
-    QVERIFY(refined > 40);
-    window->files().open_scene("cornell-box");
-    QVERIFY(wait_for([&] { return window->settled(); }));
-    QCOMPARE(window->snapshot()->radiosity.size(), refined);
-    window->files().open_scene("boards");
-    QVERIFY(wait_for([&] { return window->windowTitle().startsWith("boards"); }));
-    QCOMPARE(window->parts().settings.scene_options().max_patch_area, 0.0);
-    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
-    QCOMPARE(window->snapshot()->loaded->scene->patch_count(), load_scene("boards")->patch_count());
-  }
-
-  void says_how_many_patches_an_area_makes_and_asks_about_very_many() {
-    const SolvedWindow solved("cornell-box", {.directions = 8});
-    auto* area = solved.window->findChild<QLineEdit*>("max_patch_area");
-    const auto* forecast = solved.window->findChild<QLabel*>("patch_forecast");
-    QVERIFY(forecast->isHidden());
-    area->setText("0.01");
-    const std::int64_t count = count_patches(*solved.window->snapshot()->loaded->scene, 0.01);
-    QVERIFY(wait_for([&] { return forecast->text().startsWith(count_text(count)); }));
-    QVERIFY(!forecast->isHidden());
-    area->clear();
-    QVERIFY(forecast->isHidden());
-
-    area->setText("1e-6");
-    bool asked = false;
-    QTimer answer;
-    connect(&answer, &QTimer::timeout, solved.window.get(), [&] {
-      if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget())) {
-        asked = box->text().contains("GB");
-        box->button(QMessageBox::Cancel)->click();
-      }
-    });
-    answer.start(20);
-    solved.window->findChild<QPushButton*>("restart")->click();
-    QVERIFY(wait_for([&] { return asked; }));
-    QVERIFY(solved.window->settled());
-    area->setText("0.01");
-    solved.window->findChild<QPushButton*>("restart")->click();
-    QVERIFY(wait_for([&] {
-      return solved.window->snapshot() &&
-             static_cast<std::int64_t>(solved.window->snapshot()->radiosity.size()) == count;
-    }));
-  }
-
-  void loading_shows_what_is_loaded_and_can_be_canceled_data() {
-    QTest::addColumn<bool>("has_scene");
-    QTest::newRow("first scene") << false;
-    QTest::newRow("with an open scene") << true;
-  }
-  void loading_shows_what_is_loaded_and_can_be_canceled() {
-    QFETCH(bool, has_scene);
-    const auto window = make_window(8);
-    if (has_scene) {
-      window->open("boards");
-      QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
-    }
-    const QString title = window->windowTitle();
-    auto* bar = window->findChild<Banner*>("loading_bar");
-    for (const bool by_key : {false, true}) {
-      window->files().open_scene("sphere-flake:levels=4");
-      QVERIFY(wait_for([&] { return bar->isVisible(); }));
-      QCOMPARE(window->windowTitle(), QString("Loading sphere-flake:levels=4 – transillum"));
-      if (by_key) {
-        window->findChild<QAction*>("clear_selection")->trigger();
-      } else {
-        window->findChild<QPushButton*>("cancel_loading")->click();
-      }
-      QVERIFY(wait_for([&] { return !bar->isVisible(); }));
-      QCOMPARE(window->windowTitle(), title);
-      QCOMPARE(window->snapshot() != nullptr, has_scene);
-    }
-  }
-
-  // A page as wide as a long name would have to be scrolled sideways.
-  void the_name_of_what_is_loaded_fits_the_start_page() {
-    const auto window = make_window(8);
-    window->resize(1280 - 16, 720 - 48);
-    window->files().open_scene("sphere-flake:levels=4,slices=20,stacks=9");
-    const auto* title = window->findChild<QLabel*>("welcome_title");
-    const auto* page = window->findChild<WelcomePage*>();
-    QVERIFY(wait_for([&] { return title->text().contains("Loading"); }));
-    QVERIFY2(title->text().count("…") == 2, qPrintable(title->text()));  // the name is shortened
-    QCOMPARE(page->horizontalScrollBar()->maximum(), 0);
   }
 
   void panels_can_be_closed_and_reopened() {

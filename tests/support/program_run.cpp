@@ -1,55 +1,22 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "program_run.h"
+#include "support/program_run.h"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "support/wait_until.h"
 
 namespace transillum::testing {
-
-namespace fs = std::filesystem;
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "transillum-test-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) {
-    throw std::runtime_error("no temporary folder");
-  }
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::vector<std::string> TemporaryFolder::names() const {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(path_)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
 
 namespace {
 
@@ -72,7 +39,7 @@ void redirect(posix_spawn_file_actions_t& actions, int number, const std::string
 
 }  // namespace
 
-RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::string& out,
+RunningProgram::RunningProgram(const Arguments& arguments, const std::string& out,
                                const std::string& err, const std::string& folder,
                                const std::string& shell) {
   std::vector<std::string> starter;
@@ -144,6 +111,41 @@ ProgramResult RunningProgram::wait() {
   result.out = read_file(streams_ / "out");
   result.err = err_so_far();
   return result;
+}
+
+ProgramResult expect_success(const Arguments& arguments, const std::string& folder) {
+  ProgramResult result = run_program(arguments, {}, {}, folder);
+  EXPECT_EQ(result.status, 0) << ::testing::PrintToString(arguments) << result.err;
+  return result;
+}
+
+void expect_refused(const Arguments& arguments, const std::string& expected,
+                    const std::string& folder) {
+  SCOPED_TRACE(::testing::PrintToString(arguments));
+  ASSERT_NE(expected, "") << "any message would do";
+  const ProgramResult result = run_program(arguments, {}, {}, folder);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(line_count(result.err), 1U) << result.err;
+  EXPECT_THAT(result.err, ::testing::StartsWith("transillum: "));
+  EXPECT_THAT(result.err, ::testing::HasSubstr(expected));
+}
+
+void expect_all_refused(const Arguments& call, const std::vector<Refusal>& refusals) {
+  for (const auto& [options, expected] : refusals) {
+    expect_refused(call + options, expected);
+  }
+}
+
+nlohmann::json read_json(const std::string& path) { return nlohmann::json::parse(read_file(path)); }
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    lines.push_back(line);
+  }
+  return lines;
 }
 
 std::size_t line_count(const std::string& text) {

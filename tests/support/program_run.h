@@ -3,31 +3,14 @@
 
 #include <sys/types.h>
 
-#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "support/temporary_folder.h"
+
 namespace transillum::testing {
-
-/// A temporary folder, removed by the destructor.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  /// The names of its entries, sorted, including hidden files.
-  std::vector<std::string> names() const;
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string read_file(const std::string& path);
-void write_text(const std::string& path, const std::string& text);
 
 /// Arguments of the program, without its name.
 using Arguments = std::vector<std::string>;
@@ -55,7 +38,7 @@ class RunningProgram {
   /// @param folder where the program runs; the current folder if it is empty
   /// @param shell commands of the shell that starts it, such as `ulimit -v 200000`; without
   /// commands, no shell runs
-  explicit RunningProgram(const std::vector<std::string>& arguments, const std::string& out = {},
+  explicit RunningProgram(const Arguments& arguments, const std::string& out = {},
                           const std::string& err = {}, const std::string& folder = {},
                           const std::string& shell = {});
   void send(int signal) const;
@@ -76,12 +59,27 @@ class RunningProgram {
   pid_t process_ = -1;
 };
 
-inline ProgramResult run_program(const std::vector<std::string>& arguments,
-                                 const std::string& out = {}, const std::string& err = {},
-                                 const std::string& folder = {}) {
+inline ProgramResult run_program(const Arguments& arguments, const std::string& out = {},
+                                 const std::string& err = {}, const std::string& folder = {}) {
   return RunningProgram(arguments, out, err, folder).wait();
 }
 
+/// Runs the program, which must exit with status 0.
+ProgramResult expect_success(const Arguments& arguments, const std::string& folder = {});
+
+/// Exit status 2, nothing on stdout, and one line on stderr that contains `expected`.
+void expect_refused(const Arguments& arguments, const std::string& expected,
+                    const std::string& folder = {});
+
+/// Arguments, and a part of the message that refuses them.
+using Refusal = std::pair<Arguments, std::string>;
+/// expect_refused() with each of `refusals` after `call`.
+void expect_all_refused(const Arguments& call, const std::vector<Refusal>& refusals);
+
+nlohmann::json read_json(const std::string& path);
+
+/// The lines of a text, without their ends.
+std::vector<std::string> lines_of(const std::string& text);
 std::size_t line_count(const std::string& text);
 
 }  // namespace transillum::testing

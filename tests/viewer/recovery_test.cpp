@@ -1,0 +1,272 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Sessions that outlive a killed program, and questions before long work is lost.
+#include <QAction>
+#include <QDir>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QScreen>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <algorithm>
+
+#include "lessons/session_file.h"
+#include "scene/scene_page.h"
+#include "scene/show_menu.h"
+#include "solved_window.h"
+#include "stepping/play_control.h"
+#include "test_files.h"
+#include "widgets/banner.h"
+#include "window/export_actions.h"
+#include "window/file_actions.h"
+#include "window/frame_recorder.h"
+#include "window/inspection_panels.h"
+#include "window/recovery.h"
+#include "window/view_state_applier.h"
+#include "window/window_session.h"
+#include "window/work_guard.h"
+
+namespace transillum::viewer::recovery_test {
+
+using namespace test;
+
+namespace {
+
+const char* const triangle_room =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+
+/// A window whose session is kept in a folder.
+struct RecoveringWindow {
+  std::unique_ptr<TestWindow> window = make_window(8);
+  WindowSession session{window->frame(), window->parts().docks, window->parts().notes,
+                        window->applier()};
+  Recovery recovery;
+
+  explicit RecoveringWindow(const QTemporaryDir& folder)
+      : recovery(window->frame(), session, folder.path()) {}
+};
+
+/// Answers each question about long work with a button.
+struct Answers {
+  QString button = "Cancel";
+  int given = 0;
+  QTimer timer;
+
+  Answers() {
+    QObject::connect(&timer, &QTimer::timeout, &timer, [this] {
+      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      if (!box || box->objectName() != "long_work") {
+        return;
+      }
+      for (QAbstractButton* choice : box->buttons()) {
+        if (choice->text().remove('&') == button) {
+          ++given;
+          choice->click();
+          return;
+        }
+      }
+    });
+    timer.start(20);
+  }
+};
+
+}  // namespace
+
+class RecoveryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void notes_survive_a_signal() {
+    const QTemporaryDir folder;
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, folder.path());
+    QCoreApplication::setOrganizationName("transillum");
+    QString path;
+    {
+      SharedState state;
+      MainWindow window(state, true);
+      window.show();
+      auto* notes = window.findChild<QPlainTextEdit*>("notes");
+      QTest::keyClicks(notes, "to be kept");
+      path = window.close_without_questions();
+      QVERIFY(!window.isVisible());
+    }
+    QVERIFY2(QFile::exists(path), qPrintable(path));
+    const Session session = session_from_text(contents_of(path).toStdString(), "s.json", "");
+    QCOMPARE(session.notes, std::string("to be kept"));
+    QVERIFY(QSettings().contains("window/state"));
+    QVERIFY(QFile::remove(path));
+  }
+
+  // The panels of the first scene made the window of a small screen larger than the screen.
+  void a_window_larger_than_the_screen_fits_it_once_a_scene_is_open() {
+    const QTemporaryDir folder;
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, folder.path());
+    QCoreApplication::setOrganizationName("transillum");
+    SharedState state;
+    MainWindow window(state, true);
+    window.show();
+    const QSize screen = window.screen()->availableSize();
+    window.resize(screen + QSize(0, 60));
+    QCoreApplication::processEvents();
+    QCOMPARE(window.height(), screen.height() + 60);
+    state.scene.open("furnace", RunOptions{}, {Goal::Kind::iteration});
+    QVERIFY(wait_for([&] { return state.scene.snapshot() != nullptr; }));
+    QVERIFY(wait_for([&] { return window.height() <= screen.height(); }, 5000));
+    QFile::remove(window.close_without_questions());
+  }
+
+  void goes_on_where_a_killed_program_was_data() {
+    QTest::addColumn<int>("passes");
+    QTest::newRow("finished") << 0;
+    QTest::newRow("paused") << 21;
+  }
+  void goes_on_where_a_killed_program_was() {
+    QFETCH(int, passes);
+    const QTemporaryDir folder;
+    const QString kept = folder.filePath("killed.json");
+    std::vector<Rgb> radiosity;
+    {
+      RecoveringWindow w(folder);
+      const auto& window = w.window;
+      w.recovery.keep();
+      QVERIFY(QDir(folder.path()).entryList({"*.json"}).isEmpty());
+      window->open("cornell-box",
+                   passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{Goal::Kind::finished});
+      QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+      window->selection.select(5);
+      w.recovery.keep();
+      const QStringList files = QDir(folder.path()).entryList({"*.json"});
+      QCOMPARE(files.size(), 1);
+      // A program that is killed leaves its file, and a lock that nothing holds.
+      QVERIFY(QFile::copy(folder.filePath(files[0]), kept));
+      radiosity = window->snapshot()->radiosity;
+    }
+    QCOMPARE(QDir(folder.path()).entryList({"*.json"}), QStringList("killed.json"));
+
+    RecoveringWindow w(folder);
+    const auto& window = w.window;
+    auto* bar = window->findChild<Banner*>("recovery_bar");
+    QVERIFY(bar->isHidden());
+    w.recovery.offer();
+    QVERIFY(!bar->isHidden());
+    window->findChild<QPushButton*>("restore_session")->click();
+    QVERIFY(bar->isHidden());
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    QVERIFY(window->snapshot()->radiosity == radiosity);
+    QCOMPARE(window->selection.patch(), 5);
+    QVERIFY(!QFile::exists(kept));
+  }
+
+  void every_kept_session_is_offered_until_it_is_discarded() {
+    const QTemporaryDir folder;
+    for (const char* name : {"one.json", "two.json"}) {
+      write_file(folder.filePath(name), "{}");
+    }
+    RecoveringWindow w(folder);
+    w.recovery.offer();
+    auto* bar = w.window->findChild<Banner*>("recovery_bar");
+    for (const int left : {2, 1}) {
+      QCOMPARE(QDir(folder.path()).entryList({"*.json"}).size(), left);
+      QVERIFY(!bar->isHidden());
+      w.window->findChild<QPushButton*>("discard_session")->click();
+    }
+    QVERIFY(bar->isHidden());
+    QVERIFY(QDir(folder.path()).entryList({"*.json"}).isEmpty());
+  }
+
+  void the_session_of_a_running_program_is_not_offered() {
+    const QTemporaryDir folder;
+    RecoveringWindow w(folder), other(folder);
+    w.window->open("cornell-box");
+    QVERIFY(wait_for([&] { return w.window->snapshot() && w.window->settled(); }));
+    w.recovery.keep();
+    other.recovery.offer();
+    QVERIFY(other.window->findChild<Banner*>("recovery_bar")->isHidden());
+    QCOMPARE(QDir(folder.path()).entryList({"*.json"}).size(), 1);
+  }
+
+  void asks_before_long_work_is_lost() {
+    const auto window = make_window(8);
+    window->open("cornell-box");
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    window->work_guard().set_long_seconds(0);
+    Answers answers;
+    window->findChild<QAction*>("stop")->trigger();
+    QCOMPARE(answers.given, 1);
+    QVERIFY(window->snapshot()->progress.iteration > 0);
+    answers.button = "Start over";
+    window->findChild<QAction*>("stop")->trigger();
+    QVERIFY(wait_for([&] { return window->snapshot()->progress.iteration == 0; }));
+    // Nothing is lost now.
+    window->findChild<QAction*>("stop")->trigger();
+    QCOMPARE(answers.given, 2);
+  }
+
+  void asks_before_another_scene_replaces_long_work_data() {
+    QTest::addColumn<QString>("way");
+    QTest::addColumn<QString>("button");
+    const auto row = [](const char* name, const char* way, const char* button) {
+      QTest::newRow(name) << QString(way) << QString(button);
+    };
+    row("solve again", "restart", "Solve again");
+    row("reload", "reload", "Reload");
+    row("a built-in scene", "built-in", "Open");
+    row("a dropped scene", "room.obj", "Open");
+    row("a dropped session", "session.json", "Open");
+    row("a lesson", "lesson_next", "Begin the lesson");
+    row("a kept session", "restore_session", "Continue");
+  }
+  // Each way to lose a long solve asks once; Cancel keeps the solve, the button loses it.
+  void asks_before_another_scene_replaces_long_work() {
+    QFETCH(QString, way);
+    QFETCH(QString, button);
+    const QTemporaryDir folder, kept_sessions;
+    write_file(folder.filePath("room.obj"), triangle_room);
+    write_file(folder.filePath("session.json"), R"({"show": {"scene": "furnace"}})");
+    write_file(kept_sessions.filePath("killed.json"), R"({"show": {"scene": "furnace"}})");
+    RecoveringWindow w(kept_sessions);
+    const auto& window = w.window;
+    w.recovery.offer();
+    window->open("cornell-box");
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    // Each run has its own list.
+    const auto run = window->snapshot()->kept_directions.front();
+    window->work_guard().set_long_seconds(0);
+    const auto go = [&] {
+      if (auto* action = window->findChild<QAction*>(way)) {
+        action->trigger();
+      } else if (auto* clicked = window->findChild<QPushButton*>(way)) {
+        clicked->click();
+      } else if (way == "built-in") {
+        const auto actions = window->menuBar()->findChildren<QAction*>();
+        const auto scene = std::find_if(actions.begin(), actions.end(), [](const QAction* one) {
+          return one->text().startsWith("furnace");
+        });
+        QVERIFY(scene != actions.end());
+        (*scene)->trigger();
+      } else {
+        drop_file(*window, folder.filePath(way));
+      }
+    };
+    Answers answers;
+    go();
+    QVERIFY(wait_for([&] { return answers.given == 1; }));
+    QCoreApplication::processEvents();
+    QVERIFY(!window->scene.is_opening());
+    QVERIFY(window->snapshot()->kept_directions.front() == run);
+    answers.button = button;
+    go();
+    QVERIFY(wait_for([&] { return answers.given == 2; }));
+    QVERIFY(wait_for(
+        [&] { return window->snapshot() && window->snapshot()->kept_directions.front() != run; }));
+  }
+};
+
+const test::Registered registered("recovery", test::run_as_viewer<RecoveryTest>);
+
+}  // namespace transillum::viewer::recovery_test
+
+#include "recovery_test.moc"
