@@ -22,8 +22,8 @@
 #include "user_guide.h"
 #include "widgets/full_screen.h"
 #include "widgets/theme.h"
-#include "window/dock_layouts.h"
-#include "window/key_list.h"
+#include "window/base/dock_layouts.h"
+#include "window/menus/help_pages.h"
 
 namespace transillum::viewer::appearance_test {
 

@@ -17,7 +17,6 @@
 #include "state/algorithm_state.h"
 #include "state/camera_views.h"
 #include "state/step_events.h"
-#include "state/step_moments.h"
 #include "transillum/at.h"
 #include "transillum/directions.h"
 #include "visibility/map/map_region.h"

@@ -8,7 +8,7 @@
 #include <QTest>
 #include <cmath>
 
-#include "model/form_factor_views.h"
+#include "model/snapshot_values.h"
 #include "registered.h"
 #include "solved_snapshot.h"
 

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "support/column_format.h"
+#include "support/number_text.h"
 
 #include <QTest>
 #include <cmath>

@@ -13,11 +13,10 @@
 #include <limits>
 
 #include "map/compare_view.h"
-#include "map/difference_picture.h"
+#include "map/difference_pictures.h"
+#include "map/engine_drawing.h"
 #include "map/hemicube_view.h"
-#include "map/pair_picture.h"
 #include "map/pair_table.h"
-#include "map/pixel_view.h"
 #include "solve/settings_panel.h"
 #include "solved_window.h"
 #include "state/breakpoints.h"

@@ -17,7 +17,7 @@
 
 #include "colors/pointer_label.h"
 #include "map/phase_pair.h"
-#include "map/row_text.h"
+#include "map/polygon_text.h"
 #include "solved_window.h"
 #include "state/step_events.h"
 #include "stepping/timeline_lanes.h"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "directions/received_table.h"
+#include "directions/received_light.h"
 #include "solved_window.h"
 #include "state/step_events.h"
 #include "transillum/at.h"

@@ -15,8 +15,8 @@
 
 #include "directions/lobe_view.h"
 #include "model/command_text.h"
-#include "model/material_json.h"
-#include "model/snapshot_solution.h"
+#include "model/run_options.h"
+#include "model/snapshot_values.h"
 #include "solve/progress_line.h"
 #include "solved_window.h"
 #include "transillum/glossy.h"

@@ -15,7 +15,7 @@
 #include "colors/color_bar.h"
 #include "colors/pointer_label.h"
 #include "inspected_window.h"
-#include "model/form_factor_views.h"
+#include "model/snapshot_values.h"
 #include "patches/patch_table.h"
 #include "patches/patch_table_panel.h"
 #include "scene/color_controls.h"

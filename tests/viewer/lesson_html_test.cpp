@@ -16,7 +16,7 @@
 #include "solved_window.h"
 #include "test_files.h"
 #include "transillum/at.h"
-#include "window/lesson_export.h"
+#include "window/files/lesson_export.h"
 
 namespace transillum::viewer::lesson_html_test {
 

@@ -11,6 +11,7 @@
 #include "colors/color_scale.h"
 #include "lesson_page.h"
 #include "lessons/lesson.h"
+#include "model/requests/recorded_map.h"
 #include "radiosity/analysis/function_comparison.h"
 #include "registered.h"
 #include "sampling/discrepancy.h"

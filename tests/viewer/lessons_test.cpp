@@ -16,8 +16,8 @@
 #include "stepping/algorithm_view.h"
 #include "test_files.h"
 #include "transillum/at.h"
-#include "window/export_actions.h"
-#include "window/view_state_applier.h"
+#include "window/base/view_state_applier.h"
+#include "window/files/export_actions.h"
 
 namespace transillum::viewer::lessons_test {
 

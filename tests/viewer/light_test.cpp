@@ -18,7 +18,7 @@
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/relight.h"
-#include "window/export_actions.h"
+#include "window/files/export_actions.h"
 
 namespace transillum::viewer::light_test {
 

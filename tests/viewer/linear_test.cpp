@@ -11,14 +11,13 @@
 #include <map>
 
 #include "colors/pointer_label.h"
-#include "model/linear_values.h"
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "scene/color_controls.h"
+#include "scene/direction_glyph.h"
 #include "scene/show_menu.h"
-#include "scene/step_glyph.h"
 #include "solved_window.h"
 #include "transillum/files.h"
-#include "window/export_actions.h"
+#include "window/files/export_actions.h"
 
 namespace transillum::viewer::linear_test {
 

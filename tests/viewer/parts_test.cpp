@@ -19,15 +19,15 @@
 
 #include "colors/color_scale.h"
 #include "lessons/session_file.h"
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "open_scene.h"
 #include "patches/parts_panel.h"
 #include "patches/patch_table.h"
 #include "patches/path_panel.h"
 #include "radiosity/analysis/power_table.h"
 #include "solved_window.h"
-#include "window/view_state_applier.h"
-#include "window/window_session.h"
+#include "window/base/view_state_applier.h"
+#include "window/files/window_session.h"
 
 namespace transillum::viewer::parts_test {
 

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "colors/color_scale.h"
-#include "patches/patch_columns.h"
+#include "patches/table_rows.h"
 #include "registered.h"
 #include "solved_snapshot.h"
 #include "transillum/at.h"

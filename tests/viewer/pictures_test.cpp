@@ -17,8 +17,8 @@
 #include "solve/study_dialog.h"
 #include "solved_window.h"
 #include "transillum/first_shot.h"
-#include "window/first_look.h"
-#include "window/view_state_applier.h"
+#include "window/base/view_state_applier.h"
+#include "window/files/first_look.h"
 
 namespace transillum::viewer::pictures_test {
 

@@ -18,13 +18,13 @@
 #include "lessons/lesson.h"
 #include "lessons/page_control.h"
 #include "model/command_text.h"
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "scene/color_controls.h"
 #include "solve/round_panel.h"
 #include "solved_window.h"
 #include "transillum/scene.h"
-#include "window/view_state_applier.h"
-#include "window/window_session.h"
+#include "window/base/view_state_applier.h"
+#include "window/files/window_session.h"
 
 namespace transillum::viewer::refinement_test {
 

@@ -10,8 +10,8 @@
 #include "test_files.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "window/export_actions.h"
-#include "window/file_actions.h"
+#include "window/files/export_actions.h"
+#include "window/files/file_actions.h"
 
 namespace transillum::viewer::result_test {
 

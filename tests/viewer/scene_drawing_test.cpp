@@ -58,7 +58,7 @@ class SceneDrawingTest : public QObject {
     QCOMPARE(patches_seen(), all);
     shown.trigger("isolate_selection");
     QCOMPARE(patches_seen(), QSet<PatchId>{front});
-    shown.trigger("show_smooth");  // the other mesh leaves them out too
+    shown.trigger("show_smooth");  // the other mesh omits them too
     const double background = share_of(shown.picture(), theme::scene_background);
     shown.trigger("show_all");
     const double around = share_of(shown.picture(), theme::scene_background);

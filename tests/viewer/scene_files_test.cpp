@@ -23,17 +23,16 @@
 #include <string>
 #include <vector>
 
-#include "model/snapshot_solution.h"
+#include "model/snapshot_values.h"
 #include "open_scene.h"
 #include "solved_window.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "window/color_export_dialog.h"
 #include "window/command_line.h"
-#include "window/export_actions.h"
-#include "window/file_actions.h"
-#include "window/reading_dialog.h"
-#include "window/reading_memory.h"
+#include "window/files/color_export_dialog.h"
+#include "window/files/export_actions.h"
+#include "window/files/file_actions.h"
+#include "window/files/reading.h"
 
 namespace transillum::viewer::scene_files_test {
 

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // SolveRunner: goals, pausing, restarting, and loading one scene while another is solved.
-#include "model/solve_runner.h"
+#include "model/solver/solve_runner.h"
 
 #include <QCoreApplication>
 #include <QElapsedTimer>

@@ -10,8 +10,8 @@
 #include <QToolButton>
 #include <set>
 
+#include "map/engine_drawing.h"
 #include "map/hemicube_view.h"
-#include "map/pixel_view.h"
 #include "solved_window.h"
 #include "stepping/play_control.h"
 #include "stepping/timeline_lanes.h"

@@ -13,10 +13,8 @@
 #include "transillum/at.h"
 #include "transillum/directions.h"
 #include "tree/order_bar.h"
-#include "tree/tree_model.h"
 #include "tree/tree_outline.h"
-#include "tree/tree_path_table.h"
-#include "tree/tree_text.h"
+#include "tree/tree_tables.h"
 
 namespace transillum::viewer::tree_test {
 

@@ -25,7 +25,7 @@
 #include "support/number_text.h"
 #include "widgets/banner.h"
 #include "widgets/theme.h"
-#include "window/file_actions.h"
+#include "window/files/file_actions.h"
 #include "window/main_window.h"
 
 namespace transillum::viewer::test {

@@ -20,7 +20,7 @@
 #include "scene/color_controls.h"
 #include "scene/welcome_page.h"
 #include "solved_window.h"
-#include "window/view_state_applier.h"
+#include "window/base/view_state_applier.h"
 
 namespace transillum::viewer::window_test {
 

@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "map/map_canvas.h"
-#include "model/solve_runner.h"
+#include "model/solver/solve_runner.h"
 #include "solved_window.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/solution.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "colors/neutral_light.h"
-#include "model/linear_values.h"
+#include "model/snapshot_values.h"
 
 namespace transillum::viewer {
 
@@ -46,31 +46,28 @@ std::vector<Rgb> mean_radiance(const SolverSnapshot& snapshot) {
 }  // namespace
 
 ColorChoice::ColorChoice(const Selection& selection, QObject* parent)
-    : QObject(parent), selection_(selection) {
-  connect(&selection_, &Selection::changed, this, [this] {
-    if (traits_of(quantity_).of_selection) {
-      change();
-    }
-  });
-  connect(&response_solver_, &ResponseSolver::changed, this, [this] {
-    if (traits_of(quantity_).by_response) {
-      change();
-    }
-  });
-  connect(&jump_finder_, &JumpFinder::changed, this, [this] {
-    if (traits_of(quantity_).by_jumps) {
-      change();
-    }
-  });
-  connect(&eye_radiance_, &EyeRadiance::changed, this, [this] {
-    if (traits_of(quantity_).by_eye) {
-      change();
-    }
-  });
+    : QObject(parent),
+      selection_(selection),
+      response_(
+          *this, &solve_response, [this] { change_if(&QuantityTraits::by_response); },
+          CurrentJob::cancel),
+      jumps_(
+          *this, &find_jumps, [this] { change_if(&QuantityTraits::by_jumps); }, CurrentJob::finish),
+      eye_radiance_(
+          *this, &radiance_toward, [this] { change_if(&QuantityTraits::by_eye); },
+          CurrentJob::finish) {
+  connect(&selection_, &Selection::changed, this,
+          [this] { change_if(&QuantityTraits::of_selection); });
   connect(&kept_runs_, &KeptRuns::compared_changed, this, [this] {
     shows_kept_run_ = shows_kept_run_ && run_a();
     change();
   });
+}
+
+void ColorChoice::change_if(bool QuantityTraits::*kind) {
+  if (traits_of(quantity_).*kind) {
+    change();
+  }
 }
 
 void ColorChoice::set_quantity(Quantity quantity) {
@@ -101,11 +98,9 @@ void ColorChoice::set_mode(ColorMode mode) {
 }
 
 void ColorChoice::set_map(ColorMap map) {
-  if (map == map_) {
-    return;
+  if (std::exchange(map_, map) != map) {
+    change();
   }
-  map_ = map;
-  change();
 }
 
 bool& ColorChoice::logarithmic_choice() {
@@ -124,11 +119,9 @@ void ColorChoice::set_logarithmic(bool logarithmic) {
 }
 
 void ColorChoice::set_range_rule(RangeRule rule) {
-  if (rule == range_rule_) {
-    return;
+  if (std::exchange(range_rule_, rule) != rule) {
+    change();
   }
-  range_rule_ = rule;
-  change();
 }
 
 void ColorChoice::widen_from(double low, double high) {
@@ -147,11 +140,9 @@ void ColorChoice::set_range(double low, double high) {
 }
 
 void ColorChoice::set_gamma(double gamma) {
-  if (gamma == scale_.gamma) {
-    return;
+  if (std::exchange(scale_.gamma, gamma) != gamma) {
+    change();
   }
-  scale_.gamma = gamma;
-  change();
 }
 
 void ColorChoice::set_exposure(double exposure) {
@@ -164,11 +155,9 @@ void ColorChoice::set_exposure(double exposure) {
 }
 
 void ColorChoice::set_automatic_exposure(bool automatic) {
-  if (automatic == automatic_) {
-    return;
+  if (std::exchange(automatic_, automatic) != automatic) {
+    change();
   }
-  automatic_ = automatic;
-  change();
 }
 
 Rgb ColorChoice::value_at(PatchId i, const Vec3& point) const {
@@ -188,7 +177,7 @@ void ColorChoice::set_eye(const Vec3& eye) {
     const auto kept = run_a();
     const auto& shown = shows_kept_run_ && kept ? kept : snapshot_;
     if (shown->glossy) {
-      eye_radiance_.request(shown->glossy, eye_);  // change() follows
+      eye_radiance_.request({shown->glossy, eye_});  // change() follows
     }
   }
 }
@@ -249,7 +238,7 @@ void ColorChoice::refit() {
   scale_.logarithmic = logarithmic_choice() && !traits.is_signed;
   scale_.marks_zero = scale_.logarithmic || traits.spans_decades;
   if (!traits.by_jumps) {
-    jump_finder_.clear();
+    jumps_.clear();
   }
   if (!snapshot_) {
     return;
@@ -285,27 +274,27 @@ PatchValues ColorChoice::values_of_shown(const std::shared_ptr<const SolverSnaps
 /// The radiance toward the eye. While it is being computed, the last radiance of an older light of
 /// the scene is shown.
 PatchValues ColorChoice::values_by_eye(const std::shared_ptr<const SolverSnapshot>& snapshot) {
-  eye_radiance_.request(snapshot->glossy, eye_);
-  const auto found = eye_radiance_.radiance();
+  eye_radiance_.request({snapshot->glossy, eye_});
+  const auto found = eye_radiance_.result();
   PatchValues result;
   if (found && &found->light->scene() == snapshot->loaded->scene.get()) {
     result.values = found->values;
     return result;
   }
   result = values_of(quantity_, *snapshot, no_patch, nullptr);
-  if (!eye_radiance_.error().isEmpty() && !eye_radiance_.busy()) {
+  if (!eye_radiance_.error().isEmpty()) {
     result.missing = eye_radiance_.error();
   }
   return result;
 }
 
 PatchValues ColorChoice::values_by_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot) {
-  jump_finder_.request(snapshot);
-  const auto jumps = jump_finder_.jumps();
+  jumps_.request(snapshot);
+  const auto jumps = jumps_.result();
   if (!jumps || jumps->scene != snapshot->loaded->scene) {
     PatchValues result = values_of(quantity_, *snapshot, no_patch, nullptr);
-    if (!jump_finder_.error().isEmpty() && !jump_finder_.busy()) {
-      result.missing = jump_finder_.error();
+    if (!jumps_.error().isEmpty()) {
+      result.missing = jumps_.error();
     }
     return result;
   }
@@ -334,12 +323,11 @@ PatchValues ColorChoice::values_of_kept(const std::shared_ptr<const SolverSnapsh
 PatchValues ColorChoice::values_by_response(const SolverSnapshot& snapshot) {
   const PatchId patch = selection_.patch();
   if (const auto request = light_request(snapshot, patch)) {
-    response_solver_.request(*request);
+    response_.request(*request);
   }
-  PatchValues result =
-      values_of(quantity_, snapshot, patch, nullptr, response_solver_.response().get());
-  if (!response_solver_.error().isEmpty() && !response_solver_.busy()) {
-    result.missing = response_solver_.error();
+  PatchValues result = values_of(quantity_, snapshot, patch, nullptr, response_.result().get());
+  if (!response_.error().isEmpty()) {
+    result.missing = response_.error();
   }
   return result;
 }
@@ -368,7 +356,7 @@ void ColorChoice::fit_range() {
   }
   const double low = scale_.low, high = scale_.high;
   // While only the camera moves, the range is not fitted again, so that colors stay comparable.
-  const auto light = traits.by_eye ? eye_radiance_.radiance() : nullptr;
+  const auto light = traits.by_eye ? eye_radiance_.result() : nullptr;
   const bool same_light = light && light->light == light_of_range_ && range_is_known_;
   light_of_range_ = light ? light->light : nullptr;
   if (range_rule_ != RangeRule::fixed) {

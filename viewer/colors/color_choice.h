@@ -10,11 +10,11 @@
 
 #include "colors/color_scale.h"
 #include "colors/quantity.h"
-#include "model/eye_radiance.h"
-#include "model/jump_finder.h"
+#include "model/requests/slow_quantities.h"
 #include "model/snapshot.h"
 #include "state/kept_runs.h"
 #include "state/selection.h"
+#include "support/newest_result.h"
 
 namespace transillum::viewer {
 
@@ -99,9 +99,7 @@ class ColorChoice : public QObject {
   const QString& missing() const { return values_.missing; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
   /// Whether values() waits for a solve.
-  bool busy() const {
-    return response_solver_.busy() || jump_finder_.busy() || eye_radiance_.busy();
-  }
+  bool busy() const { return response_.busy() || jumps_.busy() || eye_radiance_.busy(); }
 
  signals:
   void changed();  ///< all pictures must be recolored
@@ -110,6 +108,8 @@ class ColorChoice : public QObject {
   void eye_changed();
 
  private:
+  /// Recolors if the shown quantity is of a kind.
+  void change_if(bool QuantityTraits::*kind);
   bool& logarithmic_choice();
   PatchValues values_by_response(const SolverSnapshot& snapshot);
   PatchValues values_by_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot);
@@ -127,7 +127,7 @@ class ColorChoice : public QObject {
   Quantity quantity_ = Quantity::radiosity;
   ColorMode mode_ = ColorMode::true_color;
   ColorScale scale_;
-  ColorMap map_ = ColorMap::viridis;
+  ColorMap map_ = default_color_map;
   bool logarithmic_ = false;         ///< the user's choice for most quantities
   bool decades_logarithmic_ = true;  ///< the user's choice for quantities that span decades
   RangeRule range_rule_ = RangeRule::automatic;
@@ -139,12 +139,13 @@ class ColorChoice : public QObject {
   bool lit_ = true;  ///< something emits
   PatchValues values_;
   std::vector<Color8> patch_colors_;
-  ResponseSolver response_solver_;
-  JumpFinder jump_finder_;
   Vec3 eye_;
   std::shared_ptr<const GlossyLight> light_of_range_;  ///< the light that the range of by_eye
                                                        ///< quantities was fitted to
-  EyeRadiance eye_radiance_;
+  KeptResult<LightRequest, PatchResponse> response_;
+  // While one is being computed, only the newest of later ones is kept.
+  KeptResult<std::shared_ptr<const SolverSnapshot>, PatchJumps> jumps_;
+  KeptResult<EyeRequest, RadianceToward> eye_radiance_;
 };
 
 }  // namespace transillum::viewer

@@ -15,6 +15,7 @@ using Color8 = std::array<std::uint8_t, 3>;
 /// Perceptually uniform color maps: lightness increases evenly; in `diverging`, from blue to white
 /// in the middle, and decreases to orange.
 enum class ColorMap { viridis, cividis, inferno, diverging };
+inline constexpr ColorMap default_color_map = ColorMap::viridis;
 /// Display names of the maps except `diverging`, in the order of the enumeration.
 const std::vector<std::string>& color_map_names();
 /// The color of values of 0 where they are marked. No color map contains it.

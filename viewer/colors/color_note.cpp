@@ -2,10 +2,12 @@
 #include "colors/color_note.h"
 
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QVBoxLayout>
 
+#include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -26,15 +28,12 @@ QString text_on_file(const LoadedScene& loaded) {
 }  // namespace
 
 ColorNote::ColorNote(const ColorChoice& colors, QWidget* parent) : QFrame(parent), colors_(colors) {
-  text_ = new QLabel;
-  text_->setObjectName("color_note");
+  text_ = named("color_note", new QLabel);
   text_->setAlignment(Qt::AlignCenter);
   text_->setWordWrap(true);
-  replicas_ = new QPushButton(tr("Solve again with replicas"));
-  replicas_->setObjectName("solve_with_replicas");
-  replicas_->setToolTip(tr(
-      "Set 8 replicas in the solve settings and run: the same number of directions, split into 8 "
-      "rotated sets"));
+  replicas_ = named("solve_with_replicas", new QPushButton(tr("Solve again with replicas")),
+                    tr("Set 8 replicas in the solve settings and run: the same number of "
+                       "directions, split into 8 rotated sets"));
   QPalette text_palette = text_->palette();
   text_palette.setColor(QPalette::WindowText, theme::on_dark);
   text_->setPalette(text_palette);
@@ -42,9 +41,7 @@ ColorNote::ColorNote(const ColorChoice& colors, QWidget* parent) : QFrame(parent
   surroundings.setColor(QPalette::Window, theme::scene_background.lighter(140));
   setPalette(surroundings);
   setAutoFillBackground(true);
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(10, 5, 10, 5);
-  layout->setSpacing(10);
+  auto* layout = make_row(this, {10, 5, 10, 5}, 10);
   layout->addWidget(text_, 1);
   layout->addWidget(replicas_);
   connect(replicas_, &QPushButton::clicked, this, &ColorNote::replicas_requested);
@@ -67,6 +64,19 @@ void ColorNote::show_note() {
   replicas_->setVisible(colors_.quantity() == Quantity::error && !colors_.missing().isEmpty() &&
                         colors_.snapshot() && colors_.snapshot()->options.replicas < 2);
   setVisible(!note.isEmpty());
+}
+
+KeptRunLabel::KeptRunLabel(const ColorChoice& colors, QWidget* canvas) : Plate(canvas) {
+  setObjectName("kept_run_label");
+  auto* over = new QVBoxLayout(canvas);
+  over->addWidget(this, 0, Qt::AlignHCenter | Qt::AlignTop);
+  connect(&colors, &ColorChoice::changed, this, [this, &colors] {
+    setVisible(colors.shows_kept_run());
+    if (colors.shows_kept_run()) {
+      const KeptRun& run = at(colors.kept_runs().all(), colors.kept_runs().first());
+      setText(tr("A: %1, while the key is held").arg(run.name));
+    }
+  });
 }
 
 }  // namespace transillum::viewer

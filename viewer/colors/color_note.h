@@ -1,9 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Messages above and over the picture of the scene.
 #pragma once
 
 #include <QFrame>
 
 #include "colors/color_choice.h"
+#include "widgets/plate.h"
 
 class QLabel;
 class QPushButton;
@@ -28,6 +31,15 @@ class ColorNote : public QFrame {
   const ColorChoice& colors_;
   QLabel* text_;
   QPushButton* replicas_;  ///< shown if the error estimate needs replicas
+};
+
+/// A label over the picture while it shows the kept run. It is an overlay, so that both runs are
+/// shown at the same place.
+class KeptRunLabel : public Plate {
+  Q_OBJECT
+
+ public:
+  KeptRunLabel(const ColorChoice& colors, QWidget* canvas);
 };
 
 }  // namespace transillum::viewer

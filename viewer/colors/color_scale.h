@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -21,7 +20,7 @@ double luminance(const Rgb& value);
 class ColorScale {
  public:
   ColorMode mode = ColorMode::true_color;
-  ColorMap map = ColorMap::viridis;
+  ColorMap map = default_color_map;
   bool logarithmic = false;
   double exposure = 0;       ///< EV: B is white if 2^exposure B reaches 1
   double gamma = 2.2;        ///< true color: shown = (2^exposure B)^(1/gamma)

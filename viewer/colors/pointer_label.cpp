@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/form_factor_views.h"
+#include "model/snapshot_values.h"
 #include "support/has_index.h"
 #include "support/number_text.h"
 #include "transillum/at.h"

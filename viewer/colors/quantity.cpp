@@ -4,16 +4,14 @@
 #include "colors/quantity.h"
 
 #include <QCoreApplication>
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 
-#include "model/form_factor_views.h"
-#include "model/linear_values.h"
+#include "model/snapshot_values.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
-#include "widgets/symbol_tip.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "model/response_solver.h"
+#include "model/requests/slow_quantities.h"
 #include "model/snapshot.h"
 
 namespace transillum::viewer {
@@ -47,9 +47,8 @@ struct QuantityTraits {
   /// shown on a logarithmic scale unless the user chooses otherwise, and 0 in zero_color.
   bool spans_decades = false;
   bool by_response = false;  ///< computed from a PatchResponse
-  bool by_jumps = false;     ///< computed by a JumpFinder
-  bool by_eye = false;       ///< depends on the camera; computed by an EyeRadiance where lobes take
-                             ///< part
+  bool by_jumps = false;     ///< computed by find_jumps()
+  bool by_eye = false;       ///< depends on the camera; where lobes take part by radiance_toward()
 };
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();

@@ -14,6 +14,8 @@
 #include <QSignalBlocker>
 #include <QWidgetAction>
 
+#include "widgets/build.h"
+
 namespace transillum::viewer {
 
 namespace {
@@ -41,8 +43,7 @@ QWidget* ScaleMenu::make_panel() {
   auto* panel = new QWidget;
   auto* grid = new QGridLayout(panel);
   grid->setContentsMargins(14, 10, 14, 12);
-  map_ = new QComboBox;
-  map_->setObjectName("color_map");
+  map_ = named("color_map", new QComboBox);
   for (const std::string& name : color_map_names()) {
     map_->addItem(QString::fromStdString(name));
   }
@@ -61,8 +62,7 @@ QWidget* ScaleMenu::make_panel() {
            tr("Pictures of one solve run can be compared"));
   add_rule(RangeRule::fixed, tr("Fixed:"), tr("From and to the values below"));
   const auto add_end = [&](const char* name, const QString& text) {
-    auto* edit = new QLineEdit;
-    edit->setObjectName(QString::fromLatin1(name));
+    auto* edit = named(name, new QLineEdit);
     edit->setValidator(new QDoubleValidator(edit));
     auto* label = new QLabel(text);
     label->setBuddy(edit);

@@ -13,7 +13,7 @@
 #include <numbers>
 
 #include "directions/received_light.h"
-#include "state/initial_view.h"
+#include "state/camera_views.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/theme.h"

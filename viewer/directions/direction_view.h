@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "colors/color_choice.h"
-#include "model/per_direction_visibility.h"
+#include "model/requests/per_direction_visibility.h"
 #include "model/snapshot.h"
 #include "state/focus.h"
 #include "state/selection.h"

@@ -6,17 +6,16 @@
 #include "directions/received_view.h"
 
 #include <QHeaderView>
-#include <QLabel>
 #include <QTableView>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "directions/received_table.h"
+#include "directions/received_light.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/figure_table.h"
 
 namespace transillum::viewer {
@@ -30,14 +29,9 @@ constexpr int refresh_interval_ms = 400;
 ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisibility& visibility,
                            QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection), visibility_(visibility) {
-  caption_ = new QLabel;
-  caption_->setObjectName("received_words");
-  caption_->setWordWrap(true);
-  caption_->setContentsMargins(10, 4, 10, 4);
-  caption_->setForegroundRole(QPalette::PlaceholderText);
+  caption_ = named("received_words", note_label({}, {10, 4, 10, 4}));
   table_ = new ReceivedTable(this);
-  view_ = new QTableView;
-  view_->setObjectName("received_light");
+  view_ = named("received_light", new QTableView);
   view_->setModel(table_);
   view_->setSelectionBehavior(QAbstractItemView::SelectRows);
   view_->horizontalHeader()->setStretchLastSection(true);
@@ -45,9 +39,7 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisib
   view_->setSortingEnabled(true);
   set_up_figure_table(*view_, {"8 888, −ω", "0.008888", "100 %", "0.008888", "88.8 %", ""});
 
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addWidget(caption_);
   layout->addWidget(view_, 1);
 

@@ -4,7 +4,7 @@
 #include <QWidget>
 #include <memory>
 
-#include "model/per_direction_visibility.h"
+#include "model/requests/per_direction_visibility.h"
 #include "state/focus.h"
 #include "state/selection.h"
 

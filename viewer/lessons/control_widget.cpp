@@ -5,7 +5,6 @@
 #include "lessons/control_widget.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -17,6 +16,7 @@
 #include "state/focus.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -35,9 +35,7 @@ ControlWidget::ControlWidget(PageControl control, Focus& focus, MaterialEdits& e
                              QWidget* parent)
     : QWidget(parent), control_(std::move(control)), focus_(focus), edits_(edits) {
   setObjectName("control_" + QString::fromStdString(control_.name));
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(4, 0, 4, 0);
-  row->setSpacing(6);
+  make_row(this, {4, 0, 4, 0}, 6);
   if (control_.kind == PageControl::Kind::option && !control_.slides) {
     make_choice();
   } else {
@@ -54,15 +52,13 @@ ControlWidget::ControlWidget(PageControl control, Focus& focus, MaterialEdits& e
 }
 
 void ControlWidget::make_slider() {
-  slider_ = new QSlider(Qt::Horizontal);
-  slider_->setObjectName("slider");
+  slider_ = named("slider", new QSlider(Qt::Horizontal),
+                  tr("Drag, or use the arrow keys: the window follows at once"));
   slider_->setFixedWidth(theme::scaled(110));
   slider_->setRange(
       0, is_gray(control_.kind) ? gray_steps : static_cast<int>(control_.values.size()) - 1);
   slider_->setPageStep(is_gray(control_.kind) ? 10 : 1);
-  slider_->setToolTip(tr("Drag, or use the arrow keys: the window follows at once"));
-  value_ = new QLabel;
-  value_->setObjectName("value");
+  value_ = named("value", new QLabel);
   layout()->addWidget(slider_);
   layout()->addWidget(value_);
   connect(slider_, &QSlider::sliderPressed, this, [this] { edits_.begin_drag(); });
@@ -94,8 +90,7 @@ void ControlWidget::set_text_font(const QFont& font) {
 }
 
 void ControlWidget::make_choice() {
-  choice_ = new QComboBox;
-  choice_->setObjectName("choice");
+  choice_ = named("choice", new QComboBox);
   for (const std::string& label : control_.labels) {
     choice_->addItem(QString::fromStdString(label));
   }

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lessons/view_state.h"
-#include "model/material_json.h"
+#include "model/run_options.h"
 #include "support/json_object.h"
 
 namespace transillum::viewer {

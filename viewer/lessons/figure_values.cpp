@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "colors/color_scale.h"
-#include "model/form_factor_views.h"
+#include "model/snapshot_values.h"
 #include "radiosity/analysis/function_comparison.h"
 #include "scene/build/patch_count.h"
 #include "transillum/glossy.h"

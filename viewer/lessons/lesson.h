@@ -8,7 +8,7 @@
 #include "lessons/page_control.h"
 #include "lessons/question.h"
 #include "lessons/view_state.h"
-#include "model/error_runs.h"
+#include "model/solver/error_runs.h"
 #include "state/callout.h"
 
 namespace transillum::viewer {

@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "lessons/symbols.h"
-#include "state/callout_place.h"
+#include "state/callout.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 

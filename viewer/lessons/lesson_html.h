@@ -9,7 +9,7 @@
 
 #include "colors/color_map.h"
 #include "lessons/lesson.h"
-#include "model/recorded_map.h"
+#include "model/requests/recorded_map.h"
 
 namespace transillum::viewer {
 

@@ -4,12 +4,10 @@
 // window applies its state.
 #include "lessons/lesson_panel.h"
 
-#include <QAction>
 #include <QApplication>
 #include <QComboBox>
 #include <QDesktopServices>
 #include <QFontInfo>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
@@ -18,9 +16,7 @@
 #include <QTextList>
 #include <QTextTable>
 #include <QTimer>
-#include <QToolButton>
 #include <QUrl>
-#include <QVBoxLayout>
 #include <utility>
 
 #include "lessons/control_widget.h"
@@ -30,6 +26,7 @@
 #include "lessons/tally.h"
 #include "support/failure_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/elided.h"
 #include "widgets/theme.h"
 
@@ -40,19 +37,11 @@ namespace {
 constexpr double text_scale = 1.25,
                  title_scale = 1.6;  // relative to the window's font, for projectors
 
-QToolButton* button_for(QAction* action, Qt::ToolButtonStyle style) {
-  auto* button = new QToolButton;
-  button->setDefaultAction(action);
+QToolButton* wide_button_for(QAction* action, Qt::ToolButtonStyle style) {
+  auto* button = button_for(action);
   button->setToolButtonStyle(style);
   button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   return button;
-}
-
-QAction* make_action(QObject* parent, const char* name, const QString& text, const QString& tip) {
-  auto* action = new QAction(text, parent);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setToolTip(tip);
-  return action;
 }
 
 // Qt lays out Markdown paragraphs without space between them.
@@ -89,9 +78,7 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focu
       question_(new QuestionBox(selection, focus)) {
   make_page();
   make_actions();
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 10, 12, 10);
-  layout->setSpacing(10);
+  auto* layout = make_column(this, {12, 10, 12, 10}, 10);
   layout->addWidget(list_);
   layout->addWidget(title_);
   layout->addWidget(text_, 1);
@@ -107,16 +94,13 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focu
 }
 
 void LessonPanel::make_page() {
-  list_ = new ElidedComboBox;
-  list_->setObjectName("lesson_list");
+  list_ = named("lesson_list", new ElidedComboBox);
   list_->setPlaceholderText(tr("Lessons"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   list_->installEventFilter(this);
-  title_ = new QLabel;
-  title_->setObjectName("lesson_title");
+  title_ = named("lesson_title", new QLabel);
   title_->setWordWrap(true);
-  text_ = new PageText;
-  text_->setObjectName("lesson_text");
+  text_ = named("lesson_text", new PageText);
   text_->setOpenLinks(false);
   text_->setMinimumHeight(2 * text_->fontMetrics().lineSpacing() + 8);  // beside a long question
   connect(text_, &QTextBrowser::anchorClicked, this, [](const QUrl& link) {
@@ -129,8 +113,7 @@ void LessonPanel::make_page() {
   text_->setFrameShape(QFrame::NoFrame);
   text_->setFocusPolicy(Qt::ClickFocus);
   text_->installEventFilter(this);
-  page_number_ = new QLabel;
-  page_number_->setObjectName("lesson_place");
+  page_number_ = named("lesson_place", new QLabel);
   page_number_->setAlignment(Qt::AlignCenter);
   connect(list_, qOverload<int>(&QComboBox::activated), this, [this](int row) {
     if (row < static_cast<int>(lessons_.size())) {
@@ -144,14 +127,12 @@ void LessonPanel::make_page() {
 
 void LessonPanel::make_actions() {
   previous_ = make_action(this, "lesson_previous", tr("Previous page"),
-                          tr("Go to the previous page (Page Up)"));
-  previous_->setShortcut(Qt::Key_PageUp);
+                          tr("Go to the previous page (Page Up)"), Qt::Key_PageUp);
   next_ = make_action(this, "lesson_next", tr("Next page"),
-                      tr("Go to the next page (Page Down, also sent by presenter remotes)"));
-  next_->setShortcut(Qt::Key_PageDown);
+                      tr("Go to the next page (Page Down, also sent by presenter remotes)"),
+                      Qt::Key_PageDown);
   again_ = make_action(this, "lesson_again", tr("Show this page again"),
-                       tr("Restore the window to the state of this page"));
-  again_->setShortcut(QKeySequence(QStringLiteral("Ctrl+L")));
+                       tr("Restore the window to the state of this page"), QKeySequence("Ctrl+L"));
   open_ =
       make_action(this, "lesson_open", tr("Open a lesson…"), tr("Open a lesson from a JSON file"));
   previous_->setIcon(theme::icon(theme::Icon::step_back));
@@ -167,11 +148,10 @@ void LessonPanel::make_actions() {
 }
 
 QLayout* LessonPanel::make_buttons() {
-  auto* buttons = new QHBoxLayout;
-  buttons->setSpacing(8);
-  buttons->addWidget(button_for(previous_, Qt::ToolButtonTextBesideIcon), 2);
+  auto* buttons = make_row({}, 8);
+  buttons->addWidget(wide_button_for(previous_, Qt::ToolButtonTextBesideIcon), 2);
   buttons->addWidget(page_number_, 1);
-  buttons->addWidget(button_for(next_, Qt::ToolButtonTextBesideIcon), 2);
+  buttons->addWidget(wide_button_for(next_, Qt::ToolButtonTextBesideIcon), 2);
   return buttons;
 }
 

@@ -4,7 +4,6 @@
 #include "lessons/page_control.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "support/json_object.h"

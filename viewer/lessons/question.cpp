@@ -4,12 +4,11 @@
 #include "lessons/question.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "support/json_object.h"
+#include "support/names.h"
 
 namespace transillum::viewer {
 
@@ -20,14 +19,10 @@ namespace {
 constexpr std::size_t most_choices = 12;
 constexpr double default_share = 0.1, default_overlap = 0.5;
 
-struct KindName {
-  const char* name;
-  Question::Kind kind;
-};
-constexpr KindName kinds[] = {{"choice", Question::Kind::choice},
-                              {"patch", Question::Kind::patch},
-                              {"number", Question::Kind::number},
-                              {"area", Question::Kind::area}};
+constexpr Name<Question::Kind> question_kinds[] = {{"choice", Question::Kind::choice},
+                                                   {"patch", Question::Kind::patch},
+                                                   {"number", Question::Kind::number},
+                                                   {"area", Question::Kind::area}};
 
 // The JSON and the page that a question is read from.
 struct Place {
@@ -41,16 +36,13 @@ struct Place {
 };
 
 void read_kind(Question& question, JsonObject& object) {
-  std::string name, choices;
+  std::string name;
   object.read("kind", name);
-  for (const KindName& known : kinds) {
-    if (name == known.name) {
-      question.kind = known.kind;
-      return;
-    }
-    choices += (choices.empty() ? "\"" : ", \"") + std::string(known.name) + '"';
+  const auto kind = value_named(question_kinds, name);
+  if (!kind) {
+    object.fail_at("kind", "must be one of " + names_in_quotes(question_kinds));
   }
-  object.fail_at("kind", "must be one of " + choices);
+  question.kind = *kind;
 }
 
 void read_choices(Question& question, const Place& place) {

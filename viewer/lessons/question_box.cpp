@@ -4,16 +4,13 @@
 // after Reveal the result of solve_question(), which runs on a worker thread.
 #include "lessons/question_box.h"
 
-#include <QAction>
 #include <QButtonGroup>
 #include <QDoubleValidator>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QRadioButton>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -23,23 +20,15 @@
 #include "support/failure_text.h"
 #include "support/list_change.h"
 #include "support/number_text.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
 
 namespace {
 
-QAction* make_action(QObject* parent, const char* name, const char* key, const QString& tip) {
-  auto* action = new QAction(parent);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setShortcut(QKeySequence(QString::fromLatin1(key)));
-  action->setToolTip(tip);
-  return action;
-}
-
 QLabel* wrapped_label(const char* name) {
-  auto* label = new QLabel;
-  label->setObjectName(QString::fromLatin1(name));
+  auto* label = named(name, new QLabel);
   label->setWordWrap(true);
   return label;
 }
@@ -78,16 +67,16 @@ QuestionBox::QuestionBox(Selection& selection, Focus& focus, QWidget* parent)
 }
 
 void QuestionBox::make_actions() {
-  reveal_ = make_action(this, "question_reveal", "Ctrl+Return",
-                        tr("Show the computed answer and whether the prediction is right, or hide "
-                           "them again (Ctrl+Return)"));
-  count_ = make_action(this, "question_count", "Ctrl+Shift+Return",
-                       tr("Add this answer to the tally of the class and ask again "
-                          "(Ctrl+Shift+Return)"));
-  count_->setText(tr("Count this answer"));
-  reset_ = make_action(this, "question_reset", "",
+  reveal_ = make_action(this, "question_reveal", {},
+                        tr("Show what the program computes, and whether the prediction is right "
+                           "(Ctrl+Return); again to hide it"),
+                        QKeySequence("Ctrl+Return"));
+  count_ = make_action(this, "question_count", tr("Count this answer"),
+                       tr("Add this answer to the tally of the class, and take the next "
+                          "(Ctrl+Shift+Return)"),
+                       QKeySequence("Ctrl+Shift+Return"));
+  reset_ = make_action(this, "question_reset", tr("Reset the tally"),
                        tr("Set the tally of this question to zero; Ctrl+Z restores it"));
-  reset_->setText(tr("Reset the tally"));
   connect(reveal_, &QAction::triggered, this, [this] { solved_ ? ask_again() : reveal(); });
   connect(count_, &QAction::triggered, this, &QuestionBox::count);
   connect(reset_, &QAction::triggered, this, [this] { set_counts({}, tr("Reset the tally")); });
@@ -100,9 +89,7 @@ void QuestionBox::make_widgets() {
   result_->setTextFormat(Qt::RichText);
   counts_ = wrapped_label("question_counts");
   counts_->setForegroundRole(QPalette::PlaceholderText);
-  layout_ = new QVBoxLayout(this);
-  layout_->setContentsMargins(10, 8, 10, 8);
-  layout_->setSpacing(6);
+  layout_ = make_column(this, {10, 8, 10, 8}, 6);
   layout_->addWidget(ask_);
   layout_->addWidget(result_);
   layout_->addWidget(counts_);
@@ -111,11 +98,9 @@ void QuestionBox::make_widgets() {
 
 QWidget* QuestionBox::make_buttons() {
   auto* buttons = new QWidget;
-  auto* row = new QHBoxLayout(buttons);
-  row->setContentsMargins(0, 0, 0, 0);
+  auto* row = make_row(buttons, {});
   for (QAction* action : actions()) {
-    auto* button = new QToolButton;
-    button->setDefaultAction(action);
+    auto* button = button_for(action);
     button->setToolButtonStyle(Qt::ToolButtonTextOnly);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     row->addWidget(button);
@@ -178,10 +163,9 @@ void QuestionBox::fill_answers() {
     grid->setColumnStretch(0, 1);
   }
   if (question.kind == Question::Kind::area) {
-    drop_ = new QToolButton;
-    drop_->setObjectName("question_drop");
+    drop_ = named("question_drop", new QToolButton,
+                  tr("Remove the corner that was clicked last (Backspace)"));
     drop_->setText(tr("Remove the last corner"));
-    drop_->setToolTip(tr("Remove the corner that was clicked last (Backspace)"));
     drop_->setShortcut(Qt::Key_Backspace);
     grid->addWidget(drop_, 0, 1);
     connect(drop_, &QToolButton::clicked, this, &QuestionBox::drop_point);
@@ -190,9 +174,9 @@ void QuestionBox::fill_answers() {
 
 void QuestionBox::add_choice(int k) {
   auto* grid = static_cast<QGridLayout*>(answers_->layout());
-  auto* button = new QRadioButton(label_of(at(page_->question->choices, k)));
-  button->setObjectName(QStringLiteral("choice_%1").arg(k + 1));
-  button->setToolTip(tr("Predict this (arrow keys move between the answers)"));
+  auto* button = named(QStringLiteral("choice_%1").arg(k + 1),
+                       new QRadioButton(label_of(at(page_->question->choices, k))),
+                       tr("Predict this (arrow keys move between the answers)"));
   choices_->addButton(button, k);
   ChoiceRow row{new QLabel, new QLabel, new QProgressBar};
   row.mark->setFixedWidth(theme::scaled(16));
@@ -211,10 +195,9 @@ void QuestionBox::add_choice(int k) {
 void QuestionBox::add_number() {
   const Question& question = *page_->question;
   auto* grid = static_cast<QGridLayout*>(answers_->layout());
-  number_ = new QLineEdit;
-  number_->setObjectName("question_number");
+  number_ =
+      named("question_number", new QLineEdit, tr("Enter a number; Return reveals the answer"));
   number_->setPlaceholderText(tr("Your guess"));
-  number_->setToolTip(tr("Enter a number; Return reveals the answer"));
   auto* validator = new QDoubleValidator(number_);
   validator->setLocale(QLocale::c());
   number_->setValidator(validator);

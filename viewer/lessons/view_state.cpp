@@ -1,17 +1,16 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The state of the window to and from JSON. Each enumeration has one table of its names in files,
-// used in both directions.
+// The state of the window to and from JSON.
 #include "lessons/view_state.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <span>
 
-#include "model/material_json.h"
+#include "model/run_options.h"
 #include "support/json_object.h"
+#include "support/names.h"
 
 namespace transillum::viewer {
 
@@ -22,12 +21,6 @@ namespace {
 constexpr int largest_number = std::numeric_limits<int>::max() - 1;  ///< a step of this number is
                                                                      ///< the last one
 
-// The name that an enumerator has in files.
-template <class Value>
-struct Name {
-  const char* name;
-  Value value;
-};
 constexpr Name<ColorMode> color_modes[] = {{"true-color", ColorMode::true_color},
                                            {"luminance", ColorMode::luminance},
                                            {"red", ColorMode::red},
@@ -74,14 +67,12 @@ constexpr Name<Layout> layouts[] = {
 
 template <class Value, std::size_t n>
 Value value_of(const Name<Value> (&names)[n], const json& name, const std::string& where) {
-  std::string choices;
-  for (const Name<Value>& known : names) {
-    if (name == known.name) {
-      return known.value;
-    }
-    choices += (choices.empty() ? "\"" : ", \"") + std::string(known.name) + '"';
+  const auto value =
+      name.is_string() ? value_named(names, name.get<std::string>()) : std::optional<Value>();
+  if (!value) {
+    throw InputError(where + ": must be one of " + names_in_quotes(names));
   }
-  throw InputError(where + ": must be one of " + choices);
+  return *value;
 }
 
 template <class Value, std::size_t n>
@@ -89,13 +80,6 @@ void read(JsonObject& object, const char* key, const Name<Value> (&names)[n], Va
   if (const json* found = object.find(key)) {
     value = value_of(names, *found, object.where(key));
   }
-}
-
-template <class Value, std::size_t n>
-const char* name_in_file(const Name<Value> (&names)[n], Value value) {
-  return std::find_if(std::begin(names), std::end(names),
-                      [value](const Name<Value>& known) { return known.value == value; })
-      ->name;
 }
 
 Goal goal_from(const json& value, const std::string& where) {

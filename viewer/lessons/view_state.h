@@ -11,14 +11,12 @@
 #include "colors/color_choice.h"
 #include "colors/quantity.h"
 #include "lessons/patch_ranges.h"
-#include "model/goal.h"
 #include "model/run_options.h"
+#include "model/solver/goal.h"
 #include "state/algorithm_state.h"
-#include "state/clip_plane.h"
+#include "state/camera_views.h"
 #include "state/focus.h"
-#include "state/initial_view.h"
-#include "state/layout.h"
-#include "state/overlay.h"
+#include "state/view_choices.h"
 #include "transillum/material_changes.h"
 
 namespace transillum::viewer {
@@ -57,7 +55,7 @@ struct ViewState {
   std::optional<ViewPoint> camera;          ///< the initial view if not set
   Quantity quantity = Quantity::radiosity;  ///< shown in color; never Quantity::difference
   ColorMode color_mode = ColorMode::true_color;
-  ColorMap color_map = ColorMap::viridis;
+  ColorMap color_map = default_color_map;
   std::optional<bool> logarithmic;  ///< chosen by the quantity if not set
   RangeRule range_rule = RangeRule::automatic;
   std::optional<std::pair<double, double>> range;  ///< ends of the color map; automatic if not set

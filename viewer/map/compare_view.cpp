@@ -1,14 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Compares two engines on the direction in focus. Their transfers come from EngineComparer; the
-// maps are painted by MapCanvas, the differences by DifferencePicture (by patch) and PairPicture
-// (by polygon), and listed by PairTable.
+// Compares two engines on the direction in focus. Their transfers come from
+// compare_engines(); the maps are painted by MapCanvas, the differences by DifferencePicture (by
+// patch) and PairPicture (by polygon), and listed by PairTable.
 #include "map/compare_view.h"
 
-#include <QAction>
 #include <QComboBox>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QItemSelectionModel>
 #include <QLabel>
 #include <QPushButton>
@@ -16,19 +14,17 @@
 #include <QStackedWidget>
 #include <QTableView>
 #include <QTimer>
-#include <QToolButton>
-#include <QVBoxLayout>
 #include <utility>
 
-#include "map/difference_picture.h"
+#include "map/difference_pictures.h"
 #include "map/hemicube_view.h"
 #include "map/map_canvas.h"
-#include "map/pair_picture.h"
 #include "map/pair_table.h"
 #include "state/breakpoints.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "visibility/pixels/pixel_map.h"
+#include "widgets/build.h"
 #include "widgets/elided.h"
 #include "widgets/engine_text.h"
 #include "widgets/figure_table.h"
@@ -108,7 +104,18 @@ QString row_text(const EngineComparison& c, std::size_t directions) {
 
 CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& colors,
                          QWidget* parent)
-    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
+    : QWidget(parent),
+      focus_(focus),
+      selection_(selection),
+      colors_(colors),
+      comparer_(*this, &compare_engines,
+                [this](const EngineRequest& request,
+                       std::shared_ptr<const EngineComparison> comparison, const QString& error) {
+                  show_comparison(comparison
+                                      ? std::move(comparison)
+                                      : std::make_shared<const EngineComparison>(
+                                            failed_comparison(request, error.toStdString())));
+                }) {
   first_ = make_choice("first", Engine::fast);
   other_ = make_choice("other", Engine::zbuffer);
   auto* grid = new QGridLayout(this);
@@ -141,7 +148,6 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
       request_timer_->start();
     }
   });
-  connect(&comparer_, &EngineComparer::compared, this, &CompareView::show_comparison);
   connect(&selection_, &Selection::changed, this, [this] {
     if (list_->currentIndex().row() < 0) {
       by_polygon_->show(focus_.map(), comparison_, receiver_to_show());
@@ -156,24 +162,21 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
 }
 
 void CompareView::make_large_action() {
-  large_ = new QAction(tr("Compare engines, large"), this);
-  large_->setObjectName("compare_large");
+  large_ = make_action(
+      this, "compare_large", tr("Compare engines, large"),
+      tr("Give the comparison of engines most of the window, or restore the layout (G)"),
+      Qt::Key_G);
   large_->setIconText(tr("Large"));
   large_->setCheckable(true);
-  large_->setShortcut(Qt::Key_G);
-  large_->setToolTip(
-      tr("Give the comparison of engines most of the window, or restore the layout (G)"));
   connect(large_, &QAction::toggled, this, &CompareView::enlarged);
 }
 
 QWidget* CompareView::make_words() {
-  text_ = new QLabel;
-  text_->setObjectName(QStringLiteral("compare_words"));
+  text_ = named("compare_words", new QLabel);
   text_->setWordWrap(true);
   text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  worst_ = new QPushButton(tr("Worst pair"));
-  worst_->setObjectName("worst_pair");
-  worst_->setToolTip(
+  worst_ = named(
+      "worst_pair", new QPushButton(tr("Worst pair")),
       tr("Select the patch of the largest difference and go to the step where it meets the other "
          "patch of the pair"));
   connect(worst_, &QPushButton::clicked, this, [this] {
@@ -181,11 +184,9 @@ QWidget* CompareView::make_words() {
     go_to(worst.receiver, worst.source);
   });
   make_large_action();
-  auto* large = new QToolButton;
-  large->setDefaultAction(large_);
+  auto* large = button_for(large_);
   auto* words = new QWidget;
-  auto* row = new QHBoxLayout(words);
-  row->setContentsMargins(10, 6, 10, 6);
+  auto* row = make_row(words, {10, 6, 10, 6});
   row->addWidget(text_, 1);
   row->addWidget(worst_, 0, Qt::AlignTop);
   row->addWidget(large, 0, Qt::AlignTop);
@@ -194,15 +195,13 @@ QWidget* CompareView::make_words() {
 
 QTableView* CompareView::make_list() {
   pairs_ = new PairTable(this);
-  list_ = new QTableView;
-  list_->setObjectName("pair_differences");
+  list_ = named("pair_differences", new QTableView,
+                tr("Pairs of patches in which the engines differ. A chosen pair is shown in the "
+                   "maps; Return or a double-click goes to the step where the two meet."));
   list_->setModel(pairs_);
   list_->setSelectionBehavior(QAbstractItemView::SelectRows);
   list_->setSelectionMode(QAbstractItemView::SingleSelection);
   list_->setMinimumHeight(90);
-  list_->setToolTip(
-      tr("Pairs of patches in which the engines differ. A chosen pair is shown in the maps; Return "
-         "or a double-click goes to the step where the two meet."));
   set_up_figure_table(*list_, {"888888", "888888"});
   connect(list_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& index) { show_pair(index.row()); });
@@ -280,13 +279,10 @@ CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
 }
 
 QBoxLayout* CompareView::column_of(const Choice& choice) const {
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(6, 6, 6, 4);
-  row->setSpacing(4);
+  auto* row = make_row({6, 6, 6, 4}, 4);
   row->addWidget(choice.engine, 1);
   row->addWidget(choice.resolution);
-  auto* column = new QVBoxLayout;
-  column->setSpacing(0);
+  auto* column = make_column({}, 0);
   column->addLayout(row);
   column->addWidget(choice.picture, 1);
   column->addWidget(choice.figures);
@@ -362,8 +358,8 @@ void CompareView::showEvent(QShowEvent* event) {
   send_request();
 }
 
-EngineComparer::Request CompareView::current_request() const {
-  EngineComparer::Request request;
+EngineRequest CompareView::current_request() const {
+  EngineRequest request;
   request.loaded = focus_.map()->loaded;
   request.direction = focus_.map()->record().frame.omega;
   request.options = snapshot_->options.engine_options;
@@ -385,7 +381,7 @@ void CompareView::send_request() {
   if (!isVisible() || !snapshot_ || !focus_.map()) {
     return;
   }
-  EngineComparer::Request request = current_request();
+  EngineRequest request = current_request();
   if (request == sent_) {
     return;
   }

@@ -5,9 +5,10 @@
 #include <memory>
 
 #include "colors/color_choice.h"
-#include "model/engine_comparer.h"
+#include "model/requests/engine_comparison.h"
 #include "state/focus.h"
 #include "state/selection.h"
+#include "support/newest_result.h"
 
 class QBoxLayout;
 class QComboBox;
@@ -64,8 +65,8 @@ class CompareView : public QWidget {
     bool is_hemicube() const;
     bool has_directions() const;
     bool up_to_date() const;
-    /// The resolution of an EngineComparer::Request: 0 for an engine that has none, an even number
-    /// for a hemicube.
+    /// The resolution of an EngineRequest: 0 for an engine that has none, an even number for a
+    /// hemicube.
     int requested_resolution() const;
   };
   /// Whether the maps show the comparison.
@@ -74,7 +75,7 @@ class CompareView : public QWidget {
   QBoxLayout* column_of(const Choice& choice) const;
   /// Moving one of these maps moves the others.
   void link(const std::vector<MapCanvas*>& maps);
-  EngineComparer::Request current_request() const;
+  EngineRequest current_request() const;
   void send_request();
   void show_maps();
   void make_large_action();
@@ -89,8 +90,7 @@ class CompareView : public QWidget {
   Focus& focus_;
   Selection& selection_;
   const ColorChoice& colors_;
-  EngineComparer comparer_;
-  EngineComparer::Request sent_;  ///< the newest that comparer_ got
+  EngineRequest sent_;  ///< the newest that comparer_ got
   bool comparing_ = false;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::shared_ptr<const EngineComparison> comparison_;
@@ -103,6 +103,7 @@ class CompareView : public QWidget {
   QTableView* list_;
   QAction* large_;
   QTimer* request_timer_;
+  NewestResult<EngineRequest, EngineComparison> comparer_;
 };
 
 }  // namespace transillum::viewer

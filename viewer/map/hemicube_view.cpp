@@ -8,10 +8,9 @@
 #include <QPainter>
 #include <QToolTip>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "map/corrected_drawing.h"
+#include "map/engine_drawing.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/theme.h"

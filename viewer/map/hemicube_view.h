@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "colors/color_map.h"
-#include "model/hemicube_comparison.h"
+#include "model/requests/hemicube_comparison.h"
 #include "state/selection.h"
 #include "support/request_worker.h"
 

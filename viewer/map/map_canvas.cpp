@@ -13,9 +13,9 @@
 #include <cmath>
 #include <utility>
 
-#include "map/pixel_view.h"
-#include "model/linear_values.h"
-#include "state/callout_place.h"
+#include "map/engine_drawing.h"
+#include "model/snapshot_values.h"
+#include "state/callout.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/callout_painter.h"

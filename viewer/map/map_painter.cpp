@@ -8,9 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "map/corrected_drawing.h"
-#include "map/pixel_view.h"
-#include "map/polygon_label.h"
+#include "map/engine_drawing.h"
+#include "map/polygon_text.h"
 #include "transillum/at.h"
 #include "widgets/theme.h"
 
@@ -174,8 +173,11 @@ class MapPainting {
       draw_pixels(painter_, view, transform_, *request_.patch_colors, hatch_, cancellation_);
       return;
     }
-    draw_corrected(painter_, *view.corrected, transform_, *request_.patch_colors, hatch_,
-                   request_.choice.differences, cancellation_);
+    draw_corrected(painter_, *view.corrected, transform_,
+                   {.of_patches = *request_.patch_colors,
+                    .back_side = hatch_,
+                    .differences = request_.choice.differences},
+                   cancellation_);
     if (request_.labels) {
       label_corrected(painter_, *view.corrected, transform_, ratio_);
     }

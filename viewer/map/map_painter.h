@@ -2,17 +2,13 @@
 #pragma once
 
 #include <QBrush>
-#include <QImage>
-#include <QPointF>
 #include <QPolygonF>
 #include <QSizeF>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "map/map_picture.h"
-#include "model/recorded_map.h"
+#include "model/requests/recorded_map.h"
 
 namespace transillum::viewer {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "colors/color_map.h"
-#include "model/recorded_map.h"
+#include "model/requests/recorded_map.h"
 #include "state/focus.h"
 #include "transillum/engine.h"
 

@@ -6,23 +6,22 @@
 #include "map/map_view.h"
 
 #include <QButtonGroup>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
 #include <QStackedWidget>
 #include <QTimer>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <utility>
 
 #include "colors/pointer_label.h"
+#include "map/engine_drawing.h"
 #include "map/engine_menu.h"
 #include "map/hemicube_view.h"
 #include "map/map_canvas.h"
 #include "map/phase_pair.h"
-#include "map/pixel_view.h"
-#include "map/row_text.h"
+#include "map/polygon_text.h"
 #include "support/number_text.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -51,8 +50,7 @@ QString legend_entry(const QColor& color, const QString& name) {
 MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, QWidget* parent)
     : QWidget(parent), focus_(focus), colors_(colors) {
   title_ = new QLabel;
-  step_text_ = new QLabel;
-  step_text_->setObjectName("map_text");
+  step_text_ = named("map_text", new QLabel);
   step_text_->setForegroundRole(QPalette::PlaceholderText);
   // Long text is cut off rather than widening the window.
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -61,26 +59,19 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   canvas_ = make_canvas(selection, "map_canvas");
   before_->hide();
   canvases_ = new QWidget;
-  auto* side_by_side = new QHBoxLayout(canvases_);
-  side_by_side->setContentsMargins(0, 0, 0, 0);
-  side_by_side->setSpacing(2);
+  auto* side_by_side = make_row(canvases_, {}, 2);
   side_by_side->addWidget(before_, 1);
   side_by_side->addWidget(canvas_, 1);
   connect(before_, &MapCanvas::view_changed, this, [this] { canvas_->set_view(before_->view()); });
   connect(canvas_, &MapCanvas::view_changed, this, [this] { before_->set_view(canvas_->view()); });
   pair_ = new PhasePair(*this);
 
-  auto* text = new QVBoxLayout;
-  text->setContentsMargins(10, 6, 10, 6);
-  text->setSpacing(1);
+  auto* text = make_column({10, 6, 10, 6}, 1);
   text->addWidget(title_);
   text->addWidget(step_text_);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addLayout(text);
-  hemicube_ = new HemicubeView(selection);
-  hemicube_->setObjectName("hemicube_view");
+  hemicube_ = named("hemicube_view", new HemicubeView(selection));
   pictures_ = new QStackedWidget;
   pictures_->addWidget(canvases_);
   pictures_->addWidget(hemicube_);
@@ -100,8 +91,7 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
 }
 
 MapCanvas* MapView::make_canvas(Selection& selection, const char* name) {
-  auto* canvas = new MapCanvas(selection);
-  canvas->setObjectName(QString::fromLatin1(name));
+  auto* canvas = named(name, new MapCanvas(selection));
   auto* pointer = new PointerLabel(colors_, *canvas, [canvas](const QPoint& position) {
     return PointedPatch{canvas->patch_at(position), canvas->patch_point_at(position)};
   });
@@ -130,8 +120,7 @@ void MapView::show_context_menu(const MapCanvas& canvas, const QPoint& position)
   if (!point || !focus_.map()) {
     return;
   }
-  auto* menu = new QMenu(this);
-  menu->setObjectName("map_menu");
+  auto* menu = named("map_menu", new QMenu(this));
   menu->setAttribute(Qt::WA_DeleteOnClose);
   // Searches this direction only: along other directions the point is elsewhere on the plane.
   const auto add_run = [&](const QString& text, StepOrder order) {
@@ -157,9 +146,7 @@ QWidget* MapView::make_controls() {
     return button;
   };
   auto* controls = new QWidget;
-  auto* row = new QHBoxLayout(controls);
-  row->setContentsMargins(10, 6, 8, 6);
-  row->setSpacing(4);
+  auto* row = make_row(controls, {10, 6, 8, 6}, 4);
   row->addWidget(add_phase(Phase::before, "phase_before", tr("Before"),
                            tr("Show V before the step, with the fragment to insert")));
   row->addWidget(add_phase(Phase::split, "phase_split", tr("Split"),

@@ -32,14 +32,6 @@ void PairTable::set_pairs(std::vector<PairDifference> pairs) {
   endResetModel();
 }
 
-int PairTable::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(pairs_.size());
-}
-
-int PairTable::columnCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : column_count;
-}
-
 QVariant PairTable::data(const QModelIndex& index, int role) const {
   const PairDifference& pair = this->pair(index.row());
   const int column = index.column();
@@ -59,30 +51,19 @@ QVariant PairTable::data(const QModelIndex& index, int role) const {
   }
 }
 
-QVariant PairTable::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal) {
-    return {};
-  }
-  if (role == Qt::ToolTipRole) {
-    return section == of_difference ? tr("Area by the second engine minus area by the first")
-           : section == of_first    ? tr("A(i, j, ω) by the first engine")
-           : section == of_other    ? tr("A(i, j, ω) by the second engine")
-                                    : QVariant();
-  }
-  if (role != Qt::DisplayRole) {
-    return {};
-  }
-  switch (section) {
+ColumnHeader PairTable::header(int column) const {
+  switch (column) {
     case of_receiver:
-      return tr("i");
+      return {tr("i")};
     case of_source:
-      return tr("j");
+      return {tr("j")};
     case of_first:
-      return area_format_.header(tr("First, m²"));
+      return {area_format_.header(tr("First, m²")), tr("A(i, j, ω) by the first engine")};
     case of_other:
-      return area_format_.header(tr("Second, m²"));
+      return {area_format_.header(tr("Second, m²")), tr("A(i, j, ω) by the second engine")};
     default:
-      return difference_format_.header(tr("Difference, m²"));
+      return {difference_format_.header(tr("Difference, m²")),
+              tr("Area by the second engine minus area by the first")};
   }
 }
 

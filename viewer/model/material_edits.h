@@ -5,7 +5,6 @@
 #include <QString>
 #include <QUndoStack>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 

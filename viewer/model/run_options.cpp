@@ -1,9 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "model/run_options.h"
 
+#include <cmath>
+#include <optional>
 #include <set>
 
-#include "model/material_json.h"
 #include "support/json_object.h"
 
 namespace transillum::viewer {
@@ -81,6 +82,110 @@ json to_json(const RunOptions& options) {
   if (!(options.input == SceneInput{})) {
     result["read"] = options_json(options, true);
     result["read"][material_changes] = to_json(options.input.changes);
+  }
+  return result;
+}
+
+using nlohmann::json;
+
+namespace {
+
+std::optional<Rgb> channels_from(JsonObject& object, const char* key, bool below_one) {
+  const json* channels = object.find(key);
+  if (!channels) {
+    return std::nullopt;
+  }
+  const Vec3 c = vec3_from_json(*channels, object.where(key));
+  for (const double x : {c.x, c.y, c.z}) {
+    if (!(x >= 0 && std::isfinite(x) && (!below_one || x < 1))) {
+      object.fail_at(key, below_one ? "must be at least 0 and below 1" : "must be at least 0");
+    }
+  }
+  return Rgb{c.x, c.y, c.z};
+}
+
+Lobe lobe_from(const json& value, const std::string& where) {
+  JsonObject object(value, where);
+  Lobe lobe;
+  const std::optional<Rgb> share = channels_from(object, "share", true);
+  if (!share) {
+    object.fail_at("share", "is missing");
+  }
+  lobe.reflectance = *share;
+  const bool is_rough = object.find("roughness");
+  object.read("exponent", lobe.exponent);
+  if (is_rough) {
+    object.read("roughness", lobe.roughness);
+    lobe.shape = LobeShape::ggx;
+  }
+  if (!(lobe.exponent >= 0 && std::isfinite(lobe.exponent))) {
+    object.fail_at("exponent", "must be at least 0");
+  }
+  if (!(lobe.roughness >= 0 && lobe.roughness <= 1)) {
+    object.fail_at("roughness", "must be between 0 and 1");
+  }
+  object.done();
+  return lobe;
+}
+
+MaterialChange change_from(const json& value, const std::string& where) {
+  JsonObject object(value, where);
+  MaterialChange change;
+  object.read("name", change.target);
+  if (change.target.empty()) {
+    object.fail_at("name", "is missing");
+  }
+  change.exitance = channels_from(object, "exitance", false);
+  change.reflectance = channels_from(object, "reflectance", true);
+  if (const json* lobe = object.find("lobe")) {
+    change.lobe = lobe_from(*lobe, object.where("lobe"));
+  }
+  if (!change.exitance && !change.reflectance && !change.lobe) {
+    object.fail("needs an \"exitance\", a \"reflectance\" or a \"lobe\"");
+  }
+  object.done();
+  return change;
+}
+
+}  // namespace
+
+std::vector<MaterialChange> material_changes_from_json(JsonObject& object, const char* key) {
+  std::vector<MaterialChange> changes;
+  const json* list = object.find(key);
+  if (!list) {
+    return changes;
+  }
+  if (!list->is_array()) {
+    object.fail_at(key, "must be a list [ … ]");
+  }
+  for (const json& one : *list) {
+    changes.push_back(
+        change_from(one, object.where("material " + std::to_string(changes.size() + 1))));
+  }
+  return changes;
+}
+
+json to_json(const std::vector<MaterialChange>& changes) {
+  const auto list = [](const Rgb& c) { return json::array({c.r, c.g, c.b}); };
+  json result = json::array();
+  for (const MaterialChange& change : changes) {
+    json one = {{"name", change.target}};
+    if (change.exitance) {
+      one["exitance"] = list(*change.exitance);
+    }
+    if (change.reflectance) {
+      one["reflectance"] = list(*change.reflectance);
+    }
+    if (change.lobe) {
+      json lobe = {{"share", list(change.lobe->reflectance)}};
+      if (change.lobe->shape == LobeShape::ggx) {
+        lobe["roughness"] = change.lobe->roughness;
+      } else {
+        lobe["exponent"] = change.lobe->exponent;
+      }
+      one["lobe"] = std::move(lobe);
+    }
+    result.push_back(std::move(one));
   }
   return result;
 }

@@ -1,10 +1,15 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Options of a run and changes of materials, to and from JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "options/option_table.h"
+#include "support/json_object.h"
+#include "transillum/material_changes.h"
 
 namespace transillum::viewer {
 
@@ -19,5 +24,11 @@ bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked);
 RunOptions run_options_from_json(const nlohmann::json& value, const std::string& where);
 /// The JSON of all options that run_options_from_json() reads.
 nlohmann::json to_json(const RunOptions& options);
+
+/// Reads the list of changed materials under `key`; empty if there is none. `name` is a target of
+/// change_materials(); at least one of `exitance` and `reflectance` is required.
+/// @throws InputError naming the place
+std::vector<MaterialChange> material_changes_from_json(JsonObject& object, const char* key);
+nlohmann::json to_json(const std::vector<MaterialChange>& changes);
 
 }  // namespace transillum::viewer

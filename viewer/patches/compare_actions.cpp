@@ -11,6 +11,8 @@
 #include <QMenu>
 #include <QStatusBar>
 
+#include "widgets/build.h"
+
 namespace transillum::viewer {
 
 namespace {
@@ -27,19 +29,17 @@ bool is_text_input(const QWidget* widget) {
 
 CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObject* parent)
     : QObject(parent), colors_(colors), window_(window) {
-  keep_ = new QAction(tr("Keep this run"), this);
-  keep_->setObjectName("keep_run");
-  keep_->setShortcut(Qt::Key_K);
-  keep_->setToolTip(
-      tr("Keep this result in the list of kept runs as A, to compare other runs with it (K)"));
+  keep_ = make_action(
+      this, "keep_run", tr("Keep this run"),
+      tr("Keep this result in the list of kept runs as A, to compare other runs with it (K)"),
+      Qt::Key_K);
   show_ = new QAction(tr("Show A (hold key A)"), this);
   show_->setObjectName("show_kept_run");
   show_->setCheckable(true);
-  difference_ = new QAction(tr("Color by difference from A"), this);
-  difference_->setObjectName("show_difference");
-  difference_->setShortcut(QKeySequence(QStringLiteral("Shift+K")));
+  difference_ = make_action(this, "show_difference", tr("Color by difference from A"),
+                            tr("Color each patch by the difference between the runs (Shift+K)"),
+                            QKeySequence("Shift+K"));
   difference_->setCheckable(true);
-  difference_->setToolTip(tr("Color each patch by the difference between the runs (Shift+K)"));
   connect(keep_, &QAction::triggered, this, &CompareActions::keep_run);
   connect(show_, &QAction::triggered, &colors_, &ColorChoice::show_kept_run);
   connect(difference_, &QAction::triggered, this, [this](bool checked) {
@@ -52,11 +52,7 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
   show_state();
 }
 
-void CompareActions::add_to(QMenu& menu) const {
-  for (QAction* action : {keep_, show_, difference_}) {
-    menu.addAction(action);
-  }
-}
+void CompareActions::add_to(QMenu& menu) const { menu.addActions({keep_, show_, difference_}); }
 
 void CompareActions::keep_run() {
   if (!colors_.keep_run()) {

@@ -7,14 +7,13 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPushButton>
 #include <QSet>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
+#include "widgets/build.h"
 #include "widgets/channel_sliders.h"
 #include "widgets/elided.h"
 #include "widgets/gloss_slider.h"
@@ -35,10 +34,7 @@ double slider_exitance(const std::vector<Material>& materials) {
 }
 
 QLabel* make_note(const char* name) {
-  auto* note = new QLabel;
-  note->setObjectName(QString::fromLatin1(name));
-  note->setWordWrap(true);
-  note->setForegroundRole(QPalette::PlaceholderText);
+  auto* note = named(name, note_label());
   return note;
 }
 
@@ -48,9 +44,7 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
                              ColorChoice& colors, QWidget* parent)
     : QWidget(parent), relighting_(relighting), selection_(selection), colors_(colors) {
   obstacle_ = make_note("material_words");
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 6, 12, 6);
-  layout->setSpacing(6);
+  auto* layout = make_column(this, {12, 6, 12, 6}, 6);
   layout->addLayout(make_choice());
   layout->addWidget(obstacle_);
   layout->addWidget(make_sliders());
@@ -60,19 +54,16 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
 }
 
 QLayout* MaterialPanel::make_choice() {
-  kind_ = new QComboBox;
-  kind_->setObjectName("material_kind");
-  kind_->setToolTip(
-      tr("Choose what the sliders change: a material, a group of faces or a single face"));
-  name_ = new ElidedComboBox;
-  name_->setObjectName("material");
+  kind_ =
+      named("material_kind", new QComboBox,
+            tr("Choose what the sliders change: a material, a group of faces or a single face"));
+  name_ = named("material", new ElidedComboBox,
+                tr("Click a patch in the scene to choose what it belongs to"));
   name_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   name_->setMinimumContentsLength(6);
-  name_->setToolTip(tr("Click a patch in the scene to choose what it belongs to"));
   extent_ = make_note("material_extent");
-  restore_ = new QPushButton(tr("As in the scene"));
-  restore_->setObjectName("restore_materials");
-  restore_->setToolTip(tr("Undo all changes to materials"));
+  restore_ = named("restore_materials", new QPushButton(tr("As in the scene")),
+                   tr("Undo all changes to materials"));
   auto* extent_row = new QHBoxLayout;
   extent_row->addWidget(extent_, 1);
   extent_row->addWidget(restore_);
@@ -98,9 +89,7 @@ QWidget* MaterialPanel::make_sliders() {
   sliders_->setToolTip(
       tr("Change the material; B is recomputed from the form factors, without a "
          "new pass"));
-  auto* column = new QVBoxLayout(sliders_);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
+  auto* column = make_column(sliders_, {}, 4);
   column->addWidget(account_);
   column->addWidget(reflectance_);
   column->addWidget(lobe_);

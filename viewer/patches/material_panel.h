@@ -6,7 +6,7 @@
 #include <string>
 
 #include "colors/color_choice.h"
-#include "model/relighting.h"
+#include "model/requests/relighting.h"
 #include "state/selection.h"
 
 class QComboBox;

@@ -1,11 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The panel "Groups". Snapshots arrive often while a solve runs; their powers are added up a few
-// times a second at most, on the thread of PowerCounter, and only while the panel is visible.
+// times a second at most, on a thread of their own, and only while the panel is visible.
 #include "patches/parts_panel.h"
 
-#include <QAction>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QItemSelectionModel>
 #include <QLabel>
@@ -14,16 +12,15 @@
 #include <QTimer>
 #include <QToolButton>
 #include <QUndoStack>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
 #include "colors/color_scale.h"
-#include "model/form_factor_views.h"
-#include "patches/part_columns.h"
-#include "patches/patch_table.h"
+#include "model/snapshot_values.h"
+#include "patches/table_rows.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/figure_table.h"
 
 namespace transillum::viewer {
@@ -65,7 +62,20 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
       relighting_(relighting),
       selection_(selection),
       hidden_(hidden),
-      tabs_(new QTabWidget) {
+      tabs_(new QTabWidget),
+      counter_(
+          *this,
+          [](const std::shared_ptr<const SolverSnapshot>& snapshot, const Cancellation&) {
+            return power_tables(snapshot);
+          },
+          [this](const auto&, std::shared_ptr<const PowerTables> tables, const QString& error) {
+            if (tables) {
+              show_tables(std::move(tables));
+            } else {
+              emit failed(error);
+            }
+          },
+          CurrentJob::finish) {
   tabs_->setDocumentMode(true);
   tabs_->setObjectName("part_tabs");
   QLayout* buttons = make_buttons();
@@ -75,9 +85,7 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
   exchanges_.view->sortByColumn(power_column, Qt::DescendingOrder);
   refresh_timer_ = new QTimer(this);
   refresh_timer_->setSingleShot(true);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addWidget(tabs_, 1);
   layout->addLayout(buttons);
   connect(refresh_timer_, &QTimer::timeout, this, &PartsPanel::refresh);
@@ -85,8 +93,6 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
     refresh();
     show_state();
   });
-  connect(&counter_, &PowerCounter::counted, this, &PartsPanel::show_tables);
-  connect(&counter_, &PowerCounter::failed, this, &PartsPanel::failed);
   connect(&relighting_.edits(), &MaterialEdits::changed, this, &PartsPanel::show_state);
   connect(&selection_, &Selection::patches_changed, this, [this] {
     if (!selects_) {
@@ -99,34 +105,17 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
   clear();
 }
 
-PartsPanel::Page PartsPanel::add_page(const QString& title, const char* name) {
-  const Page page{new PatchTable(this), new QTableView, new QLabel};
-  page.caption->setObjectName(QString::fromLatin1(name) + "_caption");
-  page.caption->setWordWrap(true);
-  page.caption->setContentsMargins(10, 4, 10, 4);
-  page.caption->setForegroundRole(QPalette::PlaceholderText);
-  page.view->setObjectName(QString::fromLatin1(name));
-  page.view->setModel(page.table);
-  page.view->setSelectionBehavior(QAbstractItemView::SelectRows);
-  page.view->setSelectionMode(QAbstractItemView::SingleSelection);
-  page.view->setTabKeyNavigation(false);
-  page.view->horizontalHeader()->setSortIndicator(-1, Qt::AscendingOrder);
-  page.view->setSortingEnabled(true);
-  page.view->setContextMenuPolicy(Qt::ActionsContextMenu);
+TablePage PartsPanel::add_page(const QString& title, const char* name) {
   const bool pairs = qstrcmp(name, "exchange_table") == 0;
   const QString name_width = QStringLiteral("Name of it");
-  set_up_figure_table(
-      *page.view, pairs ? QStringList{name_width, name_width}
-                        : QStringList{name_width, QStringLiteral("88888"), QStringLiteral("88.888"),
-                                      QStringLiteral("8.8888"), QStringLiteral("8.8888"),
-                                      QStringLiteral("8.8888")});
-  auto* widget = new QWidget;
-  auto* layout = new QVBoxLayout(widget);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
-  layout->addWidget(page.caption);
-  layout->addWidget(page.view, 1);
-  tabs_->addTab(widget, title);
+  const TablePage page =
+      add_table_page(*tabs_, title, name,
+                     pairs ? QStringList{name_width, name_width}
+                           : QStringList{name_width, QStringLiteral("88888"),
+                                         QStringLiteral("88.888"), QStringLiteral("8.8888"),
+                                         QStringLiteral("8.8888"), QStringLiteral("8.8888")});
+  page.view->setTabKeyNavigation(false);
+  page.view->setContextMenuPolicy(Qt::ActionsContextMenu);
   if (!pairs) {
     page.view->addActions({select_, hide_, isolate_, emit_, reflect_});
     connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -142,9 +131,7 @@ PartsPanel::Page PartsPanel::add_page(const QString& title, const char* name) {
 
 QAction* PartsPanel::add_action(const char* name, const QString& text, const QString& tip,
                                 const char* key, void (PartsPanel::*what)()) {
-  auto* action = new QAction(text, this);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setToolTip(tip);
+  auto* action = make_action(this, name, text, tip);
   if (key != nullptr) {
     action->setShortcut(QKeySequence(QString::fromLatin1(key)));
     action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
@@ -168,11 +155,9 @@ QLayout* PartsPanel::make_buttons() {
                  nullptr, &PartsPanel::isolate_current);
   emit_ = add_action("emit_part", tr("Make it emit"), {}, "E", &PartsPanel::make_emit);
   reflect_ = add_action("reflect_part", tr("Make it reflect"), {}, "R", &PartsPanel::make_reflect);
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(8, 4, 8, 6);
+  auto* row = make_row({8, 4, 8, 6});
   for (QAction* action : {hide_, isolate_, emit_, reflect_}) {
-    auto* button = new QToolButton;
-    button->setObjectName(action->objectName() + "_button");
+    auto* button = named(action->objectName() + "_button", new QToolButton);
     button->setDefaultAction(action);
     row->addWidget(button);
   }
@@ -183,7 +168,7 @@ QLayout* PartsPanel::make_buttons() {
 void PartsPanel::clear() {
   counter_.clear();
   tables_ = nullptr;
-  for (const Page& page : {groups_, materials_, exchanges_}) {
+  for (const TablePage& page : {groups_, materials_, exchanges_}) {
     page.table->set_contents({}, {});
     page.caption->setText(scene_ ? tr("Adding up powers…")
                                  : tr("Open a scene to list its groups and materials."));
@@ -240,7 +225,7 @@ void PartsPanel::show_tables(std::shared_ptr<const PowerTables> tables) {
   show_state();
 }
 
-void PartsPanel::show_parts(const Page& page, const PowerTable& table, PartsBy by) {
+void PartsPanel::show_parts(const TablePage& page, const PowerTable& table, PartsBy by) {
   PatchRows rows = rows_of_parts(table, tables_->received_known);
   page.table->set_contents(std::move(rows.patches), std::move(rows.columns));
   page.caption->setText(total_text(table, by, tables_->received_known));
@@ -267,7 +252,7 @@ const PartPower* PartsPanel::current() const {
     return nullptr;
   }
   const bool groups = current_kind() == PartsBy::group;
-  const Page& page = groups ? groups_ : materials_;
+  const TablePage& page = groups ? groups_ : materials_;
   const QModelIndex index = page.view->currentIndex();
   if (!index.isValid()) {
     return nullptr;

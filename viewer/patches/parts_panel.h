@@ -6,22 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "model/power_counter.h"
-#include "model/relighting.h"
+#include "model/requests/power_tables.h"
+#include "model/requests/relighting.h"
+#include "patches/patch_table.h"
 #include "radiosity/analysis/power_table.h"
 #include "state/hidden_patches.h"
 #include "state/selection.h"
+#include "support/newest_result.h"
 
 class QAction;
-class QLabel;
 class QLayout;
-class QTableView;
 class QTabWidget;
 class QTimer;
 
 namespace transillum::viewer {
-
-class PatchTable;
 
 /// The groups and the materials of the scene with their powers, and the powers that they exchange.
 /// A row selects its patches; actions hide or isolate them, and make them emit or reflect.
@@ -46,18 +44,13 @@ class PartsPanel : public QWidget {
   void target_changed(const std::string& target);
 
  private:
-  struct Page {
-    PatchTable* table;
-    QTableView* view;
-    QLabel* caption;
-  };
-  Page add_page(const QString& title, const char* name);
+  TablePage add_page(const QString& title, const char* name);
   QLayout* make_buttons();
   QAction* add_action(const char* name, const QString& text, const QString& tip, const char* key,
                       void (PartsPanel::*what)());
   void refresh();
   void show_tables(std::shared_ptr<const PowerTables> tables);
-  void show_parts(const Page& page, const PowerTable& table, PartsBy by);
+  void show_parts(const TablePage& page, const PowerTable& table, PartsBy by);
   void show_exchanges();
   void show_state();
   void clear();
@@ -81,12 +74,12 @@ class PartsPanel : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::shared_ptr<const PowerTables> tables_;
   QTabWidget* tabs_;
-  Page groups_, materials_, exchanges_;
+  TablePage groups_, materials_, exchanges_;
   QAction *select_, *hide_, *isolate_, *emit_, *reflect_;
   bool watched_ = false;
   bool selects_ = false;   ///< while the panel itself changes the selection
   QTimer* refresh_timer_;  ///< limits how often powers are added up
-  PowerCounter counter_;
+  NewestResult<std::shared_ptr<const SolverSnapshot>, PowerTables> counter_;
 };
 
 }  // namespace transillum::viewer

@@ -2,23 +2,20 @@
 #include "patches/patch_inspector.h"
 
 #include <QLabel>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
-#include "model/linear_values.h"
+#include "model/snapshot_values.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
-#include "widgets/symbol_tip.h"
+#include "widgets/build.h"
 #include "widgets/value_grid.h"
 
 namespace transillum::viewer {
 
 PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, QWidget* parent)
     : QWidget(parent), selection_(selection), colors_(colors) {
-  hint_ = new QLabel(tr("Click a patch in the scene or in the map."));
-  hint_->setForegroundRole(QPalette::PlaceholderText);
-  hint_->setWordWrap(true);
+  hint_ = note_label(tr("Click a patch in the scene or in the map."));
   make_sums();
   make_coefficients();
   values_ = new ValueGrid;
@@ -41,8 +38,7 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   swatch_->setToolTip(tr("Color of the patch in the scene view"));
   values_->add_wide(swatch_);
 
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 8, 12, 10);
+  auto* layout = make_column(this, {12, 8, 12, 10});
   layout->addWidget(hint_);
   layout->addWidget(sums_);
   layout->addWidget(values_);
@@ -93,14 +89,11 @@ void PatchInspector::make_sums() {
 
 void PatchInspector::make_coefficients() {
   coefficients_ = new ValueGrid;
-  auto* title = new QLabel(tr("B(x) = b₀ + b₁ φ₁(x) + b₂ φ₂(x)"));
+  auto* title = note_label(tr("B(x) = b₀ + b₁ φ₁(x) + b₂ φ₂(x)"), {0, 8, 0, 0});
   title->setToolTip(symbol_tip(
       tr("B is a linear function of the point x of the patch. φ₁ grows along the longest edge, φ₂ "
          "across it;\nboth are 0 at the center, and the mean of their squares over the patch is 1"),
       "6.12"));
-  title->setForegroundRole(QPalette::PlaceholderText);
-  title->setWordWrap(true);
-  title->setContentsMargins(0, 8, 0, 0);
   coefficients_->add_wide(title);
   const auto add = [this](const char* name, const QString& symbol, const QString& tip) {
     QLabel* value = coefficients_->add_row(symbol, tr("W/m²"),

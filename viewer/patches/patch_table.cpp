@@ -3,7 +3,10 @@
 // The model of the two patch tables: sorts, searches and writes as CSV what patch_columns computes.
 #include "patches/patch_table.h"
 
+#include <QHeaderView>
 #include <QLocale>
+#include <QTabWidget>
+#include <QTableView>
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -12,6 +15,8 @@
 #include "colors/color_scale.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
+#include "widgets/figure_table.h"
 
 namespace transillum::viewer {
 
@@ -175,14 +180,6 @@ void PatchTable::write_csv(std::ostream& out) const {
   }
 }
 
-int PatchTable::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(shown_.size());
-}
-
-int PatchTable::columnCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(columns_.size());
-}
-
 QVariant PatchTable::data(const QModelIndex& index, int role) const {
   const PatchColumn& column = at(columns_, index.column());
   const int entry = at(shown_, index.row());
@@ -210,24 +207,33 @@ QVariant PatchTable::data(const QModelIndex& index, int role) const {
   }
 }
 
-QVariant PatchTable::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || section >= columnCount()) {
-    return {};
-  }
-  const PatchColumn& column = at(columns_, section);
-  if (role == Qt::DisplayRole) {
-    return column.format.header(column.title);
-  }
-  if (role == Qt::ToolTipRole) {
-    return column.tip;
-  }
-  return {};
+ColumnHeader PatchTable::header(int column) const {
+  const PatchColumn& shown = at(columns_, column);
+  return {shown.format.header(shown.title), shown.tip};
 }
 
 void PatchTable::sort(int column, Qt::SortOrder order) {
   sorted_by_ = column;
   order_ = order;
   arrange();
+}
+
+TablePage add_table_page(QTabWidget& tabs, const QString& title, const QString& name,
+                         const QStringList& widest) {
+  const TablePage page{new PatchTable(&tabs), named(name, new QTableView),
+                       named(name + "_caption", note_label({}, {10, 4, 10, 4}))};
+  page.view->setModel(page.table);
+  page.view->setSelectionBehavior(QAbstractItemView::SelectRows);
+  page.view->setSelectionMode(QAbstractItemView::SingleSelection);
+  page.view->horizontalHeader()->setSortIndicator(-1, Qt::AscendingOrder);
+  page.view->setSortingEnabled(true);
+  set_up_figure_table(*page.view, widest);
+  auto* widget = new QWidget;
+  auto* layout = make_column(widget, {}, 0);
+  layout->addWidget(page.caption);
+  layout->addWidget(page.view, 1);
+  tabs.addTab(widget, title);
+  return page;
 }
 
 }  // namespace transillum::viewer

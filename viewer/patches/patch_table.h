@@ -1,14 +1,18 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <QAbstractTableModel>
 #include <QStringList>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
-#include "support/column_format.h"
+#include "support/number_text.h"
 #include "transillum/scene.h"
+#include "widgets/flat_table.h"
+
+class QLabel;
+class QTabWidget;
+class QTableView;
 
 namespace transillum::viewer {
 
@@ -31,11 +35,11 @@ struct PatchColumn {
 
 /// A table of patches. Sorting and searching permute row indices only, so that tens of thousands of
 /// rows stay fast.
-class PatchTable : public QAbstractTableModel {
+class PatchTable : public FlatTable {
   Q_OBJECT
 
  public:
-  using QAbstractTableModel::QAbstractTableModel;
+  using FlatTable::FlatTable;
 
   /// Replaces the contents; order and search stay.
   /// @param columns each with one value per entry of `patches`
@@ -53,13 +57,13 @@ class PatchTable : public QAbstractTableModel {
   /// Writes a header line and the shown rows in their order; numbers read back bit for bit.
   void write_csv(std::ostream& out) const;
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
   QVariant data(const QModelIndex& index, int role) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
   void sort(int column, Qt::SortOrder order) override;
 
  private:
+  int rows() const override { return static_cast<int>(shown_.size()); }
+  int columns() const override { return static_cast<int>(columns_.size()); }
+  ColumnHeader header(int column) const override;
   void set_formats();
   bool matches(int entry) const;
   void arrange();
@@ -71,5 +75,16 @@ class PatchTable : public QAbstractTableModel {
   Qt::SortOrder order_ = Qt::AscendingOrder;
   std::vector<int> shown_;  ///< per shown row: its index in patches_
 };
+
+/// A tab with a table that sorts by any column, and a caption above it.
+struct TablePage {
+  PatchTable* table;
+  QTableView* view;
+  QLabel* caption;
+};
+/// @param name  of the view
+/// @param widest  as of set_up_figure_table()
+TablePage add_table_page(QTabWidget& tabs, const QString& title, const QString& name,
+                         const QStringList& widest);
 
 }  // namespace transillum::viewer

@@ -4,7 +4,6 @@
 // times a second at most, and only while the panel is visible.
 #include "patches/patch_table_panel.h"
 
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QItemSelectionModel>
 #include <QLabel>
@@ -13,16 +12,15 @@
 #include <QTabWidget>
 #include <QTableView>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <utility>
 
-#include "model/form_factor_views.h"
-#include "patches/patch_columns.h"
-#include "patches/patch_table.h"
+#include "model/snapshot_values.h"
+#include "patches/table_rows.h"
 #include "support/number_text.h"
 #include "transillum/files.h"
+#include "widgets/build.h"
+#include "widgets/dialogs.h"
 #include "widgets/figure_table.h"
-#include "widgets/save_dialog.h"
 
 namespace transillum::viewer {
 
@@ -35,13 +33,11 @@ constexpr int share_column = 4;  // column of the table of partners
 
 PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
     : QWidget(parent), selection_(selection), tabs_(new QTabWidget) {
-  search_ = new QLineEdit;
-  search_->setObjectName("patch_search");
+  search_ = named("patch_search", new QLineEdit);
   search_->setPlaceholderText(tr("Patch number or material"));
   search_->setClearButtonEnabled(true);
-  auto* export_button = new QPushButton(tr("Export…"));
-  export_button->setObjectName("export_table");
-  export_button->setToolTip(tr("Write the shown rows as CSV"));
+  auto* export_button =
+      named("export_table", new QPushButton(tr("Export…")), tr("Write the shown rows as CSV"));
   tabs_->setDocumentMode(true);
   all_ = add_page(tr("All patches"), "patch_table");
   partners_ = add_page(tr("Partners of selection"), "partner_table");
@@ -49,18 +45,15 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
   refresh_timer_ = new QTimer(this);
   refresh_timer_->setSingleShot(true);
 
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(10, 8, 10, 6);
+  auto* row = make_row({10, 8, 10, 6});
   row->addWidget(search_, 1);
   row->addWidget(export_button);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addLayout(row);
   layout->addWidget(tabs_, 1);
 
   connect(search_, &QLineEdit::textChanged, this, [this](const QString& text) {
-    for (const Page& page : {all_, partners_}) {
+    for (const TablePage& page : {all_, partners_}) {
       page.table->set_search(text.trimmed());
     }
     mark_selection();
@@ -91,26 +84,8 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
   });
 }
 
-PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char* name) {
-  const Page page{new PatchTable(this), new QTableView, new QLabel};
-  page.caption->setWordWrap(true);
-  page.caption->setContentsMargins(10, 4, 10, 4);
-  page.caption->setForegroundRole(QPalette::PlaceholderText);
-  page.view->setObjectName(QString::fromLatin1(name));
-  page.view->setModel(page.table);
-  page.view->setSelectionBehavior(QAbstractItemView::SelectRows);
-  page.view->setSelectionMode(QAbstractItemView::SingleSelection);
-  page.view->horizontalHeader()->setSortIndicator(-1, Qt::AscendingOrder);
-  page.view->setSortingEnabled(true);
-  set_up_figure_table(*page.view, {});
-
-  auto* widget = new QWidget;
-  auto* layout = new QVBoxLayout(widget);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
-  layout->addWidget(page.caption);
-  layout->addWidget(page.view, 1);
-  tabs_->addTab(widget, title);
+TablePage PatchTablePanel::add_page(const QString& title, const char* name) {
+  const TablePage page = add_table_page(*tabs_, title, name, {});
   connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this, page](const QModelIndex& index) {
             // Does nothing in the table of partners: selecting another patch would replace its
@@ -130,7 +105,7 @@ PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char
   return page;
 }
 
-const PatchTablePanel::Page& PatchTablePanel::current() const {
+const TablePage& PatchTablePanel::current() const {
   return tabs_->currentIndex() == 0 ? all_ : partners_;
 }
 
@@ -143,7 +118,7 @@ void PatchTablePanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapsh
 
 void PatchTablePanel::clear() {
   snapshot_ = nullptr;
-  for (const Page& page : {all_, partners_}) {
+  for (const TablePage& page : {all_, partners_}) {
     page.table->set_contents({}, {});
   }
   count_rows();
@@ -186,7 +161,7 @@ void PatchTablePanel::show_partners() {
 }
 
 void PatchTablePanel::mark_selection() {
-  const Page& page = current();
+  const TablePage& page = current();
   const int row = selection_.patch() == no_patch ? -1 : page.table->row_of(selection_.patch());
   if (row < 0) {
     page.view->clearSelection();

@@ -5,17 +5,14 @@
 #include <memory>
 
 #include "model/snapshot.h"
+#include "patches/patch_table.h"
 #include "state/selection.h"
 
-class QLabel;
 class QLineEdit;
-class QTableView;
 class QTabWidget;
 class QTimer;
 
 namespace transillum::viewer {
-
-class PatchTable;
 
 /// Two tables, of all patches and of the partners of the selected patch, which can be sorted,
 /// searched and written as CSV. A click selects a patch; the selected patch is highlighted.
@@ -40,13 +37,8 @@ class PatchTablePanel : public QWidget {
   void failed(const QString& message);
 
  private:
-  struct Page {
-    PatchTable* table;
-    QTableView* view;
-    QLabel* caption;
-  };
-  Page add_page(const QString& title, const char* name);
-  const Page& current() const;
+  TablePage add_page(const QString& title, const char* name);
+  const TablePage& current() const;
   void refresh();
   void show_partners();
   void mark_selection();
@@ -57,7 +49,7 @@ class PatchTablePanel : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLineEdit* search_;
   QTabWidget* tabs_;
-  Page all_, partners_;
+  TablePage all_, partners_;
   bool watched_ = false;
   QTimer* refresh_timer_;  ///< limits how often tables are refilled
 };

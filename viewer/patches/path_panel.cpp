@@ -4,26 +4,23 @@
 // thread while it is visible, and tells the window which paths to draw in the scene.
 #include "patches/path_panel.h"
 
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStringList>
 #include <QTableWidget>
-#include <QVBoxLayout>
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <utility>
 
 #include "colors/color_scale.h"
-#include "model/form_factor_views.h"
-#include "support/column_format.h"
+#include "model/snapshot_values.h"
+#include "support/number_text.h"
 #include "transillum/files.h"
+#include "widgets/build.h"
+#include "widgets/dialogs.h"
 #include "widgets/figure_table.h"
-#include "widgets/save_dialog.h"
-#include "widgets/symbol_tip.h"
 
 namespace transillum::viewer {
 
@@ -57,15 +54,9 @@ PathPanel::PathPanel(Selection& selection, QWidget* parent)
                 error_ = error;
                 show_paths();
               }) {
-  caption_ = new QLabel;
-  caption_->setObjectName("path_caption");
-  caption_->setWordWrap(true);
-  caption_->setContentsMargins(10, 4, 10, 4);
-  caption_->setForegroundRole(QPalette::PlaceholderText);
+  caption_ = named("path_caption", note_label({}, {10, 4, 10, 4}));
   make_table();
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addLayout(make_controls());
   layout->addWidget(caption_);
   layout->addWidget(table_, 1);
@@ -74,19 +65,15 @@ PathPanel::PathPanel(Selection& selection, QWidget* parent)
 }
 
 QLayout* PathPanel::make_controls() {
-  count_ = new QSpinBox;
-  count_->setObjectName("path_count");
+  count_ =
+      named("path_count", new QSpinBox, tr("How many of the strongest paths to list and draw"));
   count_->setRange(1, 1000);
   count_->setValue(20);
-  count_->setToolTip(tr("How many of the strongest paths to list and draw"));
   auto* label = new QLabel(tr("Strongest"));
   label->setBuddy(count_);
-  export_ = new QPushButton(tr("Export…"));
-  export_->setObjectName("export_paths");
-  export_->setToolTip(tr("Write the paths as CSV or JSON"));
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(10, 8, 10, 6);
-  row->setSpacing(6);
+  export_ =
+      named("export_paths", new QPushButton(tr("Export…")), tr("Write the paths as CSV or JSON"));
+  auto* row = make_row({10, 8, 10, 6}, 6);
   row->addWidget(label);
   row->addWidget(count_);
   row->addStretch(1);
@@ -97,8 +84,7 @@ QLayout* PathPanel::make_controls() {
 }
 
 void PathPanel::make_table() {
-  table_ = new QTableWidget(0, 4);
-  table_->setObjectName("path_table");
+  table_ = named("path_table", new QTableWidget(0, 4));
   table_->setHorizontalHeaderLabels({tr("Share, %"), tr("B, W/m²"), tr("Bounces"), tr("Path")});
   const QString tips[] = {
       tr("Part of the radiosity of the selected patch, by luminance"),

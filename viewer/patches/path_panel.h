@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <memory>
 
-#include "model/light_request.h"
+#include "model/requests/slow_quantities.h"
 #include "radiosity/form_factors/light_paths.h"
 #include "state/selection.h"
 #include "support/newest_result.h"

@@ -4,9 +4,7 @@
 // shown in color by ColorChoice, as one of its quantities.
 #include "patches/run_panel.h"
 
-#include <QAction>
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLocale>
@@ -15,12 +13,12 @@
 #include <QStandardItemModel>
 #include <QTableWidget>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "model/command_text.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/elided.h"
 #include "widgets/engine_text.h"
 #include "widgets/figure_table.h"
@@ -61,9 +59,7 @@ void set_choosable(const QComboBox& box, int index, const QString& reason) {
 }
 
 QComboBox* make_choice(const char* name, const QString& tip) {
-  auto* box = new ElidedComboBox;
-  box->setObjectName(QString::fromLatin1(name));
-  box->setToolTip(tip);
+  auto* box = named(name, new ElidedComboBox, tip);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(8);
   return box;
@@ -75,17 +71,11 @@ RunPanel::RunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAc
                    QWidget* parent)
     : QWidget(parent), colors_(colors), runs_(colors.kept_runs()), selection_(selection) {
   make_table();
-  hint_ = new QLabel;
-  hint_->setObjectName("run_hint");
-  hint_->setWordWrap(true);
-  hint_->setContentsMargins(10, 0, 10, 2);
-  hint_->setForegroundRole(QPalette::PlaceholderText);
+  hint_ = named("run_hint", note_label({}, {10, 0, 10, 2}));
   // A layout does not count further lines of wrapped text, and would lay the table over them.
   hint_->setMinimumHeight(2 * hint_->fontMetrics().lineSpacing() + 2);
   table_->setMinimumHeight(38);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(2);
+  auto* layout = make_column(this, {}, 2);
   layout->addLayout(make_buttons(keep, difference));
   layout->addWidget(table_, 1);
   layout->addWidget(hint_);
@@ -99,8 +89,7 @@ RunPanel::RunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAc
 }
 
 void RunPanel::make_table() {
-  table_ = new QTableWidget(0, column_count);
-  table_->setObjectName("run_table");
+  table_ = named("run_table", new QTableWidget(0, column_count));
   table_->setHorizontalHeaderLabels(
       {tr("Name"), tr("M"), tr("Sampling"), tr("Engine"), tr("Iterations"), tr("Kept")});
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -119,17 +108,13 @@ void RunPanel::make_table() {
 }
 
 QLayout* RunPanel::make_buttons(QAction& keep, QAction& difference) {
-  remove_ = new QToolButton;
+  remove_ = named("remove_run", new QToolButton,
+                  tr("Remove the run chosen in the list (Del); Undo restores it"));
   remove_->setText(tr("Remove"));
-  remove_->setObjectName("remove_run");
-  remove_->setToolTip(tr("Remove the run chosen in the list (Del); Undo restores it"));
   connect(remove_, &QToolButton::clicked, this, &RunPanel::remove_current);
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(8, 4, 8, 0);
+  auto* row = make_row({8, 4, 8, 0});
   for (QAction* action : {&keep, &difference}) {
-    auto* button = new QToolButton;
-    button->setDefaultAction(action);
-    row->addWidget(button);
+    row->addWidget(button_for(action));
   }
   row->addStretch(1);
   row->addWidget(remove_);
@@ -140,9 +125,7 @@ QLayout* RunPanel::make_choices() {
   second_ = make_choice("run_b", tr("The run whose difference from A is shown"));
   first_ =
       make_choice("run_a", tr("Run A, which is subtracted, and shown while the key A is held"));
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(10, 0, 8, 2);
-  row->setSpacing(6);
+  auto* row = make_row({10, 0, 8, 2}, 6);
   row->addWidget(second_, 1);
   row->addWidget(new QLabel(tr("minus A:")));
   row->addWidget(first_, 1);
@@ -153,20 +136,17 @@ QLayout* RunPanel::make_choices() {
 }
 
 QLayout* RunPanel::make_figures() {
-  figures_ = new QLabel;
-  figures_->setObjectName("run_difference");
+  figures_ =
+      named("run_difference", new QLabel,
+            tr("RMS of the difference of B over RMS of the reflected light of A, without patches "
+               "that\nemit; and the largest magnitude of the difference in a color"));
   figures_->setWordWrap(true);
   figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  figures_->setToolTip(
-      tr("RMS of the difference of B over RMS of the reflected light of A, without patches that\n"
-         "emit; and the largest magnitude of the difference in a color channel"));
-  go_ = new QToolButton;
+  go_ = named("go_to_difference", new QToolButton,
+              tr("Select the patch with the largest difference, and turn the scene to it"));
   go_->setText(tr("Go to the patch"));
-  go_->setObjectName("go_to_difference");
-  go_->setToolTip(tr("Select the patch with the largest difference, and turn the scene to it"));
   connect(go_, &QToolButton::clicked, this, &RunPanel::go_to_worst);
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(10, 0, 8, 4);
+  auto* row = make_row({10, 0, 8, 4});
   row->addWidget(figures_, 1);
   row->addWidget(go_);
   return row;

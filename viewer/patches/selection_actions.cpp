@@ -1,27 +1,30 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "patches/selection_actions.h"
 
-#include <QAction>
 #include <QMenu>
 #include <utility>
+
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
 SelectionActions::SelectionActions(Selection& selection, HiddenPatches& hidden, QObject* parent)
     : QObject(parent), selection_(selection), hidden_(hidden) {
-  material_ = add("select_material", tr("Select the material"),
-                  tr("Select all patches of the selected patch's material"), "Ctrl+M");
-  group_ = add("select_group", tr("Select the group"),
-               tr("Select all patches of the selected patch's group"), "Ctrl+G");
-  face_ =
-      add("select_face", tr("Select the face"),
-          tr("Select all patches that the selected patch's face was divided into"), "Ctrl+Shift+F");
-  hide_ = add("hide_selection", tr("Hide the selection"),
-              tr("Do not draw the selected patches in the scene"), "H");
-  isolate_ = add("isolate_selection", tr("Isolate the selection"),
-                 tr("Draw only the selected patches in the scene"), "I");
-  show_all_ =
-      add("show_all", tr("Show all patches"), tr("Show the hidden patches again"), "Shift+H");
+  material_ = make_action(this, "select_material", tr("Select the material"),
+                          tr("Select all patches of the selected patch's material"),
+                          QKeySequence("Ctrl+M"));
+  group_ =
+      make_action(this, "select_group", tr("Select the group"),
+                  tr("Select all patches of the selected patch's group"), QKeySequence("Ctrl+G"));
+  face_ = make_action(this, "select_face", tr("Select the face"),
+                      tr("Select all patches that the selected patch's face was divided into"),
+                      QKeySequence("Ctrl+Shift+F"));
+  hide_ = make_action(this, "hide_selection", tr("Hide the selection"),
+                      tr("Do not draw the selected patches in the scene"), QKeySequence("H"));
+  isolate_ = make_action(this, "isolate_selection", tr("Isolate the selection"),
+                         tr("Draw only the selected patches in the scene"), QKeySequence("I"));
+  show_all_ = make_action(this, "show_all", tr("Show all patches"),
+                          tr("Show the hidden patches again"), QKeySequence("Shift+H"));
   connect(material_, &QAction::triggered, this, [this] {
     const auto material = scene_->patch(selection_.patch()).material;
     select_where([material](const Patch& patch) { return patch.material == material; });
@@ -42,25 +45,12 @@ SelectionActions::SelectionActions(Selection& selection, HiddenPatches& hidden, 
   show_state();
 }
 
-QAction* SelectionActions::add(const char* name, const QString& text, const QString& tip,
-                               const char* key) {
-  auto* action = new QAction(text, this);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setToolTip(tip);
-  action->setShortcut(QKeySequence(QString::fromLatin1(key)));
-  return action;
-}
-
 void SelectionActions::add_to(QMenu& menu) const {
   menu.setToolTipsVisible(true);
   menu.addSeparator();
-  for (QAction* action : {material_, group_, face_}) {
-    menu.addAction(action);
-  }
+  menu.addActions({material_, group_, face_});
   menu.addSeparator();
-  for (QAction* action : {hide_, isolate_, show_all_}) {
-    menu.addAction(action);
-  }
+  menu.addActions({hide_, isolate_, show_all_});
 }
 
 void SelectionActions::show_scene(std::shared_ptr<const Scene> scene) {

@@ -24,7 +24,6 @@ class SelectionActions : public QObject {
   void show_scene(std::shared_ptr<const Scene> scene);
 
  private:
-  QAction* add(const char* name, const QString& text, const QString& tip, const char* key);
   /// Selects all patches for which belongs(patch) holds.
   template <class Belongs>
   void select_where(const Belongs& belongs);

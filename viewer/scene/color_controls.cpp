@@ -5,7 +5,6 @@
 #include "scene/color_controls.h"
 
 #include <QAbstractItemView>
-#include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QCoreApplication>
@@ -18,12 +17,12 @@
 #include <QSlider>
 #include <QStackedWidget>
 #include <QStandardItemModel>
-#include <QToolButton>
 #include <algorithm>
 #include <cmath>
 
 #include "colors/scale_menu.h"
 #include "scene/show_menu.h"
+#include "widgets/build.h"
 #include "widgets/elided.h"
 
 namespace transillum::viewer {
@@ -37,9 +36,7 @@ constexpr int min_quantity_letters = 7;  // wide letters: fits "Radiosity B"
 constexpr int max_quantity_width = 260;
 
 QHBoxLayout* row_in(QWidget* part) {
-  auto* row = new QHBoxLayout(part);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(spacing);
+  auto* row = make_row(part, {}, spacing);
   return row;
 }
 
@@ -87,15 +84,13 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
 }
 
 void ColorControls::make_quantity_row() {
-  quantity_ = new ElidedComboBox;
-  quantity_->setObjectName("quantity");
+  quantity_ = named("quantity", new ElidedComboBox);
   quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   quantity_->setMinimumContentsLength(min_quantity_letters);
   quantity_->setMaximumWidth(max_quantity_width);
   quantity_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   fill_quantities();
-  mode_ = new QComboBox;
-  mode_->setObjectName("color_mode");
+  mode_ = named("color_mode", new QComboBox);
   mode_->addItems({tr("True color"), tr("Luminance"), tr("Red"), tr("Green"), tr("Blue")});
   QSizePolicy fixed(QSizePolicy::Fixed, QSizePolicy::Fixed);
   fixed.setRetainSizeWhenHidden(true);  // so that the layout is the same for all quantities
@@ -198,19 +193,17 @@ void ColorControls::ask_for_height() {
 }
 
 QWidget* ColorControls::make_true_color_page() {
-  exposure_slider_ = new QSlider(Qt::Horizontal);
-  exposure_slider_->setObjectName("exposure_slider");
+  exposure_slider_ = named("exposure_slider", new QSlider(Qt::Horizontal));
   exposure_slider_->setRange(static_cast<int>(lowest_exposure) * slider_steps_per_ev,
                              static_cast<int>(highest_exposure) * slider_steps_per_ev);
   exposure_slider_->setMinimumWidth(70);
   exposure_slider_->setMaximumWidth(110);
-  exposure_ = new QDoubleSpinBox;
-  exposure_->setObjectName("exposure");
+  exposure_ =
+      named("exposure", new QDoubleSpinBox, tr("Exposure: B is multiplied by 2 to this power"));
   exposure_->setRange(lowest_exposure, highest_exposure);
   exposure_->setSingleStep(0.25);
   exposure_->setDecimals(2);
   exposure_->setSuffix(tr(" EV"));
-  exposure_->setToolTip(tr("Exposure: B is multiplied by 2 to this power"));
   automatic_ = new QCheckBox(tr("Auto"));
   automatic_->setToolTip(tr("Adjust exposure automatically"));
   gamma_ = new QDoubleSpinBox;
@@ -242,8 +235,7 @@ QWidget* ColorControls::make_true_color_page() {
 }
 
 QWidget* ColorControls::make_map_page() {
-  logarithmic_ = new QCheckBox(tr("Logarithmic"));
-  logarithmic_->setObjectName("logarithmic");
+  logarithmic_ = named("logarithmic", new QCheckBox(tr("Logarithmic")));
 
   auto* page = new QWidget;
   QHBoxLayout* layout = row_in(page);

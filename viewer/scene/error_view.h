@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "model/error_runs.h"
 #include "model/snapshot.h"
-#include "state/initial_view.h"
+#include "model/solver/error_runs.h"
+#include "state/camera_views.h"
 #include "support/request_worker.h"
 
 class QPainter;

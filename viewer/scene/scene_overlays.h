@@ -13,6 +13,11 @@
 #include "model/snapshot.h"
 #include "transillum/at.h"
 
+namespace transillum {
+class Scene;
+struct OrientationPlan;
+}  // namespace transillum
+
 namespace transillum::viewer {
 
 /// The edges of the fragments of all patches that `tree` cuts, `lift` meters in front of them.
@@ -55,6 +60,20 @@ class SceneOverlays {
   vtkSmartPointer<vtkPolyData> surface_;
   double lift_ = 0;
   std::vector<bool> hidden_;
+};
+
+/// The faces that an OrientationPlan would change, drawn over the scene and seen from both sides.
+class TurnPreview {
+ public:
+  explicit TurnPreview(vtkRenderer& renderer);
+
+  /// @param plan for the faces of `scene`
+  void show(const Scene& scene, const OrientationPlan& plan);
+  void hide();
+  bool shown() const { return actor_->GetVisibility() != 0; }
+
+ private:
+  vtkSmartPointer<vtkActor> actor_;
 };
 
 }  // namespace transillum::viewer

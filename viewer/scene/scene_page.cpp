@@ -2,39 +2,31 @@
 #include "scene/scene_page.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 
 #include "colors/color_bar.h"
 #include "colors/color_note.h"
-#include "colors/kept_run_label.h"
 #include "colors/pointer_label.h"
 #include "scene/color_controls.h"
 #include "scene/scene_view.h"
 #include "scene/show_menu.h"
 #include "scene/welcome_page.h"
 #include "widgets/banner.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
 
 ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors, QWidget* parent)
     : QWidget(parent) {
-  recovery_bar_ = new Banner;
-  recovery_bar_->setObjectName("recovery_bar");
-  loading_bar_ = new Banner;
-  loading_bar_->setObjectName("loading_bar");
+  recovery_bar_ = named("recovery_bar", new Banner);
+  loading_bar_ = named("loading_bar", new Banner);
   banner_ = new Banner;
-  light_bar_ = new Banner;
-  light_bar_->setObjectName("light_bar");
-  orientation_bar_ = new Banner;
-  orientation_bar_->setObjectName("orientation_bar");
-  reading_bar_ = new Banner;
-  reading_bar_->setObjectName("reading_bar");
+  light_bar_ = named("light_bar", new Banner);
+  orientation_bar_ = named("orientation_bar", new Banner);
+  reading_bar_ = named("reading_bar", new Banner);
   color_controls_ = new ColorControls(colors);
-  scene_view_ = new SceneView(focus, selection, colors, hidden_);
-  scene_view_->setObjectName("scene_view");
+  scene_view_ = named("scene_view", new SceneView(focus, selection, colors, hidden_));
   welcome_ = new WelcomePage;
   connect(welcome_, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);
   connect(welcome_, &WelcomePage::lesson_clicked, this, &ScenePage::lesson_clicked);
@@ -68,9 +60,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   pages_->addWidget(make_scene(selection, colors));
   make_scenes_action();
 
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addWidget(recovery_bar_);
   layout->addWidget(loading_bar_);
   layout->addWidget(banner_);
@@ -81,15 +71,12 @@ QWidget* ScenePage::make_scene(Selection& selection, ColorChoice& colors) {
   auto* note = new ColorNote(colors);
   connect(note, &ColorNote::replicas_requested, this, &ScenePage::replicas_requested);
   auto* scene = new QWidget;
-  auto* view_and_bar = new QHBoxLayout;
-  view_and_bar->setSpacing(0);
+  auto* view_and_bar = make_row({}, 0);
   view_and_bar->addWidget(scene_view_, 1);
   auto* bar = new ColorBar(colors);
   connect(bar, &ColorBar::patches_chosen, &selection, &Selection::select_all);
   view_and_bar->addWidget(bar);
-  auto* scene_layout = new QVBoxLayout(scene);
-  scene_layout->setContentsMargins(0, 0, 0, 0);
-  scene_layout->setSpacing(0);
+  auto* scene_layout = make_column(scene, {}, 0);
   scene_layout->addWidget(reading_bar_);
   scene_layout->addWidget(light_bar_);
   scene_layout->addWidget(orientation_bar_);

@@ -23,13 +23,12 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <utility>
 
 #include "scene/callout_layer.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -81,11 +80,9 @@ Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
 SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice& colors,
                      const HiddenPatches& hidden, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection), colors_(colors), hidden_(hidden) {
-  canvas_ = new QVTKOpenGLNativeWidget(this);
-  canvas_->setObjectName("scene_canvas");
+  canvas_ = named("scene_canvas", new QVTKOpenGLNativeWidget(this));
   canvas_->setMinimumSize(200, 150);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
+  auto* layout = make_column(this, {});
   layout->addWidget(canvas_);
   callout_layer_ = new CalloutLayer(canvas_);
 
@@ -97,7 +94,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   vtkNew<CameraStyle> style;
   canvas_->interactor()->SetInteractorStyle(style);
 
-  make_surface();
+  surface_ = std::make_unique<PatchSurface>(*renderer_, hidden_);
   halo_ = line_actor(*renderer_, Qt::black);
   outline_ = line_actor(*renderer_, theme::selection);
   renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::follow_camera);
@@ -127,19 +124,6 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   });
 }
 
-void SceneView::make_surface() {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetColorModeToDirectScalars();
-  surface_ = vtkSmartPointer<vtkActor>::New();
-  surface_->SetMapper(mapper);
-  surface_->GetProperty()->LightingOff();  // the colors are B: no shading
-  surface_->GetProperty()->BackfaceCullingOn();
-  surface_->GetProperty()->SetEdgeColor(0.1, 0.11, 0.13);
-  surface_->VisibilityOff();
-  renderer_->AddActor(surface_);
-  linear_surface_ = std::make_unique<LinearSurface>(*renderer_, *surface_->GetProperty());
-}
-
 SceneView::~SceneView() = default;
 
 QWidget* SceneView::canvas() const { return canvas_; }
@@ -151,14 +135,8 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   const bool stays = loaded_ && whole_of(loaded) == whole_of(loaded_);
   loaded_ = std::move(loaded);
   snapshot_ = nullptr;
-  mesh_ = std::make_unique<SceneMesh>(loaded_->scene);
-  mesh_->leave_out(hidden_.flags());
-  smooth_mesh_ = nullptr;
-  linear_surface_->show_scene(loaded_->scene);
-  linear_surface_->leave_out(hidden_.flags());
+  surface_->show_scene(loaded_->scene);
   set_clip(clip_);
-  show_surface();
-  surface_->VisibilityOn();
   glyph_->hide();
   turn_preview_->hide();
   feature_edges_->show_scene(loaded_);
@@ -167,7 +145,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   if (!stays) {
     reset_view();
   }
-  overlays_->show_scene(loaded_, mesh_->surface(), 5e-4 * radius_);
+  overlays_->show_scene(loaded_, surface_->pieces(), 5e-4 * radius_);
   overlays_->leave_out(hidden_.flags());
 }
 
@@ -188,7 +166,7 @@ void SceneView::set_direction_shown(bool shown) {
 }
 
 void SceneView::set_outlines_shown(bool shown) {
-  surface_->GetProperty()->SetEdgeVisibility(shown);
+  surface_->set_outlined(shown);
   if (snapshot_) {
     show_edges();
   }
@@ -201,37 +179,14 @@ void SceneView::set_overlay_shown(SceneOverlays::Kind kind, bool shown) {
 }
 
 void SceneView::set_wireframe(bool wireframe) {
-  if (wireframe) {
-    surface_->GetProperty()->SetRepresentationToWireframe();
-  } else {
-    surface_->GetProperty()->SetRepresentationToSurface();
-  }
+  surface_->set_wireframe(wireframe);
   render();
 }
 
 void SceneView::set_smooth_shading(bool smooth) {
-  smooth_shading_ = smooth;
-  if (!loaded_) {
-    return;
-  }
-  show_surface();
+  surface_->set_smooth(smooth);
   recolor();
   render();
-}
-
-void SceneView::show_surface() {
-  if (smooth_shading_ && !smooth_mesh_) {
-    smooth_mesh_ = std::make_unique<SmoothMesh>(*loaded_->scene);
-    smooth_mesh_->leave_out(*loaded_->scene, hidden_.flags());
-  }
-  auto* mapper = vtkPolyDataMapper::SafeDownCast(surface_->GetMapper());
-  if (smooth_shading_) {
-    mapper->SetScalarModeToUsePointData();
-    mapper->SetInputData(smooth_mesh_->surface());
-  } else {
-    mapper->SetScalarModeToUseCellData();
-    mapper->SetInputData(mesh_->surface());
-  }
 }
 
 void SceneView::leave_out_hidden() {
@@ -239,11 +194,7 @@ void SceneView::leave_out_hidden() {
   if (!loaded_ || std::ssize(hidden_.flags()) != loaded_->scene->patch_count()) {
     return;
   }
-  mesh_->leave_out(hidden_.flags());
-  linear_surface_->leave_out(hidden_.flags());
-  if (smooth_mesh_) {
-    smooth_mesh_->leave_out(*loaded_->scene, hidden_.flags());
-  }
+  surface_->leave_out_hidden();
   overlays_->leave_out(hidden_.flags());
   recolor();
   render();
@@ -261,8 +212,9 @@ void SceneView::set_clip(const std::optional<ClipPlane>& clip) {
     clip_plane_->SetOrigin(place.x, place.y, place.z);
   }
   std::vector<vtkActor*> actors = overlays_->actors();
-  actors.insert(actors.end(), {surface_.Get(), linear_surface_->actor(), halo_.Get(),
-                               outline_.Get(), feature_edges_->actor()});
+  const std::vector<vtkActor*> of_patches = surface_->actors();
+  actors.insert(actors.end(), of_patches.begin(), of_patches.end());
+  actors.insert(actors.end(), {halo_.Get(), outline_.Get(), feature_edges_->actor()});
   for (vtkActor* actor : actors) {
     actor->GetMapper()->RemoveAllClippingPlanes();
     if (clip_ && loaded_) {
@@ -384,7 +336,7 @@ void SceneView::set_camera(const ViewPoint& view) {
 }
 
 void SceneView::recolor() {
-  if (!mesh_ || !snapshot_) {
+  if (!snapshot_) {
     return;
   }
   patch_colors_ = colors_.patch_colors();
@@ -393,18 +345,7 @@ void SceneView::recolor() {
     dimmed = later_patches(*focus_.map(), focus_.position().step);
     dim_patches(dimmed, patch_colors_);
   }
-  surface_->SetVisibility(!colors_.linear());
-  if (colors_.linear()) {
-    linear_surface_->show(colors_, dimmed);
-    show_edges();
-    return;
-  }
-  linear_surface_->hide();
-  if (smooth_shading_) {
-    smooth_mesh_->color(patch_colors_);
-  } else {
-    mesh_->color(patch_colors_);
-  }
+  surface_->color(colors_, patch_colors_, dimmed);
   show_edges();
 }
 
@@ -414,9 +355,8 @@ void SceneView::show_edges() {
   const bool of_material =
       colors_.quantity() == Quantity::exitance || colors_.quantity() == Quantity::reflectance;
   glyph_->set_filled(!mapped);
-  const bool drawn_already = surface_->GetProperty()->GetEdgeVisibility() != 0;
-  const bool smooth = smooth_shading_ && !colors_.linear();
-  if ((mapped || of_material) && !drawn_already && !smooth) {
+  const bool smooth = surface_->smooth() && !colors_.linear();
+  if ((mapped || of_material) && !surface_->outlined() && !smooth) {
     feature_edges_->show(patch_colors_, hidden_.flags());
   } else {
     feature_edges_->hide();
@@ -550,7 +490,7 @@ void SceneView::render() {
   overlays_->set_line_width(1.2 * scale);
   feature_edges_->set_line_width(1.2 * scale);
   path_glyph_->set_line_width(1.5 * scale);
-  surface_->GetProperty()->SetLineWidth(scale);
+  surface_->set_line_width(scale);
   renderer_->SetUseFXAA(antialiased_ && at_rest());
   renderer_->ResetCameraClippingRange();
   if (canvas_->isVisible()) {

@@ -22,20 +22,15 @@
 #include "model/snapshot.h"
 #include "scene/direction_glyph.h"
 #include "scene/feature_edges.h"
-#include "scene/linear_surface.h"
+#include "scene/patch_surface.h"
 #include "scene/path_glyph.h"
-#include "scene/scene_mesh.h"
 #include "scene/scene_overlays.h"
-#include "scene/smooth_mesh.h"
-#include "scene/step_glyph.h"
-#include "scene/turn_preview.h"
 #include "state/callout.h"
 #include "state/camera_views.h"
-#include "state/clip_plane.h"
 #include "state/focus.h"
 #include "state/hidden_patches.h"
-#include "state/initial_view.h"
 #include "state/selection.h"
+#include "state/view_choices.h"
 
 class QTimer;
 class QVTKOpenGLNativeWidget;
@@ -119,10 +114,8 @@ class SceneView : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void make_surface();
   void set_camera(const ViewPoint& view);
   double aspect() const;
-  void show_surface();
   void recolor();
   void show_direction();
   bool stepping() const;
@@ -142,10 +135,6 @@ class SceneView : public QWidget {
   const HiddenPatches& hidden_;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
-  std::unique_ptr<SceneMesh> mesh_;
-  std::unique_ptr<SmoothMesh> smooth_mesh_;  ///< made when first shown
-  std::unique_ptr<LinearSurface> linear_surface_;
-  bool smooth_shading_ = false;
   bool turntable_ = false;
   std::vector<Color8> patch_colors_;
   Vec3 focus_point_;              ///< center of the part of interest, meters
@@ -166,7 +155,7 @@ class SceneView : public QWidget {
   vtkNew<vtkRenderer> renderer_;
   std::optional<ClipPlane> clip_;
   vtkNew<vtkPlane> clip_plane_;
-  vtkSmartPointer<vtkActor> surface_;
+  std::unique_ptr<PatchSurface> surface_;
   vtkSmartPointer<vtkActor> halo_, outline_;
   std::unique_ptr<FeatureEdges> feature_edges_;
   std::unique_ptr<DirectionGlyph> glyph_;

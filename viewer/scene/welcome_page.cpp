@@ -12,10 +12,10 @@
 #include <QPushButton>
 #include <QScrollBar>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "transillum/scene.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 // The resources of a static library must be initialized explicitly.
@@ -42,13 +42,9 @@ class WelcomePage::Card : public QPushButton {
     picture_->setScaledContents(true);
     picture_->setPixmap(QPixmap(QStringLiteral(":/pictures/scene-%1.png").arg(name)));
     title_ = new QLabel(QStringLiteral("<b>%1</b>").arg(name));
-    summary_ = new QLabel(QString::fromStdString(scene.summary));
-    summary_->setWordWrap(true);
-    summary_->setForegroundRole(QPalette::PlaceholderText);
+    summary_ = note_label(QString::fromStdString(scene.summary));
     summary_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(padding, padding, padding, padding);
-    layout->setSpacing(4);
+    auto* layout = make_column(this, {padding, padding, padding, padding}, 4);
     for (QLabel* label : {picture_, title_, summary_}) {
       label->setAttribute(Qt::WA_TransparentForMouseEvents);
       layout->addWidget(label);
@@ -74,8 +70,7 @@ class WelcomePage::Card : public QPushButton {
 
 WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   init_resources();
-  title_ = new QLabel;
-  title_->setObjectName("welcome_title");
+  title_ = named("welcome_title", new QLabel);
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* hint =
       new QLabel(tr("The scene is solved immediately, one direction after another. You can also "
@@ -83,11 +78,10 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
                     "or drop it here."));
   hint->setWordWrap(true);
   auto* open = new QPushButton(theme::icon(theme::Icon::open), tr("Open a file…"));
-  auto* lesson = new QPushButton(theme::icon(theme::Icon::run), tr("Start with a lesson"));
-  lesson->setObjectName("begin_lesson");
+  auto* lesson = named("begin_lesson",
+                       new QPushButton(theme::icon(theme::Icon::run), tr("Start with a lesson")));
   auto* buttons = new QHBoxLayout;
-  back_ = new QPushButton(tr("Back to the open scene"));
-  back_->setObjectName("back_to_scene");
+  back_ = named("back_to_scene", new QPushButton(tr("Back to the open scene")));
   back_->hide();
   for (QPushButton* button : {lesson, open, back_}) {
     buttons->addWidget(button);
@@ -103,9 +97,7 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
             [this, name] { emit built_in_clicked(name); });
   }
   auto* page = new QWidget;
-  auto* column = new QVBoxLayout(page);
-  column->setContentsMargins(margin, margin, margin, margin);
-  column->setSpacing(gap);
+  auto* column = make_column(page, {margin, margin, margin, margin}, gap);
   column->addWidget(title_);
   column->addWidget(hint);
   column->addLayout(buttons);

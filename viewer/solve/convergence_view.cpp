@@ -4,14 +4,13 @@
 // focus is marked in them.
 #include "solve/convergence_view.h"
 
-#include <QVBoxLayout>
 #include <algorithm>
 #include <numbers>
 
 #include "support/number_text.h"
 #include "transillum/bounds.h"
+#include "widgets/build.h"
 #include "widgets/log_chart.h"
-#include "widgets/symbol_tip.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -80,9 +79,7 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
   iteration_chart_->set_hint(tr("One point per finished iteration"));
   direction_chart_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative"));
   direction_chart_->set_hint(tr("One point per direction"));
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(1);
+  auto* layout = make_column(this, {}, 1);
   layout->addWidget(iteration_chart_);
   layout->addWidget(direction_chart_);
 

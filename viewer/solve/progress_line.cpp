@@ -5,12 +5,12 @@
 #include "solve/progress_line.h"
 
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
 #include <utility>
 
 #include "support/number_text.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -27,7 +27,7 @@ QString percent(double share) { return ProgressLine::tr("%1 %").arg(number_text(
 QString accuracy_text(const AccuracyReport& report) {
   const QString passes = count_text(report.passes_made);
   if (report.goal.accuracy == 0) {
-    return ProgressLine::tr("Time is up: error at most %1, %2 passes")
+    return ProgressLine::tr("Time is up: error at most %1 after %2 passes")
         .arg(percent(report.error), passes);
   }
   if (!report.reached) {
@@ -53,31 +53,24 @@ QString name_of(const LoadedScene& loaded) {
 }  // namespace
 
 ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
-  scene_ = new QLabel;
-  scene_->setObjectName("scene_summary");
+  scene_ = named("scene_summary", new QLabel);
   scene_->hide();
-  phase_ = new QLabel(tr("No scene"));
-  phase_->setObjectName("phase");
+  phase_ = named("phase", new QLabel(tr("No scene")));
   phase_->setSizePolicy(QSizePolicy::MinimumExpanding, QSizePolicy::Preferred);
-  bar_ = new QProgressBar;
-  bar_->setObjectName("progress");
+  bar_ = named("progress", new QProgressBar);
   bar_->setMinimumWidth(90);
   bar_->setMaximumWidth(260);
   bar_->setFixedHeight(16);
   bar_->setVisible(false);
-  rate_ = new QLabel;
-  rate_->setObjectName("rate");
-  time_ = new QLabel;
-  time_->setObjectName("time");
+  rate_ = named("rate", new QLabel);
+  time_ = named("time", new QLabel);
   // Fixed widths, so that labels do not move while numbers change.
   rate_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("8888.8 passes/s  ")));
   time_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("88 min 88 s left  ")));
   rate_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   time_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
 
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(8, 3, 8, 3);
-  layout->setSpacing(16);
+  auto* layout = make_row(this, {8, 3, 8, 3}, 16);
   layout->addWidget(scene_);
   layout->addWidget(phase_, 1);
   layout->addWidget(bar_, 1);

@@ -7,7 +7,8 @@
 #include <QLineEdit>
 #include <QLocale>
 #include <QSpinBox>
-#include <QVBoxLayout>
+
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -22,23 +23,19 @@ QString percent_text(double share) {
 }  // namespace
 
 RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
-  by_ = new QComboBox;
-  by_->setObjectName("refine_by");
+  by_ =
+      named("refine_by", new QComboBox,
+            tr("Rounds of refinement before the solve: each solves, and divides the patches that "
+               "are worst\nJumps: where B jumps most to neighboring patches\nError: where a solve "
+               "with every patch divided differs most; rounds take about five times as long"));
   by_->addItems({tr("None"), tr("Jumps"), tr("Error")});
   by_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   by_->setMinimumContentsLength(8);
-  by_->setToolTip(tr(
-      "Rounds of refinement before the solve: each round solves, and divides the worst "
-      "patches\nJumps: patches with the largest jump of B to their neighbors\nError: patches where "
-      "a solve with every patch divided differs most; rounds take about five times as long"));
-  patches_ = new QSpinBox;
-  patches_->setObjectName("refine_patches");
+  patches_ = named("refine_patches", new QSpinBox, tr("Largest number of patches"));
   patches_->setRange(1, 1 << 24);
   patches_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   patches_->setValue(usual_patches);
-  patches_->setToolTip(tr("Largest number of patches"));
-  until_ = new QLineEdit;
-  until_->setObjectName("refine_until");
+  until_ = named("refine_until", new QLineEdit);
   auto* percent = new QDoubleValidator(0, 99, 6, until_);
   percent->setLocale(QLocale::c());
   until_->setValidator(percent);
@@ -52,9 +49,7 @@ RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
   limits->setVerticalSpacing(4);
   limits->addRow(tr("Patches"), patches_);
   limits->addRow(tr("Until, %"), until_);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(2);
+  auto* layout = make_column(this, {}, 2);
   layout->addWidget(by_);
   layout->addWidget(limits_);
   show_limits();

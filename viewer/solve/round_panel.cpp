@@ -4,7 +4,6 @@
 // comes from snapshots.
 #include "solve/round_panel.h"
 
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QProgressBar>
@@ -12,10 +11,10 @@
 #include <QScrollArea>
 #include <QTableWidget>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "support/number_text.h"
+#include "widgets/build.h"
 #include "widgets/figure_table.h"
 
 namespace transillum::viewer {
@@ -45,15 +44,14 @@ RoundsAhead rounds_ahead(PatchId patches, const RefineChoice& refine) {
   }
   ahead.patches += refine.patches;
   if (refine.by == RefineBy::error) {
-    ++ahead.rounds;  // the last round gives the error of the patches that are then solved
+    ++ahead.rounds;  // the last round tells the error of the mesh that is solved then
     ahead.patches += 0.25 * refine.patches;
   }
   return ahead;
 }
 
 RoundPanel::RoundPanel(QWidget* parent) : QWidget(parent) {
-  table_ = new QTableWidget(0, column_count);
-  table_->setObjectName("round_table");
+  table_ = named("round_table", new QTableWidget(0, column_count));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);
@@ -61,28 +59,22 @@ RoundPanel::RoundPanel(QWidget* parent) : QWidget(parent) {
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   table_->setHorizontalHeaderLabels({tr("Round"), tr("Patches"), QString(), tr("Time, s")});
   set_up_figure_table(*table_, {QString(), QString(), QString(), QString()});
-  phase_ = new QLabel;
-  phase_->setObjectName("round_phase");
-  bar_ = new QProgressBar;
-  bar_->setObjectName("round_progress");
+  phase_ = named("round_phase", new QLabel);
+  bar_ = named("round_progress", new QProgressBar);
   bar_->setRange(0, bar_steps);
   bar_->setTextVisible(false);
   bar_->setFixedHeight(8);
-  cancel_ = new QPushButton(tr("Cancel"));
-  cancel_->setObjectName("cancel_rounds");
-  cancel_->setToolTip(tr("Discard the rounds and return to the faces as they were"));
+  cancel_ = named("cancel_rounds", new QPushButton(tr("Cancel")),
+                  tr("Discard the rounds and return to the faces as they were"));
   connect(cancel_, &QPushButton::clicked, this, &RoundPanel::canceled);
   // A text that grows must not widen the panel.
   phase_->setWordWrap(true);
   phase_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
+  auto* row = make_row({}, 8);
   row->addWidget(bar_, 1);
   row->addWidget(cancel_);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(6);
-  // The progress is above the table, because the table grows.
+  auto* layout = make_column(this, {}, 6);
+  // The buttons are above the table, because the table grows.
   layout->addWidget(phase_);
   layout->addLayout(row);
   layout->addWidget(table_);

@@ -5,34 +5,27 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
-#include <QLabel>
 #include <QSpinBox>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "solve/settings_panel.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
 void SettingsPanel::add_glossy_row(QFormLayout& form) {
-  glossy_ = new QCheckBox(tr("Lobes reflect too"));
-  glossy_->setObjectName("glossy");
-  glossy_->setToolTip(tr(
-      "<span>Off: all surfaces are diffuse, and reflect ρ only. On: the lobes of materials (MTL: "
-      "Ks with Ns or Pr; glTF: metal and roughness) reflect too, mostly near the mirror "
-      "direction. Patches then keep light by direction, and look different from each "
-      "viewpoint. M directions resolve exponents n up to about M/10; sharper lobes are "
-      "coarse.</span>"));
-  glossy_note_ = new QLabel;
-  glossy_note_->setObjectName("glossy_note");
-  glossy_note_->setForegroundRole(QPalette::PlaceholderText);
-  glossy_note_->setWordWrap(true);
+  glossy_ = named("glossy", new QCheckBox(tr("Lobes reflect too")),
+                  tr("<span>Off: all surfaces are diffuse, and reflect ρ only. On: the lobes of "
+                     "materials (MTL: Ks with Ns or Pr; glTF: metal and roughness) reflect too, "
+                     "most of it about the mirror direction. Patches then keep light by direction, "
+                     "and look different from each point. M directions resolve exponents n up to "
+                     "about M/10; sharper lobes are coarse.</span>"));
+  glossy_note_ = named("glossy_note", note_label());
   glossy_note_->hide();
-  auto* column = new QVBoxLayout;
-  column->setSpacing(2);
+  auto* column = make_column({}, 2);
   column->addWidget(glossy_);
   column->addWidget(glossy_note_);
   form.addRow(tr("Glossy"), column);

@@ -9,7 +9,6 @@
 #include <QDoubleSpinBox>
 #include <QDoubleValidator>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QLocale>
@@ -20,7 +19,6 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -30,6 +28,7 @@
 #include "solve/refine_controls.h"
 #include "solve/round_panel.h"
 #include "support/number_text.h"
+#include "widgets/build.h"
 #include "widgets/engine_text.h"
 
 namespace transillum::viewer {
@@ -88,11 +87,8 @@ SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
   refine_ = new RefineControls;
   form->addRow(tr("Refine by"), refine_);
   connect(refine_, &RefineControls::changed, this, &SettingsPanel::show_state);
-  restart_ = new QPushButton(tr("Solve again"));
-  restart_->setObjectName("restart");
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 10, 12, 10);
-  layout->setSpacing(10);
+  restart_ = named("restart", new QPushButton(tr("Solve again")));
+  auto* layout = make_column(this, {12, 10, 12, 10}, 10);
   layout->addLayout(form);
   layout->addWidget(restart_);
   rounds_ = new RoundPanel;
@@ -103,21 +99,16 @@ SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
 }
 
 void SettingsPanel::add_direction_rows(QFormLayout& form) {
-  directions_ = new QSpinBox;
-  directions_->setObjectName("directions");
+  directions_ = named("directions", new QSpinBox, tip("directions"));
   directions_->setRange(1, 1 << 24);
   directions_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   directions_->setGroupSeparatorShown(false);
-  directions_->setToolTip(tip("directions"));
-  sampling_ = new QComboBox;
-  sampling_->setObjectName("sampling");
+  sampling_ = named("sampling", new QComboBox);
   add_choices<Sampling>(*sampling_);
   sampling_->setToolTip(tip("sampling"));
-  seed_ = new QLineEdit;
-  seed_->setObjectName("seed");
+  seed_ = named("seed", new QLineEdit, tip("seed"));
   seed_->setValidator(
       new QRegularExpressionValidator(QRegularExpression(QStringLiteral("[0-9]{1,20}")), seed_));
-  seed_->setToolTip(tip("seed"));
   form.addRow(tr("Directions M"), directions_);
   add_accuracy_row(form);
   form.addRow(tr("Sampling"), sampling_);
@@ -125,38 +116,32 @@ void SettingsPanel::add_direction_rows(QFormLayout& form) {
 }
 
 void SettingsPanel::add_accuracy_row(QFormLayout& form) {
-  accuracy_ = new QLineEdit;
-  accuracy_->setObjectName("accuracy");
+  accuracy_ = named("accuracy", new QLineEdit);
   auto* percent = new QDoubleValidator(0, 99, 6, accuracy_);
   percent->setLocale(QLocale::c());
   accuracy_->setValidator(percent);
   accuracy_->setPlaceholderText(tr("None"));
   accuracy_->setMinimumWidth(60);
   accuracy_->setToolTip(tip("accuracy"));
-  accuracy_of_ = new QComboBox;
-  accuracy_of_->setObjectName("accuracy_of");
+  accuracy_of_ = named("accuracy_of", new QComboBox);
   // In the order of AccuracyOf.
   accuracy_of_->addItems({tr("% RMS"), tr("% largest"), tr("% patch"), tr("% mean")});
   accuracy_of_->setToolTip(tip("accuracy-of"));
   accuracy_of_->setMinimumWidth(60);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(6);
+  auto* row = make_row({}, 6);
   row->addWidget(accuracy_, 1);
   row->addWidget(accuracy_of_, 1);
   form.addRow(tr("Accuracy"), row);
 }
 
 void SettingsPanel::add_engine_rows(QFormLayout& form) {
-  engine_ = new QComboBox;
-  engine_->setObjectName("engine");
+  engine_ = named("engine", new QComboBox);
   add_engines(*engine_, false);
-  resolution_ = new QSpinBox;
-  resolution_->setObjectName("resolution");
+  resolution_ = named("resolution", new QSpinBox);
   resolution_->setRange(0, EngineOptions::largest_resolution);
   resolution_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   resolution_->setSuffix(tr(" px"));
-  order_ = new QComboBox;
-  order_->setObjectName("painters_order");
+  order_ = named("painters_order", new QComboBox);
   add_choices<PaintersOrder>(*order_);
   order_->setToolTip(
       tr("Order of painting\nBSP tree: splits polygons that overlap cyclically, so an order always "
@@ -170,10 +155,8 @@ void SettingsPanel::add_engine_rows(QFormLayout& form) {
 }
 
 void SettingsPanel::add_estimator_rows(QFormLayout& form) {
-  pass_serves_ = new QComboBox;
-  pass_serves_->setObjectName("pass_serves");
+  pass_serves_ = named("pass_serves", new QComboBox, tip("one-way"));
   pass_serves_->addItems({tr("serves ω and −ω"), tr("serves ω only (paper)")});
-  pass_serves_->setToolTip(tip("one-way"));
   normalize_ = new QComboBox;
   add_choices<Normalization>(*normalize_);
   normalize_->setToolTip(
@@ -186,25 +169,18 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
          "Growing: twice as many directions in each iteration, up to M\n"
          "Semi-iterative: M new directions in each iteration, and the mean over iterations\n"
          "Conjugate gradients: one set of passes, then the linear system is solved"));
-  replicas_ = new QSpinBox;
-  replicas_->setObjectName("replicas");
+  replicas_ = named("replicas", new QSpinBox, tip("replicas"));
   replicas_->setRange(1, 64);
   replicas_->setSpecialValueText(tr("None"));
-  replicas_->setToolTip(tip("replicas"));
-  basis_ = new QComboBox;
-  basis_->setObjectName("basis");
+  basis_ = named("basis", new QComboBox);
   add_choices<Basis>(*basis_);
   basis_->setToolTip(tr(
       "Constant: one value of B per patch\n"
       "Linear: a linear function on each patch, with engines Fast, Local map and Exact numbers;\n"
       "a pass takes about one and a half times as long, form factors take nine times the memory"));
-  basis_note_ = new QLabel;
-  basis_note_->setObjectName("basis_note");
-  basis_note_->setForegroundRole(QPalette::PlaceholderText);
-  basis_note_->setWordWrap(true);
+  basis_note_ = named("basis_note", note_label());
   basis_note_->hide();
-  auto* basis_column = new QVBoxLayout;
-  basis_column->setSpacing(2);
+  auto* basis_column = make_column({}, 2);
   basis_column->addWidget(basis_);
   basis_column->addWidget(basis_note_);
   form.addRow(tr("B on a patch"), basis_column);
@@ -231,20 +207,17 @@ void SettingsPanel::add_stop_row(QFormLayout& form) {
   stop_value_ = new QStackedWidget;
   stop_value_->addWidget(tolerance_);
   stop_value_->addWidget(iterations_);
-  auto* stop_row = new QHBoxLayout;
-  stop_row->setSpacing(6);
+  auto* stop_row = make_row({}, 6);
   stop_row->addWidget(stop_at_, 3);
   stop_row->addWidget(stop_value_, 2);
   form.addRow(tr("Stop at"), stop_row);
 }
 
 void SettingsPanel::add_sky_rows(QFormLayout& form) {
-  sky_slider_ = new QSlider(Qt::Horizontal);
-  sky_slider_->setObjectName("sky_slider");
+  sky_slider_ = named("sky_slider", new QSlider(Qt::Horizontal));
   sky_slider_->setRange(0, sky_steps);
   sky_slider_->setMinimumWidth(60);
-  sky_value_ = new QDoubleSpinBox;
-  sky_value_->setObjectName("sky");
+  sky_value_ = named("sky", new QDoubleSpinBox);
   sky_value_->setRange(0, 1e6);
   sky_value_->setDecimals(3);
   sky_value_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -252,29 +225,24 @@ void SettingsPanel::add_sky_rows(QFormLayout& form) {
   sky_value_->setSpecialValueText(tr("None"));
   sky_value_->setKeyboardTracking(false);
   sky_value_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(6);
+  auto* row = make_row({}, 6);
   row->addWidget(sky_slider_, 3);
   row->addWidget(sky_value_, 3);
-  auto* column = new QVBoxLayout;
-  column->setSpacing(2);
+  auto* column = make_column({}, 2);
   column->addLayout(row);
-  sky_note_ = new QLabel;
-  sky_note_->setObjectName("sky_note");
+  sky_note_ = named("sky_note", new QLabel);
   sky_note_->setForegroundRole(QPalette::PlaceholderText);
   sky_note_->hide();
   column->addWidget(sky_note_);  // one line: the layout of a form does not count further lines
   form.addRow(tr("Sky, W/m²"), column);
-  sky_model_ = new QComboBox;
-  sky_model_->setObjectName("sky_model");
+  sky_model_ = named("sky_model", new QComboBox);
   // In the order of SkyModel.
   add_choices<SkyModel>(*sky_model_);
   sky_model_->setToolTip(tr(
       "Uniform: the same radiance from all directions, also from below\n"
       "CIE overcast: three times as bright at the zenith as at the horizon, nothing from below"));
   form.addRow(tr("Sky model"), sky_model_);
-  sky_up_ = new QComboBox;
-  sky_up_->setObjectName("sky_up");
+  sky_up_ = named("sky_up", new QComboBox);
   for (const Axis& axis : axes) {
     sky_up_->addItem(QString::fromUtf8(axis.name));
   }
@@ -390,26 +358,19 @@ void SettingsPanel::connect_solve_rows() {
 }
 
 void SettingsPanel::add_scene_rows(QFormLayout& form) {
-  max_patch_area_ = new QLineEdit;
-  max_patch_area_->setObjectName("max_patch_area");
+  max_patch_area_ = named("max_patch_area", new QLineEdit);
   auto* area = new QDoubleValidator(max_patch_area_);
   area->setBottom(0);
   area->setLocale(QLocale::c());
   max_patch_area_->setValidator(area);
   max_patch_area_->setPlaceholderText(tr("Faces not divided"));
   max_patch_area_->setToolTip(tip("max-patch-area"));
-  two_sided_ = new QCheckBox(tr("Two-sided faces"));
-  two_sided_->setObjectName("two_sided");
-  two_sided_->setToolTip(tip("two-sided"));
-  auto* area_column = new QVBoxLayout;
-  area_column->setSpacing(2);
+  two_sided_ = named("two_sided", new QCheckBox(tr("Two-sided faces")), tip("two-sided"));
+  auto* area_column = make_column({}, 2);
   area_column->addWidget(max_patch_area_);
   form.addRow(tr("Patch area, m²"), area_column);
-  forecast_ = new QLabel;
-  forecast_->setObjectName("patch_forecast");
-  forecast_->setForegroundRole(QPalette::PlaceholderText);
-  forecast_->setWordWrap(true);
-  forecast_->setToolTip(tr("Number of patches for this area, and approximate memory for a solve"));
+  forecast_ = named("patch_forecast", note_label(),
+                    tr("Number of patches for this area, and approximate memory for a solve"));
   forecast_->hide();
   area_column->addWidget(forecast_);
   form.addRow(QString(), two_sided_);

@@ -1,11 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "solve/solve_actions.h"
 
-#include <QAction>
 #include <QKeySequence>
-#include <QMenu>
-#include <QToolBar>
+#include <QWidget>
 
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -14,10 +13,8 @@ namespace {
 
 QAction* make_action(QObject* parent, theme::Icon icon, const char* name, const QString& text,
                      const QKeySequence& key, const QString& tip) {
-  auto* action = new QAction(theme::icon(icon), text, parent);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setShortcut(key);
-  action->setToolTip(QStringLiteral("%1 (%2)").arg(tip, key.toString(QKeySequence::NativeText)));
+  auto* action = make_key_action(parent, name, text, tip, key);
+  action->setIcon(theme::icon(icon));
   return action;
 }
 
@@ -43,16 +40,8 @@ SolveActions::SolveActions(QObject* parent) : QObject(parent) {
   show_state(RunState::empty, true);
 }
 
-void SolveActions::add_to(QMenu& menu) const {
-  for (QAction* action : {run_, pause_, one_direction_, one_iteration_, stop_}) {
-    menu.addAction(action);
-  }
-}
-
-void SolveActions::add_to(QToolBar& bar) const {
-  for (QAction* action : {run_, pause_, one_direction_, one_iteration_, stop_}) {
-    bar.addAction(action);
-  }
+void SolveActions::add_to(QWidget& bar) const {
+  bar.addActions({run_, pause_, one_direction_, one_iteration_, stop_});
 }
 
 void SolveActions::show_state(RunState state, bool at_start) {

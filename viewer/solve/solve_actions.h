@@ -6,8 +6,7 @@
 #include "model/snapshot.h"
 
 class QAction;
-class QMenu;
-class QToolBar;
+class QWidget;
 
 namespace transillum::viewer {
 
@@ -18,8 +17,8 @@ class SolveActions : public QObject {
  public:
   explicit SolveActions(QObject* parent = nullptr);
 
-  void add_to(QMenu& menu) const;
-  void add_to(QToolBar& bar) const;
+  /// @param bar  a menu or a tool bar
+  void add_to(QWidget& bar) const;
   /// Enables the actions that apply.
   /// @param at_start no direction has been processed yet
   void show_state(RunState state, bool at_start);

@@ -1,12 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "solve/solve_summary.h"
 
-#include <QLabel>
-#include <QVBoxLayout>
-
 #include "support/number_text.h"
 #include "transillum/glossy.h"
-#include "widgets/symbol_tip.h"
+#include "widgets/build.h"
 #include "widgets/value_grid.h"
 
 namespace transillum::viewer {
@@ -69,8 +66,7 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
                     tr("M extrapolated from the error of this run, which requires replicas, and\n"
                        "from the rate at which errors decrease with M"));
   estimate_->setObjectName("summary_estimate");
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 8, 12, 10);
+  auto* layout = make_column(this, {12, 8, 12, 10});
   layout->addWidget(grid);
   layout->addStretch(1);
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "widgets/chart_picture.h"
+#include "widgets/log_chart.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {

@@ -8,10 +8,10 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 
 #include "support/number_text.h"
 #include "transillum/errors.h"
+#include "widgets/build.h"
 #include "widgets/engine_text.h"
 
 namespace transillum::viewer {
@@ -41,9 +41,7 @@ bool is_valid(const SolveOptions& options) {
 }  // namespace
 
 StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
+  auto* layout = make_column(this, {}, 4);
 
   layout->addWidget(heading(tr("Samplings")));
   for (std::size_t k = 0; k < names_of<Sampling>().size(); ++k) {
@@ -91,8 +89,7 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
   layout->addLayout(grid);
   layout->addSpacing(10);
 
-  cost_ = new QLabel;
-  cost_->setObjectName("study_size");
+  cost_ = named("study_size", new QLabel);
   fixed_settings_ = new QLabel;
   for (QLabel* label : {cost_, fixed_settings_}) {
     label->setWordWrap(true);
@@ -106,8 +103,7 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
 
 QCheckBox* StudyChoices::add_box(std::vector<Choice>& choices, const QString& name,
                                  const QString& text, int value, bool on) {
-  auto* box = new QCheckBox(text);
-  box->setObjectName(QStringLiteral("study_%1").arg(name));
+  auto* box = named(QStringLiteral("study_%1").arg(name), new QCheckBox(text));
   box->setChecked(on);
   connect(box, &QCheckBox::toggled, this, [this] {
     show_cost();

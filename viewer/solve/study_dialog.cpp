@@ -6,13 +6,11 @@
 
 #include <QComboBox>
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTableWidget>
-#include <QVBoxLayout>
 #include <cmath>
 #include <utility>
 
@@ -24,7 +22,8 @@
 #include "support/number_text.h"
 #include "transillum/files.h"
 #include "widgets/banner.h"
-#include "widgets/save_dialog.h"
+#include "widgets/build.h"
+#include "widgets/dialogs.h"
 
 namespace transillum::viewer {
 
@@ -54,8 +53,7 @@ Qt::Alignment alignment_of(int column) {
 
 QTableWidget* make_table() {
   const QStringList names = headings(StudyAxis::passes);
-  auto* table = new QTableWidget(0, names.size());
-  table->setObjectName("study_table");
+  auto* table = named("study_table", new QTableWidget(0, names.size()));
   for (int column = 0; column < names.size(); ++column) {
     auto* item = new QTableWidgetItem(names[column]);
     item->setTextAlignment(alignment_of(column));
@@ -79,14 +77,10 @@ StudyDialog::StudyDialog(const std::filesystem::path& cache, QWidget* parent)
   setWindowTitle(tr("Study of directions – transillum"));
   setWindowFlags(windowFlags() | Qt::WindowMaximizeButtonHint);
   banner_ = new Banner;
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(12, 12, 12, 12);
-  row->setSpacing(12);
+  auto* row = make_row({12, 12, 12, 12}, 12);
   row->addWidget(make_controls());
   row->addWidget(make_results(), 1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addWidget(banner_);
   layout->addLayout(row, 1);
   resize(1180, 760);
@@ -100,16 +94,13 @@ QWidget* StudyDialog::make_controls() {
   scene_ = new QLabel;
   scene_->setWordWrap(true);
   choices_ = new StudyChoices;
-  run_ = new QPushButton;
-  run_->setObjectName("study_run");
+  run_ = named("study_run", new QPushButton);
   run_->setDefault(true);
   connect(run_, &QPushButton::clicked, this, &StudyDialog::run_or_stop);
   connect(choices_, &StudyChoices::changed, this, &StudyDialog::show_buttons);
   auto* controls = new QWidget;
   controls->setFixedWidth(controls_width);
-  auto* layout = new QVBoxLayout(controls);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(12);
+  auto* layout = make_column(controls, {}, 12);
   layout->addWidget(scene_);
   layout->addWidget(choices_, 1);
   layout->addWidget(run_);
@@ -117,39 +108,31 @@ QWidget* StudyDialog::make_controls() {
 }
 
 QWidget* StudyDialog::make_results() {
-  error_ = new QComboBox;
-  error_->setObjectName("study_error");
+  error_ = named("study_error", new QComboBox,
+                 tr("RMS: relative to the RMS of the reflected light, B - E\nLargest: relative to "
+                    "the largest reflected light\nPatches that emit do not count."));
   error_->addItems({tr("RMS error"), tr("Largest error")});
-  error_->setToolTip(
-      tr("RMS: relative to the RMS of the reflected light, B - E\n"
-         "Largest: relative to the largest reflected light\n"
-         "Patches that emit do not count."));
   connect(error_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     chart_->set_measure(measure());
     show_table();
   });
-  axis_ = new QComboBox;
-  axis_->setObjectName("study_axis");
+  axis_ = named("study_axis", new QComboBox,
+                tr("Show the error against the number of passes, or against the processor time "
+                   "of passes\nand iteration, which compares engines"));
   axis_->addItems({tr("Against passes"), tr("Against seconds")});
-  axis_->setToolTip(
-      tr("Show the error against the number of passes, or against the processor "
-         "time of passes\nand iteration, which compares engines"));
   connect(axis_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     chart_->set_axis(axis());
     show_table();
   });
-  phase_ = new QLabel;
-  phase_->setObjectName("study_phase");
+  phase_ = named("study_phase", new QLabel);
   progress_ = new QProgressBar;
   progress_->setRange(0, 1000);
   progress_->setFixedSize(180, 16);
-  save_ = new QPushButton(tr("Save…"));
-  save_->setObjectName("study_save");
-  save_->setToolTip(tr("Save the plot as SVG or PNG, or the values as CSV"));
+  save_ = named("study_save", new QPushButton(tr("Save…")),
+                tr("Save the plot as SVG or PNG, or the values as CSV"));
   save_->setAutoDefault(false);
   connect(save_, &QPushButton::clicked, this, &StudyDialog::choose_file);
-  auto* bar = new QHBoxLayout;
-  bar->setSpacing(12);
+  auto* bar = make_row({}, 12);
   bar->addWidget(error_);
   bar->addWidget(axis_);
   bar->addWidget(phase_, 1);
@@ -160,9 +143,7 @@ QWidget* StudyDialog::make_results() {
   table_ = make_table();
 
   auto* results = new QWidget;
-  auto* layout = new QVBoxLayout(results);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(8);
+  auto* layout = make_column(results, {}, 8);
   layout->addLayout(bar);
   layout->addWidget(chart_, 4);
   layout->addWidget(table_, 1);

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "io/drawing/study_chart.h"
-#include "model/study_runner.h"
+#include "model/solver/study_runner.h"
 
 class QComboBox;
 class QLabel;

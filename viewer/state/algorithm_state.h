@@ -2,12 +2,14 @@
 #pragma once
 
 #include <QString>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "model/snapshot.h"
 #include "state/focus.h"
 #include "transillum/transfers.h"
+#include "visibility/map/map_history.h"
 #include "visibility/map/map_region.h"
 
 namespace transillum::viewer {
@@ -87,5 +89,11 @@ struct RegionState {
 };
 /// The variables at the probed point; not set without one.
 std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot& snapshot);
+
+/// The moments T^ab of the area that the receiver of a step sees of each patch j with which it
+/// exchanges light (ALGORITHM.md 6.12), by j. They are computed from the polygons of the inside
+/// list. Empty before the first step, and where the step's patch does not receive.
+std::map<PatchId, TransferMoments> moments_of_step(const MapHistory& history, const Scene& scene,
+                                                   std::int32_t step);
 
 }  // namespace transillum::viewer

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "support/list_change.h"
+#include "support/names.h"
 #include "support/number_text.h"
 
 namespace transillum::viewer {
@@ -17,13 +18,13 @@ namespace {
 using Kind = Condition::Kind;
 
 // Names in settings and session files.
-constexpr std::pair<Kind, const char*> kind_names[] = {
-    {Kind::patch, "patch"},
-    {Kind::cut, "cut"},
-    {Kind::pair, "pair"},
-    {Kind::small_fragment, "small-fragment"},
-    {Kind::open_receiver, "open-receiver"},
-    {Kind::large_map, "large-map"},
+constexpr Name<Kind> breakpoint_names[] = {
+    {"patch", Kind::patch},
+    {"cut", Kind::cut},
+    {"pair", Kind::pair},
+    {"small-fragment", Kind::small_fragment},
+    {"open-receiver", Kind::open_receiver},
+    {"large-map", Kind::large_map},
 };
 
 bool exchanges_with(const MapHistory& history, std::int32_t k, PatchId one, PatchId other) {
@@ -114,19 +115,10 @@ QString text_of(const Breakpoint& b) {
                         : Breakpoints::tr("%1 (stop at hit %2)").arg(text, count_text(b.stop_at));
 }
 
-const char* name_of(Kind kind) {
-  return std::find_if(std::begin(kind_names), std::end(kind_names),
-                      [kind](const auto& name) { return name.first == kind; })
-      ->second;
-}
+const char* name_of(Kind kind) { return name_in_file(breakpoint_names, kind); }
 
 std::optional<Kind> breakpoint_kind(const std::string& name) {
-  for (const auto& [kind, known] : kind_names) {
-    if (name == known) {
-      return kind;
-    }
-  }
-  return std::nullopt;
+  return value_named(breakpoint_names, name);
 }
 
 void Breakpoints::set_list(std::vector<Breakpoint> list) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "state/step_finder.h"
+#include "state/step_events.h"
 
 class QSettings;
 class QUndoStack;

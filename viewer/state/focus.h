@@ -11,9 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "model/recorded_map.h"
-#include "state/event_filter.h"
-#include "state/step_finder.h"
+#include "model/requests/recorded_map.h"
+#include "state/step_events.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
 

@@ -2,6 +2,7 @@
 #include "state/focus_feed.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "support/has_index.h"
@@ -9,13 +10,28 @@
 
 namespace transillum::viewer {
 
-FocusFeed::FocusFeed(Focus& focus, QObject* parent) : QObject(parent), focus_(focus) {
+namespace {
+
+// While the solve is followed: at most two maps per second, and at most a quarter of one core.
+constexpr Pause pause_between_maps{std::chrono::milliseconds(500), 3};
+
+}  // namespace
+
+FocusFeed::FocusFeed(Focus& focus, QObject* parent)
+    : QObject(parent),
+      focus_(focus),
+      recorder_(
+          *this, &record_map,
+          [this](const MapRequest&, std::shared_ptr<const RecordedMap> map, const QString& error) {
+            if (map) {
+              focus_.show_map(std::move(map));
+            } else {
+              focus_.stop();
+              emit failed(error);
+            }
+          },
+          CurrentJob::finish, pause_between_maps) {
   connect(&focus_, &Focus::map_requested, this, &FocusFeed::record);
-  connect(&recorder_, &MapRecorder::recorded, &focus_, &Focus::show_map);
-  connect(&recorder_, &MapRecorder::failed, this, [this](const QString& message) {
-    focus_.stop();
-    emit failed(message);
-  });
 }
 
 void FocusFeed::clear() {
@@ -76,7 +92,8 @@ void FocusFeed::record(int iteration, int direction) {
     return;
   }
   recorder_.request({snapshot_->loaded, at(*directions, direction), iteration, direction,
-                     focus_.passes(), snapshot_->options.memory, focus_.following()});
+                     focus_.passes(), snapshot_->options.memory},
+                    focus_.following() ? Start::after_pause : Start::at_once);
 }
 
 }  // namespace transillum::viewer

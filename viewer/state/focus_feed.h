@@ -4,9 +4,10 @@
 #include <QObject>
 #include <memory>
 
-#include "model/map_recorder.h"
+#include "model/requests/recorded_map.h"
 #include "model/snapshot.h"
 #include "state/focus.h"
+#include "support/newest_result.h"
 
 namespace transillum::viewer {
 
@@ -33,7 +34,7 @@ class FocusFeed : public QObject {
   Focus& focus_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   bool watched_ = true;
-  MapRecorder recorder_;
+  NewestResult<MapRequest, RecordedMap> recorder_;
 };
 
 }  // namespace transillum::viewer

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "support/list_change.h"
+#include "support/names.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -13,10 +14,10 @@ namespace transillum::viewer {
 namespace {
 
 // Names in session files.
-constexpr std::pair<Watch::Kind, const char*> kind_names[] = {
-    {Watch::Kind::patch_area, "patch-area"},
-    {Watch::Kind::closure_defect, "closure-defect"},
-    {Watch::Kind::map_size, "map-size"},
+constexpr Name<Watch::Kind> watch_names[] = {
+    {"patch-area", Watch::Kind::patch_area},
+    {"closure-defect", Watch::Kind::closure_defect},
+    {"map-size", Watch::Kind::map_size},
 };
 
 std::vector<double> areas_of(PatchId patch, const MapHistory& history) {
@@ -65,19 +66,10 @@ QString text_of(const Watch& watch) {
   return {};
 }
 
-const char* name_of(Watch::Kind kind) {
-  return std::find_if(std::begin(kind_names), std::end(kind_names),
-                      [kind](const auto& name) { return name.first == kind; })
-      ->second;
-}
+const char* name_of(Watch::Kind kind) { return name_in_file(watch_names, kind); }
 
 std::optional<Watch::Kind> watch_kind(const std::string& name) {
-  for (const auto& [kind, known] : kind_names) {
-    if (name == known) {
-      return kind;
-    }
-  }
-  return std::nullopt;
+  return value_named(watch_names, name);
 }
 
 void Watches::set_list(std::vector<Watch> list) {

@@ -8,14 +8,13 @@
 #include <QLabel>
 #include <QRegularExpression>
 #include <QStringList>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
 #include "support/number_text.h"
+#include "widgets/build.h"
 #include "widgets/elided.h"
 #include "widgets/scrolling.h"
-#include "widgets/symbol_tip.h"
 #include "widgets/theme.h"
 #include "widgets/value_grid.h"
 
@@ -66,19 +65,15 @@ QString role_text(bool front_facing) {
 
 AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection) {
-  kind_ = new ElidedComboBox;
-  kind_->setObjectName("map_kind");
+  kind_ = named("map_kind", new ElidedComboBox);
   kind_->addItem(tr("Local visibility map (section 3.2)"));
   kind_->addItem(tr("Global visibility map (section 3.1)"));
   kind_->setMinimumContentsLength(20);
   kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  auto* chooser = new QHBoxLayout;
-  chooser->setContentsMargins(12, 8, 12, 4);
+  auto* chooser = make_row({12, 8, 12, 4});
   chooser->addWidget(kind_);
 
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 2, 0, 8);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {0, 2, 0, 8}, 0);
   layout->addWidget(heading(tr("All directions (section 3.3)")));
   layout->addWidget(make_code(CodeLine::start, CodeLine::each_direction));
   layout->addWidget(heading(tr("One direction")));
@@ -104,9 +99,7 @@ AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWi
 
 QWidget* AlgorithmView::make_code(CodeLine first, CodeLine last) {
   auto* box = new QWidget;
-  auto* layout = new QVBoxLayout(box);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(box, {}, 0);
   for (const CodeText& text : algorithm_code()) {
     if (text.line < first || text.line > last) {
       continue;
@@ -199,10 +192,8 @@ QWidget* AlgorithmView::make_region_values() {
     value->setWordWrap(true);
   }
   auto* box = new QWidget;
-  auto* layout = new QVBoxLayout(box);
-  layout->setContentsMargins(0, 0, 0, 0);
-  auto* hint = new QHBoxLayout;
-  hint->setContentsMargins(12, 8, 12, 0);
+  auto* layout = make_column(box, {});
+  auto* hint = make_row({12, 8, 12, 0});
   hint->addWidget(region_hint_);
   layout->addLayout(hint);
   layout->addWidget(region_values_);

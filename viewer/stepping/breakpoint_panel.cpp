@@ -4,10 +4,8 @@
 // Focus.
 #include "stepping/breakpoint_panel.h"
 
-#include <QAction>
 #include <QComboBox>
 #include <QDoubleValidator>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -16,11 +14,11 @@
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <limits>
 
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -45,15 +43,6 @@ constexpr Choice choices[] = {
     {Kind::large_map, QT_TRANSLATE_NOOP("BreakpointPanel", "polygons of V above"), "", "1000"},
 };
 
-QAction* make_action(QObject* parent, const char* name, const QString& text,
-                     const QKeySequence& key, const QString& tip) {
-  auto* action = new QAction(text, parent);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setShortcut(key);
-  action->setToolTip(QStringLiteral("%1 (%2)").arg(tip, key.toString(QKeySequence::NativeText)));
-  return action;
-}
-
 }  // namespace
 
 BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints& breakpoints,
@@ -61,13 +50,8 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
     : QWidget(parent), focus_(focus), selection_(selection), breakpoints_(breakpoints) {
   make_actions();
   make_list();
-  hint_ = new QLabel(tr("No breakpoints. Add one, then press F9."));
-  hint_->setWordWrap(true);
-  hint_->setContentsMargins(10, 4, 10, 4);
-  hint_->setForegroundRole(QPalette::PlaceholderText);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
+  hint_ = note_label(tr("No breakpoints. Add one, then press F9."), {10, 4, 10, 4});
+  auto* layout = make_column(this, {}, 4);
   layout->addLayout(make_buttons());
   layout->addWidget(hint_, 1, Qt::AlignTop);
   layout->addWidget(list_, 1);
@@ -90,22 +74,20 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
 }
 
 void BreakpointPanel::make_actions() {
-  run_back_ =
-      make_action(this, "run_back", tr("Run back"), QKeySequence(QStringLiteral("Shift+F9")),
-                  tr("Run back to the previous breakpoint"));
-  run_on_ = make_action(this, "run_on", tr("Run forward"), Qt::Key_F9,
-                        tr("Run forward to the next breakpoint"));
+  run_back_ = make_key_action(this, "run_back", tr("Run back"),
+                              tr("Run back to the previous breakpoint"), QKeySequence("Shift+F9"));
+  run_on_ = make_key_action(this, "run_on", tr("Run forward"),
+                            tr("Run forward to the next breakpoint"), Qt::Key_F9);
   connect(run_on_, &QAction::triggered, this, [this] { run(StepOrder::forward); });
   connect(run_back_, &QAction::triggered, this, [this] { run(StepOrder::backward); });
 }
 
 void BreakpointPanel::make_list() {
-  list_ = new QListWidget;
-  list_->setObjectName("breakpoint_list");
+  list_ = named("breakpoint_list", new QListWidget,
+                tr("Right-click a breakpoint to run to it, even if it is disabled"));
   list_->setFrameShape(QFrame::NoFrame);
   list_->setMinimumHeight(48);
   list_->setWordWrap(true);
-  list_->setToolTip(tr("Right-click a breakpoint to run to it, even if it is disabled"));
   connect(list_, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) {
     breakpoints_.set_enabled(static_cast<std::size_t>(list_->row(item)),
                              item->checkState() == Qt::Checked);
@@ -119,17 +101,13 @@ void BreakpointPanel::make_list() {
 }
 
 QLayout* BreakpointPanel::make_buttons() {
-  remove_ = new QToolButton;
+  remove_ = named("remove_breakpoint", new QToolButton,
+                  tr("Remove the breakpoint chosen in the list (Del)"));
   remove_->setText(tr("Remove"));
-  remove_->setToolTip(tr("Remove the breakpoint chosen in the list (Del)"));
-  remove_->setObjectName("remove_breakpoint");
   connect(remove_, &QToolButton::clicked, this, &BreakpointPanel::remove_current);
-  auto* buttons = new QHBoxLayout;
-  buttons->setContentsMargins(8, 4, 8, 0);
+  auto* buttons = make_row({8, 4, 8, 0});
   for (QAction* action : {run_back_, run_on_}) {
-    auto* button = new QToolButton;
-    button->setDefaultAction(action);
-    buttons->addWidget(button);
+    buttons->addWidget(button_for(action));
   }
   buttons->addStretch(1);
   buttons->addWidget(remove_);
@@ -137,33 +115,27 @@ QLayout* BreakpointPanel::make_buttons() {
 }
 
 QWidget* BreakpointPanel::make_new_row() {
-  kind_ = new QComboBox;
-  kind_->setObjectName("breakpoint_kind");
+  kind_ = named("breakpoint_kind", new QComboBox);
   kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   kind_->setMinimumContentsLength(12);
   for (const Choice& choice : choices) {
     kind_->addItem(tr(choice.text));
   }
   const auto patch_box = [](const char* name) {
-    auto* box = new QSpinBox;
-    box->setObjectName(QString::fromLatin1(name));
+    auto* box = named(name, new QSpinBox, tr("Patch number; selecting a patch fills it in"));
     box->setRange(0, std::numeric_limits<PatchId>::max());
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    box->setToolTip(tr("Patch number; selecting a patch fills it in"));
     return box;
   };
   patch_ = patch_box("breakpoint_patch");
   other_ = patch_box("breakpoint_other");
-  value_ = new QLineEdit;
-  value_->setObjectName("breakpoint_value");
+  value_ = named("breakpoint_value", new QLineEdit);
   auto* positive = new QDoubleValidator(0, 1e300, 12, value_);
   positive->setLocale(QLocale::c());
   value_->setValidator(positive);
   unit_ = new QLabel;
   auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(8, 0, 8, 0);
-  layout->setSpacing(4);
+  auto* layout = make_row(row, {8, 0, 8, 0}, 4);
   layout->addWidget(kind_, 2);
   for (QWidget* input : std::initializer_list<QWidget*>{patch_, other_, value_}) {
     layout->addWidget(input, 1);
@@ -182,10 +154,8 @@ QWidget* BreakpointPanel::make_new_row() {
 
 QLayout* BreakpointPanel::make_join_row() {
   const auto button = [](const char* name, const QString& text, const QString& tip) {
-    auto* result = new QToolButton;
+    auto* result = named(name, new QToolButton, tip);
     result->setText(text);
-    result->setToolTip(tip);
-    result->setObjectName(QString::fromLatin1(name));
     return result;
   };
   add_ = button("add_breakpoint", tr("Add"), tr("Add a breakpoint with this condition (Return)"));
@@ -195,18 +165,15 @@ QLayout* BreakpointPanel::make_join_row() {
                 "“and” binds more strongly than “or”"));
   or_ = button("or_condition", tr("Or"),
                tr("Let the breakpoint chosen in the list stop also where this condition holds"));
-  stop_at_ = new QSpinBox;
-  stop_at_->setObjectName("breakpoint_stop_at");
-  stop_at_->setRange(1, Breakpoint::most_hits);
-  stop_at_->setKeyboardTracking(false);
-  stop_at_->setToolTip(
+  stop_at_ = named(
+      "breakpoint_stop_at", new QSpinBox,
       tr("The hit of the breakpoint chosen in the list at which a run stops, counted from where "
          "the run begins.\nThe list shows how often the last run hit each breakpoint."));
+  stop_at_->setRange(1, Breakpoint::most_hits);
+  stop_at_->setKeyboardTracking(false);
   auto* label = new QLabel(tr("Stop at &hit"));
   label->setBuddy(stop_at_);
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(8, 0, 8, 6);
-  row->setSpacing(4);
+  auto* row = make_row({8, 0, 8, 6}, 4);
   for (QToolButton* each : {add_, and_, or_}) {
     row->addWidget(each);
   }
@@ -222,10 +189,7 @@ QLayout* BreakpointPanel::make_join_row() {
   return row;
 }
 
-void BreakpointPanel::add_to(QMenu& menu) const {
-  menu.addAction(run_on_);
-  menu.addAction(run_back_);
-}
+void BreakpointPanel::add_to(QMenu& menu) const { menu.addActions({run_on_, run_back_}); }
 
 void BreakpointPanel::show_run_menu(const QPoint& position) {
   const int row = list_->indexAt(position).row();
@@ -236,8 +200,7 @@ void BreakpointPanel::show_run_menu(const QPoint& position) {
       find_where([b = at(breakpoints_.list(), row)](const MapHistory& history, std::int32_t k) {
         return holds(b, history, k);
       });
-  auto* menu = new QMenu(this);
-  menu->setObjectName("breakpoint_menu");
+  auto* menu = named("breakpoint_menu", new QMenu(this));
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(tr("Run back to the previous step where the breakpoint holds"), this,
                   [this, finder] { focus_.seek(finder, StepOrder::backward); });

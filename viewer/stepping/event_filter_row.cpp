@@ -4,9 +4,7 @@
 // the timeline and stepping follow.
 #include "stepping/event_filter_row.h"
 
-#include <QAction>
 #include <QDoubleValidator>
-#include <QHBoxLayout>
 #include <QIntValidator>
 #include <QLabel>
 #include <QLineEdit>
@@ -15,6 +13,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -22,10 +21,8 @@ namespace transillum::viewer {
 namespace {
 
 QLineEdit* field(const char* name, const QString& when_empty, const QString& tip) {
-  auto* edit = new QLineEdit;
-  edit->setObjectName(QString::fromLatin1(name));
+  auto* edit = named(name, new QLineEdit, tip);
   edit->setPlaceholderText(when_empty);
-  edit->setToolTip(tip);
   return edit;
 }
 
@@ -52,11 +49,8 @@ EventFilterRow::EventFilterRow(Focus& focus, QWidget* parent) : QWidget(parent),
   }
   make_kinds();
   make_actions();
-  clear_button_ = new QToolButton;
-  clear_button_->setDefaultAction(clear_);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(8, 0, 8, 3);
-  row->setSpacing(4);
+  clear_button_ = button_for(clear_);
+  auto* row = make_row(this, {8, 0, 8, 3}, 4);
   row->addWidget(new QLabel(tr("Area")));
   row->addWidget(least_, 1);
   row->addWidget(new QLabel(tr("to")));
@@ -70,10 +64,8 @@ EventFilterRow::EventFilterRow(Focus& focus, QWidget* parent) : QWidget(parent),
 }
 
 void EventFilterRow::make_kinds() {
-  kinds_ = new QToolButton;
-  kinds_->setObjectName("filter_kinds");
+  kinds_ = named("filter_kinds", new QToolButton, tr("Only events of the checked kinds"));
   kinds_->setText(tr("Kinds"));
-  kinds_->setToolTip(tr("Only events of the checked kinds"));
   kinds_->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(kinds_);
   for (int k = 0; k < StepEvent::kind_count; ++k) {
@@ -86,25 +78,21 @@ void EventFilterRow::make_kinds() {
 }
 
 void EventFilterRow::make_actions() {
-  filter_ = new QAction(tr("Filter events"), this);
-  filter_->setObjectName("filter_events");
-  filter_->setShortcut(QKeySequence(QStringLiteral("Ctrl+E")));
-  filter_->setToolTip(tr("Choose the events that are listed and stepped to (Ctrl+E)"));
+  filter_ = make_action(this, "filter_events", tr("Filter events"),
+                        tr("Choose the events that are listed and stepped to (Ctrl+E)"),
+                        QKeySequence("Ctrl+E"));
   connect(filter_, &QAction::triggered, this, [this] {
     emit requested();
     least_->setFocus();
   });
-  clear_ = new QAction(theme::icon(theme::Icon::clear), tr("Show all events"), this);
-  clear_->setObjectName("clear_filter");
-  clear_->setShortcut(QKeySequence(QStringLiteral("Ctrl+Shift+E")));
-  clear_->setToolTip(tr("Remove the filter of events (Ctrl+Shift+E)"));
+  clear_ =
+      make_action(this, "clear_filter", tr("Show all events"),
+                  tr("Remove the filter of events (Ctrl+Shift+E)"), QKeySequence("Ctrl+Shift+E"));
+  clear_->setIcon(theme::icon(theme::Icon::clear));
   connect(clear_, &QAction::triggered, this, [this] { focus_.set_filter({}); });
 }
 
-void EventFilterRow::add_to(QMenu& menu) const {
-  menu.addAction(filter_);
-  menu.addAction(clear_);
-}
+void EventFilterRow::add_to(QMenu& menu) const { menu.addActions({filter_, clear_}); }
 
 void EventFilterRow::enter() {
   const EventFilter all;

@@ -3,7 +3,6 @@
 // Table model of step events (state/step_events.h), with bold rows for the current step.
 #include "stepping/event_table.h"
 
-#include <QFont>
 #include <algorithm>
 #include <utility>
 
@@ -46,14 +45,6 @@ int EventTable::row_of_step(std::int32_t step) const {
   return row;
 }
 
-int EventTable::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(events_.size());
-}
-
-int EventTable::columnCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : column_count;
-}
-
 QString EventTable::text(const StepEvent& event, int column) const {
   switch (column) {
     case of_step:
@@ -84,11 +75,8 @@ QVariant EventTable::data(const QModelIndex& index, int role) const {
                                                 : Qt::AlignRight | Qt::AlignVCenter);
     case Qt::ForegroundRole:
       return event.kind == StepEvent::Kind::exchange ? QVariant(theme::exchange_ink) : QVariant();
-    case Qt::FontRole: {
-      QFont font;
-      font.setBold(event.step == current_step_);
-      return font;
-    }
+    case Qt::FontRole:
+      return font_cell(event.step == current_step_);
     case Qt::ToolTipRole:
       return index.column() == of_area && event.kind != StepEvent::Kind::edge_on
                  ? QVariant(number_text(event.area))
@@ -100,39 +88,24 @@ QVariant EventTable::data(const QModelIndex& index, int role) const {
   }
 }
 
-QVariant EventTable::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal) {
-    return {};
-  }
-  if (role == Qt::ToolTipRole && section == of_parts) {
-    return tr("Number of parts of the cut polygon that remain in V");
-  }
-  if (role == Qt::ToolTipRole && section == of_area) {
-    return tr(
-        "Area on the transillumination plane: of the fragment, or of the part that it covers of "
-        "the patch above");
-  }
-  if (role == Qt::ToolTipRole && section == of_pair) {
-    return tr("Area over which the two patches exchange light along this direction");
-  }
-  if (role != Qt::DisplayRole) {
-    return {};
-  }
-  switch (section) {
+ColumnHeader EventTable::header(int column) const {
+  switch (column) {
     case of_step:
-      return tr("Step");
+      return {tr("Step")};
     case of_below:
-      return tr("Patch");
-    case of_kind:
-      return QString();
     case of_above:
-      return tr("Patch");
+      return {tr("Patch")};
+    case of_kind:
+      return {};
     case of_area:
-      return area_format_.header(tr("Area, m²"));
+      return {area_format_.header(tr("Area, m²")),
+              tr("On the transillumination plane: of the fragment, or of what it covers of the "
+                 "patch above")};
     case of_parts:
-      return tr("Pieces left");
+      return {tr("Pieces left"), tr("Number of parts of the cut polygon that remain in V")};
     default:
-      return pair_format_.header(tr("Pair, m²"));
+      return {pair_format_.header(tr("Pair, m²")),
+              tr("Area over which the two patches exchange light along this direction")};
   }
 }
 

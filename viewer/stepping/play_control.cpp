@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <cmath>
 
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -19,11 +20,11 @@ constexpr double speeds[] = {1, 2, 5, 10, 25};
 
 PlayControl::PlayControl(Focus& focus, QObject* parent)
     : QObject(parent), focus_(focus), menu_(std::make_unique<QMenu>()) {
-  action_ = new QAction(theme::icon(theme::Icon::run), tr("Play"), this);
-  action_->setObjectName("play");
+  action_ =
+      make_action(this, "play", tr("Play"),
+                  tr("Play polygons, directions or iterations as an animation (L)"), Qt::Key_L);
+  action_->setIcon(theme::icon(theme::Icon::run));
   action_->setCheckable(true);
-  action_->setShortcut(Qt::Key_L);
-  action_->setToolTip(tr("Play polygons, directions or iterations as an animation (L)"));
   connect(action_, &QAction::toggled, this, &PlayControl::toggle);
   connect(&timer_, &QTimer::timeout, this, &PlayControl::show_next);
   connect(&focus_, &Focus::seek_ended, this, [this](bool found) {

@@ -4,10 +4,11 @@
 // direction or iteration.
 #include "stepping/step_actions.h"
 
-#include <QAction>
 #include <QKeySequence>
 #include <QMenu>
 #include <utility>
+
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -66,22 +67,19 @@ void StepActions::add_moves() {
 }
 
 void StepActions::add_newest() {
-  newest_ = new QAction(theme::icon(theme::Icon::newest), tr("Follow newest"), this);
-  newest_->setObjectName("follow_newest");
+  newest_ = make_action(
+      this, "follow_newest", tr("Follow newest"),
+      tr("Show each new direction as it is solved, at the step with the most sources in V (F)"),
+      Qt::Key_F);
+  newest_->setIcon(theme::icon(theme::Icon::newest));
   newest_->setCheckable(true);
-  newest_->setShortcut(Qt::Key_F);
-  newest_->setToolTip(
-      tr("Show each new direction as it is solved, at the step with the most sources in V (F)"));
   connect(newest_, &QAction::triggered, &focus_, &Focus::set_following);
 }
 
 QAction* StepActions::add(const char* name, const QString& text, const QKeySequence& key,
                           const QString& tip, void (StepActions::*what)(StepOrder),
                           StepOrder order) {
-  auto* action = new QAction(text, this);
-  action->setObjectName(QString::fromLatin1(name));
-  action->setShortcut(key);
-  action->setToolTip(QStringLiteral("%1 (%2)").arg(tip, key.toString(QKeySequence::NativeText)));
+  auto* action = make_key_action(this, name, text, tip, key);
   connect(action, &QAction::triggered, this, [this, what, order] { (this->*what)(order); });
   actions_.push_back(action);
   return action;

@@ -8,13 +8,13 @@
 #include <QLabel>
 #include <QTabWidget>
 #include <QTableView>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
 #include "stepping/event_filter_row.h"
 #include "stepping/event_table.h"
 #include "support/number_text.h"
+#include "widgets/build.h"
 #include "widgets/figure_table.h"
 
 namespace transillum::viewer {
@@ -31,9 +31,7 @@ StepPanel::StepPanel(Focus& focus, Selection& selection, QWidget* parent)
     tab.view->setColumnHidden(EventTable::of_pair, true);
   }
   line_.view->setColumnHidden(EventTable::of_parts, true);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(2);
+  auto* layout = make_column(this, {}, 2);
   layout->addWidget(tabs_);
   filter_ = new EventFilterRow(focus_);
   layout->addWidget(filter_);
@@ -69,9 +67,7 @@ StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
   tab.view->setMinimumHeight(header_and_row);
 
   auto* page = new QWidget;
-  auto* layout = new QVBoxLayout(page);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(page, {}, 0);
   layout->addWidget(tab.text);
   layout->addWidget(tab.view, 1);
   tabs_->addTab(page, title);

@@ -4,17 +4,15 @@
 // values. Input: Focus, Watches and snapshots.
 #include "stepping/timeline_bar.h"
 
-#include <QAction>
-#include <QHBoxLayout>
 #include <QMenu>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include "stepping/play_control.h"
 #include "stepping/step_actions.h"
 #include "stepping/timeline_lanes.h"
 #include "stepping/watch_chart.h"
 #include "support/number_text.h"
+#include "widgets/build.h"
 #include "widgets/elided.h"
 #include "widgets/theme.h"
 
@@ -23,8 +21,7 @@ namespace transillum::viewer {
 namespace {
 
 QToolButton* button_of(QAction* action) {
-  auto* button = new QToolButton;
-  button->setDefaultAction(action);
+  auto* button = button_for(action);
   button->setAutoRaise(true);
   button->setFocusPolicy(Qt::NoFocus);
   return button;
@@ -35,22 +32,16 @@ QToolButton* button_of(QAction* action) {
 TimelineBar::TimelineBar(Focus& focus, Selection& selection, Watches& watches,
                          const StepActions& actions, QWidget* parent)
     : QWidget(parent), focus_(focus), play_(new PlayControl(focus, this)) {
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(8, 4, 8, 0);
-  row->setSpacing(2);
+  auto* row = make_row({8, 4, 8, 0}, 2);
   for (QAction* action : actions.buttons()) {
     row->addWidget(button_of(action));
   }
-  text_ = new ClauseLabel;
-  text_->setObjectName("timeline_text");
-  stop_ = new QToolButton;
+  text_ = named("timeline_text", new ClauseLabel);
+  stop_ = named("stop_seeking", new QToolButton, tr("Stop the search (Esc)"));
   stop_->setText(tr("Stop search"));
-  stop_->setToolTip(tr("Stop the search (Esc)"));
-  stop_->setObjectName("stop_seeking");
   connect(stop_, &QToolButton::clicked, &focus_, &Focus::stop);
-  filter_ = new QToolButton;
-  filter_->setObjectName("filter_shown");
-  filter_->setToolTip(tr("Stepping skips steps without these events; click to show all events"));
+  filter_ = named("filter_shown", new QToolButton,
+                  tr("Stepping skips steps without these events; click to show all events"));
   filter_->setIcon(theme::icon(theme::Icon::clear));
   filter_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   connect(filter_, &QToolButton::clicked, this, [this] { focus_.set_filter({}); });
@@ -65,10 +56,8 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, Watches& watches,
   row->addWidget(text_, 1);
   row->addWidget(stop_);
   row->addWidget(filter_);
-  lanes_ = new TimelineLanes(focus, selection);
-  lanes_->setObjectName("timeline_lanes");
-  watched_ = new WatchChart(focus, selection, watches, *lanes_);
-  watched_->setObjectName("watch_chart");
+  lanes_ = named("timeline_lanes", new TimelineLanes(focus, selection));
+  watched_ = named("watch_chart", new WatchChart(focus, selection, watches, *lanes_));
   auto* watch = new QToolButton;
   watch->setText(tr("Watch"));
   watch->setToolTip(tr("Draw an area, the closure defect or the size of V over the steps"));
@@ -78,9 +67,7 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, Watches& watches,
   row->addWidget(watch);
   row->addWidget(newest);
 
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(2);
+  auto* layout = make_column(this, {}, 2);
   layout->addLayout(row);
   layout->addWidget(lanes_, 1);
   layout->addWidget(watched_);

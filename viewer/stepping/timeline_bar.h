@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QWidget>
-#include <memory>
 
 #include "model/snapshot.h"
 #include "state/focus.h"

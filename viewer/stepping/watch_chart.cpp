@@ -16,6 +16,7 @@
 #include "stepping/timeline_lanes.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -105,8 +106,7 @@ void WatchChart::show_list() {
   series_.clear();
   for (const Watch& watch : watches_.list()) {
     const std::size_t k = series_.size();
-    auto* button = new QToolButton(this);
-    button->setObjectName(QStringLiteral("watch_%1").arg(k));
+    auto* button = named(QStringLiteral("watch_%1").arg(k), new QToolButton(this));
     button->setIcon(icon_of(color_of(k)));
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     button->setAutoRaise(true);

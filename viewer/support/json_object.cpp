@@ -11,37 +11,31 @@ namespace transillum::viewer {
 
 using nlohmann::json;
 
+namespace {
+
+template <class Value>
+void read_if(JsonObject& object, const std::string& key, Value& value,
+             bool (json::*is_valid)() const, const char* wanted) {
+  if (const json* found = object.find(key)) {
+    if (!(found->*is_valid)()) {
+      object.fail_at(key, wanted);
+    }
+    value = found->get<Value>();
+  }
+}
+
+}  // namespace
+
 void JsonObject::read(const std::string& key, std::string& value) {
-  const json* found = find(key);
-  if (!found) {
-    return;
-  }
-  if (!found->is_string()) {
-    fail_at(key, "must be a string in quotes");
-  }
-  value = found->get<std::string>();
+  read_if(*this, key, value, &json::is_string, "must be a string in quotes");
 }
 
 void JsonObject::read(const std::string& key, bool& value) {
-  const json* found = find(key);
-  if (!found) {
-    return;
-  }
-  if (!found->is_boolean()) {
-    fail_at(key, "must be true or false");
-  }
-  value = found->get<bool>();
+  read_if(*this, key, value, &json::is_boolean, "must be true or false");
 }
 
 void JsonObject::read(const std::string& key, double& value) {
-  const json* found = find(key);
-  if (!found) {
-    return;
-  }
-  if (!found->is_number()) {
-    fail_at(key, "must be a number");
-  }
-  value = found->get<double>();
+  read_if(*this, key, value, &json::is_number, "must be a number");
 }
 
 void JsonObject::read(const std::string& key, int& value, int least, int most) {

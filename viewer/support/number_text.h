@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Numbers as text: alone, and in the columns of tables.
 #pragma once
 
 #include <QString>
@@ -27,5 +29,25 @@ QString capitalized(const QString& text);
 QString rgb_text(const Rgb& value);
 /// (x, y, z) with three decimals.
 QString vector_text(const Vec3& value);
+
+/// How the numbers of one column are written: with one power of ten, which stands in the header,
+/// and the same number of decimals, so that they can be compared at a glance.
+class ColumnFormat {
+ public:
+  ColumnFormat() = default;
+  /// @param largest the largest size of a number in the column; it gets five significant digits
+  explicit ColumnFormat(double largest);
+
+  /// A number below half of the last decimal, but not 0, is "≈ 0"; "–" if not finite.
+  QString text(double value) const;
+  /// A title with the power of ten before its unit: "Area, m²" becomes "Area, 10⁻⁶ m²".
+  QString header(const QString& title) const;
+
+  friend bool operator==(const ColumnFormat&, const ColumnFormat&) = default;
+
+ private:
+  int exponent_ = 0;  ///< exponent of the power of ten, a multiple of 3
+  int decimals_ = 4;
+};
 
 }  // namespace transillum::viewer

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tree/tree_text.h"
+#include "tree/tree_outline.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {

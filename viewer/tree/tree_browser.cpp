@@ -6,21 +6,19 @@
 #include <QEvent>
 #include <QHeaderView>
 #include <QTreeView>
-#include <QVBoxLayout>
 #include <algorithm>
-#include <utility>
 
 #include "tree/order_bar.h"
-#include "tree/tree_model.h"
-#include "tree/tree_text.h"
+#include "tree/tree_outline.h"
+#include "tree/tree_tables.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
 TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection) {
   model_ = new TreeModel(this);
-  view_ = new QTreeView;
-  view_->setObjectName("tree_browser");
+  view_ = named("tree_browser", new QTreeView);
   view_->setModel(model_);
   view_->setFrameShape(QFrame::NoFrame);
   view_->setUniformRowHeights(true);
@@ -32,8 +30,7 @@ TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
   view_->header()->setSectionResizeMode(TreeModel::of_order, QHeaderView::Stretch);
   view_->setItemDelegateForColumn(TreeModel::of_order, new OrderBar(focus_, selection_, this));
 
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
+  auto* layout = make_column(this, {});
   layout->addWidget(view_);
   connect(view_, &QTreeView::clicked, this, [this](const QModelIndex& index) {
     const PatchId patch = patch_of(model_->outline(), model_->visit(index));

@@ -1,6 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The BSP tree along one direction: its order, and its nodes in words.
 #pragma once
 
+#include <QMetaType>
+#include <QString>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -59,4 +63,20 @@ class TreeOutline {
   std::vector<std::int32_t> sizes_, parents_;  ///< per node
 };
 
+/// Role under which the tree's models return a row's TreeVisit.
+constexpr int tree_visit_role = Qt::UserRole;
+
+/// A patch in the node's plane; no_patch for a free plane.
+PatchId patch_of(const TreeOutline& outline, const TreeVisit& visit);
+/// "patch 12 + 3", "free plane".
+QString plane_name(const TreeOutline& outline, const TreeVisit& visit);
+/// "the plane of patch 12", "a free plane".
+QString plane_phrase(const TreeOutline& outline, const TreeVisit& visit);
+/// n·omega with its sign.
+QString cosine_text(double cosine);
+/// The plane's equation, and the order of its sides; three lines, for a tool tip.
+QString explanation(const TreeOutline& outline, const TreeVisit& visit);
+
 }  // namespace transillum::viewer
+
+Q_DECLARE_METATYPE(transillum::viewer::TreeVisit)

@@ -5,37 +5,28 @@
 #include "tree/tree_view.h"
 
 #include <QHeaderView>
-#include <QLabel>
 #include <QTabWidget>
 #include <QTableView>
-#include <QVBoxLayout>
 #include <algorithm>
-#include <utility>
 
 #include "support/number_text.h"
 #include "tree/order_bar.h"
 #include "tree/tree_browser.h"
-#include "tree/tree_path_table.h"
-#include "tree/tree_text.h"
+#include "tree/tree_outline.h"
+#include "tree/tree_tables.h"
+#include "widgets/build.h"
 #include "widgets/figure_table.h"
 
 namespace transillum::viewer {
 
 TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection) {
-  text_ = new QLabel;
-  text_->setObjectName("tree_words");
-  text_->setWordWrap(true);
-  text_->setContentsMargins(10, 4, 10, 4);
-  text_->setForegroundRole(QPalette::PlaceholderText);
+  text_ = named("tree_words", note_label({}, {10, 4, 10, 4}));
   make_path_table();
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = make_column(this, {}, 0);
   layout->addWidget(text_);
   browser_ = new TreeBrowser(focus_, selection_);
-  tabs_ = new QTabWidget;
-  tabs_->setObjectName("tree_tabs");
+  tabs_ = named("tree_tabs", new QTabWidget);
   tabs_->setDocumentMode(true);
   tabs_->addTab(table_, tr("Path to the fragment"));
   tabs_->addTab(browser_, tr("Whole tree"));
@@ -50,8 +41,7 @@ TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
 
 void TreeView::make_path_table() {
   path_ = new TreePathTable(this);
-  table_ = new QTableView;
-  table_->setObjectName("tree_path");
+  table_ = named("tree_path", new QTableView);
   table_->setModel(path_);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);

@@ -1,12 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "widgets/banner.h"
 
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QToolButton>
 
 #include "transillum/at.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -35,9 +35,7 @@ Banner::Banner(QWidget* parent) : QFrame(parent) {
   close->setIcon(theme::icon(theme::Icon::close));
   close->setAutoRaise(true);
   close->setToolTip(tr("Close this message"));
-  layout_ = new QHBoxLayout(this);
-  layout_->setContentsMargins(12, 7, 8, 7);
-  layout_->setSpacing(10);
+  layout_ = make_row(this, {12, 7, 8, 7}, 10);
   layout_->addWidget(icon_, 0, Qt::AlignVCenter);
   layout_->addWidget(text_, 1);
   layout_->addWidget(close, 0, Qt::AlignVCenter);
@@ -49,8 +47,7 @@ Banner::Banner(QWidget* parent) : QFrame(parent) {
 }
 
 QPushButton* Banner::add_button(const char* name, const QString& text) {
-  auto* button = new QPushButton(text);
-  button->setObjectName(QString::fromLatin1(name));
+  auto* button = named(name, new QPushButton(text));
   layout_->insertWidget(layout_->count() - 1, button, 0, Qt::AlignVCenter);
   return button;
 }

@@ -6,14 +6,14 @@
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
-#include <QEvent>
 #include <QGridLayout>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <algorithm>
 #include <cmath>
+
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -28,7 +28,10 @@ std::array<double*, 3> channels_of(Rgb& value) { return {&value.r, &value.g, &va
 
 ChannelSliders::ChannelSliders(const char* name, const QString& title, int decimals,
                                QWidget* parent)
-    : QWidget(parent) {
+    : QWidget(parent), drag_([this] {
+        at_drag_start_ = value_;
+        emit drag_began();
+      }) {
   const auto part = [name](const char* what) { return QStringLiteral("%1_%2").arg(name, what); };
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
@@ -38,10 +41,9 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
   QFont bold = heading->font();
   bold.setBold(true);
   heading->setFont(bold);
-  together_ = new QCheckBox(tr("together"));
-  together_->setObjectName(part("together"));
+  together_ = named(part("together"), new QCheckBox(tr("together")),
+                    tr("Keeps the proportions of red, green and blue, and so the hue"));
   together_->setChecked(true);
-  together_->setToolTip(tr("Keeps the proportions of red, green and blue, and so the hue"));
   grid->addWidget(heading, 0, 0, 1, 2);
   grid->addWidget(together_, 0, 2);
   const QString labels[] = {tr("red"), tr("green"), tr("blue")};
@@ -61,42 +63,18 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
     grid->addWidget(sliders_[c], row, 1);
     grid->addWidget(boxes_[c], row, 2);
     connect(sliders_[c], &QSlider::valueChanged, this, [this, c](int step) {
-      begin_change();
+      drag_.change();
       set_channel(c, most_ * step / slider_steps);
     });
     connect(boxes_[c], qOverload<double>(&QDoubleSpinBox::valueChanged), this,
             [this, c](double value) {
-              begin_change();
+              drag_.change();
               set_channel(c, value);
             });
-    sliders_[c]->installEventFilter(this);
-    boxes_[c]->installEventFilter(this);
+    drag_.watch(sliders_[c]);
+    drag_.watch(boxes_[c]);
   }
   grid->setColumnStretch(1, 1);
-}
-
-void ChannelSliders::begin_change() {
-  if (!held_ || !changed_) {
-    at_drag_start_ = value_;
-    emit drag_began();
-  }
-  changed_ = true;
-}
-
-bool ChannelSliders::eventFilter(QObject* watched, QEvent* event) {
-  const QEvent::Type type = event->type();
-  const bool is_key = type == QEvent::KeyPress || type == QEvent::KeyRelease;
-  if (is_key && static_cast<QKeyEvent*>(event)->isAutoRepeat()) {
-    return false;
-  }
-  if (type == QEvent::MouseButtonPress || type == QEvent::KeyPress) {
-    held_ = true;
-    changed_ = false;
-  } else if (type == QEvent::MouseButtonRelease || type == QEvent::KeyRelease ||
-             type == QEvent::FocusOut) {
-    held_ = false;
-  }
-  return QWidget::eventFilter(watched, event);
 }
 
 void ChannelSliders::set_channel(std::size_t channel, double value) {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "transillum/vec3.h"
+#include "widgets/drag_hold.h"
 
 class QCheckBox;
 class QDoubleSpinBox;
@@ -28,21 +29,16 @@ class ChannelSliders : public QWidget {
   void drag_began();
   void moved(const transillum::Rgb& value);
 
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
  private:
-  void begin_change();
   void set_channel(std::size_t channel, double value);
   void update_widgets();
 
   Rgb value_, at_drag_start_;
   double most_ = 1;
-  bool held_ = false;     ///< a mouse button or a key is down
-  bool changed_ = false;  ///< since the press
   QCheckBox* together_;
   std::array<QSlider*, 3> sliders_;
   std::array<QDoubleSpinBox*, 3> boxes_;
+  DragHold drag_;
 };
 
 }  // namespace transillum::viewer

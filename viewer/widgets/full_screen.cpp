@@ -8,14 +8,15 @@
 #include <QMenuBar>
 #include <QStatusBar>
 
+#include "widgets/build.h"
+
 namespace transillum::viewer {
 
 FullScreen::FullScreen(QMainWindow& window) : QObject(&window), window_(window) {
-  action_ = new QAction(tr("Full screen"), this);
-  action_->setObjectName("full_screen");
+  action_ =
+      make_action(this, "full_screen", tr("Full screen"),
+                  tr("Show only the view under the pointer, on the whole screen"), Qt::Key_F11);
   action_->setCheckable(true);
-  action_->setShortcut(Qt::Key_F11);
-  action_->setToolTip(tr("Show only the view under the pointer, on the whole screen"));
   connect(action_, &QAction::triggered, this, &FullScreen::toggle);
 }
 

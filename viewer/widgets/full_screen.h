@@ -24,7 +24,6 @@ class FullScreen : public QObject {
   /// @param views docks of the window, or its central widget
   void show_only(const QList<QWidget*>& views);
   void show_all();
-  bool active() const { return active_; }
 
  signals:
   /// Emitted before views are hidden, and after all are shown again.

@@ -2,15 +2,13 @@
 #include "widgets/gloss_slider.h"
 
 #include <QDoubleSpinBox>
-#include <QEvent>
-#include <QHBoxLayout>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -36,29 +34,24 @@ double value_at_place(double place, bool is_exponent) {
 
 }  // namespace
 
-GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent) {
+GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent), drag_([this] { emit drag_began(); }) {
   title_ = new QLabel;
-  slider_ = new QSlider(Qt::Horizontal);
-  slider_->setObjectName("gloss");
+  slider_ = named("gloss", new QSlider(Qt::Horizontal));
   slider_->setRange(0, gloss_steps);
   slider_->setMinimumWidth(70);
-  box_ = new QDoubleSpinBox;
-  box_->setObjectName("gloss_value");
+  box_ = named("gloss_value", new QDoubleSpinBox);
   box_->setKeyboardTracking(false);
   auto* dull = new QLabel(tr("dull"));
   auto* sharp = new QLabel(tr("sharp"));
   for (QLabel* end : {dull, sharp}) {
     end->setForegroundRole(QPalette::PlaceholderText);
   }
-  auto* row = new QHBoxLayout;
-  row->setSpacing(6);
+  auto* row = make_row({}, 6);
   row->addWidget(dull);
   row->addWidget(slider_, 1);
   row->addWidget(sharp);
   row->addWidget(box_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(1);
+  auto* column = make_column(this, {}, 1);
   column->addWidget(title_);
   column->addLayout(row);
   setToolTip(
@@ -67,32 +60,13 @@ GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent) {
   connect(slider_, &QSlider::valueChanged, this,
           [this](int step) { change(value_at_place(1.0 * step / gloss_steps, is_exponent_)); });
   connect(box_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &GlossSlider::change);
-  slider_->installEventFilter(this);
-  box_->installEventFilter(this);
+  drag_.watch(slider_);
+  drag_.watch(box_);
   show_exponent(0);
 }
 
-bool GlossSlider::eventFilter(QObject* watched, QEvent* event) {
-  const QEvent::Type type = event->type();
-  const bool is_key = type == QEvent::KeyPress || type == QEvent::KeyRelease;
-  if (is_key && static_cast<QKeyEvent*>(event)->isAutoRepeat()) {
-    return false;
-  }
-  if (type == QEvent::MouseButtonPress || type == QEvent::KeyPress) {
-    held_ = true;
-    changed_ = false;
-  } else if (type == QEvent::MouseButtonRelease || type == QEvent::KeyRelease ||
-             type == QEvent::FocusOut) {
-    held_ = false;
-  }
-  return QWidget::eventFilter(watched, event);
-}
-
 void GlossSlider::change(double value) {
-  if (!held_ || !changed_) {
-    emit drag_began();
-  }
-  changed_ = true;
+  drag_.change();
   show_value(value);
   emit moved(value);
 }

@@ -3,6 +3,8 @@
 
 #include <QWidget>
 
+#include "widgets/drag_hold.h"
+
 class QDoubleSpinBox;
 class QLabel;
 class QSlider;
@@ -27,19 +29,15 @@ class GlossSlider : public QWidget {
   /// The exponent or the roughness, whichever is shown.
   void moved(double value);
 
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
  private:
   void show_value(double value);
   void change(double value);
 
   bool is_exponent_ = true;
-  bool held_ = false;     ///< a mouse button or a key is down
-  bool changed_ = false;  ///< since the press
   QLabel* title_;
   QSlider* slider_;
   QDoubleSpinBox* box_;
+  DragHold drag_;
 };
 
 }  // namespace transillum::viewer

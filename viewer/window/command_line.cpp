@@ -13,7 +13,7 @@
 #include "cli/arguments/option_arguments.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "window/first_look.h"
+#include "window/files/first_look.h"
 
 namespace transillum::viewer {
 

@@ -1,13 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/inspection_panels.h"
 
-#include <QAction>
 #include <QDockWidget>
 #include <QMenu>
 #include <QMenuBar>
 #include <utility>
 
-#include "model/solve_runner.h"
+#include "model/solver/solve_runner.h"
 #include "patches/compare_actions.h"
 #include "patches/material_panel.h"
 #include "patches/parts_panel.h"
@@ -16,21 +15,19 @@
 #include "patches/run_panel.h"
 #include "patches/selection_actions.h"
 #include "patches/warning_list.h"
+#include "widgets/build.h"
 #include "widgets/scrolling.h"
-#include "window/dock_layouts.h"
-#include "window/window_parts.h"
+#include "window/base/dock_layouts.h"
+#include "window/base/window_parts.h"
 
 namespace transillum::viewer {
 
 InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QWidget* window)
     : QObject(window), undo_(state.undo), relighting_(state.relighting) {
   materials_ = new MaterialPanel(relighting_, state.selection, state.colors);
-  tables_ = new PatchTablePanel(state.selection);
-  tables_->setObjectName("table_panel");
-  parts_ = new PartsPanel(relighting_, state.selection, hidden);
-  parts_->setObjectName("parts_panel");
-  paths_ = new PathPanel(state.selection);
-  paths_->setObjectName("path_panel");
+  tables_ = named("table_panel", new PatchTablePanel(state.selection));
+  parts_ = named("parts_panel", new PartsPanel(relighting_, state.selection, hidden));
+  paths_ = named("path_panel", new PathPanel(state.selection));
   warnings_ = new WarningList(state.selection);
   connect(warnings_, &WarningList::face_chosen, this, &InspectionPanels::face_chosen);
   selecting_ = new SelectionActions(state.selection, hidden, this);

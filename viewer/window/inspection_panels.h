@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "colors/color_choice.h"
-#include "model/relighting.h"
+#include "model/requests/relighting.h"
 #include "model/snapshot.h"
 #include "radiosity/form_factors/light_paths.h"
 #include "state/hidden_patches.h"

@@ -24,13 +24,12 @@
 #include "transillum/files.h"
 #include "widgets/theme.h"
 #include "window/application.h"
+#include "window/base/view_state_applier.h"
 #include "window/command_line.h"
-#include "window/ending_signals.h"
-#include "window/file_actions.h"
-#include "window/lesson_export.h"
+#include "window/files/file_actions.h"
+#include "window/files/lesson_export.h"
+#include "window/files/screenshot.h"
 #include "window/main_window.h"
-#include "window/screenshot.h"
-#include "window/view_state_applier.h"
 
 using namespace transillum::viewer;
 

@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/main_window.h"
 
-#include <QAction>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QDragEnterEvent>
@@ -10,8 +9,6 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QPlainTextEdit>
-#include <QScreen>
-#include <QSettings>
 #include <QStandardPaths>
 #include <QStatusBar>
 #include <QTimer>
@@ -42,7 +39,7 @@
 #include "solve/solve_actions.h"
 #include "solve/solve_summary.h"
 #include "solve/study_dialog.h"
-#include "state/initial_view.h"
+#include "state/camera_views.h"
 #include "stepping/algorithm_view.h"
 #include "stepping/breakpoint_panel.h"
 #include "stepping/event_filter_row.h"
@@ -51,39 +48,34 @@
 #include "stepping/step_panel.h"
 #include "stepping/timeline_bar.h"
 #include "stepping/timeline_lanes.h"
-#include "support/checked_bytes.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
 #include "tree/tree_view.h"
 #include "widgets/banner.h"
+#include "widgets/build.h"
 #include "widgets/scrolling.h"
 #include "widgets/theme.h"
-#include "window/command_actions.h"
-#include "window/export_actions.h"
-#include "window/file_actions.h"
-#include "window/frame_recorder.h"
-#include "window/help_dialogs.h"
+#include "window/base/notifier.h"
+#include "window/base/view_state_applier.h"
+#include "window/files/export_actions.h"
+#include "window/files/file_actions.h"
+#include "window/files/frame_recorder.h"
+#include "window/files/lesson_export.h"
+#include "window/files/recovery.h"
+#include "window/files/window_session.h"
 #include "window/inspection_panels.h"
-#include "window/key_list.h"
-#include "window/lesson_export.h"
-#include "window/light_offer.h"
-#include "window/loading_notice.h"
-#include "window/notifier.h"
-#include "window/orientation_offer.h"
-#include "window/projector_mode.h"
-#include "window/recovery.h"
-#include "window/setting_list.h"
+#include "window/layout_memory.h"
+#include "window/menus/command_actions.h"
+#include "window/menus/help_pages.h"
+#include "window/menus/projector_mode.h"
+#include "window/scene_bars.h"
 #include "window/solve_control.h"
-#include "window/view_state_applier.h"
-#include "window/window_session.h"
 
 namespace transillum::viewer {
 
 namespace {
 
 constexpr QSize usual_size(1600, 1000);
-// Title bar and borders are known only once the window is on the screen.
-constexpr QSize room_for_frame(16, 48);
 
 /// The fraction of light that escapes; not set before the first pass.
 std::optional<double> escape_of(const SolverSnapshot& snapshot) {
@@ -110,9 +102,11 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
   connect_failures();
   make_docks();
   make_menus();
-  restore_layout();
-  if (recovery_) {
-    recovery_->offer();
+  docks_.arrange(Layout::inspect);
+  resize(usual_size);  // a screenshot has the same size on every screen
+  if (remember_) {
+    memory_->restore();
+    (new Recovery(frame(), *session_, Recovery::usual_folder()))->offer();
   }
 }
 
@@ -155,8 +149,7 @@ void MainWindow::make_views() {
     return state_.scene.is_open(page.scene, page.options) ? whole_of(state_.scene.loaded())
                                                           : nullptr;
   });
-  notes_ = new QPlainTextEdit;
-  notes_->setObjectName("notes");
+  notes_ = named("notes", new QPlainTextEdit);
   notes_->setPlaceholderText(tr("Your notes; they are saved with the session."));
   timeline_ = new TimelineBar(state_.focus, state_.selection, state_.watches, *step_actions_);
   timeline_->lanes()->set_marks(
@@ -176,14 +169,12 @@ void MainWindow::make_whole_window_actions() {
   new SolveControl(frame, *settings_, *solve_actions_, *applier_);
   session_ = new WindowSession(frame, docks_, *notes_, *applier_);
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
+  memory_ = new LayoutMemory(frame, docks_, appearance_, *files_);
   exports_ = new ExportActions(frame, *map_view_, *convergence_view_);
   recorder_ = new FrameRecorder(frame, *timeline_->play());
   timeline_->play()->menu()->addSeparator();
   timeline_->play()->menu()->addAction(recorder_->animation_action());
   new LoadingNotice(frame);
-  if (remember_) {
-    recovery_ = new Recovery(frame, *session_, Recovery::usual_folder());
-  }
   lesson_export_ = new LessonExport(frame, *lesson_panel_, [this] { return settled(); });
   new LightOffer(frame, docks_, *settings_, inspection_->materials(), *applier_);
   new OrientationOffer(frame, *settings_, *applier_);
@@ -413,10 +404,10 @@ void MainWindow::make_menus() {
   QMenu* solve = menuBar()->addMenu(tr("&Solve"));
   solve_actions_->add_to(*solve);
   solve->addSeparator();
-  study_action_ = new QAction(theme::icon(theme::Icon::study), tr("Study…"), this);
-  study_action_->setObjectName("study");
-  study_action_->setShortcut(QKeySequence(QStringLiteral("Ctrl+T")));
-  study_action_->setToolTip(tr("Error of B against the number of directions (Ctrl+T)"));
+  study_action_ = make_action(this, "study", tr("Study…"),
+                              tr("Error of B against the number of directions (Ctrl+T)"),
+                              QKeySequence("Ctrl+T"));
+  study_action_->setIcon(theme::icon(theme::Icon::study));
   connect(study_action_, &QAction::triggered, study_, &StudyDialog::present);
   solve->addAction(study_action_);
 
@@ -487,8 +478,7 @@ void MainWindow::make_view_menu() {
 }
 
 void MainWindow::make_tool_bar() {
-  auto* bar = new QToolBar(tr("Tools"));
-  bar->setObjectName("tool_bar");
+  auto* bar = named("tool_bar", new QToolBar(tr("Tools")));
   bar->setMovable(false);
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   bar->addAction(page_->scenes_action());
@@ -506,60 +496,6 @@ void MainWindow::fill_built_in_menu(QMenu& menu) {
     menu.addAction(tr("%1 – %2").arg(name, QString::fromStdString(built_in.summary)), files_,
                    [this, name] { files_->open_scene(name); });
   }
-}
-
-void MainWindow::fit_into_screen(const QSize& wanted) {
-  resize(wanted.boundedTo(screen()->availableSize() - room_for_frame));
-}
-
-void MainWindow::restore_layout() {
-  docks_.arrange(Layout::inspect);
-  if (!remember_) {
-    resize(usual_size);  // a screenshot has the same size on every screen
-    return;
-  }
-  fit_into_screen(usual_size);
-  // Panels that were laid out for the first time can have made the window larger.
-  connect(&state_.scene, &OpenScene::scene_shown, this, [this] {
-    QTimer::singleShot(0, this, [this] {
-      const QSize room = screen()->availableSize();
-      const bool fits = frameSize().boundedTo(room) == frameSize();
-      if (!fits && !isMaximized() && !isFullScreen()) {
-        fit_into_screen(size());
-      }
-    });
-  });
-  QSettings settings;
-  state_.breakpoints.load(settings);
-  page_->turntable_action()->setChecked(settings.value("scene/turntable", false).toBool());
-  files_->load(settings);
-  const auto geometry = without_checksum(settings.value("window/geometry").toByteArray());
-  if (geometry) {
-    restoreGeometry(*geometry);
-  }
-  // The saved state may not fit after an update of Qt or of the docks.
-  const bool fits = docks_.load(settings);
-  if (!fits) {
-    docks_.arrange(Layout::inspect);
-  }
-  appearance_.load(settings);  // may show parts of the layout
-  if (!fits && settings.contains("window/state")) {
-    // The message is shown later: opening the first scene dismisses messages.
-    QTimer::singleShot(0, notifier_, [this] {
-      notifier_->show_warnings(
-          {tr("The saved layout is damaged, or of another version; the usual one is used")});
-    });
-  }
-}
-
-void MainWindow::save_layout() {
-  QSettings settings;
-  settings.setValue("window/geometry", with_checksum(saveGeometry()));
-  docks_.save(settings);
-  state_.breakpoints.save(settings);
-  appearance_.save(settings);
-  settings.setValue("scene/turntable", page_->turntable_action()->isChecked());
-  files_->save(settings);
 }
 
 bool MainWindow::may_close() {
@@ -631,7 +567,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   }
   full_screen_.show_all();
   if (remember_) {
-    save_layout();
+    memory_->save();
   }
   QMainWindow::closeEvent(event);
 }

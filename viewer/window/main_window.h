@@ -4,10 +4,10 @@
 #include <QMainWindow>
 
 #include "widgets/full_screen.h"
-#include "window/appearance_actions.h"
-#include "window/dock_layouts.h"
-#include "window/window_parts.h"
-#include "window/work_guard.h"
+#include "window/base/dock_layouts.h"
+#include "window/base/open_scene.h"
+#include "window/base/window_parts.h"
+#include "window/menus/appearance_actions.h"
 
 class QDockWidget;
 class QMenu;
@@ -24,13 +24,13 @@ class ExportActions;
 class FileActions;
 class FrameRecorder;
 class InspectionPanels;
+class LayoutMemory;
 class LessonExport;
 class LobeView;
 class PatchInspector;
 class ProgressLine;
 class ProjectorMode;
 class ReceivedView;
-class Recovery;
 class SolveActions;
 class SolveSummary;
 class StepActions;
@@ -85,10 +85,6 @@ class MainWindow : public QMainWindow {
   void make_view_menu();
   void make_tool_bar();
   void fill_built_in_menu(QMenu& menu);
-  void restore_layout();
-  /// Resizes the window to `wanted`, or less where the screen is smaller.
-  void fit_into_screen(const QSize& wanted);
-  void save_layout();
   /// Asks about long work and unsaved notes. @returns whether the window may close
   bool may_close();
 
@@ -130,9 +126,9 @@ class MainWindow : public QMainWindow {
   ViewStateApplier* applier_;
   WindowSession* session_;
   FileActions* files_;
+  LayoutMemory* memory_;
   ExportActions* exports_;
   FrameRecorder* recorder_;
-  Recovery* recovery_ = nullptr;  ///< null if nothing is remembered
   LessonExport* lesson_export_;
 };
 

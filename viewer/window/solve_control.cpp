@@ -14,9 +14,9 @@
 #include "solve/settings_panel.h"
 #include "solve/solve_actions.h"
 #include "support/number_text.h"
-#include "window/notifier.h"
-#include "window/view_state_applier.h"
-#include "window/work_guard.h"
+#include "window/base/notifier.h"
+#include "window/base/open_scene.h"
+#include "window/base/view_state_applier.h"
 
 namespace transillum::viewer {
 
@@ -40,7 +40,16 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
       frame_(frame),
       settings_(settings),
       actions_(actions),
-      applier_(applier) {
+      applier_(applier),
+      forecast_(*this, PatchForecast(),
+                [this](const PatchForecast::Request& request,
+                       std::shared_ptr<const std::int64_t> patches, const QString&) {
+                  if (patches) {
+                    show_forecast(request.options, *patches);
+                  } else if (std::exchange(awaits_forecast_, false)) {
+                    open_again();  // reading the scene will fail likewise, and say why
+                  }
+                }) {
   SolveRunner& runner = frame_.state.runner;
   connect(&actions_, &SolveActions::run, this, &SolveControl::run);
   connect(&actions_, &SolveActions::pause, &runner, &SolveRunner::pause);
@@ -58,17 +67,10 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
   });
   connect(&settings_, &SettingsPanel::forecast_wanted, this, [this](const SceneOptions& options) {
     if (frame_.state.scene.loaded() && frame_.state.scene.loaded()->description) {
-      forecast_.request(frame_.state.scene.loaded(), options);
+      request_forecast(options);
     }
   });
   connect(&frame_.state.scene, &OpenScene::opening, this, [this] { awaits_forecast_ = false; });
-  connect(&forecast_, &PatchForecast::counted, this, &SolveControl::show_forecast);
-  connect(&forecast_, &PatchForecast::failed, this, [this] {
-    // Reading the scene will fail for the same reason, and report it.
-    if (std::exchange(awaits_forecast_, false)) {
-      open_again();
-    }
-  });
   connect(settings_.rounds(), &RoundPanel::canceled, &runner, &SolveRunner::stop);
   connect(&frame_.page, &ScenePage::replicas_requested, this, &SolveControl::solve_with_replicas);
 }
@@ -111,7 +113,7 @@ void SolveControl::solve_again() {
     frame_.state.runner.restart(options.solve, {Goal::Kind::finished}, options.refine);
   } else if (frame_.state.scene.loaded()->description) {
     awaits_forecast_ = true;
-    forecast_.request(frame_.state.scene.loaded(), options.scene);
+    request_forecast(options.scene);
   } else {
     open_again();
   }
@@ -129,9 +131,13 @@ RunOptions SolveControl::wanted_options() const {
 
 void SolveControl::open_again() { applier_.open_again(wanted_options()); }
 
+void SolveControl::request_forecast(const SceneOptions& options) {
+  forecast_.request({whole_of(frame_.state.scene.loaded()), options});
+}
+
 void SolveControl::show_forecast(const SceneOptions& options, std::int64_t patches) {
   settings_.show_forecast(options, forecast_text(patches));
-  // An earlier forecast may still arrive.
+  // The settings may have changed since.
   const SceneOptions wanted = settings_.scene_options();
   const bool newest =
       options.max_patch_area == wanted.max_patch_area && options.two_sided == wanted.two_sided;

@@ -3,9 +3,10 @@
 
 #include <QObject>
 
-#include "model/patch_forecast.h"
+#include "model/requests/patch_forecast.h"
 #include "model/snapshot.h"
-#include "window/window_parts.h"
+#include "support/newest_result.h"
+#include "window/base/window_parts.h"
 
 namespace transillum::viewer {
 
@@ -30,6 +31,7 @@ class SolveControl : public QObject {
   /// Asks about long work. @returns whether the solve may be discarded
   bool may_solve_again() const;
   void solve_with_replicas();
+  void request_forecast(const SceneOptions& options);
   void show_forecast(const SceneOptions& options, std::int64_t patches);
   /// Asks about a scene of very many patches. @returns whether to make it
   bool may_refine(std::int64_t patches);
@@ -43,7 +45,7 @@ class SolveControl : public QObject {
   SolveActions& actions_;
   ViewStateApplier& applier_;
   bool awaits_forecast_ = false;  ///< to open the scene again
-  PatchForecast forecast_;
+  NewestResult<PatchForecast::Request, std::int64_t> forecast_;
 };
 
 }  // namespace transillum::viewer

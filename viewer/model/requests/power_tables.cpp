@@ -1,0 +1,33 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/requests/power_tables.h"
+
+#include <span>
+
+#include "model/snapshot_values.h"
+
+namespace transillum::viewer {
+
+PowerTables power_tables(const std::shared_ptr<const SolverSnapshot>& snapshot) {
+  PowerTables tables;
+  tables.snapshot = snapshot;
+  tables.received_known = snapshot->of_file || snapshot->progress.iteration > 0;
+  Solution solution = solution_of(*snapshot);
+  if (!tables.received_known) {
+    solution.irradiance.assign(solution.radiosity.size(), Rgb{});
+    solution.sky_irradiance.clear();
+  }
+  std::span<const Material> materials;
+  std::span<const std::int32_t> patch_materials;
+  if (snapshot->materials) {
+    materials = snapshot->materials->materials;
+    patch_materials = snapshot->materials->of_patch;
+  }
+  const auto table = [&](PartsBy by) {
+    return power_table(solution, by, snapshot->form_factors.get(), materials, patch_materials);
+  };
+  tables.groups = table(PartsBy::group);
+  tables.materials = table(PartsBy::material);
+  return tables;
+}
+
+}  // namespace transillum::viewer

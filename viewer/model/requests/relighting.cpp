@@ -1,0 +1,153 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/requests/relighting.h"
+
+#include <utility>
+
+#include "model/snapshot_values.h"
+
+namespace transillum::viewer {
+
+// While a slider is dragged, a late picture is better than none: a running job is finished.
+Relighting::Relighting(QUndoStack& undo, QObject* parent)
+    : QObject(parent),
+      edits_(undo),
+      relighter_(
+          *this, &Relighting::relit,
+          [this](const Request& request, std::shared_ptr<const RelightResult> light,
+                 const QString& error) {
+            if (!light) {
+              emit failed(error);
+            } else if (edits_.any()) {  // else undone since
+              light_ = std::move(light);
+              materials_ = request.materials;
+              emit changed();
+            }
+          },
+          CurrentJob::finish) {
+  connect(&edits_, &MaterialEdits::changed, this, &Relighting::request_light);
+}
+
+RelightResult Relighting::relit(const Request& request, const Cancellation& cancellation) {
+  RelightOptions options;
+  options.tolerance = request.tolerance;
+  options.start = request.start;
+  options.sky_irradiance = request.sky;
+  options.shot = request.shot.get();
+  options.patch_materials = request.materials->of_patch;
+  return relight(*request.scene, *request.form_factors, request.materials->materials, options,
+                 cancellation);
+}
+
+void Relighting::show_scene(std::shared_ptr<const Scene> scene) {
+  snapshot_ = nullptr;
+  used_ = nullptr;
+  light_ = nullptr;
+  materials_ = asked_ = nullptr;
+  relighter_.clear();
+  edits_.start_with(std::move(scene));
+}
+
+QString Relighting::reason_unavailable() const {
+  if (!snapshot_) {
+    return tr("Open a scene to change its light.");
+  }
+  if (snapshot_->shot && !snapshot_->shot->sources.empty() && snapshot_->shot->parts.empty()) {
+    return tr(
+        "The first shot, stored per material, exceeds the memory limit: solve without it to change "
+        "the light.");
+  }
+  if (snapshot_->glossy) {
+    return snapshot_->progress.iteration > 0 || snapshot_->materials || asked_
+               ? QString()
+               : tr("The light can be changed after the first iteration.");
+  }
+  return snapshot_->form_factors ? QString() : why_no_form_factors(*snapshot_);
+}
+
+QString Relighting::method_note() const {
+  if (!snapshot_) {
+    return {};
+  }
+  if (snapshot_->glossy) {
+    return tr("Changed light is computed from the kept transfers, by direction.");
+  }
+  if (snapshot_->options.basis == Basis::linear) {
+    return tr(
+        "Changed light is constant on each patch: the stored form factors belong to constant "
+        "functions.");
+  }
+  if (snapshot_->options.scheme == Scheme::semi_iterative) {
+    return tr(
+        "Changed light uses the form factors of all iterations; B of the scheme is a mean over "
+        "iterations.");
+  }
+  if (snapshot_->shot && !snapshot_->shot->sources.empty()) {
+    return tr("The first shot is included; patches that did not emit before are not shot.");
+  }
+  return {};
+}
+
+void Relighting::ask_solver() {
+  const auto wanted = edits_.any() ? edits_.materials() : nullptr;
+  if (wanted != asked_) {
+    asked_ = wanted;
+    emit solver_light_requested(wanted);
+  }
+}
+
+void Relighting::request_light() {
+  if (snapshot_ && snapshot_->glossy) {
+    ask_solver();
+    emit changed();
+    return;
+  }
+  if (!edits_.any()) {
+    relighter_.clear();
+    light_ = nullptr;
+    materials_ = nullptr;
+    used_ = nullptr;
+    emit changed();
+    return;
+  }
+  if (!reason_unavailable().isEmpty()) {
+    emit form_factors_requested();
+    return;
+  }
+  used_ = snapshot_->form_factors;
+  relighter_.request({.scene = snapshot_->loaded->scene,
+                      .form_factors = used_,
+                      .shot = snapshot_->shot,
+                      .materials = edits_.materials(),
+                      .start = light_ ? light_->radiosity : snapshot_->radiosity,
+                      .sky = snapshot_->sky_irradiance,
+                      .tolerance = snapshot_->options.tolerance});
+}
+
+std::shared_ptr<const SolverSnapshot> Relighting::lit(
+    std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  if (snapshot_->glossy) {
+    light_ = nullptr;
+    materials_ = nullptr;
+    used_ = nullptr;
+    ask_solver();
+    return snapshot_;
+  }
+  // The snapshot has form factors of more passes than the newest request.
+  if (edits_.any() && snapshot_->form_factors && snapshot_->form_factors != used_) {
+    request_light();
+  }
+  if (!light_ || !snapshot_->form_factors) {
+    return snapshot_;
+  }
+  auto lit = std::make_shared<SolverSnapshot>(*snapshot_);
+  lit->radiosity = light_->radiosity;
+  lit->linear_parts.clear();  // the form factors belong to constant functions
+  lit->bases = nullptr;
+  lit->kept_linear_parts.clear();
+  lit->irradiance = light_->irradiance;
+  lit->materials = materials_;
+  return lit;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,81 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Questions about the light of patches that take too long to answer for the thread of the window.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/snapshot.h"
+#include "transillum/adjoint.h"
+#include "transillum/cancellation.h"
+#include "transillum/glossy.h"
+
+namespace transillum::viewer {
+
+/// A question about the light of one patch, to be answered from form factors on another thread.
+struct LightRequest {
+  std::shared_ptr<const LoadedScene> loaded;
+  std::shared_ptr<const FormFactors> form_factors;
+  std::shared_ptr<const PatchMaterials> materials;  ///< null for the materials of the scene
+  PatchId receiver = no_patch;
+  double tolerance = 0;  ///< tolerance of the solve run
+
+  const Scene& scene() const { return *loaded->scene; }
+  const std::vector<Material>& material_list() const {
+    return materials ? materials->materials : scene().materials();
+  }
+  /// Index into material_list() for each patch; empty if Patch::material is that index.
+  std::span<const std::int32_t> patch_materials() const {
+    return materials ? std::span<const std::int32_t>(materials->of_patch)
+                     : std::span<const std::int32_t>();
+  }
+  friend bool operator==(const LightRequest&, const LightRequest&) = default;
+};
+
+/// The request for a snapshot; not set where the snapshot has no form factors or no such patch.
+inline std::optional<LightRequest> light_request(const SolverSnapshot& snapshot, PatchId receiver) {
+  if (!snapshot.form_factors || receiver < 0 || receiver >= snapshot.loaded->scene->patch_count()) {
+    return std::nullopt;
+  }
+  return LightRequest{snapshot.loaded, snapshot.form_factors, snapshot.materials, receiver,
+                      snapshot.options.tolerance};
+}
+
+/// The difference between B of each patch and B of its neighbors.
+struct PatchJumps {
+  std::shared_ptr<const Scene> scene;
+  std::vector<double> values;  ///< radiosity_jumps(), W/m², one per patch
+};
+PatchJumps find_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot,
+                      const Cancellation& cancellation);
+
+/// A light whose last reflection is evaluated for an eye.
+struct EyeRequest {
+  std::shared_ptr<const GlossyLight> light;
+  Vec3 eye;  ///< m
+
+  friend bool operator==(const EyeRequest& a, const EyeRequest& b) {
+    return a.light == b.light && a.eye == b.eye;
+  }
+};
+/// Radiance of all patches toward a point.
+struct RadianceToward {
+  std::shared_ptr<const GlossyLight> light;
+  std::vector<Rgb> values;  ///< W/(m² sr), one per patch
+};
+RadianceToward radiance_toward(const EyeRequest& request, const Cancellation& cancellation);
+
+/// The effect that light emitted by each patch has on one patch.
+struct PatchResponse {
+  std::shared_ptr<const LoadedScene> loaded;
+  PatchId receiver = no_patch;
+  Adjoint adjoint;
+};
+/// Solves the adjoint for a patch, from the form factors of a snapshot.
+PatchResponse solve_response(const LightRequest& request, const Cancellation& cancellation);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,113 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/snapshot_values.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
+  Solution solution;
+  solution.scene = snapshot.loaded->scene;
+  solution.radiosity = snapshot.radiosity;
+  solution.linear_parts = snapshot.linear_parts;
+  solution.irradiance = snapshot.irradiance;
+  solution.error = snapshot.error;
+  solution.statistics = snapshot.statistics;
+  solution.complete = snapshot.of_file ? snapshot.loaded->stored->complete : complete;
+  solution.accuracy = snapshot.accuracy;
+  solution.glossy = snapshot.glossy;
+  const bool any_pass = snapshot.passes_done > 0;
+  if (any_pass) {
+    solution.form_factor_sums = snapshot.form_factor_sums;
+    solution.sky_shares = snapshot.sky_shares;
+    solution.sky_irradiance = snapshot.sky_irradiance;
+  } else if (snapshot.of_file) {
+    solution.form_factor_sums = snapshot.loaded->stored->form_factor_sums;
+    solution.sky_shares = snapshot.loaded->stored->sky_shares;
+    solution.sky_irradiance = snapshot.loaded->stored->sky_irradiance;
+  }
+  return solution;
+}
+
+Rgb value_at(const Rgb& mean, const LinearPart& part, const LinearBasis& basis, const Vec3& point) {
+  const auto [first, second] = basis.at(point);
+  return mean + first * part.first + second * part.second;
+}
+
+Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point) {
+  const Rgb& mean = at(snapshot.radiosity, i);
+  return snapshot.linear_parts.empty()
+             ? mean
+             : value_at(mean, at(snapshot.linear_parts, i), at(*snapshot.bases, i), point);
+}
+
+std::int64_t count_negative_corners(const SolverSnapshot& snapshot) {
+  const Scene& scene = *snapshot.loaded->scene;
+  std::int64_t count = 0;
+  for (PatchId i = 0; i < std::ssize(snapshot.linear_parts); ++i) {
+    for (const PointId corner : scene.outline(i)) {
+      const Rgb b = radiosity_at(snapshot, i, scene.point(corner));
+      count += std::min({b.r, b.g, b.b}) < 0 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+std::optional<Vec3> point_of_patch(const PlaneFrame& frame, const Vec2& p, const Patch& patch) {
+  const double cosine = dot(patch.normal, frame.omega);
+  if (std::abs(cosine) < 1e-9) {
+    return std::nullopt;
+  }
+  const Vec3 on_plane = frame.origin + p.x * frame.u + p.y * frame.v;
+  return on_plane + (dot(patch.normal, patch.center - on_plane) / cosine) * frame.omega;
+}
+
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("FormFactors", text); }
+
+}  // namespace
+
+double form_factor(const FormFactors& form_factors, PatchId i, PatchId j) {
+  const auto source = form_factors.source.begin();
+  const auto end = source + static_cast<std::ptrdiff_t>(at(form_factors.row_begin, i + 1));
+  const auto found =
+      std::lower_bound(source + static_cast<std::ptrdiff_t>(at(form_factors.row_begin, i)), end, j);
+  return found != end && *found == j ? at(form_factors.value, found - source) : 0.0;
+}
+
+std::vector<double> form_factors_from(const FormFactors& form_factors, PatchId i) {
+  std::vector<double> row(form_factors.row_begin.size() - 1);
+  for (std::size_t k = at(form_factors.row_begin, i); k < at(form_factors.row_begin, i + 1); ++k) {
+    at(row, form_factors.source[k]) = form_factors.value[k];
+  }
+  return row;
+}
+
+std::vector<double> form_factors_to(const FormFactors& form_factors, PatchId i) {
+  std::vector<double> column(form_factors.row_begin.size() - 1);
+  for (PatchId j = 0; j < std::ssize(column); ++j) {
+    at(column, j) = form_factor(form_factors, j, i);
+  }
+  return column;
+}
+
+QString why_no_form_factors(const SolverSnapshot& snapshot) {
+  if (snapshot.glossy) {
+    return tr("With lobes, transfers are kept by direction; there are no form factors.");
+  }
+  if (snapshot.progress.iteration == 0) {
+    return tr("Form factors are available after the first iteration.");
+  }
+  if (!snapshot.form_factors_fit) {
+    return tr("The form factors exceed the memory limit.");
+  }
+  return tr("Assembling the form factors…");
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,87 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/solver/checkpoint_keeper.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "transillum/errors.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr double soon_share = 1.0 / 12;
+
+void remove(const std::string& file) {
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+}
+
+}  // namespace
+
+void CheckpointKeeper::save_to(std::string file, double interval) {
+  const std::lock_guard lock(mutex_);
+  remove(file_);
+  file_ = std::move(file);
+  interval_ = interval;
+  checkpoint_.reset();
+}
+
+void CheckpointKeeper::resume_from(std::string file) {
+  const std::lock_guard lock(mutex_);
+  resume_from_ = std::move(file);
+}
+
+void CheckpointKeeper::resume(SolveSession& session, const SolveOptions& options) {
+  std::string file;
+  {
+    const std::lock_guard lock(mutex_);
+    file = std::exchange(resume_from_, {});
+  }
+  if (file.empty() || options.glossy) {
+    return;
+  }
+  try {
+    Checkpoint(file, *session.scene(), options).resume(session);
+  } catch (const InputError&) {
+    const std::lock_guard lock(mutex_);
+    if (session.in_rounds() && resume_from_.empty()) {
+      resume_from_ = file;
+      return;
+    }
+  } catch (...) {
+    remove(file);
+    throw;
+  }
+  remove(file);
+}
+
+void CheckpointKeeper::begin(std::shared_ptr<const Scene> scene, const SolveOptions& options) {
+  const std::lock_guard lock(mutex_);
+  remove(file_);
+  scene_ = std::move(scene);
+  options_ = options;
+  since_ = std::chrono::steady_clock::now();
+  checkpoint_.reset();
+}
+
+void CheckpointKeeper::save_if_due(const SolveSession& session, bool in_pause) {
+  const std::lock_guard lock(mutex_);
+  const bool soon = in_pause || session.progress().direction == 0;
+  const double interval = soon ? soon_share * interval_ : interval_;
+  const std::chrono::duration<double> age = std::chrono::steady_clock::now() - since_;
+  if (file_.empty() || !scene_ || session.diffuse() == nullptr || age.count() < interval) {
+    return;
+  }
+  try {
+    if (!checkpoint_) {
+      checkpoint_.emplace(file_, *scene_, options_);
+      checkpoint_->save(session);
+    } else {
+      checkpoint_->save_if_due(session, interval);
+    }
+  } catch (const std::exception&) {
+  }
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,128 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/solver/scene_loading.h"
+
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <utility>
+
+#include "scene/build/patch_count.h"
+#include "transillum/files.h"
+#include "transillum/material_changes.h"
+#include "transillum/orientation.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+/// Wall time since the timer was started, s.
+double seconds(const QElapsedTimer& timer) {
+  return 1e-9 * static_cast<double>(timer.nsecsElapsed());
+}
+
+QString tr(const char* text) { return QCoreApplication::translate("SceneLoading", text); }
+
+/// @throws InputError, Canceled
+std::shared_ptr<const Scene> make_scene(const SceneDescription& description,
+                                        const RunOptions& options,
+                                        const Cancellation& cancellation) {
+  SceneOptions scene_options = options.scene;
+  const int unknowns = options.solve.basis == Basis::linear ? 3 : 1;
+  check_memory(description.name, static_cast<std::int64_t>(description.face_count()),
+               options.solve.replicas, unknowns);
+  if (options.input.patches > 0 || scene_options.max_patch_area > 0) {
+    SceneOptions undivided = scene_options;
+    undivided.max_patch_area = 0;
+    const Scene whole(description, undivided, cancellation);
+    if (options.input.patches > 0) {
+      scene_options.max_patch_area = max_patch_area_for(whole, options.input.patches, cancellation);
+    }
+    if (scene_options.max_patch_area > 0) {
+      check_memory(description.name, count_patches(whole, scene_options.max_patch_area),
+                   options.solve.replicas, unknowns);
+    }
+  }
+  return std::make_shared<const Scene>(description, scene_options, cancellation);
+}
+
+SceneDescription describe(const std::string& spec, const SceneInput& input,
+                          const LoadProgress& progress, const Cancellation& cancellation) {
+  SceneDescription description = describe_scene(spec, input.read, cancellation);
+  change_materials(description, input.changes);
+  if (input.orient) {
+    const OrientationReport report = orient(
+        description, 0, cancellation, [&](double share) { progress(tr("Turning faces"), share); });
+    for (const std::string& sentence : report.sentences) {
+      description.notes.push_back("orientation: " + sentence);
+    }
+  }
+  return description;
+}
+
+/// Sets the members that follow from the patches.
+void examine(LoadedScene& loaded, const Cancellation& cancellation) {
+  loaded.picker = std::make_shared<const Picker>(loaded.scene, cancellation);
+  loaded.measures = measure(*loaded.scene, cancellation);
+}
+
+}  // namespace
+
+std::function<void(Preparation, double)> phase_reporter(LoadProgress progress) {
+  constexpr qint64 report_interval_ms = 50;
+  return [progress = std::move(progress), since_report = QElapsedTimer()](Preparation what,
+                                                                          double share) mutable {
+    if (share > 0 && since_report.isValid() && since_report.elapsed() < report_interval_ms) {
+      return;
+    }
+    since_report.start();
+    progress(
+        what == Preparation::tree ? tr("Building the BSP tree") : tr("Computing the first shot"),
+        share);
+  };
+}
+
+std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, const RunOptions& options,
+                                                const LoadProgress& progress,
+                                                const Cancellation& cancellation) {
+  QElapsedTimer timer;
+  timer.start();
+  auto loaded = std::make_shared<LoadedScene>();
+  progress(tr("Loading %1").arg(QString::fromStdString(spec)), -1);
+  if (is_result_file(spec)) {
+    loaded->stored = std::make_shared<const Solution>(read_result(spec, cancellation));
+    loaded->scene = loaded->stored->scene;
+    loaded->file = spec;
+  } else {
+    loaded->description = std::make_shared<const SceneDescription>(
+        describe(spec, options.input, progress, cancellation));
+    loaded->scene = make_scene(*loaded->description, options, cancellation);
+  }
+  loaded->back_share = back_share(*loaded->scene, 0, cancellation).share;
+  examine(*loaded, cancellation);
+  loaded->seconds_load = seconds(timer);
+  timer.start();
+  const auto preparing = phase_reporter(progress);
+  loaded->tree = std::make_shared<BspTree>(
+      *loaded->scene, cancellation, [&](double share) { preparing(Preparation::tree, share); });
+  loaded->seconds_bsp = seconds(timer);
+  return loaded;
+}
+
+std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
+                                                   const std::shared_ptr<const LoadedScene>& whole,
+                                                   const Cancellation& cancellation) {
+  if (session.scene() == whole->scene) {
+    return whole;
+  }
+  auto loaded = std::make_shared<LoadedScene>();
+  loaded->scene = session.scene();
+  loaded->description = whole->description;
+  loaded->tree = session.tree();
+  loaded->back_share = whole->back_share;
+  loaded->seconds_load = whole->seconds_load;
+  loaded->seconds_bsp = session.statistics().seconds_bsp;
+  loaded->whole = whole;
+  examine(*loaded, cancellation);
+  return loaded;
+}
+
+}  // namespace transillum::viewer

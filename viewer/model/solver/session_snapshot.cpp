@@ -1,0 +1,215 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/solver/session_snapshot.h"
+
+#include <new>
+#include <utility>
+
+#include "model/snapshot_values.h"
+
+namespace transillum::viewer {
+
+SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const LoadedScene> loaded) {
+  SolverSnapshot snapshot;
+  snapshot.loaded = std::move(loaded);
+  snapshot.options = session.options();
+  snapshot.progress = session.progress();
+  snapshot.passes_done = session.passes_done();
+  snapshot.of_file = snapshot.loaded->stored && snapshot.passes_done == 0;
+  const RadiositySolver* diffuse = session.diffuse();
+  Solution solution = diffuse != nullptr ? diffuse->solution() : session.glossy()->solution();
+  solution.statistics = session.statistics();
+  snapshot.glossy = std::move(solution.glossy);
+  if (snapshot.of_file) {
+    solution = *snapshot.loaded->stored;
+  } else {
+    snapshot.uncertain_patches = std::ssize(uncertain_patches(solution));
+  }
+  snapshot.statistics = std::move(solution.statistics);
+  snapshot.radiosity = std::move(solution.radiosity);
+  snapshot.linear_parts = std::move(solution.linear_parts);
+  snapshot.irradiance = std::move(solution.irradiance);
+  snapshot.error = std::move(solution.error);
+  snapshot.form_factor_sums = std::move(solution.form_factor_sums);
+  snapshot.sky_shares = std::move(solution.sky_shares);
+  snapshot.sky_irradiance = std::move(solution.sky_irradiance);
+  // Empty before the first pass.
+  snapshot.form_factor_sums.resize(snapshot.radiosity.size());
+  if (!snapshot.of_file) {
+    snapshot.sky_shares.resize(snapshot.radiosity.size());
+  }
+  if (diffuse != nullptr) {
+    snapshot.shot = diffuse->direct_light();
+    snapshot.estimate_changes = diffuse->estimate_changes();
+    snapshot.quadrature_errors = diffuse->quadrature_errors();
+  }
+  std::optional<AccuracyReport> accuracy = session.accuracy();
+  if (accuracy && !accuracy->stages.empty()) {
+    snapshot.accuracy = std::move(accuracy);
+  }
+  return snapshot;
+}
+
+namespace {
+
+// Limit for all B(n) together, and for all directions; later ones are not stored.
+constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
+
+template <class Value>
+std::shared_ptr<const std::vector<Value>> shared(std::vector<Value> values) {
+  return std::make_shared<const std::vector<Value>>(std::move(values));
+}
+
+}  // namespace
+
+SolveHistory::SolveHistory(const SolveSession& session)
+    : directions_{shared(session.directions_of(0))},
+      passes_{session.passes_of(0)},
+      replicas_(session.options().replicas) {
+  update(session);
+}
+
+void SolveHistory::update(const SolveSession& session) {
+  store_radiosity(session);
+  store_directions(session);
+  store_errors(session);
+  const SolveProgress progress = session.progress();
+  if (progress.direction == progress.passes) {
+    // The solver clears them at the end of the iteration.
+    changes_ = session.estimate_changes();
+    changes_iteration_ = progress.iteration;
+  }
+}
+
+void SolveHistory::store_radiosity(const SolveSession& session) {
+  const SolveProgress progress = session.progress();
+  const auto iteration = static_cast<std::size_t>(progress.iteration);
+  if (iteration < radiosity_.size()) {
+    return;
+  }
+  std::vector<Rgb> radiosity = session.radiosity();
+  const std::size_t patches = radiosity.size();
+  radiosity_.resize(iteration + 1);
+  const bool linear = session.options().basis == Basis::linear;
+  if (patches * (iteration + 1) * sizeof(Rgb) * (linear ? 3 : 1) > most_kept_bytes) {
+    return;
+  }
+  radiosity_[iteration] = shared(std::move(radiosity));
+  if (!linear) {
+    return;
+  }
+  linear_parts_.resize(iteration + 1);
+  if (iteration == 0) {
+    // B(0) is E; the solver's parts may already belong to the estimate.
+    linear_parts_[0] = shared(std::vector<LinearPart>(patches));
+  } else if (progress.direction == 0) {
+    linear_parts_[iteration] = shared(session.linear_parts());
+  }
+}
+
+void SolveHistory::store_directions(const SolveSession& session) {
+  const SolveOptions& options = session.options();
+  if (options.replicas > replicas_) {
+    directions_.front() = shared(session.directions());
+    replicas_ = options.replicas;
+  }
+  const SolveProgress progress = session.progress();
+  const std::size_t begun =
+      static_cast<std::size_t>(progress.iteration) + (progress.direction > 0 ? 1 : 0);
+  while (directions_.size() < begun) {
+    const auto iteration = static_cast<int>(directions_.size());
+    if (options.scheme != Scheme::semi_iterative) {
+      directions_.push_back(directions_.front());
+    } else if (session.directions().size() * begun * sizeof(Vec3) <= most_kept_bytes) {
+      directions_.push_back(shared(session.directions_of(iteration)));
+    } else {
+      directions_.push_back(nullptr);
+    }
+    passes_.push_back(session.passes_of(iteration));
+  }
+}
+
+void SolveHistory::store_errors(const SolveSession& session) {
+  const SolveProgress progress = session.progress();
+  const auto iterations = static_cast<std::size_t>(progress.iteration);
+  if (session.options().replicas < 2 || errors_.size() >= iterations || progress.direction > 0) {
+    return;
+  }
+  const ErrorEstimate error = session.error_estimate();
+  errors_.resize(iterations);  // iterations that were not observed have 0
+  errors_.back() = {error.rms_lowest, error.rms, error.rms_limit};
+}
+
+void SolveHistory::write_to(SolverSnapshot& snapshot) {
+  snapshot.kept_directions = directions_;
+  snapshot.directions = directions_.back();
+  snapshot.kept_passes = passes_;
+  snapshot.kept_radiosity = radiosity_;
+  snapshot.kept_linear_parts = linear_parts_;
+  snapshot.errors = errors_;
+  snapshot.estimate_iteration = snapshot.progress.iteration;
+  if (snapshot.estimate_changes.empty() && snapshot.progress.iteration > 0) {
+    snapshot.estimate_changes = changes_;
+    snapshot.estimate_iteration = changes_iteration_;
+  }
+  if (!snapshot.linear_parts.empty()) {
+    if (!bases_) {
+      bases_ = shared(linear_bases(*snapshot.loaded->scene));
+    }
+    snapshot.bases = bases_;
+    snapshot.statistics.negative_corners = count_negative_corners(snapshot);
+  }
+}
+
+namespace {
+
+// Limit for the form factors in addition to the solver's sums.
+constexpr std::int64_t most_bytes = std::int64_t{1} << 30;
+constexpr std::int64_t bytes_per_entry = sizeof(PatchId) + sizeof(double);
+
+}  // namespace
+
+bool KeptFormFactors::can_assemble(const SolveSession& session) const {
+  const SolveProgress progress = session.progress();
+  const bool between_iterations = progress.direction == 0 && progress.iteration > 0;
+  return requested_ && between_iterations && fit_ && session.diffuse() != nullptr;
+}
+
+bool KeptFormFactors::are_due(const SolveSession& session) const {
+  return can_assemble(session) && session.statistics().passes_made >= 2 * passes_;
+}
+
+void KeptFormFactors::update(const SolveSession& session) {
+  if (!can_assemble(session)) {
+    return;
+  }
+  const SolveStatistics statistics = session.statistics();
+  if (statistics.passes_made == passes_) {
+    return;
+  }
+  const int directions_per_pass = session.options().two_way ? 2 : 1;
+  factors_ = nullptr;
+  fit_ = statistics.kept_form_factors &&
+         directions_per_pass * statistics.form_factors * bytes_per_entry <= most_bytes;
+  if (!fit_) {
+    return;
+  }
+  try {
+    factors_ = std::make_shared<const FormFactors>(session.diffuse()->form_factors());
+    passes_ = statistics.passes_made;
+  } catch (const std::bad_alloc&) {
+    fit_ = false;
+  }
+}
+
+void KeptFormFactors::write_to(SolverSnapshot& snapshot) const {
+  snapshot.form_factors = factors_;
+  snapshot.form_factors_fit = fit_;
+}
+
+void KeptFormFactors::clear() {
+  factors_ = nullptr;
+  passes_ = 0;
+  fit_ = true;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,98 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The solver of the window: a thread that loads scenes and makes solve runs (SolveWorker).
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "model/run_options.h"
+#include "model/solver/goal.h"
+#include "model/solver/solve_messages.h"
+#include "model/solver/solve_worker.h"
+#include "transillum/cancellation.h"
+
+namespace transillum::viewer {
+
+/// Loads scenes and makes solve runs, on its own thread.
+///
+/// Threads: the functions and all signals belong to the thread that created it. Commands return at
+/// once; a newer one replaces an older. Snapshots are immutable.
+class SolveRunner : public SolveMessages {
+  Q_OBJECT
+
+ public:
+  struct OpenRequest {
+    std::string spec;  ///< file or built-in
+    RunOptions options;
+    Goal then;  ///< goal once the scene is open
+  };
+
+  explicit SolveRunner(QObject* parent = nullptr);
+  ~SolveRunner() override;
+
+  /// Loads a scene; the old scene stays if loading fails or is stopped.
+  void open(OpenRequest request);
+  /// Solves until the goal is reached.
+  void set_goal(Goal goal);
+  void run() { set_goal({Goal::Kind::finished}); }
+  void pause() { set_goal({Goal::Kind::pause}); }
+  void advance_one_direction() { set_goal({Goal::Kind::direction}); }
+  void advance_one_iteration() { set_goal({Goal::Kind::iteration}); }
+  /// Cancels loading; or discards the solve and returns to the first direction.
+  void stop();
+  /// Solves for other materials with the kept transfers of a glossy run, which the snapshots then
+  /// have; newer ones replace these. Nothing happens in other runs.
+  /// @param materials null for the materials of the scene
+  void relight(std::shared_ptr<const PatchMaterials> materials);
+  /// Starts a new solve run of the open scene.
+  /// @param refine rounds that come first; not of a result file
+  void restart(const SolveOptions& options, Goal then, const RefineChoice& refine = {});
+
+  /// From now on, the solve is saved to `file`: every minute, some seconds after iterations and
+  /// when it pauses; with an interval of 0 after every pass. A solve that is replaced is not kept,
+  /// and glossy ones are not saved. If `file` is empty, nothing is saved, and the file is removed.
+  /// @param interval s
+  void save_to(std::string file, double interval = 60) {
+    worker_.checkpoints().save_to(std::move(file), interval);
+  }
+  /// The next solve continues the checkpoint in `file` if it is of the same scene and options; else
+  /// it starts from the beginning. The file is then removed.
+  void resume_from(std::string file) { worker_.checkpoints().resume_from(std::move(file)); }
+
+  /// From now on, snapshots include the form factors if they fit into the memory limit.
+  void include_form_factors();
+  /// The least time between two snapshots, ms.
+  void set_refresh_interval(int milliseconds) { worker_.set_refresh_interval(milliseconds); }
+
+ private:
+  void replace_goal(Goal goal);
+  // On the worker's thread:
+  void work();
+  void work_once(std::unique_lock<std::mutex>& lock);
+  void load(const OpenRequest& request, const Cancellation& cancellation);
+
+  std::mutex mutex_;  // guards all down to solve_cancellation_
+  std::condition_variable wake_;
+  std::optional<OpenRequest> open_request_;
+  std::optional<SolveWorker::Run> restart_request_;
+  std::optional<std::shared_ptr<const PatchMaterials>> relight_request_;
+  bool form_factors_requested_ = false;
+  Goal goal_;
+  std::uint64_t goal_number_ = 0;
+  bool quit_ = false;
+  bool loading_ = false;
+  SolveWorker::Run run_;             // the present or failed one
+  Cancellation load_cancellation_;   // cancels the running or the last load
+  Cancellation solve_cancellation_;  // cancels run_
+
+  SolveWorker worker_{*this};
+  std::thread thread_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,262 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// What SolveRunner's thread does: a SolveSession is advanced stage by stage, so that the patches of
+// each round of refinement can be shown, and observed after each pass.
+#include "model/solver/solve_worker.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <utility>
+
+#include "model/solver/session_snapshot.h"
+
+namespace transillum::viewer {
+
+SolveWorker::Prepared SolveWorker::load(const std::string& spec, const RunOptions& options,
+                                        const Cancellation& cancellation) {
+  options.solve.validate();
+  return prepare(loaded_scene(spec, options, report_, cancellation),
+                 {options.solve, options.refine}, cancellation);
+}
+
+SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& whole, Run run,
+                                           const Cancellation& cancellation) {
+  if (whole->stored) {
+    run.refine = {};
+  }
+  SolveRequest request{.scene = whole->scene, .options = run.solve, .tree = whole->tree};
+  if (run.refine.is_set()) {
+    request.refine = run.refine.options();
+  }
+  request.keep_form_factors = true;
+  request.preparing = phase_reporter(report_);
+  SolveSession session(std::move(request), cancellation);
+  checkpoints_.resume(session, run.solve);
+  session.prepare();
+  auto loaded = with_patches_of(session, whole, cancellation);
+  return {std::move(run), std::move(loaded), std::move(session), cancellation};
+}
+
+void SolveWorker::open(Prepared prepared) {
+  loaded_ = prepared.loaded;
+  materials_ = nullptr;
+  patches_to_announce_ = false;
+  replace_session(std::move(prepared));
+  messages_.post_scene(loaded_);
+  post_snapshot();
+}
+
+void SolveWorker::start(Run run, const Cancellation& cancellation) {
+  if (!loaded_) {
+    return;
+  }
+  unstarted_ = run;
+  cancellation_ = cancellation;
+  Prepared prepared = prepare(whole_of(loaded_), std::move(run), cancellation);
+  if (prepared.session.glossy() != nullptr && materials_) {
+    set_materials(prepared.session);
+  }
+  take_patches(prepared.loaded);
+  replace_session(std::move(prepared));
+  post_snapshot();
+}
+
+void SolveWorker::replace_session(Prepared prepared) {
+  history_ = SolveHistory(prepared.session);
+  checkpoints_.begin(prepared.loaded->scene, prepared.run.solve);
+  run_ = std::move(prepared.run);
+  session_ = std::move(prepared.session);
+  cancellation_ = prepared.cancellation;
+  unstarted_.reset();
+  failed_ = false;
+  form_factors_.clear();
+  stage_result_ = nullptr;
+}
+
+void SolveWorker::relight(std::shared_ptr<const PatchMaterials> materials) {
+  if (!is_ready() || unstarted_ || session_->glossy() == nullptr) {
+    return;
+  }
+  materials_ = std::move(materials);
+  set_materials(*session_);
+  history_ = SolveHistory(*session_);
+  failed_ = false;
+}
+
+void SolveWorker::set_materials(SolveSession& session) const {
+  if (materials_) {
+    session.relight(materials_->materials, materials_->of_patch);
+  } else {
+    session.relight(session.scene()->materials());
+  }
+}
+
+bool SolveWorker::has_more() const {
+  return unstarted_ || (session_ && !failed_ && !session_->finished());
+}
+
+RunState SolveWorker::state() const {
+  if (!session_) {
+    return RunState::empty;
+  }
+  return has_more() ? RunState::paused : RunState::finished;
+}
+
+/// Whether the present stage of the session, and what is shown of it, is prepared.
+bool SolveWorker::is_ready() const {
+  return session_ && session_->is_prepared() && session_->tree() == loaded_->tree;
+}
+
+void SolveWorker::advance(const Goal& goal) {
+  if (unstarted_) {
+    start(*unstarted_, cancellation_);
+  }
+  const bool by_passes = goal.kind == Goal::Kind::passes;
+  if (!has_more() || (by_passes && !session_->in_rounds() && is_ready() &&
+                      session_->passes_done() >= goal.passes)) {
+    return;
+  }
+  messages_.post_state(RunState::running);
+  while (advance_stage(goal)) {
+  }
+}
+
+/// Advances the session within a stage, or to its end, where the next is prepared.
+/// @returns whether to continue with the next stage
+bool SolveWorker::advance_stage(const Goal& goal) {
+  using Until = SolveSession::Until;
+  const bool to_passes = goal.kind == Goal::Kind::passes && !session_->in_rounds();
+  const Until until = goal.kind == Goal::Kind::direction   ? Until::direction
+                      : goal.kind == Goal::Kind::iteration ? Until::iteration
+                                                           : Until::stage;
+  bool continues = until == Until::stage && !to_passes;
+  try {
+    prepare_stage();
+    const auto observer = [this](const SolveSession&) { return observe(); };
+    if (to_passes) {
+      session_->advance_to(goal.passes, observer);
+    } else {
+      session_->advance(until, observer);
+    }
+    if (session_->is_prepared() && !session_->finished()) {
+      checkpoints_.save_if_due(*session_, true);
+    }
+    prepare_stage();
+  } catch (const Canceled&) {
+    return false;
+  } catch (...) {
+    failed_ = is_ready();  // otherwise, preparing has failed, which is tried again
+    messages_.post_current_failure();
+  }
+  continues = continues && has_more() && is_ready() && !interrupted_;
+  try {
+    if (!continues || !holds_patches_back()) {
+      post_snapshot();
+    }
+  } catch (...) {
+    messages_.post_current_failure(
+        QCoreApplication::translate("SolveWorker", "Not enough memory to show the result"));
+  }
+  return continues;
+}
+
+/// Prepares the present stage of the session, unless that is done.
+void SolveWorker::prepare_stage() {
+  if (is_ready()) {
+    return;
+  }
+  // A round has its own tree, even if no patch was divided before the last round.
+  const auto is_round = [this] { return session_->tree() != loaded_->tree; };
+  if (is_round()) {
+    checkpoints_.resume(*session_, run_.solve);
+  }
+  session_->prepare();
+  if (is_round()) {
+    take_patches(with_patches_of(*session_, whole_of(loaded_), cancellation_));
+    checkpoints_.begin(loaded_->scene, run_.solve);
+    stage_result_ = nullptr;
+  }
+  history_ = SolveHistory(*session_);
+  form_factors_.clear();
+}
+
+/// Called after each pass and iteration.
+/// @returns whether to continue
+bool SolveWorker::observe() {
+  history_.update(*session_);
+  checkpoints_.save_if_due(*session_);
+  // The end of a stage: the next stage replaces its patches, or perhaps its values.
+  const bool is_end =
+      session_->progress().finished && (session_->in_rounds() || run_.solve.goal.seconds > 0);
+  // Snapshots take at most a fifth of the solver's time.
+  const double interval_ms =
+      std::max<double>(refresh_interval_.load(std::memory_order_relaxed), 5 * snapshot_cost_ms_);
+  const bool due = !since_snapshot_.isValid() ||
+                   static_cast<double>(since_snapshot_.nsecsElapsed()) > 1e6 * interval_ms;
+  if (is_end || ((due || form_factors_.are_due(*session_)) && !holds_patches_back())) {
+    post_snapshot();
+  }
+  return !interrupted_.load(std::memory_order_relaxed);
+}
+
+void SolveWorker::take_patches(const std::shared_ptr<const LoadedScene>& loaded) {
+  if (loaded == loaded_) {
+    return;
+  }
+  loaded_ = loaded;
+  patches_to_announce_ = true;
+  since_patches_.start();
+}
+
+/// Whether new patches are not shown yet: the first passes of a round would show a dark scene in
+/// place of the finished one before it.
+bool SolveWorker::holds_patches_back() const {
+  constexpr qint64 longest_ms = 1000;
+  return patches_to_announce_ && !session_->rounds().empty() &&
+         session_->progress().iteration == 0 && since_patches_.elapsed() < longest_ms;
+}
+
+void SolveWorker::post_snapshot() {
+  if (!is_ready()) {
+    return;
+  }
+  QElapsedTimer cost;
+  cost.start();
+  if (std::exchange(patches_to_announce_, false)) {
+    messages_.post_scene(loaded_);
+  }
+  std::shared_ptr<const SolverSnapshot> snapshot = make_snapshot();
+  since_snapshot_.start();
+  snapshot_cost_ms_ = static_cast<double>(cost.nsecsElapsed()) * 1e-6;
+  messages_.post_snapshot(std::move(snapshot));
+}
+
+std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
+  const SolveSession& session = *session_;
+  if (session.finished() && !session.progress().finished && stage_result_) {
+    // The time was up: the result is the result of the previous stage.
+    auto snapshot = std::make_shared<SolverSnapshot>(*stage_result_);
+    snapshot->statistics = session.solution().statistics;
+    snapshot->accuracy = session.accuracy();
+    return snapshot;
+  }
+  history_.update(session);
+  form_factors_.update(session);
+  auto snapshot = std::make_shared<SolverSnapshot>(snapshot_of(session, loaded_));
+  snapshot->refine = run_.refine;
+  if (run_.refine.is_set()) {
+    snapshot->refinement = {session.refined_scene()->patch_count(), session.in_rounds()};
+  }
+  snapshot->materials = session.glossy() != nullptr ? materials_ : nullptr;
+  history_.write_to(*snapshot);
+  if (!snapshot->directions) {
+    snapshot->directions = std::make_shared<const std::vector<Vec3>>(session.directions());
+  }
+  form_factors_.write_to(*snapshot);
+  if (run_.solve.goal.seconds > 0 && session.progress().finished) {
+    stage_result_ = snapshot;
+  }
+  return snapshot;
+}
+
+}  // namespace transillum::viewer

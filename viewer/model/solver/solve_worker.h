@@ -1,0 +1,116 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QElapsedTimer>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "model/solver/checkpoint_keeper.h"
+#include "model/solver/goal.h"
+#include "model/solver/scene_loading.h"
+#include "model/solver/session_snapshot.h"
+#include "model/solver/solve_messages.h"
+#include "options/option_table.h"
+#include "transillum/cancellation.h"
+#include "transillum/solve_session.h"
+
+namespace transillum::viewer {
+
+/// The open scene and its solve. It advances the solve toward goals and makes snapshots at
+/// intervals.
+///
+/// Threads: interrupt(), set_refresh_interval(), request_form_factors() and checkpoints() may be
+/// called by any thread; the others belong to one thread, and may throw exceptions, which their
+/// caller has to report.
+class SolveWorker {
+ public:
+  /// The options of a run.
+  struct Run {
+    SolveOptions solve;
+    RefineChoice refine;
+  };
+  /// A run that can begin.
+  struct Prepared {
+    Run run;
+    std::shared_ptr<const LoadedScene> loaded;  ///< with the patches of the first round
+    SolveSession session;
+    Cancellation cancellation;  ///< cancels the session
+  };
+
+  /// @param messages get snapshots, scenes and progress
+  explicit SolveWorker(SolveMessages& messages) : messages_(messages) {}
+
+  /// Loads a scene and prepares its solve; the open scene stays.
+  /// @param spec file or built-in
+  /// @throws InputError, Canceled
+  Prepared load(const std::string& spec, const RunOptions& options,
+                const Cancellation& cancellation);
+  /// Replaces the open scene.
+  void open(Prepared prepared);
+  /// Replaces the solve of the open scene by a new one, whose session is canceled already.
+  /// @throws InputError, Canceled: advance() then tries again; the old picture stays.
+  void start(Run run, const Cancellation& cancellation);
+  /// Whether the last start() has succeeded.
+  bool has_started() const { return !unstarted_; }
+  /// Solves for other materials, from the present light, where lobes take part.
+  /// @param materials null for the materials of the scene
+  void relight(std::shared_ptr<const PatchMaterials> materials);
+  /// Advances the solve until the goal is reached, or interrupt().
+  void advance(const Goal& goal);
+  void post_snapshot();
+  /// The state between two calls.
+  RunState state() const;
+
+  /// Whether advance() pauses after the current pass.
+  void interrupt(bool interrupted = true) { interrupted_ = interrupted; }
+  /// The least time between two snapshots, ms.
+  void set_refresh_interval(int milliseconds) { refresh_interval_ = milliseconds; }
+  /// From now on, snapshots include the form factors if they fit into the memory limit.
+  /// @returns whether they did not before
+  bool request_form_factors() { return form_factors_.request(); }
+  CheckpointKeeper& checkpoints() { return checkpoints_; }
+
+ private:
+  Prepared prepare(const std::shared_ptr<const LoadedScene>& whole, Run run,
+                   const Cancellation& cancellation);
+  void replace_session(Prepared prepared);
+  void prepare_stage();
+  bool advance_stage(const Goal& goal);
+  bool observe();
+  bool has_more() const;
+  bool is_ready() const;
+  void set_materials(SolveSession& session) const;
+  void take_patches(const std::shared_ptr<const LoadedScene>& loaded);
+  bool holds_patches_back() const;
+  std::shared_ptr<const SolverSnapshot> make_snapshot();
+
+  SolveMessages& messages_;
+  const LoadProgress report_ = [this](const QString& phase, double share) {
+    messages_.post_load_progress(phase, share);
+  };
+  CheckpointKeeper checkpoints_;
+  KeptFormFactors form_factors_;
+  std::atomic<bool> interrupted_ = false;
+  std::atomic<int> refresh_interval_ = 66;
+
+  std::shared_ptr<const LoadedScene> loaded_;        // null if no scene is open
+  std::shared_ptr<const PatchMaterials> materials_;  // where lobes take part; null for the
+                                                     // materials of the scene
+  Run run_;                                          // options of session_
+  std::optional<SolveSession> session_;
+  std::optional<Run> unstarted_;  // to be started; session_ is canceled
+  Cancellation cancellation_;     // cancels session_ or unstarted_
+  bool failed_ = false;           // session_ cannot be continued
+  SolveHistory history_;          // history of the present stage
+  /// The end of the last stage, if the goal has a time limit.
+  std::shared_ptr<const SolverSnapshot> stage_result_;
+
+  bool patches_to_announce_ = false;  // the patches of loaded_
+  QElapsedTimer since_patches_;
+  QElapsedTimer since_snapshot_;
+  double snapshot_cost_ms_ = 0;
+};
+
+}  // namespace transillum::viewer

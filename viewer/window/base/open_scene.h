@@ -1,0 +1,107 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <memory>
+#include <string>
+
+#include "model/requests/relighting.h"
+#include "model/run_options.h"
+#include "model/snapshot.h"
+#include "model/solver/solve_runner.h"
+
+class QWidget;
+
+namespace transillum::viewer {
+
+/// The open scene: how it was read, and the newest snapshot of its solve, with the light of changed
+/// materials. Everything that shows a snapshot receives it from here.
+///
+/// Threads: belongs to the window's thread.
+class OpenScene : public QObject {
+  Q_OBJECT
+
+ public:
+  /// The references must outlive this object.
+  OpenScene(SolveRunner& runner, Relighting& relighting);
+
+  /// Loads and solves a scene; the open scene stays until the new one is loaded.
+  /// @param spec a file, or a built-in with its parameters
+  void open(const std::string& spec, const RunOptions& options, Goal goal = {Goal::Kind::finished});
+
+  /// The scene that open() was called with last.
+  const std::string& requested_spec() const { return requested_spec_; }
+  /// The open scene; empty before the first scene is loaded.
+  const std::string& spec() const { return spec_; }
+  /// How the faces became patches; a result file has options of its own.
+  const SceneOptions& options() const { return options_; }
+  /// How the file was read.
+  const SceneInput& input() const { return input_; }
+  std::shared_ptr<const LoadedScene> loaded() const { return loaded_; }
+  /// The snapshot shown; null until the first one of a scene arrives.
+  std::shared_ptr<const SolverSnapshot> snapshot() const { return shown_; }
+
+  /// Whether a scene has been requested and has neither been loaded nor failed to load.
+  bool is_opening() const { return opening_; }
+  /// Whether `spec` is open and was read with the same options; options of the solve may differ.
+  bool is_open(const std::string& spec, const RunOptions& options) const;
+  /// Whether the solve has processed no direction yet.
+  bool at_start() const;
+  /// Whether the scene has so few patches that their outlines are shown by default, or they are
+  /// divided in rounds.
+  bool outlined_by_default() const;
+  /// Sends the snapshot out again, to views whose colors have changed.
+  void show_again();
+
+ signals:
+  /// A scene has been requested; it may still fail to load.
+  void opening();
+  /// Emitted for views: a new scene replaces the old one.
+  void scene_loaded(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
+  /// Emitted after all views have received scene_loaded().
+  void scene_shown();
+  /// Emitted for views: the open scene has other patches, of a round of refinement or of a new run.
+  void patches_changed(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
+  /// Emitted for views: there is a new snapshot of the open scene.
+  void snapshot_ready(std::shared_ptr<const transillum::viewer::SolverSnapshot> snapshot);
+  /// Emitted after all views have received snapshot_ready().
+  void snapshot_shown();
+
+ private:
+  void take_scene(std::shared_ptr<const LoadedScene> loaded);
+  void take_patches(std::shared_ptr<const LoadedScene> loaded);
+  void take_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+
+  SolveRunner& runner_;
+  Relighting& relighting_;
+  std::string requested_spec_, spec_;
+  SceneInput requested_input_, input_;
+  SceneOptions options_;
+  bool opening_ = false;
+  std::shared_ptr<const LoadedScene> loaded_;
+  std::shared_ptr<const SolverSnapshot> newest_;  ///< the snapshot that the solver posted
+  std::shared_ptr<const SolverSnapshot> shown_;   ///< with the light of changed materials
+};
+
+class OpenScene;
+
+/// Asks before a solve that took long is discarded.
+class WorkGuard {
+ public:
+  /// @param scene must outlive this object
+  explicit WorkGuard(const OpenScene& scene) : scene_(scene) {}
+
+  /// Whether the solve of the open scene may be discarded: it took less than a minute, or the user
+  /// agrees.
+  /// @param what  text of the button, such as "Quit"
+  bool may_lose(QWidget* parent, const QString& what) const;
+  /// For tests: the time from which a solve took long.
+  void set_long_seconds(double seconds) { long_seconds_ = seconds; }
+
+ private:
+  const OpenScene& scene_;
+  double long_seconds_ = 60;
+};
+
+}  // namespace transillum::viewer

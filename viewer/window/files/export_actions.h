@@ -1,0 +1,90 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QImage>
+#include <QObject>
+#include <QString>
+#include <functional>
+#include <variant>
+
+#include "support/newest_result.h"
+#include "transillum/files.h"
+#include "window/base/window_parts.h"
+
+class QAction;
+class QMenu;
+class QWidget;
+
+namespace transillum::viewer {
+
+class ConvergenceView;
+
+/// Writes a picture whole or not at all. @throws std::runtime_error
+void write_png(const QString& path, const QImage& image);
+
+/// Exports from the window: pictures, vector graphics, results, figures. All files are written
+/// whole or not at all; the functions throw std::runtime_error where one cannot be written.
+class ExportActions : public QObject {
+  Q_OBJECT
+
+ public:
+  ExportActions(const WindowFrame& frame, MapView& map, ConvergenceView& charts);
+
+  void add_to(QMenu& menu) const;
+  /// Writes the scene as it is drawn, with `scale` times as many pixels a side (1 … 8).
+  void write_scene(const QString& path, int scale) const;
+  /// Writes the result shown, in the formats of `transillum solve`: .vtp, .csv or .ply. A worker
+  /// thread writes; a failure there is shown in the window.
+  /// @throws InputError where it is clear at once that it cannot be written
+  void write_result(const QString& path);
+  /// Writes the radiosity shown, including the effect of changed materials, as colors for other
+  /// programs: .glb, .gltf or .ply. A worker thread writes, as in write_result().
+  /// @throws InputError where it is clear at once that it cannot be written
+  void write_colors(const QString& path, const DisplayOptions& display);
+  /// Writes the open scene with the changes of materials and the faces turned, as OBJ with MTL, in
+  /// meters. A worker thread writes, as in write_result().
+  /// @throws InputError where it is clear at once that it cannot be written
+  void write_scene_file(const QString& path);
+  /// For the menu File.
+  QAction* save_scene_action() const { return save_scene_; }
+  /// For the menu File.
+  QAction* color_action() const { return export_colors_; }
+  /// Whether a result or a scene is still being written.
+  bool writing() const { return writer_.busy(); }
+  /// Writes the map of the step in focus, as vectors (.svg) or in the formats of write_map().
+  void write_map_picture(const QString& path) const;
+  /// Writes the convergence charts as vectors.
+  void write_charts(const QString& path) const;
+  /// Writes the data of the charts: chart,x,change,quadrature_error.
+  void write_chart_figures(const QString& path) const;
+
+ private:
+  void add(const char* name, const QString& text, const QString& tip,
+           void (ExportActions::*what)());
+  void choose_scene();
+  void choose_result();
+  void choose_scene_file();
+  void choose_colors();
+  void choose_map();
+  void choose_charts();
+  void choose_figures();
+  /// A file name that begins with the name of the open scene.
+  QString name_with(const char* ending) const;
+  template <class Write>
+  void write_chosen(const QString& title, const QString& filter, const QString& proposed,
+                    Write write);
+
+  WindowFrame frame_;
+  MapView& map_;
+  ConvergenceView& charts_;
+  QList<QAction*> actions_;
+  QAction *save_scene_, *export_colors_;
+
+  struct FileToWrite {
+    QString path;
+    std::function<void()> write;
+  };
+  NewestResult<FileToWrite, std::monostate> writer_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,67 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/menus/command_actions.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QMainWindow>
+#include <QMenu>
+
+#include "model/command_text.h"
+#include "solve/settings_panel.h"
+#include "widgets/build.h"
+
+namespace transillum::viewer {
+
+CommandActions::CommandActions(const WindowFrame& frame) : QObject(&frame.window), frame_(frame) {
+  const auto add = [this](const char* name, const QString& text, const char* key,
+                          const QString& tip) {
+    auto* action = make_action(this, name, text, tip, QKeySequence(QString::fromLatin1(key)));
+    action->setEnabled(false);
+    return action;
+  };
+  solve_ = add("copy_solve", tr("Copy the solve as a command"), "Ctrl+Shift+C",
+               tr("Copy a shell command that makes this solve with the program transillum"));
+  map_ = add("copy_map", tr("Copy the map as a command"), "Ctrl+Shift+M",
+             tr("Copy a shell command that writes the map of this direction; add --out FILE"));
+  step_ = add("copy_step", tr("Copy the step as a command"), "Ctrl+Alt+M",
+              tr("Copy a shell command that writes V at this step and phase; add --out FILE"));
+  connect(step_, &QAction::triggered, this, &CommandActions::copy_step);
+  connect(solve_, &QAction::triggered, this, &CommandActions::copy_solve);
+  connect(map_, &QAction::triggered, this, [this] { copy_map({}); });
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] {
+    // The commands read scenes, not results.
+    solve_->setEnabled(frame_.state.scene.loaded()->description != nullptr);
+  });
+  connect(&frame_.state.focus, &Focus::moved, this, [this] {
+    const bool any = solve_->isEnabled() && frame_.state.focus.map();
+    map_->setEnabled(any);
+    step_->setEnabled(any);
+  });
+}
+
+void CommandActions::add_to(QMenu& menu) const { menu.addActions({solve_, map_, step_}); }
+
+RunOptions CommandActions::options() const {
+  const SolverSnapshot& snapshot = *frame_.state.scene.snapshot();
+  return {snapshot.options, frame_.state.scene.options(), frame_.state.scene.input(),
+          snapshot.refine};
+}
+
+void CommandActions::copy_solve() {
+  QApplication::clipboard()->setText(QString::fromStdString(solve_command(
+      frame_.state.scene.spec(), options(), frame_.state.relighting.edits().changes())));
+}
+
+void CommandActions::copy_map(std::optional<std::int32_t> steps) {
+  QApplication::clipboard()->setText(QString::fromStdString(
+      map_command(frame_.state.scene.spec(), options(), frame_.state.relighting.edits().changes(),
+                  frame_.state.focus.map()->record().frame.omega, steps)));
+}
+
+void CommandActions::copy_step() {
+  const Focus& focus = frame_.state.focus;
+  const bool before = focus.phase() == Phase::before && focus.position().step >= 0;
+  copy_map(focus.position().step + (before ? 0 : 1));
+}
+
+}  // namespace transillum::viewer

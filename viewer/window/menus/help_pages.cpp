@@ -1,0 +1,144 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/menus/help_pages.h"
+
+#include <QAction>
+#include <QCoreApplication>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+
+#include "options/option_table.h"
+#include "support/number_text.h"
+#include "widgets/dialogs.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("HelpDialogs", text); }
+
+}  // namespace
+
+void show_about(QWidget* parent) {
+  QMessageBox::about(
+      parent, tr("About transillum"),
+      tr("<p><b>transillum %1</b></p><p>Diffuse light by the transillumination method of "
+         "Szirmay-Kalos, Fóris, Neumann and Csébfalvi.</p><p>GPL-3.0-or-later.</p>")
+          .arg(QStringLiteral(TRANSILLUM_VERSION)));
+}
+
+QString setting_page() {
+  QString rows;
+  for (const Option& setting : options()) {
+    const QString name = QString::fromStdString(setting.name);
+    rows += QStringLiteral("<tr><td><b>%1</b></td><td>%2</td><td>%3</td><td>%4</td></tr>")
+                .arg(setting.in_files ? name : name + '*',
+                     capitalized(QString::fromStdString(setting.help)).toHtmlEscaped(),
+                     QString::fromStdString(setting.values).toHtmlEscaped(),
+                     QString::fromStdString(setting.default_value()).toHtmlEscaped());
+  }
+  return PageDialog::tr(
+             "<h3>Settings of a solve</h3><p>On the command line, put two dashes before the name. "
+             "Lessons and sessions use the names as they are; those with an asterisk are for the "
+             "command line only.</p>"
+             "<table cellpadding=4><tr><th align=left>Name</th><th align=left>Meaning</th>"
+             "<th align=left>Value</th><th align=left>Default</th></tr>") +
+         rows + QStringLiteral("</table>");
+}
+
+void show_settings(QWidget& parent) {
+  (new PageDialog("settings_page", PageDialog::tr("Settings"), setting_page(), parent))->show();
+}
+
+namespace {
+
+QString plain(QString text) { return text.remove('&'); }
+
+void add_keys(const QMenu& menu, std::vector<KeyUse>& keys) {
+  for (const QAction* action : menu.actions()) {
+    if (action->menu()) {
+      add_keys(*action->menu(), keys);
+      continue;
+    }
+    QStringList shortcuts;
+    for (const QKeySequence& key : action->shortcuts()) {
+      shortcuts << key.toString(QKeySequence::NativeText);
+    }
+    if (!shortcuts.isEmpty()) {
+      keys.push_back({shortcuts.join(' '), plain(action->text()), action->isEnabled()});
+    }
+  }
+}
+
+// The uses of the pointer, and the keys that belong to one view; no action has them.
+KeyGroup pointer_group() {
+  const auto tr = [](const char* text) { return QMainWindow::tr(text); };
+  return {
+      tr("Pointer"),
+      {{tr("Scene"), tr("drag: rotate; Shift+drag or middle button: pan; wheel: zoom; click: "
+                        "select a patch; Ctrl+click: add it, or remove it")},
+       {tr("Color bar"), tr("drag: select the patches with values in a range")},
+       {tr("Map"), tr("drag: pan; wheel: zoom; double-click: fit; click: select a patch and "
+                      "list the patches on its line; right-click: run to a point")},
+       {tr("Timeline"), tr("drag: go to a step; Shift+drag: step by step; arrow keys: one step, "
+                           "with Ctrl one direction")},
+       {tr("Kept runs"), tr("F2 or double-click: rename; Del: remove")},
+       {tr("Groups"), tr("Return: select the patches of the row; E: make it emit; R: reflect")},
+       {tr("Directions"), tr("drag: rotate the sphere; click: go to a direction")}}};
+}
+
+QString html(const KeyGroup& group) {
+  QString rows = QStringLiteral("<h3>%1</h3><table cellspacing=0 cellpadding=3>")
+                     .arg(group.menu.toHtmlEscaped());
+  for (const KeyUse& key : group.keys) {
+    rows += QStringLiteral(
+                "<tr><td style='white-space: pre'><b>%1</b>&nbsp;&nbsp;</td>"
+                "<td style='color: %3'>%2</td></tr>")
+                .arg(key.keys.toHtmlEscaped(), key.text.toHtmlEscaped(),
+                     (key.enabled ? theme::ink : theme::ink_dim).name());
+  }
+  return rows + QStringLiteral("</table>");
+}
+
+}  // namespace
+
+std::vector<KeyGroup> keys_of(const QMainWindow& window) {
+  std::vector<KeyGroup> groups;
+  for (const QAction* action : window.menuBar()->actions()) {
+    if (!action->menu()) {
+      continue;
+    }
+    KeyGroup group{plain(action->text()), {}};
+    add_keys(*action->menu(), group.keys);
+    if (!group.keys.empty()) {
+      groups.push_back(std::move(group));
+    }
+  }
+  return groups;
+}
+
+QString key_page(const QMainWindow& window) {
+  std::vector<KeyGroup> groups = keys_of(window);
+  groups.push_back(pointer_group());
+  std::size_t rows = 0, placed_rows = 0;
+  for (const KeyGroup& group : groups) {
+    rows += group.keys.size() + 2;
+  }
+  QString columns[2];
+  for (const KeyGroup& group : groups) {
+    columns[2 * placed_rows < rows ? 0 : 1] += html(group);
+    placed_rows += group.keys.size() + 2;
+  }
+  return QStringLiteral(
+             "<table width='100%'><tr><td width='50%' valign='top'>%1</td>"
+             "<td valign='top'>%2</td></tr></table>")
+      .arg(columns[0], columns[1]);
+}
+
+void show_keys(QMainWindow& window) {
+  (new PageDialog("keys", QMainWindow::tr("Keys and mouse"), key_page(window), window))->show();
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,104 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/menus/projector_mode.h"
+
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QTimer>
+
+#include "lessons/lesson_panel.h"
+#include "stepping/timeline_bar.h"
+#include "stepping/timeline_lanes.h"
+#include "transillum/at.h"
+#include "widgets/full_screen.h"
+#include "window/base/dock_layouts.h"
+#include "window/menus/appearance_actions.h"
+
+namespace transillum::viewer {
+
+ProjectorMode::ProjectorMode(const WindowFrame& frame, DockLayouts& docks, LessonPanel& lessons,
+                             FullScreen& full_screen, AppearanceActions& appearance,
+                             TimelineBar& timeline)
+    : QObject(&frame.window),
+      frame_(frame),
+      docks_(docks),
+      lessons_(lessons),
+      full_screen_(full_screen),
+      appearance_(appearance),
+      timeline_(timeline) {
+  // Panels that are hidden temporarily are no part of a layout.
+  connect(&full_screen_, &FullScreen::beginning, this, [this] { docks_.hold(true); });
+  connect(&full_screen_, &FullScreen::ended, this, [this] { docks_.hold(false); });
+  connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
+  connect(&lessons_, &LessonPanel::page_shown, this, &ProjectorMode::follow_page);
+}
+
+void ProjectorMode::follow_appearance() {
+  if (appearance_.projects() != projecting_) {
+    project(appearance_.projects());
+  }
+}
+
+void ProjectorMode::follow_page() {
+  if (projecting_ && views() != projected_) {
+    project(true);
+  }
+}
+
+void ProjectorMode::follow_timeline() {
+  if (projecting_) {
+    arrange();
+  }
+}
+
+QDockWidget* ProjectorMode::dock(const std::string& panel) const {
+  return frame_.window.findChild<QDockWidget*>(QString::fromStdString(panel + "_dock"));
+}
+
+QList<QWidget*> ProjectorMode::views() const {
+  QList<QWidget*> views{dock("timeline")};
+  if (lessons_.lesson() < 0) {
+    return views << frame_.window.centralWidget();
+  }
+  const auto& pages = at(lessons_.lessons(), lessons_.lesson()).pages;
+  QWidget* large = dock(at(pages, lessons_.page()).large);
+  return views << dock("lesson") << (large ? large : frame_.window.centralWidget());
+}
+
+void ProjectorMode::project(bool on) {
+  projecting_ = on;
+  timeline_.lanes()->set_thin(on);
+  timeline_.setMaximumHeight(QWIDGETSIZE_MAX);
+  full_screen_.show_all();
+  projected_.clear();
+  if (!on) {
+    return;
+  }
+  projected_ = views();
+  full_screen_.show_only(projected_);
+  for (QWidget* view : projected_) {
+    view->show();
+  }
+  // The call is made once the window has its new size.
+  QTimer::singleShot(0, this, &ProjectorMode::arrange);
+}
+
+void ProjectorMode::arrange() {
+  if (!projecting_) {
+    return;
+  }
+  constexpr double page_share = 0.4;
+  const int width = frame_.window.width();
+  const int page_width = static_cast<int>(page_share * width);
+  QList<QDockWidget*> docks{dock("lesson")};
+  QList<int> widths{page_width};
+  if (auto* large = qobject_cast<QDockWidget*>(projected_.value(2))) {
+    docks << large;
+    widths << width - page_width;
+  }
+  frame_.window.resizeDocks(docks, widths, Qt::Horizontal);
+  const int height = timeline_.minimumSizeHint().height();
+  timeline_.setMaximumHeight(height);
+  frame_.window.resizeDocks({dock("timeline")}, {height}, Qt::Vertical);
+}
+
+}  // namespace transillum::viewer

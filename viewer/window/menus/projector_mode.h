@@ -1,0 +1,52 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QList>
+#include <QObject>
+#include <string>
+
+#include "window/base/window_parts.h"
+
+class QDockWidget;
+class QWidget;
+
+namespace transillum::viewer {
+
+class AppearanceActions;
+class FullScreen;
+class TimelineBar;
+
+/// Projector mode: the page of the lesson, if there is one, one view and a thin timeline on the
+/// whole screen. While the whole screen shows some views only, layouts stay as they are.
+class ProjectorMode : public QObject {
+  Q_OBJECT
+
+ public:
+  /// The references must outlive this object.
+  ProjectorMode(const WindowFrame& frame, DockLayouts& docks, LessonPanel& lessons,
+                FullScreen& full_screen, AppearanceActions& appearance, TimelineBar& timeline);
+
+  /// Begins or ends projector mode, as the appearance says.
+  void follow_appearance();
+  /// Gives the timeline the height that it needs now.
+  void follow_timeline();
+
+ private:
+  void project(bool on);
+  void follow_page();
+  void arrange();
+  QDockWidget* dock(const std::string& panel) const;
+  /// Arranges the view that the page wants to be large, or the scene, and the panels beside it.
+  QList<QWidget*> views() const;
+
+  WindowFrame frame_;
+  DockLayouts& docks_;
+  LessonPanel& lessons_;
+  FullScreen& full_screen_;
+  AppearanceActions& appearance_;
+  TimelineBar& timeline_;
+  bool projecting_ = false;
+  QList<QWidget*> projected_;
+};
+
+}  // namespace transillum::viewer

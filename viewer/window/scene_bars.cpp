@@ -1,0 +1,314 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/scene_bars.h"
+
+#include <QFileInfo>
+#include <QMainWindow>
+#include <QMenu>
+#include <QPushButton>
+#include <QStringList>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "patches/material_panel.h"
+#include "scene/scene_page.h"
+#include "scene/scene_view.h"
+#include "solve/settings_panel.h"
+#include "support/number_text.h"
+#include "transillum/orientation.h"
+#include "widgets/banner.h"
+#include "window/base/dock_layouts.h"
+#include "window/base/notifier.h"
+#include "window/base/open_scene.h"
+#include "window/base/view_state_applier.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int delay_ms = 200;
+
+}  // namespace
+
+LoadingNotice::LoadingNotice(const WindowFrame& frame) : QObject(&frame.window), frame_(frame) {
+  delay_.setSingleShot(true);
+  delay_.setInterval(delay_ms);
+  QPushButton* cancel = frame_.page.loading_bar()->add_button("cancel_loading", tr("Cancel"));
+  cancel->setToolTip(tr("Stop loading and keep the open scene (Esc)"));
+  connect(cancel, &QPushButton::clicked, &frame_.state.runner, &SolveRunner::stop);
+  connect(frame_.page.loading_bar(), &Banner::closed, &frame_.state.runner, &SolveRunner::stop);
+  connect(&delay_, &QTimer::timeout, this, &LoadingNotice::show);
+  connect(&frame_.state.runner, &SolveRunner::state_changed, this, &LoadingNotice::show_state);
+  connect(&frame_.state.runner, &SolveRunner::load_progressed, this,
+          [this](const QString& phase, double share) {
+            phase_ = phase;
+            share_ = share;
+            if (!title_before_.isEmpty()) {
+              show();
+            }
+          });
+}
+
+void LoadingNotice::show_state(RunState state) {
+  if (state == RunState::loading) {
+    delay_.start();
+    return;
+  }
+  delay_.stop();
+  frame_.page.loading_bar()->dismiss();
+  frame_.page.set_loading({});
+  // Otherwise the new scene has set it.
+  if (!title_before_.isEmpty() && frame_.window.windowTitle() == loading_title_) {
+    frame_.window.setWindowTitle(title_before_);
+  }
+  title_before_.clear();
+}
+
+void LoadingNotice::show() {
+  const QString name =
+      QFileInfo(QString::fromStdString(frame_.state.scene.requested_spec())).fileName();
+  if (title_before_.isEmpty()) {
+    title_before_ = frame_.window.windowTitle();
+    loading_title_ = tr("Loading %1 – transillum").arg(name);
+    frame_.window.setWindowTitle(loading_title_);
+    frame_.page.set_loading(name);
+  }
+  const QString text =
+      share_ < 0 ? phase_
+                 : tr("%1: %2 %").arg(phase_, QString::number(static_cast<int>(100 * share_)));
+  frame_.page.loading_bar()->show_message(Banner::Kind::offer, text);
+}
+
+namespace {
+
+constexpr double first_exitance = 10;  // W/m²; the exposure follows it
+
+}  // namespace
+
+LightOffer::LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPanel& settings,
+                       MaterialPanel& materials, ViewStateApplier& applier)
+    : QObject(&frame.window),
+      frame_(frame),
+      docks_(docks),
+      settings_(settings),
+      materials_(materials),
+      applier_(applier) {
+  Banner* bar = frame_.page.light_bar();
+  QPushButton* button = bar->add_button("make_emit", tr("Make it emit"));
+  menu_ = new QMenu(button);
+  button->setMenu(menu_);
+  connect(menu_, &QMenu::aboutToShow, this, &LightOffer::fill_menu);
+  connect(bar, &Banner::closed, this, [this] { closed_ = true; });
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] {
+    closed_ = false;
+    update();
+    if (!frame_.state.relighting.edits().has_light()) {
+      emit frame_.state.relighting.form_factors_requested();  // so that a light appears at once
+    }
+  });
+  connect(&frame_.state.relighting.edits(), &MaterialEdits::changed, this, &LightOffer::update);
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &LightOffer::update);
+  connect(&frame_.state.selection, &Selection::changed, this, &LightOffer::update);
+}
+
+void LightOffer::update() {
+  Banner& bar = *frame_.page.light_bar();
+  const auto snapshot = frame_.state.scene.snapshot();
+  const bool sky = snapshot && snapshot->options.sky.is_set();
+  if (closed_ || sky || !frame_.state.scene.loaded() ||
+      frame_.state.relighting.edits().has_light()) {
+    bar.dismiss();
+    return;
+  }
+  bar.show_message(
+      Banner::Kind::offer,
+      frame_.state.selection.patch() == no_patch
+          ? tr("No light: the scene is shown in neutral light. Click a face to make it emit.")
+          : tr("No light: make the selected face, material or group emit."));
+}
+
+void LightOffer::fill_menu() {
+  menu_->clear();
+  const auto loaded = frame_.state.scene.loaded();
+  const PatchId patch = frame_.state.selection.patch();
+  std::vector<std::string> targets;
+  for (const TargetKind kind : {TargetKind::face, TargetKind::material, TargetKind::group}) {
+    if (patch != no_patch) {
+      targets.push_back(MaterialEdits::target_of(*loaded->scene, kind, patch));
+    }
+  }
+  if (targets.empty()) {
+    menu_->addAction(tr("Click a face in the scene to choose it"))->setEnabled(false);
+  }
+  for (const std::string& target : targets) {
+    if (!target.empty()) {
+      add_target(target_text(target), target);
+    }
+  }
+  if (!loaded->description) {
+    return;
+  }
+  const std::string suggested =
+      frame_.state.relighting.edits().with_kind(suggested_light(*loaded->description));
+  if (std::find(targets.begin(), targets.end(), suggested) == targets.end()) {
+    menu_->addSeparator();
+    add_target(tr("%1 (suggested)").arg(target_text(suggested)), suggested);
+  }
+}
+
+void LightOffer::add_target(const QString& text, const std::string& target) {
+  menu_->addAction(text, this, [this, target] { make_emit(target); });
+}
+
+void LightOffer::make_emit(const std::string& target) {
+  constexpr Rgb white{first_exitance, first_exitance, first_exitance};
+  const auto snapshot = frame_.state.scene.snapshot();
+  if (snapshot && !snapshot->form_factors_fit && frame_.state.scene.loaded()->description) {
+    // Form factors that exceed the memory limit cannot give light: only a new solve can.
+    if (!frame_.guard.may_lose(&frame_.window, tr("Make it emit"))) {
+      return;
+    }
+    RunOptions options{settings_.solve_options(), frame_.state.scene.options(),
+                       frame_.state.scene.input(), settings_.refinement()};
+    options.input.changes.push_back({target, {}, white});
+    applier_.open_again(options);
+    return;
+  }
+  MaterialEdits& edits = frame_.state.relighting.edits();
+  edits.begin_drag();
+  edits.set_exitance(target, white);
+  materials_.show_target(target);
+  docks_.bring_to_front("material");
+}
+
+namespace {
+
+QString changes_text(const OrientationReport& report) {
+  const auto count = [](std::int64_t number) { return QString::number(number); };
+  QStringList parts;
+  if (report.faces_turned > 0) {
+    parts << OrientationOffer::tr("%1 of %2 faces would be turned (orange)")
+                 .arg(count(report.faces_turned), count(report.faces));
+  }
+  if (report.faces_two_sided > 0) {
+    parts << OrientationOffer::tr("%1 would become two-sided (blue)")
+                 .arg(count(report.faces_two_sided));
+  }
+  return parts.join(OrientationOffer::tr(", ")) + '.';
+}
+
+QString sentences_of(const OrientationReport& report) {
+  QStringList lines;
+  for (const std::string& sentence : report.sentences) {
+    lines << QString::fromStdString(sentence);
+  }
+  return lines.join('\n');
+}
+
+}  // namespace
+
+OrientationOffer::OrientationOffer(const WindowFrame& frame, SettingsPanel& settings,
+                                   ViewStateApplier& applier)
+    : QObject(&frame.window),
+      frame_(frame),
+      settings_(settings),
+      applier_(applier),
+      planner_(
+          *this,
+          [](const std::shared_ptr<const LoadedScene>& loaded, const Cancellation& cancellation) {
+            return plan_orientation(*loaded->description, 0, cancellation);
+          },
+          [this](const std::shared_ptr<const LoadedScene>& loaded,
+                 const std::shared_ptr<const OrientationPlan>& plan, const QString& error) {
+            if (loaded != frame_.state.scene.loaded()) {
+              return;  // another scene has been opened since
+            }
+            if (plan) {
+              preview(*plan);
+            } else {
+              offer();
+              frame_.notifier.show_failure(error);
+            }
+          }) {
+  Banner* bar = frame_.page.orientation_bar();
+  preview_ = bar->add_button("preview_turn", tr("Show what to turn"));
+  turn_ = bar->add_button("turn_faces", tr("Turn them"));
+  cancel_ = bar->add_button("cancel_turn", tr("Cancel"));
+  connect(preview_, &QPushButton::clicked, this, &OrientationOffer::plan);
+  connect(turn_, &QPushButton::clicked, this, &OrientationOffer::turn);
+  connect(cancel_, &QPushButton::clicked, this, &OrientationOffer::cancel);
+  connect(bar, &Banner::closed, this, [this] {
+    planner_.clear();
+    frame_.page.scene_view()->hide_turn();
+    state_ = State::none;
+  });
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, &OrientationOffer::offer);
+}
+
+void OrientationOffer::offer() {
+  planner_.clear();
+  const auto loaded = frame_.state.scene.loaded();
+  // Built-in scenes are as they are meant to be.
+  const bool from_file = loaded->description && !loaded->description->files.empty();
+  if (!from_file || loaded->back_share <= BackShare::worth_a_warning) {
+    state_ = State::none;
+    frame_.page.orientation_bar()->dismiss();
+    return;
+  }
+  const QString percent = QString::number(std::lround(100 * loaded->back_share));
+  if (frame_.state.scene.input().orient) {
+    show(State::nothing_to_turn,
+         tr("%1 % of the surface that light meets is the back of faces, even after turning faces. "
+            "Two-sided faces, in the settings, emit and receive on both sides.")
+             .arg(percent));
+    return;
+  }
+  show(State::offered,
+       tr("%1 % of the surface that light meets is the back of faces, which neither emits nor "
+          "reflects.")
+           .arg(percent));
+}
+
+void OrientationOffer::plan() {
+  show(State::planning, tr("Finding the faces to turn…"));
+  planner_.request(frame_.state.scene.loaded());
+}
+
+void OrientationOffer::preview(const OrientationPlan& plan) {
+  if (!plan.changes()) {
+    show(State::nothing_to_turn,
+         tr("No faces to turn were found. Two-sided faces, in the settings, emit and receive on "
+            "both sides."),
+         sentences_of(plan.report));
+    return;
+  }
+  frame_.page.scene_view()->preview_turn(plan);
+  show(State::previewed, changes_text(plan.report), sentences_of(plan.report));
+}
+
+void OrientationOffer::turn() {
+  if (!frame_.guard.may_lose(&frame_.window, tr("Turn them"))) {
+    return;
+  }
+  RunOptions options{settings_.solve_options(), frame_.state.scene.options(),
+                     frame_.state.scene.input(), settings_.refinement()};
+  options.input.orient = true;
+  applier_.open_again(options);
+}
+
+void OrientationOffer::cancel() {
+  planner_.clear();
+  frame_.page.scene_view()->hide_turn();
+  offer();
+}
+
+void OrientationOffer::show(State state, const QString& text, const QString& details) {
+  state_ = state;
+  preview_->setVisible(state == State::offered);
+  turn_->setVisible(state == State::previewed);
+  cancel_->setVisible(state == State::previewed || state == State::planning);
+  frame_.page.orientation_bar()->show_message(Banner::Kind::offer, text, details);
+}
+
+}  // namespace transillum::viewer
