@@ -43,7 +43,7 @@ std::shared_ptr<const Scene> gray_flake() {
 /// One way of computing B.
 struct Method {
   const char* name;
-  const char* unit;  ///< of the effort
+  const char* unit;  ///< unit of the effort
   int first;         ///< effort of the first run; doubled from run to run
   int repeats;       ///< runs of one effort, with other rotations or seeds
   std::function<Radiosity(const std::shared_ptr<const Scene>&, int effort, int repeat)> radiosity;
@@ -85,14 +85,14 @@ Method pairs() {
           [](const auto& scene, int points, int) { return by_pairs(scene, points); }};
 }
 
-/// What is measured on one scene.
+/// A scene, and the measurements that are made on it.
 struct Case {
   std::string name;
   std::shared_ptr<const Scene> scene;
   std::vector<double> targets;
   double longest;            ///< CPU time of one run, s; methods stop before they exceed it
   int reference_directions;  ///< passes of the reference
-  int reference_points;      ///< of a second reference, by pairs; 0: none
+  int reference_points;      ///< points of a second reference, by pairs; may be 0
   int repeats;
 };
 
@@ -155,7 +155,7 @@ std::vector<Run> measure(const Method& method, const Case& of, const Radiosity& 
     double squares = 0, seconds = 0;
     for (int repeat = 0; repeat < method.repeats; ++repeat) {
       Radiosity b;
-      // CPU time of the whole process is the work of one core, whichever thread does it.
+      // The CPU time of the whole process is the work of one core, whatever thread does it.
       seconds += seconds_of(CLOCK_PROCESS_CPUTIME_ID,
                             [&] { b = method.radiosity(of.scene, effort, repeat); });
       const double error = radiosity_error(*of.scene, b, reference).rms;
@@ -210,8 +210,8 @@ struct CaseResult {
   std::vector<std::pair<std::string, std::vector<Run>>> runs;
 };
 
-/// Passes and rays are compared with pairs if there are such, and pairs with passes: no method with
-/// itself.
+/// Passes and rays are compared with a reference by pairs if there is one, and pairs with passes:
+/// no method is compared with itself.
 CaseResult measure(const Case& of) {
   SolveOptions fine = reference_options(of.reference_directions);
   fine.tolerance = 1e-8;

@@ -61,7 +61,7 @@ void print(const std::string& name, const Measured& m, const Measured& flake) {
       "{:.2f}\n",
       name, m.patches, m.fragments, m.sort, m.sort / flake.sort, m.pass, m.transfers, m.pairs,
       m.exact, m.closure,
-      // 4 times the flake's time a transfer, plus 1.6 of it a patch.
+      // The limit is 4 times the flake's time per transfer, plus 1.6 times its time per patch.
       m.pass / (flake.pass / flake.transfers * (4 * m.transfers + 1.6)));
   std::fflush(stdout);
 }

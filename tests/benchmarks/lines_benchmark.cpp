@@ -241,7 +241,8 @@ void PassOverTenLinesPerPatch(benchmark::State& state) {
   double pass = HUGE_VAL, traced = HUGE_VAL;
   std::size_t hits = 0, exchanges = 0;
   for (auto _ : state) {
-    // Alternates the two, so that other load affects both, and takes the best round of each.
+    // Alternates the two methods, so that other load affects both, and takes the best round of
+    // each.
     for (int round = 0; round < rounds; ++round) {
       double passes = 0, traces = 0;
       hits = exchanges = 0;

@@ -2,9 +2,9 @@
 //
 // A model of transillum-mpi for many processes, from parts that one core can measure. A solver of
 // one process of N is run for real: it makes passes, splits them into messages for N processes and
-// adds those for itself; the others do not exist. From the times of its parts, a simulation of the
-// schedule by which passes are dealt (libtransillum/mpi/block_schedule.h) gives the time of a
-// machine with N cores. decisions/0063-processes.md states the assumptions.
+// adds the messages for itself; the other processes do not exist. From the times of its parts, a
+// simulation of the schedule by which passes are dealt (libtransillum/mpi/block_schedule.h) gives
+// the time of a machine with N cores. decisions/0063-processes.md states the assumptions.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ constexpr double bandwidth = 1e9, latency = 5e-6;
 struct Parts {
   std::vector<double> make;  ///< with splitting, s
   double add = 0;            ///< mean, s
-  double bytes = 0;          ///< of the messages of a pass, mean, to all processes
+  double bytes = 0;          ///< bytes of the messages of a pass to all processes, mean
   double kept = 0;           ///< bytes of form factors in one process
   double iteration = 0;      ///< an iteration from kept sums, without messages, s
 };
@@ -82,7 +82,7 @@ Parts measure(const std::shared_ptr<const Scene>& scene, const std::shared_ptr<c
     parts.iteration = seconds_of(CLOCK_THREAD_CPUTIME_ID,
                                  [&] { solver.advance(RadiositySolver::Until::iteration); });
   } catch (const std::runtime_error&) {
-    // The others' values are missing.
+    // The values of the other processes are missing.
   }
   return parts;
 }
@@ -99,7 +99,8 @@ double simulated_passes(const Parts& parts, int size, int passes) {
     return latency * 2 * size + in_round(r) * parts.bytes / size / bandwidth;
   };
   std::vector<double> finished(static_cast<std::size_t>(rounds));  ///< all passes of it made
-  std::vector<double> debt(static_cast<std::size_t>(size));        ///< adding that is to be done
+  std::vector<double> debt(static_cast<std::size_t>(size));        ///< work of adding that is to be
+                                                                   ///< done
   using Free = std::pair<double, int>;
   std::priority_queue<Free, std::vector<Free>, std::greater<>> processes;
   for (int p = 0; p < size; ++p) {
@@ -152,8 +153,7 @@ int number_in(const char* variable, int otherwise) {
   return text != nullptr ? std::atoi(text) : otherwise;
 }
 
-/// By number of processes: the shortest times of some repetitions, since the machine may do other
-/// work.
+/// The shortest times of some repetitions, by number of processes; the machine may do other work.
 std::map<int, Parts> measured_parts(const std::shared_ptr<const Scene>& scene,
                                     const std::shared_ptr<const BspTree>& tree) {
   const int passes = number_in("TRANSILLUM_MEASURED", 96);

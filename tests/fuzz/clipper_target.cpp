@@ -2,7 +2,7 @@
 // Fuzz target: the convex clipper. An input defines a subject and some windows on a small grid, so
 // that shared edges, touching corners and straight corners are frequent. The windows are subtracted
 // from the subject one after the other, as the engines do, and the areas are compared with exact
-// ones.
+// areas.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -243,7 +243,7 @@ class Trial {
       inside += cut.inside_area;
       for (MapPolygon& outside : cut.outside) {
         if (!(area_of(outside) > 0)) {
-          continue;  // as the engines do
+          continue;  // like the engines
         }
         require_left_turns(outside);
         remaining.push_back(std::move(outside));

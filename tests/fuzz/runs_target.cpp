@@ -56,7 +56,8 @@ SolveOptions options_of(unsigned variant) {
   return options;
 }
 
-/// A state that is taken is one from which a solve goes on: to an end, or to an error of a solve.
+/// A state that is accepted is one from which a solve continues, to an end or to an error of a
+/// solve.
 void check_state(std::string_view bytes, const SolveOptions& options) {
   RadiositySolver solver(scene(), options, {.tree = tree()});
   try {

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-// What holds of every scene that is built from a file, however damaged the file is.
+// Checks that hold for every scene that is built from a file, however damaged the file is.
 
 #include <algorithm>
 #include <cmath>

@@ -42,7 +42,7 @@ void check(const viewer::ViewState& state) {
   state.options.solve.validate();
 }
 
-/// What is read can be written and read again, and is then written as the same text.
+/// A session that is read can be written and read again, and is then written as the same text.
 void check_session(const std::string& text) {
   const Session session = viewer::session_from_text(text, "f.json", "");
   check(session.state);

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// A solve of several processes is kept in a checkpoint of the usual format, with which any number
-// of processes goes on to the same bits.
+// A solve of several processes is kept in a checkpoint of the usual format, from which any number
+// of processes continues to the same bits.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -23,7 +23,7 @@ testing::ProgramResult run_in(int processes, const Words& words) {
   return processes == 1 ? run_alone(words) : run_mpi(processes, words);
 }
 
-/// Interrupts a solve in `first` processes once it has been saved, and goes on with it in others.
+/// Interrupts a solve in `first` processes once it has been saved, and continues it in others.
 void expect_same_after_resuming(const Words& scheme, int first, const std::vector<int>& then) {
   const TemporaryFolder folder;
   const auto command = [&](const Words& more) {

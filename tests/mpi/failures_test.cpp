@@ -27,7 +27,7 @@ using testing::TemporaryFolder;
 using testing::wait_until;
 using Words = std::vector<std::string>;
 
-/// Lines that the program has printed; those of mpirun do not begin like that.
+/// Lines that the program has printed; lines of mpirun begin otherwise.
 Words messages(const std::string& err) {
   Words lines;
   std::istringstream text(err);
@@ -108,7 +108,7 @@ TEST(Failures, TheFirstProcessRunsOtherCommands) {
 
 TEST(Failures, WaitingProcessesLeaveTheirCores) {
   const TemporaryFolder folder;
-  // Engine pairs takes long in the first process alone.
+  // Engine pairs runs only in the first process, and takes long.
   RunningProgram run(mpi_command(
       2, {"solve", "sphere-flake:levels=2", "--engine", "pairs", "-q", "--out", folder / "b.csv"}));
   std::vector<pid_t> ranks;
@@ -122,7 +122,7 @@ TEST(Failures, WaitingProcessesLeaveTheirCores) {
 }
 
 TEST(Failures, InterruptionSavesTheEstimate) {
-  // Seconds from mpirun's SIGTERM to its SIGKILL; one is too few on a busy machine.
+  // Seconds from mpirun's SIGTERM to its SIGKILL; one second is too short on a busy machine.
   ASSERT_EQ(::setenv("OMPI_MCA_odls_base_sigkill_timeout", "3", 1), 0);
   // mpirun of Open MPI 5 passes on no more text once it ends the processes.
   const bool passes_on_last_messages =
@@ -134,7 +134,7 @@ TEST(Failures, InterruptionSavesTheEstimate) {
     ASSERT_TRUE(wait_until([&] { return shows_passes(run); })) << run.err_so_far();
     run.send(signal);
     const auto result = run.wait();
-    // Of the others, mpirun itself ends.
+    // Other signals end mpirun itself.
     EXPECT_EQ(result.status, signal == SIGUSR1 ? 130 : 1) << result.err;
     if (signal == SIGUSR1 || passes_on_last_messages) {
       EXPECT_THAT(result.err, HasSubstr("transillum: interrupted; the results so far are saved"));

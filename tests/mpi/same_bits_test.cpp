@@ -106,7 +106,7 @@ TEST(SameBits, NormalizedRows) {
 
 TEST(SameBits, Accuracy) { expect_same_bytes(box + Words{"--accuracy", "5%"}, {3, 7}); }
 
-/// By default, and to an accuracy: with sources, both would end after one iteration.
+/// The solves run by default, and to an accuracy; with sources, both would end after one iteration.
 TEST(SameBits, SmallLamp) {
   const std::string lamp = std::string(TRANSILLUM_DATA_DIR) + "/corpus/small-lamp.obj";
   expect_same_bytes({lamp, "-m", "32"}, {3});
@@ -143,7 +143,7 @@ TEST(SameBits, SeriesOfResults) {
     const auto run = name == "alone" ? run_alone(words) : run_mpi(3, words);
     ASSERT_EQ(run.status, 0) << run.err;
   }
-  // The files tell times, too; so their values are compared.
+  // The files also contain times, so their values are compared.
   const auto compared_with = [&](const std::string& name, const std::string& other) {
     const std::string copy = folder / "copy.vtp";
     std::filesystem::copy_file(folder / other, copy,

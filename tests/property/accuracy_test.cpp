@@ -33,7 +33,7 @@ ScenePtr box_in_a_room() {
 }
 
 /// A room with a lamp, and apart from it a bright box of 10 cm in which light is reflected most
-/// often: what its iteration leaves out exceeds the light in the room.
+/// often: the light that the iteration omits in the box exceeds the light in the room.
 ScenePtr bright_box_beside_a_room() {
   testing::Sketch sketch("bright box");
   const int lamp = sketch.material(0, 1), small_lamp = sketch.material(0, 1e6);
@@ -52,8 +52,8 @@ std::vector<Rgb> truth_by_pairs(const ScenePtr& scene, int points) {
   return solve_by_form_factors(scene, options).radiosity;
 }
 
-/// RMS over channels and the patches that do not emit of the error of B, over that of B - E; over
-/// all patches where all emit.
+/// The RMS of the error of B divided by the RMS of B - E, over channels and the patches that do not
+/// emit; over all patches where all emit.
 double error_of(const Scene& scene, const std::vector<Rgb>& b, const std::vector<Rgb>& truth) {
   double errors[2] = {}, values[2] = {};
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -68,7 +68,8 @@ double error_of(const Scene& scene, const std::vector<Rgb>& b, const std::vector
   return std::sqrt(errors[all] / values[all]);
 }
 
-/// The share of so many runs that is exceeded in 99 % of all cases, if each holds in 95 %.
+/// The fraction of this number of runs that is exceeded in 99 % of all cases, if each run holds in
+/// 95 %.
 double least_share(int runs) { return 0.95 - 2.33 * std::sqrt(0.95 * 0.05 / runs); }
 
 /// Shares of runs and of values.
@@ -82,8 +83,8 @@ struct Coverage {
 /// Compares runs with a reference.
 class CoverageCount {
  public:
-  /// @param most the error by which two references, by pairs and by passes, may differ; the one by
-  /// passes is used where it is 0
+  /// @param most the error by which two references, by pairs and by passes, may differ; if it is 0,
+  /// the reference by passes is used
   CoverageCount(ScenePtr scene, const SolveOptions& options, int reference_passes, double most = 0)
       : scene_(std::move(scene)),
         tree_(std::make_shared<const BspTree>(*scene_)),
@@ -100,7 +101,8 @@ class CoverageCount {
     }
   }
 
-  /// @param runs with different rotations; with a goal, else with the options' directions.
+  /// @param runs with different rotations; with a goal if it is set, else with the options'
+  /// directions.
   Coverage of(int runs, const AccuracyGoal& goal) {
     Coverage coverage;
     for (int run = 0; run < runs; ++run) {
@@ -215,8 +217,8 @@ TEST(Accuracy, OfOtherErrors) {
   EXPECT_THROW(solve(scene, options), InputError);
 }
 
-/// The error of a patch in the room asks for more iterations than that of all patches. More and
-/// more passes were made instead: 3,768 for 744 %, then ten times as many.
+/// The error of a patch in the room requires more iterations than the error of all patches. Once,
+/// more and more passes were made instead: 3,768 for 744 %, then ten times as many.
 TEST(Accuracy, OfADarkPatchAddsIterationsNotPasses) {
   const ScenePtr scene = bright_box_beside_a_room();
   SolveOptions options;
@@ -227,8 +229,9 @@ TEST(Accuracy, OfADarkPatchAddsIterationsNotPasses) {
   EXPECT_NEAR(solution.radiosity[0].r / truth_by_pairs(scene, 64)[0].r, 1, 0.02);
 }
 
-/// Hardly any direction brings the light of one star to another: all replicas miss it alike, and
-/// their spread does not show it. Of the patches that emit, 40 % and less had B in their interval.
+/// Hardly any direction brings the light of one star to another: all replicas miss this light in
+/// the same way, and their spread does not show it. At most 40 % of the patches that emit had B in
+/// their interval.
 TEST(Accuracy, NamesPatchesWhoseErrorsCannotBeTrusted) {
   const ScenePtr scene = load_scene("stars:n=3");
   SolveOptions options{.directions = 4096, .replicas = 8};
@@ -252,7 +255,8 @@ TEST(Accuracy, NamesPatchesWhoseErrorsCannotBeTrusted) {
   EXPECT_LE(outside[0], 0.1 * count[0]) << count[0];
 }
 
-/// 96 small sources. With E in the yardstick, 6 of 30 runs exceeded their limit, 5 of them trusted.
+/// The scene has 96 small sources. When the measure contained E, 6 of 30 runs exceeded their limit,
+/// 5 of them trusted.
 TEST(Accuracy, OfStarsHoldsWhereItIsTrusted) {
   const ScenePtr scene = load_scene("stars");
   SolveOptions options{.directions = 2048, .first_shot = 0};
@@ -272,7 +276,8 @@ TEST(Accuracy, OfStarsHoldsWhereItIsTrusted) {
   EXPECT_GE(held, least_share(trusted) * trusted);
 }
 
-/// A time limit ends a solve that could go on; what the goal asks for ends it before.
+/// A time limit ends a solve that could continue; a solve that has reached its accuracy ends
+/// before.
 TEST(Accuracy, EndsWithTheTime) {
   SolveOptions options;
   options.goal.seconds = 0.5;
@@ -297,7 +302,8 @@ TEST(Accuracy, IsRefusedWhereReplicasDoNotShowTheError) {
   }
 }
 
-/// One replica more is the run that had it from the start, up to the order of the sums.
+/// A run with one replica added equals the run that had it from the start, up to the order of the
+/// sums.
 TEST(Accuracy, AddedReplicaIsAsOneFromTheStart) {
   const ScenePtr scene = box_in_a_room();
   std::vector<SolveOptions> all(3, {.directions = 64, .replicas = 4, .tolerance = 1e-12});
@@ -312,7 +318,8 @@ TEST(Accuracy, AddedReplicaIsAsOneFromTheStart) {
     EXPECT_EQ(solver.options().directions, 80);
     const std::size_t before = solver.statistics().iteration_records.size();
     EXPECT_TRUE(solver.advance(RadiositySolver::Until::iteration));
-    // Its change is no measure of contraction, so it does not bound what is left.
+    // The change of such an iteration does not measure the contraction, so it does not bound the
+    // remaining error.
     EXPECT_EQ(solver.statistics().iteration_records.at(before).contraction, 0);
     EXPECT_TRUE(std::isfinite(solver.error_estimate().rms));
     EXPECT_FALSE(solver.advance(RadiositySolver::Until::finished));
@@ -335,14 +342,14 @@ TEST(Accuracy, IsNotTrustedWhereSourcesAreHardlyMet) {
   SolveOptions options{.directions = 64, .replicas = 4};
   const Solution few = solve(scene, options);
   EXPECT_LT(few.statistics.light_directions / 4, least_light_directions);
-  // Shot first, it is no longer a matter of directions.
+  // If the lamp is shot first, the directions no longer matter.
   options.first_shot = first_shot_where_it_pays;
   const Solution shot = solve(scene, options);
   EXPECT_EQ(shot.statistics.shot_sources, 6);
   EXPECT_EQ(shot.statistics.light_directions, 0);
 }
 
-/// Few directions let B grow without bound where hardly any light is absorbed.
+/// With few directions, B can grow without bound where hardly any light is absorbed.
 TEST(Accuracy, IsReachedWhereFewDirectionsDiverge) {
   testing::Sketch sketch("bright room");
   const int walls = sketch.material(0.97, 0.1);
@@ -388,7 +395,7 @@ TEST(Accuracy, IsCanceledAtOnce) {
   EXPECT_THROW(solve(box_in_a_room(), options, {}, cancellation), Canceled);
 }
 
-/// It pays for a ceiling lamp, and not where all walls emit.
+/// A first shot saves work for a ceiling lamp, but not where all walls emit.
 TEST(Accuracy, FirstShotIsTakenWhereItPays) {
   const Scene box(describe_scene("cornell-box"), {.max_patch_area = 0.01});
   EXPECT_EQ(first_shot_sources(box, first_shot_where_it_pays, 128), find_small_sources(box, 0));
@@ -413,7 +420,7 @@ TEST(Accuracy, LimitsHoldAsOftenAsStated) {
 
 struct CoverageCase {
   const char* spec;
-  double max_patch_area;  ///< m², 0: none
+  double max_patch_area;  ///< m²; 0 for no limit
   double accuracy;
   bool shot;
 };
@@ -430,7 +437,8 @@ TEST_P(NightlyAccuracy, Coverage) {
   CoverageCount count(scene, options, 8192);
   const Coverage stopped = count.of(60, {.accuracy = of.accuracy});
   options.replicas = 4;
-  options.directions = 4 * static_cast<int>(stopped.passes / 5);  // about those of the last stage
+  options.directions = 4 * static_cast<int>(stopped.passes / 5);  // about as many as in the last
+                                                                  // stage
   const Coverage fixed = CoverageCount(scene, options, 8192).of(60, {});
   fmt::print(
       "{}{}, {} %: {:.0f} passes, limits {:.1f} % ({:.1f} % without stopping), intervals "

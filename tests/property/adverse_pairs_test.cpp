@@ -26,7 +26,7 @@ namespace {
 
 using namespace testing;
 
-/// Of faces 0 and 1 of a scene; a bent face may be several patches.
+/// The exchange of faces 0 and 1 of a scene; a bent face may be several patches.
 struct FaceExchange {
   double area = 0;     ///< m²
   double error = 0;    ///< estimate, m²
@@ -53,8 +53,9 @@ FaceExchange exchange_of_faces(const Scene& scene, const ExchangeFinder& exchang
   return sum;
 }
 
-/// What moving corners by as much as the faces are bent, and as the scene's points are welded and
-/// treated as touching, changes at most, m²: ten times that times the size of the smaller face.
+/// The largest change of the exchange, m², when corners move by as much as the faces are bent, and
+/// as the scene's points are welded and treated as touching: ten times this distance times the size
+/// of the smaller face.
 double geometric_error(const PairScene& pair, const Scene& scene, double smaller) {
   double bend = std::max(1e-12 * scene.bounds().diagonal(), 2 * BspTree::thickness(scene));
   bend += pair.p.bend + pair.q.bend;
@@ -89,7 +90,8 @@ void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
     const Scene scene(pair.description());
     const FaceExchange found = exchange_of_faces(scene, ExchangeFinder(scene, {}, 32));
     const ReferenceExchange reference = reference_exchange(pair, 1e-5, 1e-6 * found.smaller, 100);
-    // By points: three of its own estimates, and what is left near blockers that touch the face.
+    // The tolerance by points: three of its own estimates, and the error near blockers that touch
+    // the face.
     const double allowed = 3 * found.error + 1e-3 * reference.area + 2e-4 * found.smaller +
                            3 * reference.error + geometric_error(pair, scene, found.smaller);
     EXPECT_LE(std::abs(found.area - reference.area), allowed)
@@ -243,9 +245,9 @@ TEST(NightlyAdversePairs, AgreeWithDirections) {
 
 /// Every form factor above 1e-4 of a scene, by pairs and by eight rotated sets of directions.
 ///
-/// The error of the sets is at most about that of as many independent directions, whose variance
-/// is known from the squares of the areas. Eight replicas alone do not show it where few directions
-/// meet a pair: sets that all miss it agree with each other.
+/// The error of the sets is at most about the error of as many independent directions, whose
+/// variance is known from the squares of the areas. Eight replicas alone do not show the error
+/// where few directions meet a pair: sets that all miss the pair agree with each other.
 void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int directions) {
   constexpr int replicas = 8;
   struct Sums {
@@ -281,12 +283,13 @@ void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int
       continue;
     }
     ++compared;
-    // One direction shows a pair at most with the smaller patch's whole area.
+    // One direction exchanges at most the whole area of the smaller patch.
     const double one_direction = 2 * smaller / count;
     const double deviation =
         std::sqrt(of_pair.squares + one_direction * std::max(0.0, found.area - of_pair.area)) +
         1e-9 * of_pair.area;
-    // Points past blockers that touch the sampled patch: not promised better (decision 53).
+    // Points past blockers that touch the sampled patch do not promise a smaller error (decision
+    // 53).
     const double of_points = found.whole ? 0 : 2 * std::abs(found.error) + 5e-3 * found.area;
     const double difference = std::abs(found.area - of_pair.area);
     beyond_three += difference > 3 * deviation + of_points ? 1 : 0;
@@ -294,7 +297,7 @@ void expect_factors_within_errors(const std::shared_ptr<const Scene>& scene, int
         << i << ' ' << j << ": " << found.area << " is not " << of_pair.area;
   }
   EXPECT_GT(compared, scene->patch_count());
-  // Of a normal distribution 0.3 %.
+  // A normal distribution has 0.3 % beyond three deviations.
   EXPECT_LE(beyond_three, 1 + 0.01 * compared) << "of " << compared;
 }
 

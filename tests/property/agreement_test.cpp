@@ -239,7 +239,7 @@ TEST(AgreementImperfectRegression, OnASmallPatchSeenByALargeOne) {
   expect_agreement_on(661, testing::random_imperfect_scene);
 }
 
-/// Bent faces along which a direction runs: their parts project to more than the plane of the face.
+/// A direction runs along bent faces: their parts project to more than the plane of the face.
 TEST(AgreementImperfectRegression, OnBentFacesSeenEdgeOn) {
   expect_agreement_on(1129, testing::random_imperfect_scene);
 }

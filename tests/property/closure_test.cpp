@@ -121,7 +121,7 @@ TEST_P(ClosureNeedles, ReceivedAreasAddUpToProjections) {
 
 INSTANTIATE_TEST_SUITE_P(Digits, ClosureNeedles, ::testing::Values(6, 9, 17));
 
-/// Projected areas against those computed from the normals.
+/// Compares projected areas with areas computed from the normals.
 TEST(Projection, AreasFollowTheCosine) {
   const auto scene = load_scene("rooms");
   const auto tree = std::make_shared<const BspTree>(*scene);

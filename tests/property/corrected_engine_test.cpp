@@ -1,5 +1,5 @@
-// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// What engine corrected guarantees, and its error.
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later. Guarantees of engine
+// corrected, and its error.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ TEST(TransferComparison, MeasuresExchangesBetweenTheWrongPatches) {
   EXPECT_EQ(comparison.largest.source, 3);
   EXPECT_EQ(comparison.largest.area, -2);
   EXPECT_EQ(compare(a, a).misplaced, 0);
-  // The largest first; the pair (3, 1) does not differ.
+  // The largest difference comes first; the pair (3, 1) does not differ.
   ASSERT_EQ(comparison.pairs.size(), 3U);
   const std::vector<std::vector<double>> expected{{0, 3, 0, 2}, {0, 1, 3, 2}, {0, 2, 1, 0}};
   for (std::size_t k = 0; k < expected.size(); ++k) {

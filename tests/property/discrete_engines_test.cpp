@@ -80,7 +80,7 @@ TEST_P(DiscreteEngines, ErrorDecreasesWithPixelSize) {
     const auto error = [&](int resolution) {
       const TransferEngine engine = engine_of(GetParam(), scene, {.resolution = resolution});
       double sum = 0, total = 0;
-      // The first ones are axes and diagonals, along which pixels may fit the scene.
+      // The first directions are axes and diagonals, along which pixels may fit the scene.
       for (auto omega = directions.begin() + 14; omega != directions.end(); ++omega) {
         const PairAreas areas = areas_of(exact(*omega, {}));
         for (const auto& [pair, area] : areas) {
@@ -233,7 +233,7 @@ TEST(NewellOrder, FailsOnCyclesAndIntersections) {
   crossed.face({{0, 0, 1}, {2, 0, 0}, {2, 1, 0}, {0, 1, 1}}, gray);
   EXPECT_THAT(error_of(crossed.scene(), {0, 0, 1}),
               ::testing::HasSubstr("patches 0 and 1 intersect"));
-  // Each is on both sides of the other's plane, but not where their projections overlap.
+  // Each polygon is on both sides of the other's plane, but not where their projections overlap.
   Sketch skew;
   ASSERT_EQ(skew.material(0.5, 1), gray);
   skew.face({{0, 0, 0}, {4, 0, 2}, {4, 1, 2}, {0, 1, 0}}, gray);

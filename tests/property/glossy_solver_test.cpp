@@ -46,7 +46,7 @@ TEST(GlossySolver, CanBeCanceledAndPaused) {
     const Vec3 toward = normalized(scene->patch(i).normal + Vec3{0.1, 0.2, 0.3});
     EXPECT_EQ(paused.glossy->radiance(i, toward), whole.glossy->radiance(i, toward)) << i;
   }
-  // Pass by pass, too.
+  // The bits are also the same pass by pass.
   GlossySolver stepped(scene, options);
   EXPECT_TRUE(stepped.advance(RadiositySolver::Until::direction));
   EXPECT_EQ(stepped.progress().direction, 1);
@@ -81,7 +81,7 @@ std::vector<Rgb> all_light(const GlossyLight& light) {
 }
 
 /// A solution that was taken within an iteration stays as it was: views read it on other threads
-/// while the solver goes on.
+/// while the solver continues.
 TEST(GlossySolver, ChangesNoSolutionThatItGave) {
   const auto scene = glossy_box();
   SolveOptions options = glossy_options(32);
@@ -141,8 +141,8 @@ TEST(GlossySolver, TellsOfItsStages) {
   EXPECT_EQ(solver.progress().stage, Stage::passes);
 }
 
-/// Canceled while the lobes of other materials are scaled: what there is can be read, and the solve
-/// goes on to the right result.
+/// After a cancellation while the lobes of other materials are scaled, the present light can be
+/// read, and the solve continues to the right result.
 TEST(GlossySolver, CanBeCanceledWhileLobesAreScaled) {
   const auto scene = glossy_box();
   const SolveOptions options = glossy_options(32);
@@ -169,7 +169,7 @@ TEST(GlossySolver, CanBeCanceledWhileLobesAreScaled) {
   }
 }
 
-/// From the light that there is, the same limit is reached in fewer iterations; materials can be
+/// Starting with the present light, the same limit is reached in fewer iterations; materials can be
 /// given by patch.
 TEST(GlossySolver, GoesOnFromTheCurrentLight) {
   const auto scene = glossy_box();

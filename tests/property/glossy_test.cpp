@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What must hold for lobes in any scene (ALGORITHM.md, oracle 6c): the diffuse limit, the furnace,
-// energy, reciprocity of paths, invariance, bits.
+// Properties that must hold for lobes in any scene (ALGORITHM.md, oracle 6c): the diffuse limit,
+// the furnace, energy, reciprocity of paths, invariance, bits.
 #include "transillum/glossy.h"
 
 #include <gmock/gmock.h>
@@ -141,7 +141,8 @@ TEST(GlossyEnergy, WhatIsReceivedWasSent) {
   }
 }
 
-/// Lamp and receiver exchanged: A_b H_b of a lamp a is A_a H_a of a lamp b, over all paths.
+/// If lamp and receiver are exchanged, A_b H_b of a lamp a equals A_a H_a of a lamp b, over all
+/// paths.
 TEST(GlossyReciprocity, LampAndReceiverCanBeExchanged) {
   const auto dark = glossy_box();
   const auto lit = [&](PatchId lamp) {
@@ -184,7 +185,7 @@ TEST(GlossyBits, DependOnNothingButTheProblem) {
   }
 }
 
-/// Also where passes are computed again in each iteration.
+/// This also holds where passes are recomputed in each iteration.
 TEST(GlossyBits, DependOnNoThreadsWithoutKeptTransfers) {
   SolveOptions options = glossy_options(48);
   options.memory = 1000;
@@ -199,8 +200,8 @@ TEST(GlossyBits, DependOnNoThreadsWithoutKeptTransfers) {
   }
 }
 
-/// Exchanges of glossy patches are added in the same order whether they are kept or not. Only those
-/// between two diffuse patches are kept as sums, whose rounding differs.
+/// Exchanges of glossy patches are added in the same order whether they are kept or not. Only
+/// exchanges between two diffuse patches are kept as sums, whose rounding differs.
 TEST(GlossyMemory, ChangesNoBitWhereAllPatchesAreGlossy) {
   const auto scene = box_scene([](std::size_t f, Material& material) {
     material.reflectance = {0.3, 0.2, 0.4};

@@ -81,7 +81,8 @@ TEST(HemicubeFactors, ConvergeAsPixelsShrink) {
   EXPECT_LT(error(1024), 1e-4);
 }
 
-/// Two unit squares at distance 1: the form factor from the center of a whole one is too large.
+/// Two unit squares at distance 1: the form factor from the center of an undivided square is too
+/// large.
 TEST(HemicubeFactors, ConvergeAsPatchesShrink) {
   const double exact = 0.1998248957;
   const auto error = [&](double patch_area) {
@@ -120,7 +121,8 @@ TEST(HemicubeFactors, NearerPatchesHideAndBackSidesAbsorb) {
   EXPECT_LT(row_sum(shaded, 0), 0.3);
 }
 
-/// As in the BSP order: of coincident faces, the brighter covers the other, whatever their order.
+/// The brighter of two coincident faces covers the other, whatever their order, like in the BSP
+/// order.
 TEST(HemicubeFactors, ALightCoversTheCeilingAroundIt) {
   for (const bool light_first : {true, false}) {
     Sketch sketch;
@@ -138,7 +140,7 @@ TEST(HemicubeFactors, ALightCoversTheCeilingAroundIt) {
   }
 }
 
-/// Number of connected parts of each patch in the unfolded picture.
+/// Number of connected components of each patch in the unfolded picture.
 std::vector<int> parts_in_cross(const HemicubeImage& image, PatchId patches) {
   const int size = image.cross();
   std::vector<PatchId> cells;
@@ -266,7 +268,7 @@ TEST(HemicubeSolve, ApproachesTheExactEngineAsPatchesShrink) {
     const Solution hemicubes = solve_by_form_factors(scene, options);
     EXPECT_TRUE(hemicubes.complete && hemicubes.statistics.converged);
     EXPECT_LT(hemicubes.statistics.escaped, 1e-9);
-    // Form factors of the centers are not reciprocal. Measured: 23 %, and 1.5 % of small patches.
+    // Form factors of the centers are not reciprocal. Measured: 23 %, and 1.5 % for small patches.
     EXPECT_LT(hemicubes.statistics.energy_defect, patch_area > 0 ? 0.016 : 0.24);
     return rms_difference(hemicubes, exact);
   };

@@ -96,7 +96,7 @@ TEST(Invariance, OrderOfFaces) {
   }
 }
 
-/// A patch split into two triangles: their areas add up to that of the whole.
+/// If a patch is split into two triangles, their areas add up to the area of the whole.
 TEST(Invariance, PatchSplitInTwo) {
   const auto room = [](bool cut) {
     Sketch sketch;

@@ -75,7 +75,7 @@ TEST(MapRecord, TakesNoMoreMemoryThanItMay) {
   EXPECT_EQ(record->rows.size(), whole.rows.size());
   EXPECT_EQ(record->corners.size(), whole.corners.size());
   EXPECT_LE(lists(*record), succeeds);
-  // Growing by a quarter leaves a quarter unused, and the longest list is there twice meanwhile.
+  // Growing by a quarter leaves a quarter unused, and the longest list exists twice while it grows.
   EXPECT_LE(succeeds, 2 * lists(whole));
 }
 
@@ -138,7 +138,7 @@ TEST(MapRecord, EdgesLieOnTheLinesOfTheFragmentsTheyComeFrom) {
         const double twice = (b.x - a.x) * (end.y - a.y) - (b.y - a.y) * (end.x - a.x);
         ASSERT_LE(std::abs(twice), 1e-13 * length) << "row " << r << ", edge " << k;
       }
-      // It comes from a whole fragment that has the line.
+      // The edge comes from a whole fragment that has the line.
       const MapRecord::Row& origin = at(record.rows, origins[k]);
       ASSERT_EQ(origin.parent, MapRecord::no_row);
       const auto known = record.edge_lines(origin);

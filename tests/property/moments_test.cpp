@@ -87,7 +87,7 @@ void expect_closure(const std::shared_ptr<const Scene>& scene, Engine by, int di
     for (std::size_t k = 0; k < transfers.exchanges.size(); ++k) {
       ASSERT_EQ(transfers.moments[k].of(0, 0), transfers.exchanges[k].area);
     }
-    // What a patch projects has no first moments.
+    // The projection of a patch has no first moments.
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
       for (std::size_t a = 0; a < 2; ++a) {
         ASSERT_NEAR(at(transfers.forward_moments, i).projected[a], 0, 1e-10 * scene->patch(i).area);
@@ -217,7 +217,7 @@ std::array<double, 3> on_part(const LinearBasis& whole, std::size_t a, const Lin
   if (a > 0) {
     const Vec3& g = whole.gradient[a - 1];
     coefficients[0] = dot(g, part.center - whole.center);
-    // The gradient of phi_2 is perpendicular to that of phi_1 but for a part along it.
+    // The gradient of phi_2 is perpendicular to the gradient of phi_1, except for a part along it.
     const Vec3 &g1 = part.gradient[0], &g2 = part.gradient[1];
     const Vec3 across = g2 - (dot(g2, g1) / dot(g1, g1)) * g1;
     coefficients[2] = dot(g, across) / dot(across, across);
@@ -226,7 +226,8 @@ std::array<double, 3> on_part(const LinearBasis& whole, std::size_t a, const Lin
   return coefficients;
 }
 
-/// Oracle 5: the moments of a concave wall are those of the three parts it is cut into by hand.
+/// Oracle 5: the moments of a concave wall are the sums over three parts into which it is cut by
+/// hand.
 TEST(MomentInvariance, MomentsOfPartsAddUp) {
   const auto scene = [](bool cut) {
     Sketch sketch;

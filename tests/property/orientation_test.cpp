@@ -1,5 +1,5 @@
-// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Scenes whose faces are oriented correctly come back as they were after some have been turned.
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later. Scenes whose faces
+// are oriented correctly are restored after some faces have been turned.
 #include "transillum/orientation.h"
 
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ void turn(SceneDescription& description, std::size_t face) {
   std::reverse(first, first + std::ssize(description.outline(face)));
 }
 
-/// The faces that are not as in `original`.
+/// The faces that differ from `original`.
 std::vector<std::size_t> different(const SceneDescription& original,
                                    const SceneDescription& other) {
   std::vector<std::size_t> faces;
@@ -94,7 +94,7 @@ TEST(Orientation, RestoresRandomFaces) {
   }
 }
 
-/// Faces that share no points in memory hang together by equal coordinates.
+/// Faces that share no points in memory are connected by equal coordinates.
 TEST(Orientation, RestoresFacesWithPointsOfTheirOwn) {
   for (const char* spec : scenes) {
     SCOPED_TRACE(spec);

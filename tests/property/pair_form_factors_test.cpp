@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Form factors pair by pair and what is solved with them: known values, closure, reciprocity, and
+// Form factors pair by pair and solutions with them: known values, closure, reciprocity, and
 // agreement with passes, which share nothing with them but the scene.
 #include "transillum/pair_form_factors.h"
 
@@ -58,8 +58,8 @@ TEST(PairFormFactors, OfOppositeSquaresAreTheClosedForm) {
   EXPECT_EQ(f.value[0], f.value[1]);
 }
 
-/// Two quadrilaterals with nothing between; corner `corner` of the first is moved by `bend` across
-/// its plane. The plane of the second cuts the first.
+/// Two quadrilaterals with nothing in between; corner `corner` of the first is moved by `bend`
+/// across its plane. The plane of the second cuts the first.
 std::shared_ptr<const Scene> bent_pair(std::size_t corner, double bend, bool two_sided = false) {
   std::vector<Vec3> bent{
       {-.35, 1.04, 1.33}, {-.31, 1.042, 1.37}, {-.05, 1.042, 1.37}, {-.01, 1.04, 1.33}};
@@ -108,8 +108,8 @@ std::vector<double> factors_below_a_bent_ceiling(double bend) {
   return dense_row(*scene, pair_form_factors(*scene, {}), 4);
 }
 
-/// The face that is merged of the triangles reaches below some of them by rounding, and hid these:
-/// 2e-19 instead of 0.0438.
+/// The face that the triangles are merged into reaches below some of them by rounding. It hid these
+/// triangles: 2e-19 instead of 0.0438.
 TEST(PairFormFactors, OfTrianglesOfABentFaceAreThoseOfAPlanarOne) {
   const std::vector<double> planar = factors_below_a_bent_ceiling(0);
   for (const double size : {1e-12, 1e-10, 1e-8, 1e-7, 1e-6}) {
@@ -165,7 +165,7 @@ TEST(PairFormFactors, AreReciprocal) {
       const double one = scene->patch(i).area * row[static_cast<std::size_t>(j)];
       const double other =
           scene->patch(j).area * dense_row(*scene, f, j)[static_cast<std::size_t>(i)];
-      // Either is rounded by a division and a product.
+      // Both values are rounded by a division and a product.
       EXPECT_LE(std::abs(one - other), 2 * std::numeric_limits<double>::epsilon() * one);
     }
   }
@@ -232,7 +232,7 @@ TEST(PairSolve, AgreesWithPassesWithinTheirError) {
     const Solution pairs = solved_by_pairs(scene, 64);
     const RadiosityError error = radiosity_error(*scene, pairs.radiosity, passes.radiosity);
     EXPECT_LT(error.rms, passes.error.quantile * passes.error.rms);
-    // One set is spread more evenly than replicas.
+    // A single set is more evenly spread than replicas.
     const Solution one_set = solve(scene, {.directions = 12288, .tolerance = 1e-8});
     EXPECT_LT(radiosity_error(*scene, pairs.radiosity, one_set.radiosity).rms, 1e-4);
   }
@@ -246,7 +246,7 @@ TEST(PairSolve, ReportsItsFigures) {
   EXPECT_EQ(s.pairs, 120 * 119 / 2);
   EXPECT_EQ(s.directions, 32);
   EXPECT_LT(s.closure_defect_max, 1e-3);
-  EXPECT_LT(s.energy_defect, 1e-8);  // of the iteration, by its tolerance
+  EXPECT_LT(s.energy_defect, 1e-8);  // the tolerance of the iteration
   EXPECT_NEAR(s.energy_balance, 1, 1e-3);
 }
 

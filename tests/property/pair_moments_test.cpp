@@ -67,7 +67,8 @@ std::array<double, 3> by_quadrature(const Vec3& n, const Points& polygon) {
 }
 
 TEST(PointMoments, AreThoseOfAQuadrature) {
-  // Clockwise; around the foot of the point, beside it, with a corner on it and an edge through it.
+  // The polygons are clockwise: around the foot of the point, beside it, with a corner on it and
+  // with an edge through it.
   const std::pair<Vec3, Points> cases[] = {
       {{0.1, -0.2, 0.97}, {{-0.5, -0.4}, {-0.4, 0.6}, {0.5, 0.7}, {0.6, -0.3}}},
       {{0.2, 0.3, 0.93}, {{0.1, 0.2}, {1.2, 1.7}, {1.5, 0.3}}},
@@ -159,7 +160,7 @@ TEST(PairMoments, FurnaceAndEnergy) {
     EXPECT_LT(std::max(max_abs(part.first), max_abs(part.second)), 1e-3);
   }
   const Solution box = solved(load_scene("cornell-box"), 16, Basis::linear);
-  EXPECT_LT(box.statistics.energy_defect, 1e-8);  // of the iteration, by its tolerance
+  EXPECT_LT(box.statistics.energy_defect, 1e-8);  // the tolerance of the iteration
   EXPECT_NEAR(box.statistics.energy_balance, 1, 5e-3);
   EXPECT_GT(box.statistics.negative_corners, 0);
   EXPECT_TRUE(box.complete && box.statistics.converged);

@@ -100,7 +100,7 @@ TEST(MaxPatchAreaFor, ComesNearWhereFacesAreManyAndDiffer) {
   }
 }
 
-/// It stands in a field of the viewer and in result files.
+/// The area is shown in a field of the viewer and written to result files.
 TEST(MaxPatchAreaFor, HasFewDigits) {
   const auto scene = load_scene("cornell-box");
   for (const std::int64_t wanted : {100, 600, 3000}) {

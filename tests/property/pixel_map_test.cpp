@@ -90,7 +90,7 @@ Found find(const VisibilityMap& map, const Polygons& polygons, const Vec2& p) {
   return found;
 }
 
-/// At random points: a point is marked if and only if the visible patch is not the one shown.
+/// Checks random points: a point is marked if and only if the visible patch is not the one shown.
 void expect_marked_where_wrong(const Views& views) {
   const PixelMap& pixels = views.pixels;
   std::mt19937_64 random(7);

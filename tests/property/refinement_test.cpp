@@ -45,12 +45,12 @@ const double gray = std::sqrt(3.0);
 TEST(Jumps, AreThoseOfTheIrradianceTimesTheReflectance) {
   Sketch sketch;
   const int half = sketch.material(0.5, 0), lamp = sketch.material(0.25, 7);
-  // Beside the second, two smaller ones.
+  // Two smaller squares are beside the second.
   sketch.face(square(0, 0, 2), half).face(square(2, 0, 2), lamp);
   sketch.face(square(4, 0, 1), half).face(square(4, 1, 1), half);
   const auto jumps = radiosity_jumps(with_irradiance(sketch.scene(), {1, 3, 3, 7}));
   EXPECT_NEAR(jumps[0], 0.5 * 2 * gray, 1e-12);
-  // Along 2 m by 2, along 1 m by 0 and along 1 m by 4.
+  // The jump is 2 along 2 m, 0 along 1 m and 4 along 1 m.
   EXPECT_NEAR(jumps[1], 0.25 * std::sqrt((2 * 4 + 1 * 0 + 1 * 16) / 4.0) * gray, 1e-12);
   EXPECT_NEAR(jumps[2], 0.5 * std::sqrt((0 + 16) / 2.0) * gray, 1e-12);
 }
@@ -62,7 +62,7 @@ TEST(Jumps, OfPatchesWithoutNeighborsInTheirPlane) {
   sketch.face({{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}}, half);
   sketch.face(square(5, 5, 1), half);
   const auto jumps = radiosity_jumps(with_irradiance(sketch.scene(), {4, 10, 6}));
-  EXPECT_NEAR(jumps[0], 0.5 * 6 * gray, 1e-12);  // to the one at an angle
+  EXPECT_NEAR(jumps[0], 0.5 * 6 * gray, 1e-12);  // to the square at an angle
   EXPECT_NEAR(jumps[1], 0.5 * 6 * gray, 1e-12);
   EXPECT_NEAR(jumps[2], 0.5 * 6 * gray, 1e-12);  // its own
 }
@@ -81,7 +81,7 @@ TEST(Jumps, OfALinearFunctionCutInTwoAreNone) {
   const double steps = radiosity_jumps(solution)[0];
   for (PatchId i = 0; i < cut->patch_count(); ++i) {
     const LinearBasis basis = linear_basis(*cut, i);
-    // Coefficients of x + 3 y: along the edges, whose functions are orthogonal in a square.
+    // The coefficients of x + 3 y are along the edges, whose functions are orthogonal in a square.
     const Vec3 slope{1, 3, 0};
     const auto part = [&](std::size_t a) {
       const double b =
@@ -100,7 +100,8 @@ std::shared_ptr<const Scene> evenly(const char* spec, std::int64_t patches) {
   return load_scene(spec, {.max_patch_area = max_patch_area_for(*load_scene(spec), patches)});
 }
 
-/// Finer than what is compared with it, by the same directions, so that their error is in both.
+/// The reference is finer than the compared solutions, with the same directions, so that both have
+/// their error.
 const Solution& reference() {
   static const Solution solution = solve(evenly("cornell-box", 2500), options(Basis::linear));
   return solution;
@@ -113,7 +114,7 @@ double error_of(const std::shared_ptr<const Scene>& scene, Basis basis) {
 
 class RefinementBy : public ::testing::TestWithParam<std::tuple<RefineBy, Basis>> {};
 
-/// As many patches represent the radiosity better where they are chosen.
+/// The same number of patches represents the radiosity better if the patches to divide are chosen.
 TEST_P(RefinementBy, IsBetterThanEvenDivision) {
   const auto [by, basis] = GetParam();
   const Refinement refined =
@@ -163,12 +164,13 @@ TEST_P(RefinementBy, DividesAtTheEdgeOfAShadowFirst) {
   EXPECT_LT(at_edge / count_at_edge, 0.2 * beside / count_beside);
 }
 
-/// By error, the figure of the last round estimates the error of the result.
+/// With RefineBy::error, the figure of the last round estimates the error of the result.
 TEST(Refinement, EstimatesItsError) {
   const Refinement refined =
       refine(load_scene("cornell-box"), options(), {.by = RefineBy::error, .patches = 200});
   const double error = error_of(refined.scene, Basis::constant);
-  // What a division changes: sqrt(3/4) of an error that falls as h, sqrt(1/2) of one as sqrt(h).
+  // A division changes sqrt(3/4) of an error that falls as h, and sqrt(1/2) of an error that falls
+  // as sqrt(h).
   EXPECT_LT(refined.rounds.back().figure, error);
   EXPECT_GT(refined.rounds.back().figure, 0.6 * error);
   EXPECT_EQ(refined.rounds.back().patches, refined.scene->patch_count());

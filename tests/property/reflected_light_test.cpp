@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What is said of errors is true of reflected light in scenes where E, or the largest B, would hide
-// them: lamps of 1 mm, a dark room behind a crack, one source a million times as bright as others.
+// Statements on errors are true for reflected light in scenes where E, or the largest B, would hide
+// the errors: lamps of 1 mm, a dark room behind a crack, one source a million times as bright as
+// others.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +55,7 @@ ScenePtr two_rooms() {
   return sketch.scene({.max_patch_area = 0.25});
 }
 
-/// A closed box whose faces emit 1 W/m², but one a million.
+/// A closed box whose faces emit 1 W/m², except one, which emits a million.
 ScenePtr uneven_furnace() {
   testing::Sketch sketch("furnace");
   const int walls = sketch.material(0.5, 1), bright = sketch.material(0.5, 1e6);
@@ -138,8 +139,8 @@ double mean_error(const Scene& scene, const std::vector<Rgb>& b, const std::vect
       {std::abs(off.r) / light.r, std::abs(off.g) / light.g, std::abs(off.b) / light.b});
 }
 
-/// The area-weighted sum of |b - truth| over that of the truth, over the tenth of the lit area that
-/// reflects least, in the channel where it is largest.
+/// The area-weighted sum of |b - truth| divided by the sum of the truth, over the tenth of the lit
+/// area that reflects least, in the channel where this ratio is largest.
 double error_of_dimmest(const Scene& scene, const std::vector<Rgb>& b,
                         const std::vector<Rgb>& truth) {
   const std::vector<Rgb> light = reflected_light(scene, truth);
@@ -180,8 +181,8 @@ std::vector<Rgb> limit_of(const TestScene& test, SolveOptions options) {
   return solver.radiosity();
 }
 
-/// By how much the bound grows where row sums of F exceed 1, which directions can make them do: c
-/// is then as much larger than rho_max.
+/// The growth of the bound where row sums of F exceed 1, which directions can cause: c then exceeds
+/// rho_max by the same factor.
 double allowance(const Solution& solution) {
   const double rho = solution.statistics.rho_max;
   double largest = 1;
@@ -249,7 +250,7 @@ TEST(ReflectedLight, ConvergedMeansTheSameOfGivenFormFactorsAndRelitScenes) {
   }
 }
 
-/// The figure of the issue: a lamp of 5 mm stopped after one iteration at 0.191 instead of 0.532.
+/// With a lamp of 5 mm, an earlier solve stopped after one iteration at 0.191 instead of 0.532.
 TEST(ReflectedLight, ALampOf5MillimetersIsSolvedByDefault) {
   const ScenePtr scene = lamp_room(0.005, 0.8, 0);
   const Solution solution = solve(scene, {});
@@ -257,8 +258,8 @@ TEST(ReflectedLight, ALampOf5MillimetersIsSolvedByDefault) {
   EXPECT_NEAR(mean(*scene, solution.radiosity).r, 0.532, 0.002);
 }
 
-/// Each run has rotations of its own, so that they are independent. Of 95 % limits, more than 4 of
-/// 22 are exceeded in 0.5 % of such tests.
+/// Each run has rotations of its own, so that they are independent. More than 4 of 22 limits of 95
+/// % are exceeded in 0.5 % of such tests.
 TEST(ReflectedLight, AccuracyIsThatOfReflectedLight) {
   int runs = 0, limits_exceeded = 0, means_missed = 0;
   for (const TestScene& test : scenes_with_light()) {

@@ -53,7 +53,7 @@ std::vector<Hit> hits_on_line(const Scene& scene, const PlaneFrame& frame, const
       hits.push_back({height, i});
     }
   }
-  // From above, along -omega.
+  // The line is followed from above, along -omega.
   std::sort(hits.begin(), hits.end(),
             [](const Hit& a, const Hit& b) { return a.height > b.height; });
   return hits;

@@ -46,7 +46,8 @@ std::shared_ptr<const Scene> open_box(double reflectance, int divisions, double 
   wall({0, 1, 0}, {1, 0, 0}, {0, 0, 1});
   wall({0, 0, 0}, {0, 1, 0}, {0, 0, 1});
   wall({1, 0, 0}, {0, 0, 1}, {0, 1, 0});
-  // Not on the floor: what is between two touching faces sees the sky or backs through them.
+  // The block is not on the floor: points between two touching faces see the sky or backs through
+  // them.
   sketch.box({0.3, 0.3, 0.1}, {0.6, 0.7, 0.5}, false, gray);
   if (lid > 0) {
     const int black = sketch.material(0, lid);
@@ -139,8 +140,9 @@ TEST(Sky, BlackPatchesReceiveTheirShareOfIt) {
   }
 }
 
-/// What an unobstructed square receives from the overcast sky: all of it turned up, nothing turned
-/// down, and turned sideways 3/14 + 4 / (7 pi) of it, the integral of L cos over a quarter.
+/// An unobstructed square that faces up receives all light of the overcast sky, and none if it
+/// faces down. If it faces sideways, it receives 3/14 + 4 / (7 pi) of the light, the integral of L
+/// cos over a quarter.
 TEST(Sky, OvercastIlluminatesByTheFormulaOfTheCie) {
   Sketch sketch("squares");
   const int gray = sketch.material(0.5, 0);

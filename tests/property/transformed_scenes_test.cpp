@@ -34,7 +34,7 @@ namespace {
 
 using testing::RandomScene;
 
-/// What engines promise, as a share of the patch's area.
+/// The error that engines promise, relative to the patch's area.
 constexpr double promised = 1e-10;
 /// Rounding of sums and products of doubles, as a share of an area.
 constexpr double summed = 1e-14;
@@ -51,11 +51,11 @@ Bounds bounds_of(const SceneDescription& description) {
 struct Transformed {
   std::string how;
   SceneDescription description;
-  std::vector<int> face;  ///< per face: the same face of the original, or the one that it is a part
-                          ///< of; -1: none
-  std::function<Vec3(const Vec3&)> turn = [](const Vec3& p) { return p; };  ///< of directions
+  std::vector<int> face;  ///< per face: the same face of the original, or the face that it is a
+                          ///< part of; -1 if there is none
+  std::function<Vec3(const Vec3&)> turn = [](const Vec3& p) { return p; };  ///< turns directions
   double scale = 1;
-  double roundings = 1;  ///< of a coordinate, beside that of the original
+  double roundings = 1;  ///< roundings of a coordinate, in addition to the original
 };
 
 std::vector<int> same_faces(const SceneDescription& description) {
@@ -135,7 +135,7 @@ Transformed split(const SceneDescription& original) {
   return result;
 }
 
-/// With triangles of a millionth of the scene's size, `distance` sizes away.
+/// The scene with triangles of a millionth of its size, `distance` sizes away.
 Transformed with_far_triangles(const SceneDescription& original, double distance,
                                std::uint64_t seed) {
   Transformed result{.how = fmt::format("with triangles {} sizes away, seed {}", distance, seed),
@@ -148,7 +148,7 @@ Transformed with_far_triangles(const SceneDescription& original, double distance
     const Vec3 far = bounds.center() + distance * size * rotate(axis);
     auto& points = result.description.points;
     const auto first = static_cast<PointId>(points.size());
-    // Perpendicular to the line to the scene, so that they hide next to nothing.
+    // The triangles are perpendicular to the line to the scene, so that they hide next to nothing.
     points.push_back(far);
     points.push_back(far + 1e-6 * size * rotate({axis.y, axis.x, 0}));
     points.push_back(far + 1e-6 * size * rotate({0, 0, 1}));
@@ -249,9 +249,9 @@ class TestedScene {
   Transfers run(std::size_t k, const Vec3& omega) const {
     return engines_[k].second(turn_(omega), {});
   }
-  /// Bound on what rounding changes in the projected area of patch i, m².
+  /// Bound on the change of the projected area of patch i by rounding, m².
   double rounding(PatchId i) const { return at(rounding_, i); }
-  /// The same of what is seen of any patch.
+  /// The same bound for the visible area of any patch.
   double rounding_of_parts() const { return rounding_of_parts_; }
   double rounding_of_parts_in_original_units() const {
     return rounding_of_parts_ / (scale_ * scale_);
@@ -352,7 +352,7 @@ void expect_near(const char* property, double value, double expected, double bou
                       << bound << ", " << where();
 }
 
-/// Each patch's projection is that of its normal; nothing is less than 0 or covered twice.
+/// The projection of each patch follows from its normal; nothing is less than 0 or covered twice.
 void expect_possible_areas(const TestedScene& tested, const Transfers& transfers,
                            const std::string& engine, bool closed, const std::string& context) {
   const Scene& scene = tested.scene();
@@ -413,7 +413,8 @@ AreasOfFaces from_other_side(const AreasOfFaces& areas) {
   return result;
 }
 
-/// Directions along two edges and in two planes of faces of the original, beside its own.
+/// Directions along two edges and in two planes of faces of the original, in addition to its own
+/// directions.
 std::vector<Vec3> directions_of(const RandomScene& random, Numbers numbers) {
   std::vector<Vec3> directions = random.directions;
   const SceneDescription& description = random.description;
@@ -439,7 +440,7 @@ bool has_coincident_faces(const RandomScene& random) {
 }
 
 /// Tests one transformation of a scene along some directions of the original.
-/// @param same whether areas are compared with those of the original
+/// @param same whether areas are compared with the original
 /// @param bends as for TestedScene
 void expect_invariance(const RandomScene& random, const Transformed& changed,
                        const std::vector<Vec3>& directions, bool slow, bool same = true,
@@ -475,7 +476,7 @@ void expect_invariance_of(std::uint64_t first, std::uint64_t count, std::uint64_
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const RandomScene random = testing::random_scene(seed);
     const std::vector<Vec3> directions = directions_of(random, Numbers(seed));
-    // Moving matters most: it is every second transformation.
+    // Every second transformation moves the scene: moving matters most.
     const auto which = static_cast<int>(seed / 10 % (2 * (transformations - 1)));
     const int transformation = which % 2 == 0 ? 0 : 1 + which / 2;
     expect_invariance(random, transformed(random.description, transformation, seed), directions,

@@ -175,7 +175,7 @@ class FormFactors(unittest.TestCase):
         flow = f.multiply(scene.area[:, None])
         self.assertLess(abs(flow - flow.T).max(), 1e-15)
         np.testing.assert_allclose(f.sum(axis=1), 1, atol=1e-8)
-        # What a small patch sends to larger ones is more of its light than it gets of theirs.
+        # A small patch sends a larger fraction of its light to larger ones than it gets of theirs.
         small = int(scene.area.argmin())
         others = scene.area > 1.5 * scene.area[small]
         sent = np.asarray(f[small].todense())[0, others].sum()
@@ -334,7 +334,7 @@ class Errors(unittest.TestCase):
             transillum.solve(room(), directions=10**5, progress=fail)
 
     def test_interruption_pauses_a_run(self):
-        # It may be ignored, as in programs that a shell has started in the background.
+        # The signal may be ignored, like in programs that a shell has started in the background.
         before = signal.signal(signal.SIGINT, signal.default_int_handler)
         self.addCleanup(signal.signal, signal.SIGINT, before)
         run = transillum.Run(room(), directions=10**5)

@@ -7,7 +7,7 @@
 
 namespace transillum {
 
-/// What engine fast sees.
+/// The transfers that engine fast finds.
 TransferEngine toy_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree);
 
 }  // namespace transillum

@@ -18,7 +18,7 @@ std::shared_ptr<const Scene> gray_flake() {
   return std::make_shared<const Scene>(flake);
 }
 
-/// RMS over patches and channels, relative to that of `b`.
+/// The RMS of the difference over patches and channels, relative to the RMS of `b`.
 double rms_difference(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   double difference = 0, norm = 0;
   for (std::size_t i = 0; i < b.size(); ++i) {

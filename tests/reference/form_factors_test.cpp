@@ -46,7 +46,8 @@ TEST(Gather, MatchesTheClosedForms) {
         squares_sum += error * error;
       }
     }
-    // Unbiased; with even points the error is below sqrt(F (1 - F) / N), that of random points.
+    // The estimate is unbiased. With evenly spread points, the error is below the error of random
+    // points, sqrt(F (1 - F) / N).
     const double deviation = std::sqrt(squares_sum / (2 * trials));
     EXPECT_LT(deviation, 0.6 * std::sqrt(exact * (1 - exact) / rays));
     EXPECT_LT(std::abs(sum / (2 * trials)), 3.5 * deviation / std::sqrt(2 * trials));

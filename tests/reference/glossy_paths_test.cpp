@@ -1,9 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Lobes against random walks (ALGORITHM.md, oracle 6c): a path tracer that shares nothing with the
-// solver but the scene and Embree's rays. Where a path meets a patch, it goes on from a random
-// point of it, because the radiance of a patch is its mean over the patch. And the rate at which
-// the error decreases with the number of passes.
+// solver but the scene and Embree's rays. Where a path meets a patch, it continues from a random
+// point of the patch, because the radiance of a patch is its mean over the patch. The test also
+// checks the rate at which the error decreases with the number of passes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -139,7 +139,7 @@ class PathTracer {
       return pi * sum(arriving(i, local));
     });
   }
-  /// Of what patch i reflects and emits toward a direction.
+  /// The radiance that patch i reflects and emits toward a direction.
   Estimate radiance(PatchId i, const Vec3& toward, int paths) {
     return mean_of(paths, [&] { return sum(leaving(i, to_local(i, toward), {1, 1, 1})); });
   }

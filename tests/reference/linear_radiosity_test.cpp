@@ -201,7 +201,7 @@ TEST(LinearConvergence, IsOfSecondOrderWhereLightIsSmooth) {
 }
 
 /// Oracle 5: a patch cut by hand gets the same function. Where it receives only from lamps, the
-/// functions of the parts, projected onto those of the whole, are its function.
+/// projection of the parts' functions onto the functions of the whole is its function.
 TEST(LinearInvariance, APatchCutByHandHasTheSameFunction) {
   const auto scene = [](bool cut) {
     Sketch sketch;
@@ -294,8 +294,9 @@ TEST(LinearSky, IsLikeAnEnclosure) {
   }
 }
 
-/// RMS over the patches of what functions differ by, over that of what `known` reflects. The basis
-/// is orthogonal, with the same norm for all three (linear_basis.h).
+/// The RMS over the patches of the difference between the functions, divided by the RMS of the
+/// light that `known` reflects. The basis is orthogonal, with the same norm for all three
+/// (linear_basis.h).
 double error_of_functions(const Solution& solution, const Solution& known) {
   double error = 0, reflected = 0;
   const auto add = [&](const Rgb& a, const Rgb& b, const Rgb& emitted) {
@@ -311,7 +312,7 @@ double error_of_functions(const Solution& solution, const Solution& known) {
   return std::sqrt(error / reflected);
 }
 
-/// Of replicas, errors of the functions.
+/// Replicas estimate the errors of the functions.
 TEST(LinearReplicas, EstimateTheError) {
   SolveOptions options = linear(256);
   options.replicas = 8;

@@ -22,8 +22,8 @@ enum class Imperfect {
 struct ImperfectScene {
   Imperfect kind = Imperfect::rails;
   int count = 10;        ///< objects; of a ball, rings; of a terrain, quadrilaterals along an edge
-  double gap = 0;        ///< of rails, m
-  double aspect = 5000;  ///< of beams, and the largest of a truss
+  double gap = 0;        ///< gap of rails, m
+  double aspect = 5000;  ///< aspect of beams, and the largest of a truss
   int digits = 17;       ///< significant digits of coordinates
   bool turned = false;   ///< by a random rotation
   bool quads = false;    ///< else triangles

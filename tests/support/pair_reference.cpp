@@ -121,7 +121,7 @@ Real small_form_factor(const Vec& normal, const Polygon& polygon) {
   return sum / (std::numbers::pi_v<Real> * square_of_area);
 }
 
-/// What a point sees of q past blockers.
+/// The part of q that a point sees past blockers.
 class View {
  public:
   View(const Polygon& p, Polygon q, const std::vector<Polygon>& blockers)
@@ -161,7 +161,7 @@ class View {
   }
 
  private:
-  /// Of a part of q, past the blockers from number `first` on.
+  /// The form factor to a part of q, past the blockers from number `first` on.
   Real visible(const Polygon& part, const std::vector<Polygon>& hiding, std::size_t first) const {
     if (part.empty()) {
       return 0;

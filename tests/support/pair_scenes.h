@@ -13,7 +13,7 @@ namespace transillum::testing {
 /// A face and the convex parts that it consists of for a reference.
 struct PairFace {
   std::vector<Vec3> outline;
-  std::vector<ConvexPolygon> parts;  ///< of a bent face its triangles
+  std::vector<ConvexPolygon> parts;  ///< the triangles of a bent face
   double bend = 0;                   ///< how far a corner was moved across the plane, m
 };
 

@@ -112,7 +112,7 @@ class CommandFolder {
   }
 
   struct Result {
-    int status;          ///< of the first command that fails; 0 if none does
+    int status;          ///< exit status of the first command that fails; 0 if none does
     std::string output;  ///< standard output and standard error
   };
   Result run(const std::string& commands) const {

@@ -32,11 +32,12 @@ inline const std::string pipe_without_reader = "(pipe without a reader)";
 /// A process of the program `transillum`; its output is stored in files.
 class RunningProgram {
  public:
-  /// @param out file to which standard output is appended, or one of the above; empty:
-  /// ProgramResult::out
+  /// @param out file to which standard output is appended, or one of the above; ProgramResult::out
+  /// if it is empty
   /// @param err the same for standard error and ProgramResult::err
-  /// @param folder where the program runs; empty: the current folder
-  /// @param shell commands of the shell that starts it, such as `ulimit -v 200000`; empty: no shell
+  /// @param folder where the program runs; the current folder if it is empty
+  /// @param shell commands of the shell that starts it, such as `ulimit -v 200000`; without
+  /// commands, no shell runs
   explicit RunningProgram(const Arguments& arguments, const std::string& out = {},
                           const std::string& err = {}, const std::string& folder = {},
                           const std::string& shell = {});
@@ -46,10 +47,10 @@ class RunningProgram {
   bool catches(int signal) const;
   /// The text on stderr so far.
   std::string err_so_far() const;
-  /// Whether the program is over; wait() returns at once then.
+  /// Whether the program has ended; wait() then returns at once.
   bool ended() const;
-  /// Waits until stderr has `text`. False if it does not come: the program has ended without it, or
-  /// two minutes have passed.
+  /// Waits until stderr has `text`. @returns false if the program has ended without it, or two
+  /// minutes have passed
   [[nodiscard]] bool reports(const std::string& text) const;
   ProgramResult wait();
 

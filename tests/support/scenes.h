@@ -20,7 +20,7 @@ class Sketch {
   /// The box between two corners; faces point inward if `inward`.
   Sketch& box(const Vec3& low, const Vec3& high, bool inward, int material);
   /// The parallelogram at `corner` as divisions² faces; it faces along cross(u, v). The material of
-  /// a face is that of its middle, whose coordinates along u and v are 0 to 1.
+  /// a face is taken at its middle, whose coordinates along u and v are 0 to 1.
   Sketch& grid(const Vec3& corner, const Vec3& u, const Vec3& v, int divisions,
                const std::function<int(double s, double t)>& material);
   /// `count` random triangles of about `size` in the unit cube.

@@ -16,7 +16,7 @@
 
 namespace transillum::testing {
 
-/// What the members of a ThreadGroup share.
+/// The values that the members of a ThreadGroup share.
 class GroupTable {
  public:
   explicit GroupTable(int members)

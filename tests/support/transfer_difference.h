@@ -11,14 +11,14 @@ namespace transillum::testing {
 /// The largest difference found. The uncertainty of a needle's area due to the rounding of its
 /// coordinates is subtracted.
 struct TransferDifference {
-  double share = 0;   ///< over the patch's area; for an exchange, over that of the smaller patch
+  double share = 0;   ///< over the area of the patch; for an exchange, of the smaller patch
   std::string where;  ///< quantity, patches and values, for the message
 };
 
 /// Compares exchanges and coverages of one direction, for omega and -omega, by two engines.
 TransferDifference difference(const Scene& scene, const Transfers& a, const Transfers& b);
 
-/// Compares the transfers of omega with those of -omega: receiver and source are exchanged.
+/// Compares the transfers of omega with the transfers of -omega: receiver and source are exchanged.
 TransferDifference difference_from_both_ends(const Scene& scene, const Transfers& there,
                                              const Transfers& back);
 

@@ -27,7 +27,7 @@ constexpr double tight = 1e-13;
 
 double luminance(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
-// The definition: a watt on patch j, solved again by passes.
+// The definition: a watt is added on patch j, and the scene is solved again by passes.
 TEST(Adjoint, EqualsTheDifferenceOfSolvesWithAndWithoutAWatt) {
   const SceneDescription description = describe_scene("cornell-box");
   const auto scene = std::make_shared<const Scene>(description);

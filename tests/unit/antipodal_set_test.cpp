@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Sampling::antipodal: M directions that are even together with their opposites.
+// Sampling::antipodal: M directions that are evenly spread together with their opposites.
 
 #include <gtest/gtest.h>
 
@@ -40,8 +40,8 @@ double power_of_degree(const std::vector<DirectionSample>& set, int degree) {
 }
 
 TEST(AntipodalSet, HasTheCosineErrorsOfAnIndependentImplementation) {
-  // Measured on a lattice on the half sphere, relaxed by repulsion; the last with weights that
-  // integrate harmonics to degree 22.
+  // Measured on a lattice on the half sphere, relaxed by repulsion; the last value with weights
+  // that integrate harmonics to degree 22.
   EXPECT_LE(two_way_error(axes(64)), 2.2e-3);
   EXPECT_LE(two_way_error(axes(128)), 8.9e-4);
   EXPECT_LE(two_way_error(axes(256)), 3.7e-4);
@@ -119,8 +119,8 @@ TEST(AntipodalSet, HasAsManyDirectionsOnEitherSide) {
       for (int k = 0; k < part; ++k) {
         sum = sum + at(set, at(order, k)).direction;
       }
-      // Measured: at most 3.8. Of independent directions it would be about the root of their
-      // number.
+      // Measured: at most 3.8. For independent directions, the value would be about the root of
+      // their number.
       EXPECT_LT(norm(sum), 4) << part << " of " << count;
     }
   }
@@ -150,7 +150,8 @@ TEST(AntipodalSet, IsAsEvenAsTheLatticeInItsProgressiveOrder) {
   }
 }
 
-/// The same bits on every machine: no function of the C library whose last bit is undefined.
+/// The set has the same bits on every machine: it uses no function of the C library whose last bit
+/// is undefined.
 TEST(AntipodalSet, HasKnownBits) {
   const auto set = axes(100);
   EXPECT_EQ(set[0].direction,

@@ -33,7 +33,7 @@ TEST(Bounds, Tables2And3ByFormula) {
     EXPECT_EQ(directions_if_homogeneous(paper.rho[k], 0.01), table_2[k]);
     const double anywhere = directions_if_heterogeneous(paper.rho[k], 0.01, 150);
     EXPECT_NEAR(anywhere, table_3[k], 0.005 * table_3[k]);
-    // As printed, up to rounding; Table 2 of the paper deviates slightly from its formula.
+    // The printed values, up to rounding; Table 2 of the paper deviates slightly from its formula.
     EXPECT_GE(paper.if_heterogeneous[k], anywhere);
     EXPECT_LE(paper.if_heterogeneous[k], 1.13 * anywhere);
     EXPECT_NEAR(paper.if_homogeneous[k], table_2[k], 0.16 * table_2[k]);
@@ -151,7 +151,8 @@ TEST(EstimatedPasses, FollowTheSlope) {
   EXPECT_EQ(estimated_passes(Sampling::fibonacci, 100, 0.08, 0.01), 1600);
   EXPECT_EQ(estimated_passes(Sampling::random, 100, 0.08, 0.01), 6400);
   EXPECT_EQ(estimated_passes(Sampling::random, 100, 0.0009, 0.01), 1);
-  // Replicas do not change random directions; four even sets of 100 halve the error of one.
+  // Replicas do not change random directions; four evenly spread sets of 100 halve the error of
+  // one.
   EXPECT_EQ(estimated_passes_by_replicas(Sampling::random, 100, 4, 0.08, 0.01), 6400);
   EXPECT_EQ(estimated_passes_by_replicas(Sampling::fibonacci, 400, 4, 0.04, 0.01), 1600);
 }

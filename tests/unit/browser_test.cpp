@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // A room with its radiosity as glTF, shown by three.js in a real browser: every patch has the color
-// of its radiosity, pixel by pixel. Nightly, and only where Chromium is installed and
+// of its radiosity, pixel by pixel. The test runs nightly, and only where Chromium is installed and
 // TRANSILLUM_THREE is the folder of the npm package three (`npm install three` makes
 // node_modules/three). TRANSILLUM_PICTURES: a folder for the picture of the room.
 

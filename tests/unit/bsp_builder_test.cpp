@@ -22,7 +22,7 @@ using testing::Sketch;
 Sketch& add_sphere(Sketch& sketch, int rings, const Vec3& center, bool inward, int material) {
   const auto point = [&](int ring, int k) {
     const double theta = std::numbers::pi * ring / rings, phi = std::numbers::pi * k / rings;
-    // The poles are one point each.
+    // Each pole is one point.
     const double r = ring == 0 || ring == rings ? 0.0 : std::sin(theta);
     return center + Vec3{r * std::cos(phi), r * std::sin(phi), std::cos(theta)};
   };
@@ -69,7 +69,7 @@ struct Pieces {
   }
 };
 
-/// Everything in a tree, as numbers.
+/// The whole content of a tree as numbers.
 std::vector<double> numbers_of(const BspTree& tree) {
   std::vector<double> numbers{static_cast<double>(tree.depth())};
   const auto add = [&](auto... values) { (numbers.push_back(static_cast<double>(values)), ...); };

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// A solve that goes on from any of its states has the bits of one that was not interrupted, and
-// files that are not its checkpoint are refused.
+// A solve that continues from any of its states has the bits of a solve that was not interrupted,
+// and files that are not its checkpoint are refused.
 #include "transillum/checkpoint.h"
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ using Until = RadiositySolver::Until;
 
 std::shared_ptr<const Scene> box() { return load_scene("cornell-box"); }
 
-/// Everything that a finished solve leads to, but for times.
+/// All results of a finished solve, except times.
 void expect_same(const RadiositySolver& a, const RadiositySolver& b) {
   EXPECT_TRUE(a.radiosity() == b.radiosity());
   EXPECT_TRUE(a.irradiance() == b.irradiance());
@@ -60,8 +60,8 @@ void expect_same(const RadiositySolver& a, const RadiositySolver& b) {
   }
 }
 
-/// Solves, keeps the state after every `every`-th pass or iteration, and goes on from each of them
-/// with another number of threads.
+/// Solves, keeps the state after every `every`-th pass or iteration, and continues from each of
+/// them with another number of threads.
 void expect_all_states_lead_to_the_same(const std::shared_ptr<const Scene>& scene,
                                         SolveOptions options, int every = 7) {
   options.threads = 2;
@@ -84,7 +84,7 @@ void expect_all_states_lead_to_the_same(const std::shared_ptr<const Scene>& scen
                             {.tree = whole.shared_tree(), .shot = whole.direct_light()});
     std::istringstream in(states[k]);
     resumed.restore(in, states[k].size());
-    // In steps of passes at first, as a viewer does.
+    // The solve first advances by passes, like in a viewer.
     for (int pass = 0; pass < 3; ++pass) {
       resumed.advance(Until::direction);
     }
@@ -152,7 +152,7 @@ TEST(Checkpoint, AddedReplicasGoOnToo) {
   expect_same(with_one_more(false), with_one_more(true));
 }
 
-/// A solve with a goal, interrupted after `events`, and gone on with from its file.
+/// A solve with a goal, interrupted after `events`, and continued from its file.
 Solution interrupted_solve(const SolveOptions& options, int events, const std::string& file) {
   const auto scene = box();
   int count = 0;
@@ -275,7 +275,7 @@ TEST_F(CheckpointFile, OfAnotherKindOrPlaceIsRefused) {
   EXPECT_THAT(refusal([&] { resume(scene_, options_); }), HasSubstr("not a regular file"));
 }
 
-/// A write that fails leaves the file before.
+/// A write that fails leaves the previous file.
 TEST_F(CheckpointFile, StaysWhereItsSuccessorCannotBeWritten) {
   SolveSession session({.scene = scene_, .options = options_});
   session.advance(SolveSession::Until::direction);

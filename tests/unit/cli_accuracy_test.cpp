@@ -29,8 +29,8 @@ TEST(CliAccuracy, ChoosesPassesAndReportsWhatItReached) {
   EXPECT_LE(json.at("error_estimate").at("rms_lowest"), json.at("error_estimate").at("rms"));
 }
 
-/// A lamp of 5 mm has a million times the B of the walls. Both ended after one iteration, with B of
-/// the walls 64 % and 51 % too small.
+/// A lamp of 5 mm has a million times the B of the walls. Both solves once ended after one
+/// iteration, with B of the walls 64 % and 51 % too small.
 TEST(CliAccuracy, IsNotMeasuredByASmallLamp) {
   const TemporaryFolder folder;
   const std::string lamp = std::string(TRANSILLUM_DATA_DIR) + "/corpus/small-lamp.obj";
@@ -48,7 +48,7 @@ TEST(CliAccuracy, IsNotMeasuredByASmallLamp) {
   }
 }
 
-/// The first shot is taken by itself, unless it is given.
+/// The first shot is made automatically, unless the option is given.
 TEST(CliAccuracy, ShootsLampsFirst) {
   const TemporaryFolder folder;
   const ProgramResult shot = expect_success({"solve", "cornell-box", "--max-patch-area", "0.03",

@@ -60,7 +60,8 @@ TEST(CliHelp, VersionIsOneLine) {
   EXPECT_THAT(result.out, ::testing::MatchesRegex("transillum [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
-/// Every command would wait for them (decisions/0082-charts-without-vtk.md).
+/// Every command would wait until these libraries are loaded
+/// (decisions/0082-charts-without-vtk.md).
 TEST(CliHelp, TheProgramLoadsNeitherVtkNorMpi) {
   RunningProgram listing({}, {}, {}, {}, "export LD_TRACE_LOADED_OBJECTS=1");
   const std::string libraries = listing.wait().out;
@@ -122,7 +123,8 @@ TEST(CliSolve, ResultsDoNotDependOnThreadsAndMemory) {
   EXPECT_GT(line_count(one), 10U);
   EXPECT_EQ(solve("2.csv", {"--threads", "2"}), one);
   EXPECT_EQ(solve("7.csv", {"--threads", "7"}), one);
-  // Without stored form factors the order of summation differs: equal to rounding.
+  // Without stored form factors, the order of summation differs: the results are equal up to
+  // rounding.
   const auto stored = numbers(one), recomputed = numbers(solve("0.csv", {"--memory", "0"}));
   ASSERT_EQ(stored.size(), recomputed.size());
   for (std::size_t i = 0; i < stored.size(); ++i) {

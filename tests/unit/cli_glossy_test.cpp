@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// `solve --glossy` as a program: what it is refused with, its files and messages.
+// `solve --glossy` as a program: the options that it cannot be combined with, its files and
+// messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -124,13 +125,13 @@ TEST(CliGlossy, SolvesWithAwkwardLobes) {
   }
 }
 
-/// A lobe that is left out changes no bit.
+/// A lobe that is omitted changes no bit.
 TEST(CliGlossy, DiffuseSolvesIgnoreLobes) {
   const Arguments plain{"solve", "cornell-box", "-q", "-m", "24", "--out", "-"};
   EXPECT_EQ(run_program(shining + Arguments{"--out", "-"}).out, run_program(plain).out);
 }
 
-/// Through an OBJ with its MTL, to the bit.
+/// The solve of an OBJ with its MTL has the same bits.
 TEST(CliGlossy, LobesAreWrittenAndRead) {
   TemporaryFolder folder;
   const std::string file = folder / "s.obj";

@@ -55,7 +55,7 @@ TEST(CliInfo, ReportsASealedRoomWithTwoSidedFacesAsClosed) {
                                    "open +[0-9.]+ % of the projected area sees no patch: light")));
 }
 
-/// The six faces of a cube with a lamp as its ceiling; the text of those to turn is reversed.
+/// The six faces of a cube with a lamp as its ceiling; the text of the faces to turn is reversed.
 std::string room_obj(const std::vector<int>& turned) {
   const std::vector<std::vector<int>> faces{{1, 2, 3, 4}, {1, 5, 6, 2}, {2, 6, 7, 3},
                                             {3, 7, 8, 4}, {4, 8, 5, 1}, {5, 8, 7, 6}};
@@ -122,7 +122,7 @@ std::string box_obj(double low, double high, int first_vertex) {
   return text.str();
 }
 
-/// A hollow model is taken for a room and turned inward; the sky then meets its backs only.
+/// A hollow model is treated as a room and turned inward; the sky then meets only its backs.
 TEST(CliOrient, SaysWhereASkyLightsNoFace) {
   const TemporaryFolder folder;
   write_text(folder / "shells.obj", box_obj(-1, 1, 1) + box_obj(-.5, .5, 9));
@@ -140,7 +140,7 @@ TEST(CliOrient, SaysWhereASkyLightsNoFace) {
   EXPECT_THAT(two_sided.err, ::testing::Not(HasSubstr("the sky lights no face")));
 }
 
-/// A rolled sheet: most of what one turn sees is the back of the next, whichever side is lit.
+/// In a rolled sheet, one turn sees mostly the back of the next, whichever side is lit.
 TEST(CliOrient, SaysWhatIsStillSeenFromBehind) {
   const TemporaryFolder folder;
   std::ostringstream text;

@@ -25,7 +25,7 @@ std::vector<std::string> long_solve(const TemporaryFolder& folder) {
 /// Part of a progress line, which is written during the passes.
 const char* const passes_made = "passes/s";
 
-/// Programs inherit that a signal is ignored: this one may have been started in the background.
+/// Programs inherit ignored signals: this program may have been started in the background.
 class CliInterruption : public ::testing::Test {
  protected:
   CliInterruption() {
@@ -63,7 +63,7 @@ TEST_F(CliInterruption, SavesResultsSoFarAndExitsWith130) {
 
 /// After `nohup`, closing the terminal changes nothing; a script may ignore Ctrl-C likewise.
 TEST_F(CliInterruption, IgnoredSignalsStayIgnored) {
-  // Sanitizers would complain of a library that is loaded before theirs.
+  // Sanitizers would complain about a library that is loaded before their own.
   const std::string with_catching_library =
       "; export ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" TRANSILLUM_CATCHING_LIBRARY "'";
   for (const std::string& environment : {std::string(), with_catching_library}) {

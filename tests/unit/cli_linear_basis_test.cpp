@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// `solve --basis linear` as a program: what it is refused with, its files, shards and checkpoints.
+// `solve --basis linear` as a program: the options that it cannot be combined with, its files,
+// shards and checkpoints.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ TEST(CliLinearBasis, WorksWithTheOtherOptions) {
     SCOPED_TRACE(::testing::PrintToString(option));
     expect_success(linear_box + Arguments{"-m", "16"} + option);
   }
-  // Exchanges by form factors of constant functions would be others.
+  // Exchanges by form factors of constant functions would differ.
   const ProgramResult table = run_program(linear_box + Arguments{"-m", "16", "--by", "material"});
   EXPECT_THAT(table.out, HasSubstr("absorbed, W"));
   EXPECT_THAT(table.out, Not(HasSubstr("power, W")));
@@ -130,7 +131,7 @@ TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
   write_result_csv(again, solution);
   EXPECT_EQ(again.str(), csv);
   EXPECT_THAT(read_file(folder / "r.ply"), HasSubstr("property uchar blue\nproperty double B_r"));
-  // B at corners: no sharing across patches.
+  // B at corners: patches share no corners.
   const std::string vtp = read_file(folder / "r.vtp");
   EXPECT_THAT(vtp.substr(0, 20'000), HasSubstr("B_corner"));
   std::size_t corners = 0;
@@ -144,7 +145,7 @@ TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
   EXPECT_GE(statistics["negative_corners"], 0);
 }
 
-/// Columns B and H, whose range is >= 0, were below it silently: H down to -0.038.
+/// Columns B and H, whose range is >= 0, were once silently below it: H down to -0.038.
 TEST(CliLinearBasis, WarnsOfMeansBelowZero) {
   const auto warning = ::testing::HasSubstr("warning: the mean of B or H is below 0 on 3 patches");
   EXPECT_THAT(run_program({"solve", "rooms", "-m", "8", "--basis", "linear"}).err, warning);

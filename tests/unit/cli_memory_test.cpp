@@ -1,5 +1,5 @@
-// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The program with little memory, few threads or a full disk: it goes on, or ends with one line.
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later. With little memory,
+// few threads or a full disk, the program continues or ends with one line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -71,12 +71,13 @@ TEST_F(CliMemory, PicturesSucceedOrEndWithOneLine) {
       {"map", "cornell-box", "--direction", "1,2,3", "--out", folder / "m.png"});
 }
 
-/// What a solve takes beyond one that keeps nothing, MB of addresses, and its result.
+/// The memory that a solve takes beyond a solve that keeps nothing, MB of addresses, and its
+/// result.
 class KeptMemory {
  public:
   explicit KeptMemory(std::vector<std::string> solve) : solve_(std::move(solve)) {}
 
-  /// The least limit of addresses with which it succeeds, MB.
+  /// The least limit of addresses with which the solve succeeds, MB.
   int least(int megabytes_of_option) const {
     int fails = 60, succeeds = 500;
     while (succeeds - fails > 1) {
@@ -102,8 +103,8 @@ class KeptMemory {
   std::vector<std::string> solve_;
 };
 
-/// The program with form factors as large as --memory allows takes at most 1.05 of it more than
-/// without any.
+/// With form factors as large as --memory allows, the program takes at most 1.05 times this limit
+/// more than without form factors.
 void expect_memory_held(const std::vector<std::string>& options) {
   SCOPED_TRACE(options.empty() ? "plain" : options.front());
   const std::vector<std::string> box{"solve", "cornell-box", "--patches",    "5000",
@@ -111,7 +112,7 @@ void expect_memory_held(const std::vector<std::string>& options) {
   std::vector<std::string> solve = box;
   solve.insert(solve.end(), options.begin(), options.end());
   const KeptMemory memory(solve);
-  // The least --memory with which form factors are kept: they take all that it allows.
+  // The least --memory with which form factors are kept: they take all of the limit.
   int dropped = 1, kept = 128;
   while (kept - dropped > std::max(1, kept / 25)) {
     const int middle = (dropped + kept) / 2;
@@ -124,7 +125,7 @@ void expect_memory_held(const std::vector<std::string>& options) {
   const int base = required ? KeptMemory(box).least(1) : memory.least(1);
   EXPECT_EQ(memory.run(kept, base + kept + kept / 20).status, 0) << base << " " << kept;
   EXPECT_TRUE(memory.kept());
-  // While passes exceed it, too: until they are dropped.
+  // The bound also holds while passes exceed the limit, until the form factors are dropped.
   if (!required) {
     EXPECT_EQ(memory.run(dropped, base + dropped + dropped / 20).status, 0) << dropped;
     EXPECT_FALSE(memory.kept());

@@ -34,7 +34,7 @@ class CliOutputs : public ::testing::Test {
     return run_program(arguments, {}, {}, folder_.path().string());
   }
 
-  /// Exit status 2, one line, and every file as it was.
+  /// Exit status 2, one line, and all files unchanged.
   void expect_refused(const Arguments& arguments, const std::string& expected) {
     testing::expect_refused(arguments, expected, folder_.path());
     for (std::size_t k = 0; k < names_.size(); ++k) {
@@ -119,7 +119,7 @@ TEST_F(CliOutputs, UnusualNamesAreWritten) {
   }
 }
 
-/// One file that cannot be written does not lose the others, nor the summary.
+/// If one file cannot be written, the other files and the summary are not lost.
 TEST_F(CliOutputs, TheOtherFilesAreWrittenIfOneFails) {
   fs::create_symlink("/dev/full", folder_ / "full.csv");
   fs::create_symlink("/dev/full", folder_ / "full.svg");
@@ -172,7 +172,7 @@ TEST_F(CliOutputs, AFileBeyondTheSizeLimitIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(folder_.names(), names_);
 }
 
-/// A series has files besides the one that is named.
+/// A series has files in addition to the one that is named.
 TEST_F(CliOutputs, FilesOfASeriesAreNotWrittenTwice) {
   const Arguments solve{"solve", "a.obj", "-m", "8", "--series", "r.pvd"};
   expect_refused(solve + Arguments{"--out", "r-0002.vtp"},
@@ -189,7 +189,7 @@ TEST_F(CliOutputs, FilesOfASeriesAreNotWrittenTwice) {
   }
 }
 
-/// The program found this after the solve, when other files had been written.
+/// Once, the program found this only after the solve, when other files had been written.
 TEST_F(CliOutputs, APictureFromThePointInItsMiddleIsRefusedBeforeTheSolve) {
   const Arguments solve{"solve", "a.obj", "-m", "8", "--out", "b.csv", "--out", "b.png"};
   expect_refused(solve + Arguments{"--eye", "0.2,0.3,0.4", "--target", "0.2,0.3,0.4"},

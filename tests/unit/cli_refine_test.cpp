@@ -52,7 +52,7 @@ TEST(CliRefine, PrintsItsRoundsAndKeepsThemInTheStatistics) {
   }
 }
 
-/// The last solve is of an ordinary scene: its result is too, and its checkpoint goes on.
+/// The last solve is of an ordinary scene, and so is its result; its checkpoint can be resumed.
 TEST(CliRefine, GoesOnFromItsCheckpoint) {
   const TemporaryFolder folder;
   const std::string whole = folder / "whole.csv", resumed = folder / "resumed.csv",

@@ -81,8 +81,8 @@ void expect_kills_change_nothing(int kills, const Arguments& options, unsigned s
     }
     program.send(SIGKILL);
     resumed += program.wait().err.find("resumes after") != std::string::npos ? 1 : 0;
-    // Complete files only, whenever the kill came. Between the calls that name a file and that put
-    // it in place of the one before, it has a name of its own.
+    // There are only complete files, whenever the kill came. Between the call that names a file and
+    // the call that replaces the previous file by it, the file has its own name.
     for (const std::string& name : folder.names()) {
       EXPECT_THAT(name, ::testing::AnyOf("whole.csv", "killed.csv", "run.tck",
                                          ::testing::StartsWith(".transillum-")));

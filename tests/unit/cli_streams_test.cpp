@@ -17,7 +17,7 @@ const std::string unwritable[] = {"/dev/full", closed_stream, pipe_without_reade
 
 TEST(CliStreams, ASolveSavesItsResultsWithoutStderr) {
   const TemporaryFolder folder;
-  // Long enough for lines of progress, at most one per second; under sanitizers too.
+  // The solve is long enough for lines of progress, at most one per second, also under sanitizers.
   const std::vector<std::string> call{
       "solve", "sphere-flake:levels=1", "-m", "300", "--threads", "1", "--out"};
   const auto solve = [&](const std::string& name, const std::string& err) {
@@ -79,7 +79,7 @@ TEST(CliStreams, APipeWithoutAReaderEndsThemSilently) {
     SCOPED_TRACE(::testing::PrintToString(arguments));
     const ProgramResult result = run_program(arguments, pipe_without_reader);
     EXPECT_EQ(result.status, 0);
-    // Where the machine is busy, a line of progress may come.
+    // If the machine is busy, a line of progress may come.
     EXPECT_THAT(result.err, ::testing::Not(HasSubstr("transillum:")));
   }
   const Arguments named{"directions", "-m", "10000", "--out", "/dev/stdout"};

@@ -52,7 +52,7 @@ TEST(ClosedSurface, TwoSidedSheetIsClosed) {
   EXPECT_FALSE(is_closed({{0, 1, 2, 3}}));
   EXPECT_TRUE(is_closed({{0, 1, 2, 3}}, {.two_sided = true}));
   EXPECT_TRUE(is_closed({{0, 1, 2, 3}, {3, 2, 1, 0}}));
-  // The same side twice is not closed.
+  // A surface with the same side twice is not closed.
   EXPECT_FALSE(is_closed({{0, 1, 2, 3}, {0, 1, 2, 3}}));
 }
 

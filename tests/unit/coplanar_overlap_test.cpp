@@ -20,7 +20,8 @@ std::vector<CoplanarOverlap> overlaps_in(Sketch& sketch, std::size_t most = 100)
   return coplanar_overlaps(*scene, most);
 }
 
-/// A lamp overlaps the floor; a tile beside it only touches, and a reversed one is another side.
+/// A lamp overlaps the floor; a tile beside the lamp only touches it, and a reversed tile is
+/// another side.
 TEST(CoplanarOverlaps, AreTheCommonAreasOfFacesWithTheSameNormal) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0), lamp = sketch.material(0, 1);

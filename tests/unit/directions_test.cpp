@@ -276,8 +276,8 @@ TEST(DirectionsOfIteration, SatisfyEquation46UnlessPlainHammersley) {
   }
 }
 
-/// The paper's example: consecutive parts of one Hammersley sequence. Also Sobol's points in their
-/// order, which are as uniform but not independent.
+/// The paper's example: consecutive parts of one Hammersley sequence. The test also uses Sobol's
+/// points in their order, which are as uniform but not independent.
 TEST(DirectionsOfIteration, ConsecutivePartsOfASequenceViolateEquation46) {
   constexpr int count = 4, steps = 4096;
   for (const Sampling sampling : {Sampling::hammersley, Sampling::sobol}) {

@@ -123,7 +123,7 @@ TEST(CapDiscrepancy, HandlesOppositeAndEqualDirections) {
   EXPECT_EQ(cap_discrepancy({}).value, 0);
 }
 
-/// Of many directions it is a lower bound, and a close one.
+/// For many directions, the value is a lower bound, and a close one.
 TEST(CapDiscrepancy, OfManyDirectionsIsACloseLowerBound) {
   const auto few = make_directions(Sampling::sobol, max_exact_cap_directions, 2);
   // The same directions, each twice, have the same discrepancy.

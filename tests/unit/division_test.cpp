@@ -64,7 +64,7 @@ TEST(Division, CutsLongQuadrilateralsInARow) {
 }
 
 TEST(Division, MakesConvexPartsOfOtherFaces) {
-  // A pentagon gives triangles, an L its convex pieces.
+  // A pentagon is divided into triangles, an L into its convex pieces.
   EXPECT_THAT(areas_of_division({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}}).size(), 3);
   const auto parts =
       areas_of_division({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}});
@@ -109,8 +109,8 @@ TEST(Division, DividesBothSidesOfAFaceAlike) {
   }
 }
 
-/// A pass of a divided scene sums to that of the whole: oracle 1 for patches of unequal size, whose
-/// edges share no corners.
+/// The exchanges of a divided scene sum to the exchanges of the whole: oracle 1 for patches of
+/// unequal size, whose edges share no corners.
 TEST(Division, PassesOfUnequalPatchesAddUp) {
   for (const char* spec : {"furnace", "cornell-box", "rooms"}) {
     SCOPED_TRACE(spec);

@@ -42,7 +42,7 @@ std::vector<fs::path> documents() {
   return found;
 }
 
-/// A document's lines without those in fenced code blocks.
+/// The lines of a document outside fenced code blocks.
 std::vector<std::string> prose_lines(const fs::path& document) {
   std::istringstream text(test::read_file(document));
   std::vector<std::string> lines;

@@ -1,6 +1,6 @@
-// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// One numbering of faces, that of the file, also where faces are joined or one face has several
-// parts: in changes of materials, in messages, in reports and in results.
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later. Faces have one
+// numbering, the numbers of the file, also where faces are joined or one face has several parts: in
+// changes of materials, in messages, in reports and in results.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

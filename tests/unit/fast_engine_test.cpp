@@ -229,7 +229,7 @@ TEST(FastEngineCorners, PolygonsOfUpTo128Corners) {
     const Transfers transfers = Fast(sketch.scene()).run({0, 0, 1}, {});
     EXPECT_NEAR(area_of(transfers, 0, 1), expected, 1e-13);
     EXPECT_NEAR(transfers.forward[0].covered, 4, 1e-13);
-    // And rotated, so that no coordinate is a power of two.
+    // The scene is also rotated, so that no coordinate is a power of two.
     const auto turn = testing::random_rotation(static_cast<std::uint64_t>(corners));
     const Fast turned(std::make_shared<const Scene>(testing::moved(sketch.description(), turn)));
     EXPECT_NEAR(area_of(turned.run(turn({0, 0, 1}), {}), 0, 1), expected, 1e-12);
@@ -342,7 +342,7 @@ double worst_closure(const Fast& fast, const std::vector<Vec3>& directions) {
 }
 
 TEST(FastEngine, HasSmallClosureDefectsWhereRoundingIsWorst) {
-  // The worst of 1,024 and of 4,096 directions, and why.
+  // The worst of 1,024 and of 4,096 directions, with the reason.
   const auto few = make_directions(Sampling::fibonacci, 1024, 1);
   const auto many = make_directions(Sampling::fibonacci, 4096, 1);
   const std::vector<Vec3> directions{
@@ -368,7 +368,7 @@ double exact_share(const char* spec) {
   const Fast fast(load_scene(spec));
   PassCounts counts;
   std::vector<Vec3> directions = testing::test_directions(27, 14);
-  directions.erase(directions.begin(), directions.begin() + 7);  // those along edges
+  directions.erase(directions.begin(), directions.begin() + 7);  // the directions along edges
   for (const Vec3& omega : directions) {
     counts += fast.run(omega, {}).counts;
   }
@@ -387,7 +387,7 @@ TEST(FastEngine, RarelyNeedsExactSigns) {
   EXPECT_LT(exact_share("cornell-box"), 0.005);
 }
 
-/// Faces thinner than doubles can resolve, and faces 10^4 times smaller than those behind them.
+/// Faces thinner than doubles can resolve, and faces 10^4 times smaller than the faces behind them.
 TEST(FastEngine, UsesExactSignsForNeedlesAndTinyFaces) {
   const auto exact_queries = [](const Fast& fast) {
     std::int64_t count = 0;

@@ -75,7 +75,7 @@ Names split(const std::string& line) {
 
 Names header_of(const std::string& csv) { return split(csv.substr(0, csv.find('\n'))); }
 
-/// The keys of all values, those of inner objects joined by points; `[]` marks lists of objects.
+/// The keys of all values; keys of inner objects are joined by points; `[]` marks lists of objects.
 void add_keys(const nlohmann::json& json, const std::string& prefix, std::set<std::string>& keys) {
   for (const auto& [key, value] : json.items()) {
     const std::string name = prefix + key;
@@ -97,7 +97,7 @@ std::set<std::string> keys_of(const std::string& path) {
   return keys;
 }
 
-/// The keys of a table without those of objects whose members the table lists too: these objects
+/// The keys of a table, except keys of objects whose members the table lists too: these objects
 /// have their own row because they may be null.
 std::set<std::string> leaf_keys(const std::string& section) {
   const Names names = table(section);

@@ -28,10 +28,10 @@ using Names = std::set<std::string>;
 struct Include {
   std::string file;  ///< path from the include root
   int line;
-  std::string path;  ///< as written
+  std::string path;  ///< path in the directive
 };
 
-/// What the tables of ARCHITECTURE.md allow.
+/// The includes that the tables of ARCHITECTURE.md allow.
 struct Rules {
   std::map<std::string, Names> may_include;         ///< folder → folders
   std::map<std::string, Names> may_use;             ///< layer → layers
@@ -161,7 +161,7 @@ std::vector<std::string> folder_violations(const std::vector<Include>& includes,
 }
 
 /// Every use of a public header whose layer the including layer may not use. The layer of a file in
-/// src/ is its first folder; that of a public header is in the table.
+/// src/ is its first folder; the layer of a public header is in the table.
 std::vector<std::string> layer_violations(const std::vector<Include>& includes,
                                           const Rules& rules) {
   std::vector<std::string> found;

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Form factors in files: what is written is read back, matrices of other programs are read, and
+// Form factors in files: written files are read back, matrices of other programs are read, and
 // damaged or foreign files are refused in one line; drop_small_form_factors(); `solve --factors`.
 #include "transillum/form_factor_files.h"
 
@@ -214,7 +214,7 @@ TEST_F(FormFactorFiles, OfAnotherSceneAreRefused) {
   EXPECT_THAT(refused(*load_scene("furnace")), HasSubstr("but furnace has 12"));
   const Scene larger(moved(describe_scene("cornell-box"), [](const Vec3& p) { return 1.5 * p; }));
   EXPECT_THAT(refused(larger), HasSubstr("patch 0 has an area of"));
-  // Without areas, reciprocity tells; it does not depend on the scale.
+  // Without areas, reciprocity is checked, which does not depend on the scale.
   stored.areas.clear();
   stored.polygons.clear();
   EXPECT_EQ(refused(*scene_), "");
@@ -237,7 +237,7 @@ TEST_F(FormFactorFiles, OfASceneInWhichAnObjectHasMovedAreRefused) {
     StoredFormFactors stored = read_form_factors(path(name));
     EXPECT_EQ(refusal([&] { check_form_factors(*scene, stored); }), "");
     EXPECT_THAT(refusal([&] { check_form_factors(*other, stored); }), HasSubstr("have moved"));
-    stored.polygons.clear();  // as files of other programs
+    stored.polygons.clear();  // like files of other programs
     EXPECT_EQ(refusal([&] { check_form_factors(*other, stored); }), "");
   }
 }
@@ -274,7 +274,8 @@ void expect_balanced(const Scene& scene, const FormFactors& all, const FormFacto
   }
 }
 
-/// A_i times the form factors of pairs of which both are below the threshold, over that of all.
+/// The sum of A_i F_ij over pairs of which both form factors are below the threshold, divided by
+/// the sum over all pairs.
 double share_below(const Scene& scene, const FormFactors& all, double threshold) {
   std::map<std::pair<PatchId, PatchId>, double> by_pair;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -333,7 +334,7 @@ TEST_F(FormFactorFiles, DroppingKeepsWhatCannotBeBalanced) {
   const DroppedFormFactors rest = drop_small_form_factors(*scene, f, 1e-6);
   EXPECT_EQ(rest.dropped, 0U);
   expect_equal(rest.form_factors, f);
-  // Rows by themselves can always be scaled.
+  // Single rows can always be scaled.
   const FormFactors one_way{{0, 2, 3, 3}, {1, 2, 0}, {0.3, 1e-3, 0.2}};
   const DroppedFormFactors rows = drop_small_form_factors(*scene, one_way, 0.01);
   EXPECT_EQ(rows.dropped, 1U);

@@ -80,7 +80,7 @@ TEST(PointFormFactor, OfARectangleOverItsCorner) {
   EXPECT_NEAR(point_form_factor({0, 0, 0}, {0, 0, 1}, above), expected, 1e-15);
   EXPECT_EQ(point_form_factor({0, 0, 2 * c}, {0, 0, -1}, above), 0) << "behind";
   EXPECT_EQ(point_form_factor({0, 0, 0}, {0, 0, -1}, above), 0) << "below the horizon";
-  // Concave: an L over the corner is two rectangles less one.
+  // A concave case: an L over the corner is two rectangles minus one.
   const Polygon ell{{0, 0, c},     {0, b, c},         {a, b, c},
                     {a, b / 2, c}, {2 * a, b / 2, c}, {2 * a, 0, c}};
   EXPECT_NEAR(point_form_factor({0, 0, 0}, {0, 0, 1}, ell),
@@ -133,8 +133,8 @@ TEST(PolygonExchange, MatchesTheCatalog) {
   }
 }
 
-/// From inside a convex room everything visible belongs to it. Covers shared edges and corners and
-/// skew lines, for any subdivision of the sides.
+/// From inside a convex room, everything visible belongs to the room. Covers shared edges and
+/// corners and skew lines, for any subdivision of the sides.
 TEST(PolygonExchange, RowsOfConvexRoomsSumToOne) {
   const double w = 1 / std::sqrt(2.0);
   const Vec3 a{1, 0, -w}, b{-1, 0, -w}, c{0, 1, w}, d{0, -1, w};
@@ -176,7 +176,8 @@ TEST(PolygonExchange, OfNearlyParallelNeighbors) {
                                      {{0, 0, 0}, leaf, tip},
                                      {y, tip + y, leaf + y}};
     EXPECT_NEAR(row_sum(wedge), 1, 1e-12) << angle;
-    // With a gap, and rotated in its plane, so that its edges are nearly parallel to the others.
+    // The rectangle has a gap and is rotated in its plane, so that its edges are nearly parallel to
+    // the others.
     const double turn = 1e-4;
     const Vec3 along = std::cos(turn) * leaf + std::sin(turn) * y;
     const Vec3 aside = std::cos(turn) * y - std::sin(turn) * leaf;
@@ -199,7 +200,7 @@ TEST(PolygonExchange, IsAdditiveAndReciprocal) {
   const auto point = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
   int seen = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    // Distant, close and intersecting.
+    // The polygons are distant, close and intersecting.
     const double apart = trial % 4 * trial % 7;
     const Polygon p{point(), point(), point()};
     const Vec3 off{apart, 0, 0};
@@ -231,7 +232,7 @@ TEST(PolygonExchange, OfConcavePolygonsIsTheSumOfTheirParts) {
   EXPECT_NEAR(polygon_exchange(floor, u), towers, 1e-13);
 }
 
-/// Skew edges, close and distant, against Simpson's rule on a fine grid.
+/// Compares skew edges, close and distant, with Simpson's rule on a fine grid.
 TEST(EdgePairIntegral, IsTheDoubleIntegralOfTheLogarithm) {
   std::mt19937_64 random(16);
   std::uniform_real_distribution<double> unit(-1, 1);

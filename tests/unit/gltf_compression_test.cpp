@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // glTF: meshes compressed by meshoptimizer and Draco give the scene of the uncompressed file, and
-// damaged ones an error or a scene. The files are made by the encoders of both libraries.
+// damaged meshes give an error or a scene. The files are made by the encoders of both libraries.
 #include <draco/compression/encode.h>
 #include <draco/mesh/mesh.h>
 #include <gmock/gmock.h>
@@ -107,7 +107,8 @@ GltfText by_meshopt(const Sheet& sheet, bool sequence = false) {
 
 // Draco ---------------------------------------------------------------------------------------
 
-/// Quantized to 14 bits, unless `bits` is 0; attributes 0: POSITION, 1: texture coordinates.
+/// Quantized to 14 bits, unless `bits` is 0; attribute 0 is POSITION, attribute 1 has the texture
+/// coordinates.
 Bytes by_encoder(const Sheet& sheet, int method, int bits) {
   draco::Mesh mesh;
   const auto count = static_cast<std::uint32_t>(sheet.vertices());
@@ -190,7 +191,7 @@ TEST(GltfCompression, MeshoptimizerGivesTheSceneOfThePlainFile) {
   for (const bool sequence : {false, true}) {
     EXPECT_EQ(triangles_of(read(by_meshopt(sheet, sequence).glb())), expected);
   }
-  // As text, with a placeholder that has no data.
+  // The file is text, with a placeholder that has no data.
   const GltfText file = by_meshopt(sheet);
   const test::TemporaryFolder folder;
   folder.write("a.bin", file.bytes);
@@ -228,7 +229,8 @@ TEST(GltfCompression, DracoGivesTheSceneOfThePlainFile) {
   for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
     SCOPED_TRACE(method);
     EXPECT_EQ(triangles_of(read(by_draco(sheet, by_encoder(sheet, method, 0)).glb())), expected);
-    // 14 bits for a range of 4 m: at most half of 4 / 16383 m off, which the scene knows.
+    // With 14 bits for a range of 4 m, the error is at most half of 4 / 16383 m, which the scene
+    // knows.
     const double half = 2.0 / 16383;
     const SceneDescription quantized = read(by_draco(sheet, by_encoder(sheet, method, 14)).glb());
     EXPECT_NEAR(quantized.coordinate_rounding, half, 1e-6);
@@ -285,7 +287,7 @@ TEST(GltfCompression, RefusesWhatIsBroken) {
               HasSubstr("is no mesh of Draco's format"));
 }
 
-// Decoders allocate what a few bytes ask for; counts are compared with the file before.
+// Decoders allocate as much as a few bytes request; counts are compared with the file before.
 TEST(GltfCompression, CountsAreBoundedByTheInput) {
   const Sheet sheet(4);
   Bytes bytes = by_encoder(sheet, draco::MESH_SEQUENTIAL_ENCODING, 0);

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // glTF: nodes, primitives and numbers in all their forms, the diffuse part of materials, textures,
-// and what is refused with which message.
+// and the message for each refused file.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -222,7 +222,7 @@ void add_textured(File& file, const std::vector<float>& uv, double z) {
   file.add(primitive, {{"translation", {0, 0, z}}});
 }
 
-/// Of metal (blue) and roughness (green), which are linear: 188 of 255.
+/// The texture has metal (blue) and roughness (green), which are linear: 188 of 255.
 TEST(Gltf, AveragesATextureOfMetalAndRoughness) {
   File file;
   file.root["images"] = {{{"uri", "half.png"}}};
@@ -281,7 +281,7 @@ TEST(Gltf, AveragesATextureOverEachFace) {
     EXPECT_EQ(material_of(d, f + 1).name, "poster");
   }
   EXPECT_THAT(d.files, Contains((folder.path() / "half.png").string()));
-  // Without the image, the factor is all there is.
+  // Without the image, only the factor is known.
   const test::TemporaryFolder empty;
   const SceneDescription missing = describe_scene(empty.write("a.glb", file.glb()));
   EXPECT_NEAR(material_of(missing, 1).reflectance.g, 0.5, 1e-12);
@@ -340,7 +340,7 @@ TEST(Gltf, NamesATextureThatIsMissing) {
               Contains(HasSubstr("image 0, `wood.png`, has no data; it is taken as white")));
 }
 
-// Nothing reads Basis Universal; white would be the brightest of all guesses.
+// No reader for Basis Universal exists; white would be the brightest of all guesses.
 TEST(Gltf, KtxTexturesGiveTheDefaultReflectance) {
   const json texture = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
   const json image = {{"uri", "wood.ktx2"}, {"mimeType", "image/ktx2"}};
@@ -350,7 +350,8 @@ TEST(Gltf, KtxTexturesGiveTheDefaultReflectance) {
   EXPECT_EQ(material_of(d, 0).reflectance, (Rgb{0.25, 0.125, 0.25}));
   EXPECT_THAT(d.notes, Contains(HasSubstr("texture 0, `wood.ktx2`, is no PNG or JPEG image; "
                                           "reflectance 0.25 is assumed for it")));
-  // Without the texture of how much is metal, nothing is; without that of what emits, nothing does.
+  // Without the texture of metalness, nothing is metal; without the texture of emission, nothing
+  // emits.
   json metal = {
       {"name", "tin"},
       {"pbrMetallicRoughness",
@@ -437,7 +438,7 @@ TEST(Gltf, MessagesDoNotRepeatData) {
   }
 }
 
-// What cannot be read is said before buffers are missed that an extension would make.
+// An unknown extension is reported before the buffers that it would make are missed.
 TEST(Gltf, ExtensionsAreLookedAtBeforeBuffers) {
   File file;
   file.add(square_in(file));

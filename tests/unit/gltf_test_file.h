@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-// glTF files for tests: what they have is added piece by piece, and written as .glb or .gltf.
+// glTF files for tests: their content is added piece by piece, and written as .glb or .gltf.
 
 #include <cstdint>
 #include <cstring>
@@ -23,7 +23,8 @@ class GltfText {
                          {"bufferViews", nlohmann::json::array()},
                          {"materials", nlohmann::json::array()}};
   std::string bytes;
-  /// Length of a second buffer without data, as files with compressed views have it; 0: none.
+  /// Length of a second buffer without data, as files with compressed views have it; 0 if there is
+  /// none.
   std::size_t placeholder = 0;
 
   /// Returns the number of the view.

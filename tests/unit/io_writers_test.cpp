@@ -285,7 +285,7 @@ TEST(IoWholeFiles, ALoopOfLinksIsAnError) {
   EXPECT_THAT(folder.names(), ElementsAre("a", "b"));
 }
 
-/// It has no name before it is complete, where the file system can do that.
+/// A file has no name before it is complete, where the file system supports that.
 TEST(IoWholeFiles, AKilledProgramLeavesNoTemporaryFile) {
   const TemporaryFolder folder;
   const int unnamed = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
@@ -370,7 +370,7 @@ TEST(IoWholeFiles, PathsAreCheckedInAdvance) {
   EXPECT_THROW(check_result_path(folder / "none/a.csv"), InputError);
   std::filesystem::create_directory(folder / "b.csv");
   EXPECT_THROW(check_result_path(folder / "b.csv"), InputError);
-  // Was found after the solve, and the status was 1.
+  // Once, this was found after the solve, and the status was 1.
   const std::string long_name = std::string(300, 'a') + ".csv";
   EXPECT_THAT(test::refusal([&] { check_result_path(folder / long_name); }),
               HasSubstr("File name too long"));

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Joining faces of one plane: what becomes one polygon and what does not, and that the faces still
-// meet as before.
+// Joining faces of one plane: which faces become one polygon and which do not, and that the faces
+// still meet as before.
 #include "scene/build/joining.h"
 
 #include <gmock/gmock.h>
@@ -65,7 +65,7 @@ class Mesh {
       add_triangle(a, c, d, material);
     }
   }
-  /// Without the squares that `is_hole` names.
+  /// The grid without the squares that `is_hole` names.
   void add_grid(const Vec3& corner, const Vec3& u, const Vec3& v, int n,
                 const std::function<bool(int, int)>& is_hole = {}) {
     for (int i = 0; i < n; ++i) {
@@ -101,8 +101,8 @@ class Mesh {
 SceneDescription joined(const SceneDescription& d) { return join_faces(d, {}).description; }
 double area_of(const SceneDescription& d) { return test::total_area(Scene(d)); }
 
-/// The largest number of faces that an edge has in one direction, and whether each has as many in
-/// the other.
+/// The largest number of faces that an edge has in one direction, and whether each edge has as many
+/// in the other.
 bool is_closed(const SceneDescription& d) {
   std::map<std::pair<PointId, PointId>, int> edges;
   for (std::size_t f = 0; f < d.face_count(); ++f) {

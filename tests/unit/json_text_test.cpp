@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// check_json(): what it accepts, what it refuses with which message, and that time and memory do
-// not depend on how deep a text is.
+// check_json(): accepted texts, the message for each refused text, and that time and memory do not
+// depend on how deep a text is.
 #include "base/json_text.h"
 
 #include <gmock/gmock.h>

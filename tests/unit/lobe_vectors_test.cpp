@@ -53,7 +53,8 @@ TEST(LobeVectors, RowsHaveTheBitsOfSingleValues) {
   }
 }
 
-/// Four partial sums, of every fourth product each; what is left over is added to the first.
+/// There are four partial sums, each of every fourth product; the remaining products are added to
+/// the first.
 double product(const double* a, const double* b, std::size_t count) {
   std::array<double, 4> sums{};
   const std::size_t whole = count - count % 4;

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// A decimal comma in the process's locale changes neither what is read nor what is written.
+// A decimal comma in the process's locale changes neither input nor output.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ Study study() {
 }
 
 /// Reads a scene and a result, and writes every kind of file; returns names and contents. Times in
-/// statistics are those of `solution`.
+/// statistics are taken from `solution`.
 std::map<std::string, std::string> files_written(const Solution& solution) {
   const TemporaryFolder folder;
   write_text(folder / "room.obj", obj);

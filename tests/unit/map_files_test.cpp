@@ -421,7 +421,7 @@ TEST_F(MapFiles, PngAreasArePixelCounts) {
   EXPECT_NEAR(counts.at({0x1d, 0x21, 0x27}), 1600 * 1600 - floor_pixels, 4 * 1600);
 }
 
-/// In a view along z, u points left and v up; the directions of u and v are those of the frame.
+/// In a view along z, u points left and v up; the frame has the directions of u and v.
 TEST_F(MapFiles, PngShowsTheLampAtItsPosition) {
   written("m.png", of_floor(), {.size = 400});
   const Picture picture(folder_ / "m.png");
@@ -478,7 +478,7 @@ TEST(MapPng, HasNoSeams) {
   const TemporaryFolder folder;
   write_map(folder / "m.png", *scene, map, {.size = 301});
   const Picture picture(folder / "m.png");
-  // Only the line along the edge darkens the white, and never to the background.
+  // Only the line along the edge darkens the white, but never as dark as the background.
   int row_minimum = 255;
   for (int x = 120; x < 200; ++x) {
     row_minimum = std::min(row_minimum, picture.at(x, 150)[0]);

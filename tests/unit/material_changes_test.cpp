@@ -98,7 +98,7 @@ TEST(MaterialChanges, OfTwoTheLaterHolds) {
               ElementsAre(7, 7, 3, 3, 0));
 }
 
-// A face with a material of its own since the first change still is one of the wall's faces.
+// A face that has its own material since the first change is still one of the wall's faces.
 TEST(MaterialChanges, TargetsReferToTheDescriptionBeforeTheFirstChange) {
   const SceneDescription d = changed({exitance_change("face:0=7"), reflectance_change("wall=.9")});
   EXPECT_THAT(exitances(d), ElementsAre(7, 0, 1, 0, 0));

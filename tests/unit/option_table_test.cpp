@@ -77,7 +77,7 @@ TEST(OptionTable, MakesARunOfItsDifferences) {
   EXPECT_EQ(differences_from_default(run), expected);
 }
 
-/// It did nothing in the library and the viewer: only the programs copied it to the engine.
+/// The option did nothing in the library and the viewer: only the programs copied it to the engine.
 TEST(OptionTable, TheSeedIsThatOfEngineRays) {
   const auto scene = testing::box_in_cube(3, 1).scene();
   const auto with_seed = [&](std::uint64_t seed) {

@@ -136,8 +136,8 @@ TEST(OrientationPlan, LightsAnOpenBoxOnTheFloorOutside) {
   }
 }
 
-/// An object of several open parts without light, as most published models are: light can only come
-/// from outside, not from where the parts see most of each other.
+/// An object of several open parts without light, like most published models: light can only come
+/// from outside, not from places where the parts see most of each other.
 TEST(OrientationPlan, LightsAnUnlitObjectFromOutside) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0);
@@ -195,7 +195,7 @@ TEST(OrientationPlan, KeepsSurfacesThatHaveBothSidesAndTurnsDuplicatesTogether) 
   EXPECT_EQ(faces_of(plan_orientation(description).turned), (std::vector<std::size_t>{3, 6}));
 }
 
-/// Three boxes that share an edge, and one face that three others share an edge with.
+/// Three boxes that share an edge, and one face with an edge that three others share.
 TEST(OrientationPlan, HandlesEdgesOfManyFaces) {
   Sketch sketch = room();
   sketch.box({1, 1, 1}, {2, 2, 2}, false, 0);
@@ -260,7 +260,7 @@ TEST(BackShare, IsTheShareOfTheAreaInASphere) {
   };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < 2 * n; ++j) {
-      // Inward, every fifth outward.
+      // The faces point inward, every fifth points outward.
       std::vector<Vec3> outline{point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)};
       if ((i + j) % 5 == 0) {
         std::reverse(outline.begin(), outline.end());

@@ -43,7 +43,8 @@ TEST(PatchExchange, PolygonsThatTouchTheShaftDoNotBlock) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0);
   sketch.face(level_square(0, true), gray).face(level_square(1, false), gray);
-  // Beside, coplanar, and behind; with a common edge or corner.
+  // The squares are beside each other, coplanar, or behind each other, with a common edge or
+  // corner.
   sketch.face({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, gray);
   sketch.face({{1, 1, 1}, {2, 1, 0.5}, {1, 2, 0.5}}, gray);
   sketch.face({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}, gray);

@@ -12,7 +12,7 @@ namespace {
 
 using testing::Sketch;
 
-/// A square facing up at z = 0 and one facing down at z = 1.
+/// A square that faces up at z = 0, and a square that faces down at z = 1.
 std::shared_ptr<const Scene> two_squares(double size, const Vec3& shift,
                                          const SceneOptions& options = {}) {
   Sketch sketch;
@@ -35,7 +35,7 @@ TEST(Picker, ReturnsPatchDistanceAndSide) {
     EXPECT_TRUE(down->lit_side);
     EXPECT_NEAR(down->distance, 0.5 * size, 1e-9 * size);
     EXPECT_NEAR(down->point.z, shift.z, 1e-9 * size);
-    // The length of the direction does not matter; an oblique one hits the same plane.
+    // The length of the direction does not matter; an oblique ray hits the same plane.
     const auto slanting = picker.first_hit(middle, {3e200, 4e200, 12e200});
     ASSERT_TRUE(slanting);
     EXPECT_EQ(slanting->patch, 1);

@@ -63,7 +63,7 @@ TEST(PointSensors, InClosedRoomsRowsSumToOne) {
     const Scene scene(moved(room().description(), turn));
     std::vector<PointSensor> turned;
     for (const PointSensor& s : sensors) {
-      // Rounding puts a turned point behind its surface, where it sees something else.
+      // Rounding puts a turned point behind its surface, where the point sees something else.
       turned.push_back({turn(s.position + 1e-9 * s.normal), normalized(turn(s.normal))});
     }
     const FormFactors f = sensor_form_factors(scene, turned);
@@ -91,7 +91,8 @@ TEST(PointSensors, WithNothingBetweenTheClosedFormHolds) {
   EXPECT_NEAR(f.value[0], expected, 1e-14);
 }
 
-/// The mean over a patch is the form factor of the patch; by points of a grid, up to their error.
+/// The mean over a patch is the form factor of the patch; points of a grid give it up to their
+/// error.
 TEST(PointSensors, TheirMeanIsTheFormFactorOfThePatch) {
   const auto scene = room().scene();
   std::vector<PointSensor> sensors;

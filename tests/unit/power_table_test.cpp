@@ -59,7 +59,7 @@ TEST(PowerTable, PartsSumToTheStatistics) {
       for (const Rgb& power : table.exchanged[p]) {
         row += power;
       }
-      // What a part receives comes from the parts.
+      // The power that a part receives comes from the parts.
       EXPECT_LE(max_abs(row - table.parts[p].received), 1e-9 * max_abs(row));
       exchanged += row;
     }
@@ -73,7 +73,8 @@ TEST(PowerTable, PartsSumToTheStatistics) {
 }
 
 TEST(PowerTable, ExchangesAreReciprocal) {
-  // A part that emits B sends to another what it would receive from it at the same B.
+  // A part that emits B sends to another part the power that it would receive from it at the same
+  // B.
   Solved s = solved(grouped("rooms"), Normalization::none);
   for (Rgb& b : s.solution.radiosity) {
     b = {1, 1, 1};
@@ -105,7 +106,7 @@ TEST(PowerTable, TheFurnaceAbsorbsWhatItEmits) {
   EXPECT_NEAR(table.total.escaped.r, 0, 1e-9 * table.total.area);
 }
 
-/// A part emits what its changed material says; `index` finds the part in the scene.
+/// A part emits the exitance of its changed material; `index` finds the part in the scene.
 TEST(PowerTable, TakesChangedMaterials) {
   const Solved s = solved(grouped("cornell-box"), Normalization::none);
   const Scene& scene = *s.solution.scene;

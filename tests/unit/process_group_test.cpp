@@ -29,7 +29,7 @@ std::shared_ptr<const Scene> box() {
   return scene;
 }
 
-/// The values of a solution that no clock decides.
+/// The values of a solution that do not depend on time.
 struct Outcome {
   std::vector<double> values;
   FormFactors factors;
@@ -174,7 +174,8 @@ TEST(ProcessGroup, KeepsAShareOfTheFormFactors) {
   const SolveOptions options{.directions = 256, .iterations = 1};
   RadiositySolver alone(box(), options);
   alone.advance(Until::finished);
-  // What four members keep fits into the memory that one would need twice over.
+  // The form factors that four members keep fit into this memory; one member would need twice as
+  // much.
   SolveOptions limited = options;
   limited.memory = static_cast<std::uint64_t>(alone.statistics().form_factors) * 16 * 2;
   EXPECT_FALSE(solved(limited).statistics.kept_form_factors);
@@ -200,7 +201,7 @@ TEST(ProcessGroup, IsCanceledTogetherAndGoesOn) {
     const SolveProgress progress = solver.progress();
     EXPECT_GE(progress.direction, 20);
     EXPECT_LT(progress.direction, 256);
-    // The estimate so far is that of one solver after the same passes.
+    // The estimate so far equals the estimate of one solver after the same passes.
     RadiositySolver alone(box(), options);
     while (alone.progress().direction < progress.direction) {
       alone.advance(Until::direction);

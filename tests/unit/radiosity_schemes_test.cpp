@@ -99,7 +99,7 @@ TEST(Schemes, ConjugateGradientsReportWhereTheIterationDiverges) {
   }
 }
 
-/// In a furnace whose rows sum to 1 nothing is off but what further iterations would change.
+/// In a furnace whose rows sum to 1, the only error is the change by further iterations.
 TEST(Schemes, ReportWhatFurtherIterationsWouldChange) {
   for (const double rho : {0.5, 0.9, 0.999}) {
     const auto scene = furnace(rho);
@@ -283,7 +283,7 @@ TEST(Schemes, ThatRequireKeptFormFactorsReportTheMemoryLimit) {
 /// How often error intervals contain the true value, over runs of 8 replicas each.
 struct Coverage {
   double patches = 0;  ///< share of the patches' intervals, red channel
-  int means = 0;       ///< number of runs whose interval of the mean B does
+  int means = 0;       ///< number of runs whose interval of the mean B contains it
   double rms = 0;      ///< estimated RMS error over the actual one
 };
 Coverage coverage_of(int runs, int directions_a_replica, double tolerance = 1e-6,

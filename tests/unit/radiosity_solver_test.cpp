@@ -59,7 +59,7 @@ TEST(RadiositySolver, PausesWhenTheObserverReturnsFalse) {
     return heard < 10;
   });
   EXPECT_TRUE(more);
-  // Only the passes under way are still added.
+  // Only the passes that have begun are still added.
   EXPECT_GE(solver.progress().direction, 10);
   EXPECT_LE(solver.progress().direction, 10 + 4);
   const Solution whole = solve(small_scene(), {.directions = 400, .threads = 2});
@@ -115,7 +115,7 @@ TEST(RadiositySolver, CancelingIsQuick) {
   passes_made = true;
   passes_made.notify_one();
   canceler.join();
-  // Of each thread; sanitizers slow everything down in proportion.
+  // Each thread may take this time; sanitizers slow everything down in proportion.
   EXPECT_LT(stopped - canceled, threads * std::max(testing::longest_stop, 0.2 * pass));
 }
 

@@ -67,7 +67,7 @@ void expect_same(const std::vector<Rgb>& a, const std::vector<Rgb>& b, double to
   }
 }
 
-/// What comes from a sky depends on the geometry only.
+/// The light that comes from a sky depends on the geometry only.
 TEST(Relight, KeepsTheLightOfASky) {
   const SceneDescription description = describe_scene("cornell-box:open=1");
   SceneDescription changed = description;
@@ -103,7 +103,7 @@ TEST(Relight, KeepsTheLightOfASky) {
     sum += path.contribution;
   }
   expect_same({sum}, {after.radiosity[3]}, 1e-10);
-  // So do the contributions of the adjoint.
+  // The contributions of the adjoint also sum to B.
   const Adjoint adjoint = solve_adjoint(*before.scene, *before.form_factors, 3, changed.materials,
                                         {.tolerance = tight});
   Rgb contributions;
@@ -228,7 +228,7 @@ TEST(Relight, RefusesSourcesOfOnePartOfTheShotThatDiffer) {
         relit_with({"face:0", {}, Rgb{1, 1, 1}});
       },
       ThrowsMessage<InputError>(HasSubstr("stored per material")));
-  // A reflectance of its own splits the material, but not the light of the shot.
+  // A changed reflectance splits the material, but not the light of the shot.
   EXPECT_EQ(relit_with({"face:0", Rgb{0.25, 0.5, 0.75}}).radiosity.size(),
             before.scene->patches().size());
 }
@@ -383,7 +383,7 @@ TEST(Relight, FormFactorsAreKeptFromTheNextPassOn) {
   EXPECT_THAT(ask, ThrowsMessage<std::runtime_error>(HasSubstr("between iterations")));
   solver.advance(RadiositySolver::Until::iteration);
   const FormFactors kept = solver.form_factors();
-  const std::vector<double> sums = solver.form_factor_sums();  // of the newest iteration
+  const std::vector<double> sums = solver.form_factor_sums();  // sums of the newest iteration
   for (std::size_t i = 0; i < sums.size(); ++i) {
     double sum = 0;
     for (std::size_t k = kept.row_begin[i]; k < kept.row_begin[i + 1]; ++k) {
@@ -401,7 +401,8 @@ TEST(Relight, WithTheScenesOwnMaterialsEqualsTheSolve) {
   expect_same(relit.radiosity, s.radiosity, 1e-9);
 }
 
-/// What the sky gives does not depend on materials, so relighting with it equals a solve under it.
+/// The light of the sky does not depend on materials, so relighting with it equals a solve under
+/// it.
 TEST(Relight, RejectsTheSkyOfAnotherScene) {
   const Solved s = solved(describe_scene("boards"), {.directions = 8});
   const std::vector<Rgb> short_list(1);

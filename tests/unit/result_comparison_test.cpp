@@ -62,7 +62,7 @@ TEST(ResultComparison, FindsTheKnownDifferences) {
   EXPECT_EQ(comparison.groups[2].difference.worst, no_patch);
 }
 
-/// Sources do not count, however bright, unless a group has nothing else.
+/// Sources do not count, however bright, unless a group has only sources.
 TEST(ResultComparison, LeavesSourcesOut) {
   SceneDescription description = squares();
   description.materials.push_back(description.materials[0]);
@@ -93,7 +93,7 @@ TEST(ResultComparison, NamesDifferentSkies) {
   one.sky.model = other.sky.model = SkyModel::uniform;
   other.sky.up = {0, 1, 0};
   EXPECT_EQ(compare_results(one, other).sky_difference, "");
-  // Files of older versions do not say which sky it was.
+  // Files of older versions do not say which sky the solve had.
   one.sky = {};
   one.sky_irradiance.resize(3);
   EXPECT_EQ(compare_results(one, other).sky_difference, "");

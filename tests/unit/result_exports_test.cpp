@@ -62,7 +62,7 @@ struct Glb {
   }
 };
 
-/// What a viewer shows: triangles with a color.
+/// The triangles with colors that a viewer shows.
 struct Shown {
   Vec3 corner[3];
   Rgb color;
@@ -215,8 +215,8 @@ TEST_F(ResultExports, LightMapsShowThePatchesWithoutBleeding) {
   EXPECT_EQ(2 * corner, uv.size());
 }
 
-/// The corners of a patch have distinct coordinates with the same orientation, and those of
-/// different patches do not overlap.
+/// The corners of a patch have distinct coordinates with the same orientation, and the coordinates
+/// of different patches do not overlap.
 TEST_F(ResultExports, LightMapsHaveCoordinatesOfTheirOwn) {
   solution_ = solve(load_scene("cornell-box", {.max_patch_area = 0.02}), {.directions = 8});
   const Glb glb = exported({.light_map = true});

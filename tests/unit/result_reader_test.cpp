@@ -120,7 +120,7 @@ class ResultReader : public ::testing::Test {
 
 TEST_F(ResultReader, ReadsBackWhatWasWritten) { expect_same(read_result(path_), solution_); }
 
-// Each side has points of its own, since B differs: the other side was not found by its points.
+// Each side has its own points, since B differs: once, the other side was not found by its points.
 TEST_F(ResultReader, ReadsTwoSidedResultsOfLinearFunctions) {
   SceneDescription box = describe_scene("cornell-box");
   const auto scene = std::make_shared<const Scene>(box, SceneOptions{.two_sided = true});
@@ -168,7 +168,7 @@ TEST_F(ResultReader, ReadsBothSidesOfRefinedFacesAndTheErrorEstimate) {
   expect_same(read, solution_);
   EXPECT_EQ(read.error.replicas, 2);
   EXPECT_EQ(read.scene->patch(2).face, 0);  // a part of the first face, which is divided
-  // What is read can be written, and read, again.
+  // A result that was read can be written and read again.
   write_result(path_, read);
   expect_same(read_result(path_), solution_);
 }

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 struct Expected {
   const char* spec;
   PatchId patches;
-  double area;  ///< m²; 0: not known in closed form
+  double area;  ///< m²; 0 if it is not known in closed form
 };
 
 class BuiltIns : public ::testing::TestWithParam<Expected> {};
@@ -25,7 +25,8 @@ TEST_P(BuiltIns, HaveExpectedPatchesAndNoWarnings) {
   const auto scene = load_scene(GetParam().spec);
   EXPECT_EQ(scene->patch_count(), GetParam().patches);
   EXPECT_EQ(scene->report().faces, GetParam().patches);
-  EXPECT_TRUE(scene->report().warnings.empty()) << ::testing::PrintToString(scene->report().warnings);
+  EXPECT_TRUE(scene->report().warnings.empty())
+      << ::testing::PrintToString(scene->report().warnings);
   if (GetParam().area > 0) {
     EXPECT_NEAR(test::total_area(*scene), GetParam().area, 1e-12 * GetParam().area);
   }
@@ -34,17 +35,17 @@ TEST_P(BuiltIns, HaveExpectedPatchesAndNoWarnings) {
 INSTANTIATE_TEST_SUITE_P(
     Scene, BuiltIns,
     ::testing::Values(Expected{"sphere-flake", 145 * 136 + 256, 0},
-                    Expected{"sphere-flake:levels=2,slices=17,stacks=8", 19'976, 0},
-                    Expected{"sphere-flake:levels=0,slices=3,stacks=2", 6 + 256, 0},
-                    Expected{"sphere-flake:levels=1,slices=4,stacks=3", 13 * 12 + 256, 0},
-                    // Floors are split around what stands on them.
-                    Expected{"cornell-box", 27, 0}, Expected{"cornell-box:open=1", 26, 0},
-                    Expected{"furnace", 12, 6 * 4 + 2 * (0.75 * 0.5 + 0.5 * 1 + 0.75 * 1)},
-                    Expected{"boards", 10 + 5 * 6, 0}, Expected{"boards:n=3", 10 + 3 * 6, 0},
-                    Expected{"flatland", 16, 0}, Expected{"gallery", 678, 0},
-                    Expected{"boards:n=24", 10 + 24 * 6, 0}, Expected{"rooms", 254, 0},
-                    Expected{"rooms:n=0,rooms=1", 10, 2 * (4 * 5 + (4 + 5) * 2.75)},
-                    Expected{"stars", 127, 0}));
+                      Expected{"sphere-flake:levels=2,slices=17,stacks=8", 19'976, 0},
+                      Expected{"sphere-flake:levels=0,slices=3,stacks=2", 6 + 256, 0},
+                      Expected{"sphere-flake:levels=1,slices=4,stacks=3", 13 * 12 + 256, 0},
+                      // Floors are split around the objects that stand on them.
+                      Expected{"cornell-box", 27, 0}, Expected{"cornell-box:open=1", 26, 0},
+                      Expected{"furnace", 12, 6 * 4 + 2 * (0.75 * 0.5 + 0.5 * 1 + 0.75 * 1)},
+                      Expected{"boards", 10 + 5 * 6, 0}, Expected{"boards:n=3", 10 + 3 * 6, 0},
+                      Expected{"flatland", 16, 0}, Expected{"gallery", 678, 0},
+                      Expected{"boards:n=24", 10 + 24 * 6, 0}, Expected{"rooms", 254, 0},
+                      Expected{"rooms:n=0,rooms=1", 10, 2 * (4 * 5 + (4 + 5) * 2.75)},
+                      Expected{"stars", 127, 0}));
 
 /// Every edge is used by as many faces in one direction as in the other.
 bool is_watertight(const Scene& scene) {

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // PLY, STL, OFF, View3D and Radiance: the same unit cube in each of them, in all their variants,
-// and what is refused with which message.
+// and the message for each refused file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -146,7 +146,7 @@ TEST(SceneFormats, PlyRefusesWhatIsBroken) {
   EXPECT_THAT(scene_refusal("a.ply", good.substr(0, 100)), HasSubstr("the header has no end"));
 }
 
-/// A triangle with these three numbers of each color as the program writes them.
+/// A triangle with these three numbers of each color in the form that the program writes.
 std::string ply_of_values(const std::string& names, const std::string& values) {
   std::string text =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -160,7 +160,8 @@ std::string ply_of_values(const std::string& names, const std::string& values) {
   return text + "end_header\n0 0 0 1 0 0 0 1 0 3 0 1 2 " + values + "\n";
 }
 
-// Rounded to 1/1024, 0.9999 became 1, which was lowered to 0.98: B was 50 instead of 10,000.
+// When it was rounded to 1/1024, 0.9999 became 1, which was lowered to 0.98: B was 50 instead of
+// 10,000.
 TEST(SceneFormats, NumbersGivenAsReflectanceKeepAllTheirDigits) {
   const auto rho_of = [](const std::string& name, const std::string& text) {
     return read_scene(name, text).materials[0].reflectance;
@@ -172,7 +173,7 @@ TEST(SceneFormats, NumbersGivenAsReflectanceKeepAllTheirDigits) {
                    "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.9999 "
                    "0.123456789012345 1e-9\n"),
             digits);
-  // Colors in bytes too: 1 of 255 was 0.
+  // Colors in bytes were rounded too: 1 of 255 became 0.
   EXPECT_NEAR(rho_of("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 1 1 1\n").r,
               1 / 255.0 / 12.92, 1e-12);
 }

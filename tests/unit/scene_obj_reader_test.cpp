@@ -59,13 +59,13 @@ TEST(ObjReader, ReadsLobes) {
   EXPECT_FALSE(d.materials[2].lobe.present());
   EXPECT_FALSE(d.materials[3].lobe.present());
   EXPECT_THAT(d.notes, Contains(HasSubstr("material `d`: Ks is ignored")));
-  // Refined patches and two-sided ones have the lobe of their face.
+  // Refined patches and two-sided patches have the lobe of their face.
   const Scene scene(d, {.two_sided = true, .max_patch_area = 0.1});
   EXPECT_GT(scene.patch_count(), 16);
   EXPECT_EQ(scene.material(1).lobe, d.materials[0].lobe);
 }
 
-/// What files give as Ks and Ns: numbers that are used as they are, and others that are left out.
+/// Files have numbers as Ks and Ns that are used as they are, and others that are ignored.
 TEST(ObjReader, ReadsLobesOfAwkwardFiles) {
   const auto lobe = [](const std::string& lines) {
     return read("mtllib s.mtl\n" + square + "usemtl a\nf 1 2 3\n",

@@ -55,7 +55,8 @@ Passes run_passes(const std::shared_ptr<const Scene>& scene) {
   return passes;
 }
 
-/// Rounded scenes are what they were: as many patches, pieces and fragments, closed, no more work.
+/// Rounded scenes do not change: they have the same number of patches, pieces and fragments, are
+/// closed, and need no more work.
 class Rounded : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Rounded, ScenesCostNoMore) {
@@ -67,8 +68,9 @@ TEST_P(Rounded, ScenesCostNoMore) {
     EXPECT_EQ(scene->patch_count(), exact->patch_count());
     const Passes passes = run_passes(scene);
     EXPECT_LE(passes.closure, 1e-10);
-    // Without the repair: 1.8 times (sphere-flake) to 4 times (rooms) the fragments. Some more
-    // where touching is given up: up to 1.061 times (sphere-flake, 7 digits).
+    // Without the repair, there are 1.8 times (sphere-flake) to 4 times (rooms) the fragments.
+    // Where touching faces are no longer recognized, there are up to 1.061 times as many
+    // (sphere-flake, 7 digits).
     EXPECT_LE(static_cast<double>(passes.fragments),
               1.07 * static_cast<double>(of_exact.fragments) + 4);
     EXPECT_LE(static_cast<double>(passes.pairs), 1.15 * static_cast<double>(of_exact.pairs));
@@ -100,7 +102,7 @@ TEST(Rounding, ExactScenesKeepTheirBits) {
     EXPECT_EQ(without_rounding(description, coordinate_rounding(description.points), {}),
               description.points)
         << spec;
-    // As if it had been printed with six digits, although it was not.
+    // The box looks like it was printed with six digits, although it was not.
     SceneDescription box;
     box.materials = description.materials;
     box.points = {{0, 0, 0}, {1, 0, 0.5}, {1, 1, 0.5}, {0, 1, 0}, {0.25, 0.5, 0.125}};
@@ -130,7 +132,7 @@ TEST(Precision, IsHalfAUnitOfTheLastDigitGiven) {
   // At least the sixth digit of the largest coordinate.
   EXPECT_DOUBLE_EQ(of({{0.5, 1, 2}}), 0.5e-5);
   EXPECT_DOUBLE_EQ(of({{12, 500, 0}}), 0.5e-3);
-  // In full: the rounding of doubles.
+  // With all digits, this is the rounding of doubles.
   EXPECT_LT(of({{1.0 / 3, std::sqrt(2.0), 1}}), 1e-15);
   // Floats.
   EXPECT_NEAR(of({{static_cast<double>(0.1F), static_cast<double>(1.7F), 0}}), 0.5 * 0x1p-23 * 1.7,

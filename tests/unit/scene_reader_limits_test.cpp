@@ -55,7 +55,7 @@ void expect_memory(const std::string& path, std::size_t most) {
       ::testing::ExitedWithCode(0), "bytes");
 }
 
-// Each line used to be searched again from its beginning for every continuation: hours.
+// Each line used to be searched again from its beginning for every continuation, which took hours.
 TEST(ReaderLimits, ContinuedLinesTakeLinearTime) {
   const test::TemporaryFolder folder;
   for (const char* const line : {"\\\n", " \\\r\n"}) {
@@ -116,7 +116,7 @@ TEST(ReaderLimits, DifferentMaterialsTakeASmallMultipleOfTheirFile) {
   EXPECT_EQ(describe_scene(path).materials.size(), 200'000u);
 }
 
-// Each mention was read again, and its materials were reported as repeated.
+// Each mentioned file was once read again, and its materials were reported as repeated.
 TEST(ReaderLimits, AMaterialFileIsReadOnce) {
   const test::TemporaryFolder folder;
   folder.write("s.mtl", white);
@@ -157,7 +157,7 @@ TEST(ReaderLimits, CopiesOfAFaceAreLimited) {
             "copies");
 }
 
-// The whole name, of any length, was part of the message.
+// Once, the whole name, of any length, was part of the message.
 TEST(ReaderLimits, MessagesQuoteTheBeginningOfLongNames) {
   const test::TemporaryFolder folder;
   const std::string name(100'000, 'a');
@@ -170,7 +170,7 @@ TEST(ReaderLimits, MessagesQuoteTheBeginningOfLongNames) {
   EXPECT_LT(message.size(), 300u);
 }
 
-// The suggested name was written to the terminal as it was in the file.
+// Once, the suggested name was written to the terminal unchanged.
 TEST(ReaderLimits, MessagesContainNoControlCharacters) {
   const test::TemporaryFolder folder;
   folder.write("s.mtl", "newmtl whit\x1b\nKd .5 .5 .5\n");

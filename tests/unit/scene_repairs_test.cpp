@@ -1,6 +1,6 @@
-// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Material files as they come: what is missing, misspelt or out of range is replaced, with a
-// warning that says where, what and for how many faces.
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later. Imperfect material
+// files: missing, misspelt or invalid values are replaced, with a warning that gives the place, the
+// value and the number of faces.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -250,11 +250,11 @@ TEST(CoveredFaces, AreThoseThatAreNotSeen) {
     return Scene(d, options).report().covered_faces;
   };
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  // The later of two that face the same way covers the other; a turned one is seen.
+  // The later of two faces with the same direction covers the other; a turned face is seen.
   SceneDescription d = test::polygons(points, {{0, 1, 2, 3}, {2, 3, 0, 1}, {3, 2, 1, 0}});
   EXPECT_THAT(covered(d), ElementsAre(0));
   EXPECT_THAT(covered(d, {.two_sided = true}), ElementsAre(0, 1));
-  // The brighter covers, whatever the order.
+  // The brighter face covers the other, whatever the order.
   d.materials.push_back({"lamp", {}, {1, 1, 1}});
   d.face_material[0] = 1;
   EXPECT_THAT(covered(d), ElementsAre(1));

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// ./demo and ./check refuse a wrong argument before they build. They run in a folder of their own,
+// ./demo and ./check refuse a wrong argument before they build. They run in a separate folder,
 // where a build fails at once.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class Scripts : public ::testing::Test {
     }
     testing::write_text(folder_ / ".packages", "");
   }
-  /// What a script prints; it fails, and without a display in any case.
+  /// The output of a script that fails; without a display, it fails in any case.
   std::string output(const std::string& call) const {
     const std::string log = folder_ / "log";
     const std::string command =

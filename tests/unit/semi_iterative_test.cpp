@@ -1,8 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The semi-iterative scheme where its start counts for long, at high reflectance: its B, its error
-// estimates and its stopping rule against known answers. Scenes: closed cubes, whose form factors
-// are known; furnaces, B = E / (1 - rho); built-ins with raised reflectance, against 4,096 passes.
+// The semi-iterative scheme at high reflectance, where the start has an effect for many iterations:
+// its B, its error estimates and its stopping rule against known answers. Scenes: closed cubes,
+// whose form factors are known; furnaces, B = E / (1 - rho); built-ins with raised reflectance,
+// against 4,096 passes.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -71,7 +72,7 @@ Known furnace(double rho) {
   return known;
 }
 
-/// A built-in whose reflectances are brought as near to 1 as a power does; B by many passes.
+/// A built-in scene whose reflectances are raised toward 1 by a power; B by many passes.
 Known brighter(const std::string& name, double power) {
   SceneDescription description = describe_scene(name);
   const auto raised = [power](double rho) { return std::pow(rho, power); };
@@ -98,7 +99,7 @@ const std::vector<Known>& known_scenes() {
   return all;
 }
 
-/// On one thread: passes of six patches are shorter than what it takes to hand them out.
+/// The solve uses one thread: passes of six patches are shorter than the time to distribute them.
 SolveOptions semi_iterative(int directions) {
   return {.directions = directions, .scheme = Scheme::semi_iterative, .threads = 1};
 }
@@ -113,8 +114,8 @@ double mean_over_area(const Scene& scene, const std::vector<Rgb>& b) {
   return power / area;
 }
 
-/// The start, B = E, is 90 % off at rho = 0.9: what is left of it must not show. The differences
-/// between sets of 128 directions are below 1 %.
+/// The start, B = E, has an error of 90 % at rho = 0.9: its remaining effect must not be visible.
+/// The differences between sets of 128 directions are below 1 %.
 TEST(SemiIterative, ForgetsItsStartAtAnyReflectance) {
   for (const Known& known : known_scenes()) {
     SolveOptions options = semi_iterative(128);
@@ -147,7 +148,7 @@ TEST(SemiIterative, BurnsInNoLongerThanTheReflectanceDemands) {
 
 TEST(SemiIterative, ReplicasIncludeWhatIsLeftOfTheStart) {
   for (const Known& known : known_scenes()) {
-    // Automatic, and too short on purpose.
+    // The burn-in is automatic, and deliberately too short.
     for (const std::optional<int> burn_in : {std::optional<int>(), {8}}) {
       SolveOptions options = semi_iterative(128);
       options.burn_in = burn_in;
@@ -182,8 +183,8 @@ TEST(SemiIterative, HasConvergedWhereItSaysSo) {
   }
 }
 
-/// With a few directions per set the error is that of the directions: other sets, other random
-/// ones.
+/// With a few directions per set, most of the error comes from the directions. The test has other
+/// samplings and seeds.
 TEST(SemiIterative, HasConvergedWhereItSaysSoWithFewDirections) {
   for (const Sampling sampling :
        {Sampling::fibonacci, Sampling::random, Sampling::sobol, Sampling::halton}) {
@@ -207,7 +208,8 @@ TEST(SemiIterative, HasConvergedWhereItSaysSoWithFewDirections) {
   }
 }
 
-/// Rows of an enclosure that sum to 1 leave no error of directions in a furnace: only the start's.
+/// If the rows of an enclosure sum to 1, a furnace has no error of directions, only the error of
+/// the start.
 TEST(SemiIterative, IsExactInAFurnaceWithNormalizedRows) {
   const Known known = furnace(0.9);
   SolveOptions options = semi_iterative(16);
@@ -239,7 +241,8 @@ TEST(SemiIterative, IsNotConvergedWhenItsIterationsAreUsedUp) {
   EXPECT_GE(early.error.rms, radiosity_error(*known.scene, early.radiosity, known.b).rms);
 }
 
-/// Hammersley's points are the same in every iteration: iterations agree, and all are off alike.
+/// Hammersley's points are the same in every iteration: iterations agree, and all have the same
+/// error.
 TEST(SemiIterative, HasNotConvergedWithEqualSets) {
   const Known known = furnace(0.9);
   for (const Sampling sampling : {Sampling::hammersley, Sampling::centered_hammersley}) {
@@ -253,7 +256,7 @@ TEST(SemiIterative, HasNotConvergedWithEqualSets) {
   }
 }
 
-/// One direction, used alone, may miss every lamp: nothing is gathered, but much is missing.
+/// A single direction may miss every lamp: nothing is gathered, but much light is missing.
 TEST(SemiIterative, BurnsInWhereTheFirstDirectionsMissTheLight) {
   const Known known = cube("lamp", {0.9, 0.9, 0.9, 0.9, 0.9, 0.9}, {1, 0, 0, 0, 0, 0});
   for (std::uint64_t rotation = 0; rotation < 6; ++rotation) {
@@ -273,7 +276,7 @@ TEST(SemiIterative, OfADarkSceneHasConverged) {
   EXPECT_THAT(solution.radiosity, Each(Rgb{}));
 }
 
-/// An explicit burn-in is taken as it is.
+/// An explicit burn-in is not changed.
 TEST(SemiIterative, StudiesCountTheIterationsOfTheBurnIn) {
   const Known known = furnace(0.9);
   const auto tree = std::make_shared<const BspTree>(*known.scene);

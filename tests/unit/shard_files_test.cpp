@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Shards: passes made elsewhere lead to the same bits, and those that do not belong together are
-// refused by name.
+// Shards: passes made elsewhere lead to the same bits, and shards that do not belong to the same
+// solve are refused by name.
 #include "io/runs/shard_files.h"
 #include "transillum/solve_session.h"
 
@@ -84,7 +84,7 @@ TEST_F(Shards, AreTheSameForAnyNumberOfThreads) {
     text << std::ifstream(file, std::ios::binary).rdbuf();
     return text.str();
   };
-  // Each pass ends in its times.
+  // Each pass ends with its times.
   EXPECT_EQ(content(1).size(), content(3).size());
 }
 

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The first shot against what passes see of its sources: no false alarm on sound shots, and an
-// alarm where light is missing.
+// The first shot compared with the light that passes find from its sources: no false alarm on sound
+// shots, and an alarm where light is missing.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -27,7 +27,7 @@ SolveStatistics checked(const std::shared_ptr<const Scene>& scene, SolveOptions 
   return solver.statistics();
 }
 
-/// Where all emits in a closed scene, the shot takes minutes.
+/// If all patches of a closed scene emit, the shot takes minutes.
 constexpr std::size_t most_pairs = 40'000;
 
 void expect_no_alarm(const std::string& name, const std::vector<int>& directions) {
@@ -91,7 +91,8 @@ std::shared_ptr<const Scene> room(double bend) {
   return sketch.scene({.two_sided = true});
 }
 
-/// Most of the light with few directions, a tenth with many, or that of one patch near the lamp.
+/// Most of the light is missing with few directions, a tenth with many, or the light of one patch
+/// near the lamp.
 TEST(ShotCheck, FindsMissingLight) {
   const auto scene = room(1e-7);
   const std::vector<PatchId> sources = find_small_sources(*scene, 0);
@@ -140,7 +141,7 @@ TEST(ShotCheck, FindsByOneDirectionThatAPatchGetsNothing) {
   }
 }
 
-/// The fault that it is there for: it found the bent lamp that hid itself.
+/// The fault for which the check was made: it found the bent lamp that hid itself.
 TEST(ShotCheck, FindsThatABentLampHidesItself) {
   for (const double bend : {1e-6, 1e-7, 1e-8, -1e-7}) {
     const SolveStatistics s = checked(room(bend), {.directions = 96});

@@ -151,12 +151,12 @@ TEST(SolveSession, MayBePreparedAgain) {
   expect_same(session.solution(), solved(request));
 }
 
-/// What a time limit ends in the middle of a stage has the result of the stage before.
+/// A session that a time limit ends in the middle of a stage has the result of the previous stage.
 TEST(SolveSession, EndsWithTheTimeInTheMiddleOfAStage) {
   SolveRequest request{.scene = box()};
   request.options.goal.seconds = 1e-6;
   SolveSession session(request);
-  // The plan makes a first stage in any case, and no other one within this time.
+  // The plan always makes a first stage, and no other stage within this time.
   EXPECT_FALSE(session.advance(Until::finished));
   const Solution solution = session.solution();
   EXPECT_TRUE(solution.complete);
@@ -174,7 +174,7 @@ TEST(SolveSession, ShowsItsRoundsAndStages) {
     if (session.rounds().size() > rounds) {
       rounds = session.rounds().size();
       EXPECT_NE(session.scene(), scene);
-      EXPECT_TRUE(session.accuracy()->stages.empty());  // of the next round
+      EXPECT_TRUE(session.accuracy()->stages.empty());  // stages of the next round
     } else {
       EXPECT_EQ(session.scene(), scene);
       EXPECT_GT(session.accuracy()->stages.size(), 0U);

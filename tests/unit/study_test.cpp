@@ -81,7 +81,7 @@ TEST(Study, ErrorsCountAllPatchesWhereAllEmit) {
   sketch.triangles(4, 0.1, 1, sketch.material(0.5, 3));
   const auto scene = sketch.scene();
   const std::vector<Rgb> reference(4, {5, 5, 5}), b(4, {5.5, 5.5, 5.5});
-  EXPECT_DOUBLE_EQ(radiosity_error(*scene, b, reference).rms, 0.25);  // of B - E = 2
+  EXPECT_DOUBLE_EQ(radiosity_error(*scene, b, reference).rms, 0.25);  // relative to B - E = 2
 }
 
 TEST(Study, RandomErrorDecreasesAsOneOverTheRootAndFibonacciFaster) {
@@ -213,7 +213,7 @@ TEST(Study, RecordsThatDirectionsAreTooFew) {
   EXPECT_TRUE(std::isnan(study.points[0].rms_error));
 }
 
-/// Pixels so coarse that rows of form factors sum to far more than 1: B exceeds all numbers.
+/// Pixels so coarse that rows of form factors sum to far more than 1: B overflows.
 TEST(Study, InfiniteRadiosityIsAFailure) {
   const auto scene = load_scene("sphere-flake:levels=1");
   StudyOptions options;
@@ -255,7 +255,7 @@ TEST(Study, KeepsFinishedPointsWhenCanceled) {
         EXPECT_GE(now.share, last_share);
         EXPECT_LE(now.share, 1);
         last_share = now.share;
-        // Called within a point, and after it.
+        // The callback is called within a point, and after it.
         const std::size_t before = (now.directions == 64 ? 2 : 0) + now.series;
         EXPECT_THAT(now.points, AnyOf(SizeIs(before), SizeIs(before + 1)));
         if (now.series == 1 && now.directions == 64) {

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Scenes from VTK files: the same cube from .vtp files in all encodings of VTK's writer and from
-// legacy .vtk files of two versions, results as scenes, and what is refused with which message.
+// legacy .vtk files of two versions, results as scenes, and the message for each refused file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vtkCellArray.h>
@@ -308,7 +308,7 @@ TEST_F(VtkReader, LegacyFilesAreRefusedWithAPlace) {
   EXPECT_THAT(refused(legacy(3, true).substr(0, 150)), HasSubstr("a.vtk: byte "));
 }
 
-// Rounded to 1/1024, dark colors became black.
+// When they were rounded to 1/1024, dark colors became black.
 TEST_F(VtkReader, ColorsInBytesAreNotRounded) {
   const SceneDescription d = read("a.vtk",
                                   "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Tests and programs wait for conditions, not for times: a fixed pause is too short on a busy
-// machine and too long on any other. Two helpers sleep between two looks at a condition; no other
-// file of the repository calls what sleeps.
+// machine and too long on any other. Two helpers sleep between two checks of a condition; no other
+// file of the repository calls a function that sleeps.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -29,7 +29,7 @@ const std::set<std::string> helpers{"tests/support/wait_until.h",
                                     "libtransillum/mpi/mpi_waiting.h"};
 const std::string this_file = "tests/unit/waits_test.cpp";
 
-/// The lines that call a function which sleeps, with their numbers from 1. QtTest's input functions
+/// The lines that call a function that sleeps, with their numbers from 1. QtTest's input functions
 /// sleep where their last argument is a number of milliseconds.
 std::vector<std::string> pauses_in(const std::string& text) {
   static const std::regex sleeps(

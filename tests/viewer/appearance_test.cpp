@@ -99,7 +99,7 @@ class AppearanceTest : public QObject {
       QVERIFY(window.isFullScreen() && solved.scene_view->isVisible());
       QVERIFY(shown("timeline_dock") && shown("lesson_dock") && !shown("map_dock"));
     }
-    // A session that is kept meanwhile has the panels of the window.
+    // A session that is saved during projector mode has the panels of the window.
     const QByteArray kept = window.parts().docks.state();
     const auto* timeline = window.findChild<QDockWidget*>("timeline_dock");
     QVERIFY2(wait_for([&] { return timeline->height() < 0.1 * window.height(); }, 5000),
@@ -232,7 +232,7 @@ class AppearanceTest : public QObject {
     }
   }
 
-  // And of 3 of parts of a picture that must be told apart.
+  // WCAG 2.1 asks for a contrast of 3 between parts of a picture that must be distinguished.
   void the_position_stands_out_from_its_lane_in_both_modes() {
     for (const bool dark : {true, false}) {
       theme::apply(*qApp, {.dark = dark});
@@ -325,8 +325,8 @@ class AppearanceTest : public QObject {
     for (const auto& [key, use] : uses) {
       QVERIFY2(text.contains('`' + key + '`'), qPrintable(key + ": " + use));
     }
-    // The tables at the ends of its pages have no other keys than those of the menus, of a saved
-    // view, of the kept run, of the list of kept runs, of the timeline and of the panel Groups.
+    // The tables at the ends of its pages have only keys of the menus, of a saved view, of the kept
+    // run, of the list of kept runs, of the timeline and of the panel Groups.
     const QStringList others{"Alt+1", "A", "F2", "Del", "←", "→", "Return", "E", "R"};
     static const QRegularExpression quoted(QStringLiteral("`([^`]+)`"));
     int listed = 0;

@@ -132,7 +132,7 @@ class BreakpointsTest : public QObject {
       }
     }
     QVERIFY(steps_where(history, {Kind::large_map, 0, 0, static_cast<double>(largest)}).empty());
-    // At each step where V passes the bound, not for as long as it stays above.
+    // The breakpoint holds at each step where V passes the bound, not while V stays above it.
     for (const std::int32_t k : steps_where(history, {Kind::large_map, 0, 0, largest / 2.0})) {
       QVERIFY(history.step(k).map_size > largest / 2.0);
       QVERIFY(k == 0 || history.step(k - 1).map_size <= largest / 2.0);
@@ -145,7 +145,7 @@ class BreakpointsTest : public QObject {
   void a_closed_scene_has_no_open_receiver() {
     const Breakpoint open{Kind::open_receiver, 0, 0, 1e-9};
     QVERIFY(steps_where(Direction("furnace").history(), open).empty());
-    // With a bound below any share, it holds at every receiver.
+    // With a bound below any defect, the breakpoint holds at every receiver.
     const Direction d("furnace");
     std::vector<std::int32_t> receivers;
     for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
@@ -209,7 +209,7 @@ class BreakpointsTest : public QObject {
   void a_run_counts_hits_and_stops_at_the_given_one() {
     const Direction d("cornell-box");
     const MapHistory& history = d.history();
-    // The patch with the most events, and one that is cut.
+    // The patch with the most events, and a patch that is cut.
     PatchId busy = 0;
     for (PatchId patch = 1; patch < d.scene->scene->patch_count(); ++patch) {
       if (history.steps_of(patch).size() > history.steps_of(busy).size()) {
@@ -230,7 +230,8 @@ class BreakpointsTest : public QObject {
       return std::count_if(cuts.begin(), cuts.end(), [end](std::int32_t k) { return k <= end; });
     };
     QVERIFY((*hits == HitCounts{3, passed(steps[2]), 0}));
-    // Back from there: the third before it; from the third, none.
+    // A run back from there stops at the third hit before it; a run back from the third hit stops
+    // nowhere.
     QCOMPARE(breakpoints.run_finder(hits)(history, steps[5], StepOrder::backward), steps[2]);
     QCOMPARE(breakpoints.run_finder(hits)(history, steps[2], StepOrder::backward),
              MapHistory::none);
@@ -416,7 +417,7 @@ class BreakpointsTest : public QObject {
       const bool gathers = lines.back() == CodeLine::gather_region;
       QCOMPARE(gathers, here->kind == StepEvent::Kind::exchange);
       exchanges += gathers;
-      // As in the line of pseudo-code: A(R)/A_i · rho_i/(pi M) · 4 pi · B_j.
+      // The line of pseudo-code says: A(R)/A_i · rho_i/(pi M) · 4 pi · B_j.
       QCOMPARE(state->gathered.has_value(), gathers);
       if (!gathers) {
         continue;
@@ -482,7 +483,7 @@ class BreakpointsTest : public QObject {
       int compared = 0;
       for (std::size_t t = 0; t < pass.exchanges.size(); ++t) {
         const Transfer& transfer = pass.exchanges[t];
-        // The list is of omega: i receives.
+        // The list belongs to omega: i receives.
         const auto found = sums.find({transfer.receiver, transfer.source});
         QVERIFY(found != sums.end());
         for (std::size_t ab = 0; ab < 9; ++ab) {

@@ -282,7 +282,7 @@ class ColorChoiceTest : public QObject {
     QCOMPARE(runs.second(), -1);
     colors.set_quantity(Quantity::difference);
     QVERIFY(colors.values().empty() && !colors.missing().isEmpty());
-    // The same patches, read again.
+    // The same patches are read again.
     colors.fit(solved("cornell-box"));
     QVERIFY(runs.reason_against(0).isEmpty());
     QVERIFY(colors.run_a() == runs.run(0));

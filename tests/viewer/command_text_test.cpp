@@ -29,7 +29,7 @@ QString copied(const SolvedWindow& solved, const char* action) {
   return QApplication::clipboard()->text();
 }
 
-/// Runs it with the program beside the viewer's. Empty: it failed.
+/// The output of a command, run with the program beside the viewer's; empty if it failed.
 QByteArray output_of(const QString& command) {
   QProcess process;
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
@@ -87,7 +87,7 @@ class CommandTextTest : public QObject {
     expect_same_bits(*window);
   }
 
-  /// Materials that were changed in the window are those of the next solve.
+  /// The next solve uses the materials that were changed in the window.
   void a_copied_solve_of_an_edited_scene_has_the_same_bits() {
     const auto window = make_window(8);
     window->scene.open("cornell-box", {.solve = {.directions = 8}}, {Goal::Kind::finished});
@@ -164,7 +164,7 @@ class CommandTextTest : public QObject {
   }
 
  private:
-  /// Of the window and of the command that is copied from it.
+  /// The results of the window and of the command that is copied from it have the same bits.
   static void expect_same_bits(const TestWindow& window) {
     window.findChild<QAction*>("copy_solve")->trigger();
     const QString command = QApplication::clipboard()->text() + " --quiet --out -";

@@ -125,7 +125,7 @@ class CompareTest : public QObject {
                 .contains(QString("patches %1 and %2")
                               .arg(table->pair(0).receiver)
                               .arg(table->pair(0).source)));
-    // Without a choice: the receiver of the largest difference.
+    // Without a choice, the receiver of the largest difference is shown.
     QCOMPARE(picture->receiver(), table->pair(0).receiver);
   }
 
@@ -135,7 +135,7 @@ class CompareTest : public QObject {
     auto* list = shown.view->findChild<QTableView*>("pair_differences");
     const auto* table = static_cast<const PairTable*>(list->model());
     const auto* picture = shown.view->findChild<PairPicture*>();
-    // A pair that both see, of which the picture shows the polygons in one color.
+    // A pair that both engines see: the picture shows its polygons in one color.
     int row = 0;
     while (table->pair(row).first == 0 || table->pair(row).other == 0) {
       ++row;
@@ -218,7 +218,7 @@ class CompareTest : public QObject {
     QVERIFY(panels() == (QSet<QString>{"compare_dock", "timeline_dock"}));
     QVERIFY(wait_for([&] { return shown.window->settled(); }));
     save_picture(*shown.window, "compare-large");
-    // What is kept of the layout is that before.
+    // The kept state of the layout is the state before.
     const QByteArray kept = shown.window->parts().docks.state();
     shown.trigger("compare_large");
     QVERIFY2(wait_for([&] { return dock->size() == usual; }),
@@ -236,7 +236,7 @@ class CompareTest : public QObject {
     shown.trigger("compare_large");
     shown.trigger("compare_large");
     QVERIFY(panels().contains("settings_dock"));
-    // It is a tab of the map's place, also where maps are debugged.
+    // The panel is a tab of the map's place, also where maps are debugged.
     const auto tabs = shown.window->tabifiedDockWidgets(dock);
     QVERIFY(tabs.contains(shown.window->findChild<QDockWidget*>("map_dock")));
     shown.trigger("layout_debug");
@@ -255,10 +255,10 @@ class CompareTest : public QObject {
       "options": {"directions": 16}, "layout": "inspect", "panels": ["compare"]}}]})");
     const auto* view = solved.window->findChild<CompareView*>();
     solved.window->files().open(path);
-    // Checked at each turn of the event loop, as a screenshot could be.
+    // This is checked at each turn of the event loop, because a screenshot could be taken there.
     QVERIFY(wait_for([&] { return solved.window->settled() && view->isVisible(); }));
     QVERIFY(view->up_to_date());
-    // Nothing is waited for where nothing can be compared.
+    // The panel does not wait where nothing can be compared.
     view->findChild<QComboBox*>("other_engine")->setCurrentText("Hemicube");
     QVERIFY(wait_for([&] { return solved.window->settled(); }));
     QVERIFY2(solved.text("compare_words").contains("select a patch"),
@@ -354,7 +354,7 @@ class CompareTest : public QObject {
     QCOMPARE(panel.scene_options().max_patch_area, 0.0);
   }
 
-  // It chooses the directions and replicas; those in effect are no difference.
+  // The accuracy chooses the directions and replicas; the ones in effect are no difference.
   void settings_ask_for_an_accuracy() {
     SettingsPanel panel;
     auto* directions = panel.findChild<QSpinBox*>("directions");
@@ -391,11 +391,11 @@ class CompareTest : public QObject {
     QVERIFY(panel.solve_options() == one_way);
     serves->setCurrentIndex(0);
     QCOMPARE(sampling->currentText(), QString("Antipodal"));
-    // A choice stays.
+    // The choice of the user stays.
     sampling->setCurrentText(QStringLiteral("Halton"));
     serves->setCurrentIndex(1);
     QCOMPARE(sampling->currentText(), QString("Halton"));
-    // Options of a file too, whichever their pair.
+    // Options of a file stay too, whatever the combination.
     SolveOptions given;
     given.sampling = Sampling::fibonacci;
     panel.set_options(given, {});

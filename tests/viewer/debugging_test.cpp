@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // What helps to find an error in a map: breakpoints with several conditions, the filter of events,
-// both phases of a step, details of a polygon, watched figures.
+// both phases of a step, details of a polygon, watched values.
 #include <QComboBox>
 #include <QDockWidget>
 #include <QElapsedTimer>
@@ -60,14 +60,14 @@ struct Debugging : SolvedWindow {
   }
 };
 
-/// A window with three watched figures, before the first step of a direction.
+/// A window with three watched values, before the first step of a direction.
 struct Watching : Debugging {
   WatchChart* chart;
 
   Watching() : Debugging("cornell-box"), chart(window->findChild<WatchChart*>()) {
     ready = ready && go_to(3, -1);
     window->selection.select(0);
-    // A figure that is watched already is not added again.
+    // A value that is watched already is not added again.
     for (const char* watch : {"watch_area", "watch_defect", "watch_size", "watch_size"}) {
       trigger(watch);
     }
@@ -167,7 +167,7 @@ class DebuggingTest : public QObject {
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
     const RunPosition stop = s.focus.position();
     QVERIFY2(list->item(0)->text().contains(": 5 hits"), qPrintable(list->item(0)->text()));
-    // The fifth stop of one that stops at each.
+    // The fifth stop of a breakpoint that stops at each hit.
     stop_at->setValue(1);
     QVERIFY(s.go_to(0, -1));
     for (int k = 0; k < 5; ++k) {
@@ -175,7 +175,7 @@ class DebuggingTest : public QObject {
       QVERIFY(wait_for([&] { return s.focus.arrived(); }));
     }
     QVERIFY(s.focus.position() == stop);
-    // A hit that is never reached: all directions have been counted.
+    // If the hit is never reached, all directions have been counted.
     stop_at->setValue(1000000);
     QVERIFY(s.go_to(0, -1));
     const QSignalSpy ended(&s.focus, &Focus::seek_ended);
@@ -216,7 +216,7 @@ class DebuggingTest : public QObject {
       s.trigger("step_back");
       QCOMPARE(s.focus.position().step, expected[k]);
     }
-    // Over the end of the direction.
+    // Stepping continues over the end of the direction.
     s.focus.go_to_step(expected.back());
     s.trigger("step_on");
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
@@ -307,10 +307,10 @@ class DebuggingTest : public QObject {
     QCOMPARE(before->polygon_count(), history.record().map_after(step - 1).size());
     QCOMPARE(after->polygon_count(), history.record().map_after(step).size());
     QVERIFY(before->polygon_count() != after->polygon_count());
-    // They move together.
+    // Both maps move together.
     s.window->findChild<QToolButton*>("map_near")->click();
     QVERIFY(before->view() == after->view() && before->view().zoom != 1);
-    // A click in either marks the point in both.
+    // A click in either map marks the point in both.
     QVERIFY(s.settles());
     QTest::mouseClick(before, Qt::LeftButton, {}, before->rect().center());
     QVERIFY(s.focus.probe().has_value());
@@ -371,7 +371,7 @@ class DebuggingTest : public QObject {
     QVERIFY(s.settles());
     auto* canvas = s.window->findChild<MapCanvas*>("map_canvas");
     auto* label = canvas->findChild<PointerLabel*>();
-    // A polygon that was cut, of which another patch's edge is a part.
+    // A polygon that was cut: one of its edges belongs to another patch.
     std::int32_t row = MapRecord::no_row;
     QPoint place;
     for (int y = 5; y < canvas->height() && row == MapRecord::no_row; y += 7) {
@@ -416,7 +416,7 @@ class DebuggingTest : public QObject {
   void watched_figures_are_those_of_the_steps() {
     const Debugging s("cornell-box");
     QVERIFY(s.ready && s.go_to(3, -1));
-    // Known values at each step: by the rows of V, and by the figures of the step.
+    // The known values at each step come from the rows of V and from the step itself.
     const MapHistory& history = s.history();
     const auto areas = values_of({Watch::Kind::patch_area, 0}, history);
     const auto defects = values_of({Watch::Kind::closure_defect}, history);
@@ -478,7 +478,7 @@ class DebuggingTest : public QObject {
       const QToolButton* button = s.button(k);
       QVERIFY2(s.chart->rect().contains(button->geometry()), qPrintable(button->text()));
       QVERIFY(button->toolTip().contains("at most"));
-      // A number that is cut off would be taken for another one.
+      // A truncated number could be read as another number.
       QVERIFY(button->width() >= button->sizeHint().width());
     }
     QVERIFY(s.chart->plot().height() >= 26);
@@ -488,7 +488,7 @@ class DebuggingTest : public QObject {
     QVERIFY(wait_for([&] { return s.button(2)->x() < s.chart->plot().right(); }));
   }
 
-  // The lines pass where the values are, and the buttons tell them.
+  // The lines pass through the values, and the buttons show them.
   void watched_figures_are_drawn_over_the_steps() {
     const Watching s;
     QVERIFY(s.ready);

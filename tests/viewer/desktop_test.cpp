@@ -41,7 +41,7 @@ QStringList files() {
   return names;
 }
 
-/// Runs a validator where it is installed. It may complain of `accepted` alone.
+/// Runs a validator where it is installed. It may complain only about `accepted`.
 void validate(const QString& program, const QStringList& arguments, const QString& accepted = {}) {
   if (QStandardPaths::findExecutable(program).isEmpty()) {
     QSKIP(qPrintable(program + " is not installed"));
@@ -69,7 +69,7 @@ class DesktopTest : public QObject {
 
  private slots:
   void initTestCase() {
-    // A folder of data with our types, beside those of the system.
+    // A folder of data with our types, in addition to the system's.
     const QString data = data_.path();
     QVERIFY(QDir(data).mkpath("mime/packages"));
     QVERIFY(QFile::copy(folder + "org.transillum.Viewer.xml",
@@ -159,7 +159,7 @@ class DesktopTest : public QObject {
       test::write_file(file, R"({"show": {"scene": "furnace", "options": {"directions": 8}}})");
     }
     QFile::remove(picture);
-    // As the entry's Exec, with the file for %f.
+    // Runs the entry's Exec, with the file for %f.
     QProcess process;
     process.setProcessChannelMode(QProcess::MergedChannels);
     process.start(TRANSILLUM_VIEWER, {file, "--screenshot", picture});

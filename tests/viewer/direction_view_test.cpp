@@ -63,7 +63,8 @@ class DirectionViewTest : public QObject {
       QCOMPARE(received.size(), std::size_t{64});
       const double sum = std::accumulate(received.begin(), received.end(), 0.0);
       const double irradiance = luminance(at(solution.irradiance, patch));
-      // The view uses the newest B, H the previous one: they differ by the tolerance at most.
+      // The view uses the newest B, but H comes from the previous B: they differ by the tolerance
+      // at most.
       QVERIFY2(std::abs(sum - irradiance) <= 1e-4 * irradiance,
                qPrintable(QString("patch %1: %2, not %3").arg(patch).arg(sum).arg(irradiance)));
     }
@@ -101,7 +102,7 @@ class DirectionViewTest : public QObject {
       QVERIFY(wait_for([&] { return focus.arrived(); }));
       for (const PatchId patch : {0, 3, 7}) {
         shown.window->selection.select(patch);
-        // One of each pair is on the front side; edge-on directions are not listed.
+        // One direction of each pair is on the front side; edge-on directions are not listed.
         QVERIFY(wait_for([&] { return table->rowCount() >= 30 && table->rowCount() <= 32; }));
         const Rgb next = at(*at(snapshot->kept_radiosity, n + 1), patch);
         QTRY_VERIFY(max_abs(scene.exitance(patch) + scene.reflectance(patch) * table->irradiance() -

@@ -85,7 +85,7 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({0, 3, w.maps[3]->record().fullest_step()}));
   }
 
-  /// Of a run whose first iteration had one direction, the second two, the third all four.
+  /// In the run, the first iteration had one direction, the second two, the third all four.
   void offers_the_directions_that_an_iteration_had() {
     FocusWithMaps w;
     w.focus.set_passes_of_iterations({1, 2, 4});
@@ -105,7 +105,7 @@ class FocusTest : public QObject {
     QCOMPARE(w.focus.position().direction, 1);
     w.focus.iteration_by(-1);
     QCOMPARE(w.focus.position().direction, 0);
-    // A search reaches directions of later iterations that the earlier ones did not have.
+    // A search reaches directions of later iterations that the earlier iterations did not have.
     w.focus.go_to({0, 0, w.last_step(0)});
     w.requested.clear();
     w.focus.seek([](const MapHistory&, std::int32_t, StepOrder) { return MapHistory::none; },

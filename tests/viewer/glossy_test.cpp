@@ -194,7 +194,7 @@ class GlossyTest : public QObject {
     now->progress.stage = SolveProgress::Stage::scaling_lobes;
     line.show_snapshot(now);
     QCOMPARE(text("phase"), QStringLiteral("Scaling lobes"));
-    // Afterwards, and where it pauses, the line is that of any run.
+    // Afterward, and where the run pauses, the line is the same as in any run.
     line.show_state(RunState::finished);
     QVERIFY(text("phase").startsWith("Converged"));
   }
@@ -255,7 +255,7 @@ class GlossyTest : public QObject {
     }));
     QCOMPARE(w.snapshot().statistics.passes_made, passes);
     QVERIFY(w.shows_radiance_toward_camera());
-    // The same light as of a run with these materials.
+    // The light is the same as in a run with these materials.
     auto scene = load_scene(small_gallery);
     GlossySolver solver(scene, w.snapshot().options);
     solver.set_materials(w.snapshot().materials->materials, w.snapshot().materials->of_patch);

@@ -93,7 +93,7 @@ class InspectTest : public QObject {
     QVERIFY(shown.has_form_factors());
     const double expected =
         form_factors_to(*shown.window->snapshot()->form_factors, selected)[std::size_t(patch)];
-    // Details may follow it.
+    // Details may follow the text.
     QTRY_VERIFY(lines().contains(
         QString("F %1→%2  %3").arg(patch).arg(selected).arg(number_text(expected))));
     save_picture(*shown.window, QStringLiteral("pointer-over-%1").arg(QTest::currentDataTag()));
@@ -124,7 +124,7 @@ class InspectTest : public QObject {
           QRegularExpression::MultilineOption | QRegularExpression::DotMatchesEverythingOption);
       return heading.match(algorithm).captured();
     };
-    // "eq. 20 and 21" and "eq. 8, 9" name two.
+    // "eq. 20 and 21" and "eq. 8, 9" name two equations.
     const auto equations_in = [](const QString& text) {
       QSet<QString> numbers;
       static const QRegularExpression list("eq\\. (\\d+(?:(?:, | and )\\d+)*)"), digits("\\d+");
@@ -191,7 +191,7 @@ class InspectTest : public QObject {
     const Rgb b = relit(scene.materials(), {});
     QVERIFY(max_abs(sum - b) < 1e-8 * max_abs(b));
 
-    // A watt on patch 9, given by the sliders' edits, has the effect foretold.
+    // A watt on patch 9, added by the sliders' edits, has the predicted effect.
     MaterialEdits& edits = shown.window->relighting.edits();
     const double watt = 1 / scene.patch(9).area;
     edits.set_exitance(MaterialEdits::target_of(scene, TargetKind::face, 9), {watt, watt, watt});
@@ -293,7 +293,7 @@ class InspectTest : public QObject {
     QTest::mouseRelease(bar, Qt::LeftButton, {}, {20, top});
     const Selection& selection = shown.window->selection;
     QVERIFY(selection.patches().size() > 1);
-    // All that lie between two selected values are selected.
+    // All patches with values between the two chosen values are selected.
     double low = HUGE_VAL, high = 0;
     const auto value = [&](PatchId i) {
       return colors.scale().value(colors.values()[std::size_t(i)]);
@@ -381,7 +381,7 @@ class InspectTest : public QObject {
     QTest::keyClicks(search, "12");
     QTest::keyClick(search, Qt::Key_Return);
     QCOMPARE(shown.window->selection.patch(), PatchId{12});
-    // Patch 1 itself, not one listed before it whose number begins with 1.
+    // Patch 1 itself is selected, not an earlier row whose number begins with 1.
     shown.part<QTableView>("patch_table")->sortByColumn(0, Qt::DescendingOrder);
     QTest::keyClicks(search, "1");
     QVERIFY(all.rowCount() > 1 && all.patch(0) != PatchId{1});

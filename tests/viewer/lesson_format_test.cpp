@@ -81,7 +81,7 @@ class LessonFormatTest : public QObject {
     QVERIFY(s.logarithmic == true && s.labels && !s.direction_shown && s.outlines == true);
     QVERIFY(s.layout == Layout::debug);
     QCOMPARE(s.panels, std::vector<std::string>{"map"});
-    // Written and read again it is the same.
+    // The state is the same after it is written and read again.
     const auto written = to_json(s);
     QCOMPARE(to_json(view_state_from_json(written, "w", "")).dump(), written.dump());
   }
@@ -137,7 +137,7 @@ class LessonFormatTest : public QObject {
     row("no text", lesson("{}"), "bad.json, page 1, text: is missing");
     row("text a number", lesson(R"({"text": 3})"), "bad.json, page 1, text: ");
     row("line a number", lesson(R"({"text": ["a", 3]})"), "bad.json, page 1, text: ");
-    // Qt took 40 s to lay it out.
+    // Qt took 40 s to lay out such a text.
     row("long text", lesson("{\"text\": \"" + repeated("a *b* ", 300'000) + "\"}"),
         "page 1, text: must have at most 65536 bytes; it has 1800000");
     row("show a list", lesson(R"({"text": "", "show": []})"), "bad.json, page 1, show: ");

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Lessons exported as HTML: the file stands alone, and has the pages, the maps and the answers.
+// Lessons exported as HTML: the file needs no other file, and has the pages, the maps and the
+// answers.
 #include <QAction>
 #include <QFile>
 #include <QProcess>
@@ -67,7 +68,7 @@ class LessonHtmlTest : public QObject {
   Q_OBJECT
 
  private slots:
-  // The polygons that a browser shows at a step are those of V.
+  // The polygons that a browser shows at a step are the polygons of V.
   void polygons_of_a_map_have_their_steps() {
     const auto scene = load_scene("cornell-box");
     auto loaded = std::make_shared<LoadedScene>();
@@ -93,7 +94,7 @@ class LessonHtmlTest : public QObject {
     }
     QCOMPARE(count(map_svg(map, 9, colors, false), "<polygon"),
              int(map.record().map_after(9).size()));
-    // What the page names is named where it is shown, and only that.
+    // Only the objects that the page names are named, where they are shown.
     const PatchId shown = map.row(map.record().map_after(9).front()).patch;
     const std::vector<Callout> callouts{{"this < that", Callout::Anchor::patch, shown, {}},
                                         {"the same", Callout::Anchor::patch, shown, {}},
@@ -144,7 +145,8 @@ class LessonHtmlTest : public QObject {
     QVERIFY(exported.window->banner_text().contains("folder.html"));
   }
 
-  // In a real browser, which ./check does not install: nightly, where one is found.
+  // Uses a real browser, which ./check does not install; the nightly run does it where a browser is
+  // found.
   void a_browser_steps_through_the_map() {
     if (qEnvironmentVariableIsEmpty("TRANSILLUM_BROWSER")) {
       QSKIP("nightly only");
@@ -159,7 +161,7 @@ class LessonHtmlTest : public QObject {
     Exported exported;
     exported.finish();
     QByteArray html = contents_of(exported.path);
-    // Clicks, and writes what is visible then into the title.
+    // The script clicks, and writes the visible polygons into the title.
     html.replace("</body>", R"(<script>
       document.querySelector('.on').click();
       document.title = document.querySelector('output').textContent + ': ' +

@@ -356,7 +356,8 @@ struct ColorWord {
   QColor color;
 };
 
-// What the marked tile of lesson 11 shows to an eye at the page's camera, as a mirror would.
+// The color of the lamp that the marked tile of lesson 11 would mirror to an eye at the page's
+// camera.
 QColor color_of_mirrored_lamp() {
   const Shown shown(11, 1);
   const Patch& tile = shown.scene->patch(shown.page.state.selection);

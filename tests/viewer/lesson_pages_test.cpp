@@ -138,9 +138,9 @@ class LessonPagesTest : public QObject {
     const MapHistory history = sorted.history();
     QVERIFY(sorted.contains("no patch had to be cut in two"));
     QCOMPARE(history.step_count(), sorted.scene->patch_count());
-    QVERIFY(sorted.page.state.options.solve.normalize == Normalization::none);  // as on page 4
+    QVERIFY(sorted.page.state.options.solve.normalize == Normalization::none);  // like on page 4
     QCOMPARE(history.step(0).cut, 0);
-    QVERIFY(!history.step(0).front_facing);  // page 2: it emits
+    QVERIFY(!history.step(0).front_facing);  // page 2: this fragment emits
     const std::int32_t k =
         first_step(history, [](const MapHistory::Step& step) { return step.exchanges > 0; });
     QVERIFY(k > 1 && history.step(k).front_facing);
@@ -191,7 +191,7 @@ class LessonPagesTest : public QObject {
     QVERIFY(rho > 0.59 && rho < 0.61);
   }
 
-  // The figures that a student finds on paper.
+  // The numbers that a student finds on paper.
   void flatland_by_hand() {
     const Shown room(8, 4), slanted(8, 6);
     const Vec3 up = room.omega();
@@ -227,7 +227,7 @@ class LessonPagesTest : public QObject {
 
   void from_steps_to_slopes() {
     const Shown steps(10, 1), linear(10, 2), jumps(10, 3), shadows(10, 6);
-    QVERIFY(linear.contains("are those of the page before"));
+    QVERIFY(linear.contains("are the same as on the page before"));
     QCOMPARE(linear.scene->patch_count(), steps.scene->patch_count());
     QVERIFY(linear.page.state.options.solve.basis == Basis::linear);
     SolveOptions constant = linear.page.state.options.solve;
@@ -243,7 +243,7 @@ class LessonPagesTest : public QObject {
     };
     QVERIFY2(mean_jump(tilted) < 0.7 * mean_jump(flat),
              qPrintable(QString("%1, %2").arg(mean_jump(tilted)).arg(mean_jump(flat))));
-    // "Click the patch": the right one is in sight, and has neighbors in its plane.
+    // "Click the patch": the right one is visible, and has neighbors in its plane.
     const Picker picker(steps.scene);
     const Vec3 eye = steps.page.state.camera->eye;
     QVERIFY(jumps.page.state.camera->eye == eye);

@@ -161,7 +161,7 @@ class LessonsTest : public QObject {
     QCOMPARE(window.selection.patch(), PatchId{4});
   }
 
-  // Widgets in the lines of the text, where their names were.
+  // The widgets are in the lines of the text, where their names were.
   void controls_are_in_the_text() {
     Controlled taught;
     QVERIFY(taught.ready);
@@ -237,7 +237,7 @@ class LessonsTest : public QObject {
       exports.write_map_picture(folder.filePath("map.png"));
       return contents_of(folder.filePath("map.svg"));
     };
-    // The top is behind others there.
+    // There, the top is behind other patches.
     QVERIFY(exported_map().contains(">here</text>"));
     const QImage named_map(folder.filePath("map.png"));
     const QPointF anchor = layer->callouts()[0].anchor;
@@ -260,7 +260,7 @@ class LessonsTest : public QObject {
     const auto anchor = [&taught] { return taught.layer->callouts()[0].anchor; };
     auto* view = taught.window->findChild<SceneView*>();
     QCOMPARE(view->patch_at(anchor().toPoint()), PatchId{16});
-    // It moves with the camera.
+    // The callout moves with the camera.
     const QPointF before = anchor();
     view->view_from_side(Side::top);
     QTRY_VERIFY(anchor() != before);
@@ -319,7 +319,7 @@ class LessonsTest : public QObject {
     QTRY_VERIFY(taught.names().isEmpty());
     taught.trigger("lesson_previous");
     QTRY_COMPARE(taught.names().size(), 2);
-    // Not in a scene that the user opens.
+    // The callouts are not shown in a scene that the user opens.
     taught.window->files().open_scene("furnace");
     QTRY_VERIFY(taught.names().isEmpty());
   }

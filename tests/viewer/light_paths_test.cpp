@@ -21,7 +21,7 @@ using namespace test;
 
 namespace {
 
-/// The panel of light paths, with those to patch 4.
+/// The panel of light paths, with the paths to patch 4.
 struct ListedPaths : Inspected {
   PathPanel* panel;
   QTableWidget* table;
@@ -99,7 +99,7 @@ class LightPathsTest : public QObject {
     const QImage few = shown.picture();
     shown.scene_view->show_paths(nullptr, -1);
     const QImage none = shown.picture();
-    // A line has more pixels than that is wide, and the scene is hundreds wide.
+    // A line has more pixels than this number, and the scene is hundreds of pixels wide.
     const int yellow = count_of(emphasized, theme::processed);
     QVERIFY2(yellow > 50 && count_of(many, theme::processed) == 0,
              qPrintable(QString::number(yellow)));
@@ -121,7 +121,7 @@ class LightPathsTest : public QObject {
     for (int line = 1; line < 5; ++line) {
       shares += lines[line].split(',')[1].toDouble();
     }
-    // B is solved to 1e-9 of the largest, which a lamp has.
+    // B is solved to 1e-9 of the largest B, which a lamp has.
     double largest = 0;
     for (const Rgb& b : shown.window->snapshot()->radiosity) {
       largest = std::max(largest, luminance(b));

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Scenes as they come: nothing emits, or faces are turned the wrong way. What the window offers for
-// them, changes of single faces and groups, and the scene file saved with them.
+// Imperfect scenes, in which nothing emits or faces are turned the wrong way: offers of the window,
+// changes of single faces and groups, and the scene file saved with them.
 #include <QAction>
 #include <QComboBox>
 #include <QFile>
@@ -115,7 +115,7 @@ class LightTest : public QObject {
     const Opened opened;
     QVERIFY(opened.ready);
     QVERIFY2(opened.light_bar().startsWith("No light"), qPrintable(opened.light_bar()));
-    // Walls of one material differ by where they face; nothing is black.
+    // Walls of one material differ by their direction; nothing is black.
     const auto& colors = opened.window->colors.patch_colors();
     QSet<int> brightness;
     for (PatchId i = 0; i < 6; ++i) {
@@ -225,7 +225,7 @@ class LightTest : public QObject {
       QVERIFY(saved->reflectance(i) == expected.reflectance);
       QVERIFY(saved->patch(i).normal == opened.scene().patch(i).normal);
     }
-    // Its own files are not overwritten.
+    // The scene's own files are not overwritten.
     QVERIFY_EXCEPTION_THROWN(exports.write_scene_file(opened.path), InputError);
   }
 
@@ -243,7 +243,7 @@ class LightTest : public QObject {
     }
   }
 
-  /// The solve was that of the file: B = 0 everywhere, "good enough: error at most 0 %".
+  /// The solve used the materials of the file: B = 0 everywhere, "good enough: error at most 0 %".
   void a_lamp_made_here_is_solved() {
     const Opened opened;
     QVERIFY(opened.ready);
@@ -293,7 +293,7 @@ class LightTest : public QObject {
     QVERIFY(opened.orientation_bar().isEmpty());
     QVERIFY(!view.previews_turn());
     save_picture(*opened.window, "turned-back");
-    // Sessions keep it.
+    // Sessions keep the change.
     const QString session = opened.folder.filePath("s.json");
     opened.window->files().save_session(session);
     const auto other = make_window(16);

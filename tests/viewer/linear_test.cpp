@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Solves and results whose B is linear on patches, in the window: every pixel of the scene has the
-// color of B at its point, the plate and the inspector tell B at a point and the coefficients.
+// color of B at its point, the plate and the inspector show B at a point and the coefficients.
 #include <QAction>
 #include <QComboBox>
 #include <QLabel>
@@ -32,7 +32,7 @@ struct LinearWindow : SolvedWindow {
   explicit LinearWindow(const SolveOptions& options = linear_options)
       : SolvedWindow("cornell-box", options) {
     window->runner.run();
-    scene_view->set_outlines_shown(false);  // also those of the convex pieces of a patch
+    scene_view->set_outlines_shown(false);  // also outlines of the convex pieces of a patch
     ready = ready && settles([this] { return window->runner.state() == RunState::finished; });
   }
 
@@ -61,14 +61,14 @@ constexpr int most_difference = 2;  // rounding
 struct Compared {
   int pixels = 0;    ///< compared
   int largest = 0;   ///< difference of a channel, of 255
-  int others = 0;    ///< pixels of which it is more than most_difference
+  int others = 0;    ///< pixels with a difference of more than most_difference
   int negative = 0;  ///< where B is below 0 in a channel
 };
 
 /// Compares pixels inside patches with the colors of B at their points. The point of a pixel is
-/// known to a pixel, and near 0 a gamma is steep: a pixel may have any color of those around it.
+/// known to a pixel, and near 0 a gamma is steep: a pixel may have any of the colors around it.
 /// @param scale  pixels of the picture per pixel of the canvas
-/// @param dimmed  patches that are dimmed; empty: none
+/// @param dimmed  whether each patch is dimmed; empty if none is
 Compared compare(const SceneView& view, const ColorChoice& colors, const QImage& picture,
                  int scale = 1, const std::vector<bool>& dimmed = {}) {
   Compared result;
@@ -147,7 +147,7 @@ class LinearTest : public QObject {
   Q_OBJECT
 
  private slots:
-  // What somebody sees first who has chosen nothing.
+  // The scene that a user sees first who has chosen nothing.
   void cards_of_coarse_scenes_open_soft() {
     auto window = make_window(64);
     const auto open_card = [&](const char* name) {
@@ -176,7 +176,7 @@ class LinearTest : public QObject {
     QVERIFY(open_card("cornell-box"));
     QVERIFY(basis() == Basis::constant);
     QVERIFY(window->snapshot()->options.engine == Engine::zbuffer);
-    // What the user has chosen stays.
+    // The options that the user has chosen stay.
     window->set_options({.directions = 16, .basis = Basis::linear}, {});
     QVERIFY(open_card("rooms"));
     QVERIFY(open_card("furnace"));
@@ -294,7 +294,7 @@ class LinearTest : public QObject {
     const Compared all = compare(*view, window->colors, view->picture(1));
     QVERIFY2(all.pixels > 500 && all.largest <= most_difference, qPrintable(text_of(all)));
 
-    // Written again, it is the same.
+    // The result is the same after it is written again.
     const QString again = folder.filePath("again.vtp");
     window->findChild<ExportActions*>()->write_result(again);
     QVERIFY(wait_for([&] { return !window->findChild<ExportActions*>()->writing(); }));
@@ -311,7 +311,7 @@ class LinearTest : public QObject {
     QVERIFY(shown.ready);
     auto* smooth = shown.part<QAction>("show_smooth");
     QVERIFY(!smooth->isEnabled() && smooth->toolTip().contains("linear"));
-    // Of the same solve, form factors and H are constant on patches.
+    // Form factors and H of the same solve are constant on patches.
     shown.window->colors.set_quantity(Quantity::irradiance);
     QVERIFY(smooth->isEnabled() && !shown.window->colors.linear());
     shown.scene_view->set_direction_shown(false);
@@ -323,7 +323,7 @@ class LinearTest : public QObject {
     QVERIFY(comes_to_rest(*shown.window));
     const int smoothed = spread_within_a_patch(*shown.scene_view, shown.scene_view->picture(1));
     QVERIFY2(smoothed > 10, qPrintable(QString::number(smoothed)));
-    // Linear again: as without it.
+    // For linear functions, the picture is again the same as without smooth shading.
     shown.window->colors.set_quantity(Quantity::radiosity);
     const Compared all =
         compare(*shown.scene_view, shown.window->colors, shown.scene_view->picture(1));

@@ -45,7 +45,7 @@ class OpeningTest : public QObject {
     QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
     const int at = solved.window->snapshot()->progress.direction;
     QVERIFY(solved.text("phase").startsWith("Paused"));
-    // The next pass is the one after it: none was made meanwhile.
+    // No other pass was made in between: the next pass follows directly.
     solved.trigger("one_direction");
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction > at; }));
     QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));

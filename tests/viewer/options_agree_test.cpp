@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Random sets of options: the command line of `solve`, that of the viewer, a session, the copied
-// command and the statistics say the same, or all refuse the set for the same reason.
+// Random sets of options: the command lines of `solve` and of the viewer, a session, the copied
+// command and the statistics agree, or all refuse the set for the same reason.
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -25,13 +25,13 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What a front end makes of a set of options.
+/// The options that a front end makes of a set of words, or its refusal.
 struct Outcome {
-  std::string refusal;  ///< empty: accepted
+  std::string refusal;  ///< empty if accepted
   RunOptions options;
 };
 
-/// As the command `solve` parses its options.
+/// Parses options like the command `solve`.
 Outcome by_command_line(const Words& words) {
   Outcome outcome;
   CLI::App app;
@@ -79,7 +79,7 @@ class Draw {
   double number(double low, double high) {
     return low + (high - low) * static_cast<double>(random_() >> 11U) * 0x1p-53;
   }
-  /// A value of an option, now and then one that it refuses.
+  /// A value of an option; sometimes the option refuses it.
   std::string value_of(const Option& option) {
     if (below(60) == 0) {
       return "-7";
@@ -150,11 +150,11 @@ Words words_of(const std::string& line) {
   return words;
 }
 
-/// Without what a session does not store: of the computer, not of the run.
+/// The options without the ones that a session does not store, which depend on the computer.
 RunOptions stored(RunOptions options) {
   options.solve.memory = 0;
   options.solve.threads = 0;
-  options.input.patches = 0;  // once the scene is loaded, the area says it
+  options.input.patches = 0;  // once the scene is loaded, the area replaces it
   return options;
 }
 

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Groups" (powers by group and material, what is done with their patches), the sky of an
-// open scene, and the share of sky of each patch.
+// The panel "Groups" (powers by group and material, actions on their patches), the sky of an open
+// scene, and the share of sky of each patch.
 #include <QAction>
 #include <QApplication>
 #include <QClipboard>
@@ -286,7 +286,7 @@ class PartsTest : public QObject {
     QVERIFY(model->isEnabled() && !up->isEnabled());
     model->setCurrentIndex(1);
     QVERIFY(up->isEnabled());
-    QCOMPARE(up->currentText(), QString("+y"));  // as files usually have it
+    QCOMPARE(up->currentText(), QString("+y"));  // the usual vertical of files
     up->setCurrentIndex(0);
     const Sky expected{{100, 100, 100}, SkyModel::cie_overcast, {0, 0, 1}};
     QVERIFY(shown.window().parts().settings.solve_options().sky == expected);
@@ -355,7 +355,7 @@ class PartsTest : public QObject {
     QVERIFY(max_abs(at(snapshot->radiosity, 0)) > 0);
     QVERIFY(max_abs(paths.radiosity - at(snapshot->radiosity, 0)) <
             1e-6 * max_abs(at(snapshot->radiosity, 0)));
-    // Some begin at a patch that emits nothing.
+    // Some paths begin at a patch that emits nothing.
     QVERIFY(std::any_of(paths.paths.begin(), paths.paths.end(), [&](const LightPath& path) {
       return max_abs(snapshot->loaded->scene->exitance(path.patches.front())) == 0;
     }));
@@ -368,7 +368,7 @@ class PartsTest : public QObject {
         wait_for([&] { return !shown.window().findChild<QSlider*>("sky_slider")->isEnabled(); }));
     const auto* note = shown.window().findChild<QLabel*>("sky_note");
     QVERIFY(note->text().contains("closed"));
-    // Also where the panel has only just the width that it needs.
+    // This holds even if the panel has just the width that it needs.
     auto* settings = shown.window().findChild<QDockWidget*>("settings_dock");
     shown.window().resizeDocks({settings}, {1}, Qt::Horizontal);
     QCoreApplication::processEvents();

@@ -167,7 +167,7 @@ class PatchTableTest : public QObject {
       irradiance += values("F_ij")[k].r * at(box_->radiosity, rows.patches[k]);
     }
     QVERIFY(max_abs((1 / scene.patch(i).area) * received - irradiance) < 1e-12);
-    // What i sends to j is what j receives from i.
+    // The power that i sends to j is the power that j receives from i.
     const PatchId j = rows.patches.front();
     const Filled back(rows_of_partners(*box_, j));
     const int row = back.table.row_of(i);

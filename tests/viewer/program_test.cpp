@@ -39,7 +39,7 @@ class Program {
   void start() { process_.start("/bin/sh", arguments_); }
   /// Whether it runs, and a set of its signals in /proc, such as "SigCgt", contains `number`.
   bool has_signal(const QByteArray& set, int number) const {
-    // Before, the process is a copy of this one, with its handlers, then the shell.
+    // Until then, the process is a copy of this one, with its handlers, and then the shell.
     const QFileInfo program(QString("/proc/%1/exe").arg(process_.processId()));
     if (program.canonicalFilePath() != QFileInfo(TRANSILLUM_VIEWER).canonicalFilePath()) {
       return false;
@@ -57,7 +57,7 @@ class Program {
     return false;
   }
   void send(int number) const { ::kill(static_cast<pid_t>(process_.processId()), number); }
-  /// The exit status; -1: killed by a signal, or still running.
+  /// The exit status; -1 if it was killed by a signal or still runs.
   int status(int milliseconds = 60000) {
     if (!process_.waitForFinished(milliseconds) || process_.exitStatus() != QProcess::NormalExit) {
       return -1;
@@ -99,7 +99,7 @@ class ProgramTest : public QObject {
     QFETCH(const int, number);
     Program program({"furnace", "-m", "100000"});
     program.start();
-    // The last that the viewer catches; a library may catch the others earlier.
+    // The last signal that the viewer catches; a library may catch the others earlier.
     QTRY_VERIFY_WITH_TIMEOUT(program.has_signal("SigCgt", SIGTERM), 30000);
     program.send(number);
     QCOMPARE(program.status(), 128 + number);
@@ -130,7 +130,7 @@ class ProgramTest : public QObject {
   void damaged_settings_do_not_prevent_a_start_data() {
     QTest::addColumn<QByteArray>("state");
     QTest::newRow("nothing of ours") << QByteArray("abc");
-    // As Qt writes it, damaged so that Qt crashed.
+    // A state that Qt wrote, damaged so that Qt crashed.
     QTest::newRow("Qt's own") << QByteArray::fromBase64(
         "AAAA/wAAAAf9AAAAAwAAAAAAAAFeAAADA/wCAAAACPsAAAAWAGwAZQBzAHMAbwBuAF8AZABvAGMAawAAAAAA");
   }

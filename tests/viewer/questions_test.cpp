@@ -84,7 +84,7 @@ struct Class {
     QVERIFY(wait_for([this] { return box->solved() != nullptr; }));
   }
   int counted(const QString& answer) const { return counts().value(answer); }
-  // As in the file.
+  // The counts in the file.
   QMap<QString, int> counts() const {
     QMap<QString, int> all;
     for (const QString& name : QStringList{folder.filePath("mine.tally.json")}) {
@@ -196,7 +196,7 @@ class QuestionsTest : public QObject {
         break;
       case Question::Kind::area: {
         QVERIFY(solved.value > 0 && !solved.region.empty());
-        GivenAnswer box;  // its bounding box is not enough, nor is nothing
+        GivenAnswer box;  // the bounding box of the region is not right, nor is an empty region
         Vec2 low = solved.region[0][0], high = low;
         for (const auto& part : solved.region) {
           for (const Vec2& p : part) {
@@ -212,12 +212,13 @@ class QuestionsTest : public QObject {
     }
   }
 
-  // In a scene whose figures are known: six faces of a cube in six of another, in the furnace.
+  // In the furnace, the figures are known: six faces of a cube inside six faces of another.
   void figures_have_known_values() {
     QCOMPARE(value_of(R"({"figure": "patches"})"), 12.0);
     QCOMPARE(value_of(R"({"figure": "steps"})"), 12.0);
     QCOMPARE(value_of(R"({"figure": "directions"})"), 64.0);
-    // Closed: what a patch sees adds up to its projection; the factors to about 1.
+    // The scene is closed: the areas that a patch sees add up to its projection, the form factors
+    // to about 1.
     for (int i = 0; i < 12; ++i) {
       const std::string n = std::to_string(i);
       const double seen =
@@ -241,8 +242,8 @@ class QuestionsTest : public QObject {
     QCOMPARE(value_of(R"({"figure": "function-error", "with": {"basis": "linear"},
         "patch-area": 1, "reference-area": 1})"),
              0.0);
-    // All patches of the furnace emit, so that B - E of all counts. It is uniform up to the error
-    // of the directions.
+    // All patches of the furnace emit, so that B - E of all patches counts. B - E is uniform up to
+    // the error of the directions.
     const double error = value_of(R"({"figure": "function-error", "reference-area": 1})");
     QVERIFY2(error > 0 && error < 1e-3, qPrintable(QString::number(error)));
     QVERIFY(value_of(R"({"figure": "jump", "patch": 3})") >= 0);
@@ -320,7 +321,7 @@ class QuestionsTest : public QObject {
     room.reveal();
     QVERIFY(room.text("question_result").contains("Right"));
     QVERIFY(room.settles());
-    QVERIFY(room.window->colors.quantity() == Quantity::radiosity);  // as the page reveals
+    QVERIFY(room.window->colors.quantity() == Quantity::radiosity);  // the page reveals it
     QCOMPARE(room.window->selection.patch(), PatchId{12});
     room.action("question_reveal")->trigger();
     QVERIFY(room.settles());
@@ -349,7 +350,7 @@ class QuestionsTest : public QObject {
     QVERIFY(room.text("question_result").contains("Not this time"));
     QVERIFY(room.text("question_result").contains("100 %"));
     room.action("question_reveal")->trigger();
-    // With a decimal comma.
+    // The number has a decimal comma.
     QTest::keyClicks(number, "104,5");
     room.reveal();
     QVERIFY(room.text("question_result").contains("Right"));
@@ -436,7 +437,7 @@ class QuestionsTest : public QObject {
     };
     QVERIFY(brightness(0) > 1.5 * brightness(1) && brightness(1) > 1.02 * brightness(2));
     save_picture(*room.window, "lesson-errors");
-    // Another page: nothing is measured until the user asks; a click stops it.
+    // On another page, nothing is measured until the user asks; a click stops the measurement.
     room.open_built_in(1, 1);
     QVERIFY(!view->result());
     room.window->parts().docks.bring_to_front("error");
@@ -477,7 +478,7 @@ class QuestionsTest : public QObject {
         R"({"kind": "number", "ask": "?", "answer": {"figure": "radiosity"}})", "one number");
     row("no patch to find", R"({"kind": "patch", "ask": "?", "answer":
         {"largest": {"figure": "radiosity", "patch": 1}}})",
-        "leave out the patch");
+        "omit the patch");
     row("no region", R"({"kind": "area", "ask": "?", "answer": {"figure": "patches"}})",
         "visible-area");
     row("option", R"({"kind": "number", "ask": "?", "answer":
@@ -485,7 +486,7 @@ class QuestionsTest : public QObject {
         "answer, with");
     row("scene option", R"({"kind": "number", "ask": "?", "answer":
         {"figure": "iterations", "with": {"max-patch-area": 3}}})",
-        "not those of the scene");
+        "not of the scene");
     row("reference", R"({"kind": "number", "ask": "?", "answer": {"figure": "function-error"}})",
         "reference-area");
     row("within", R"({"kind": "number", "ask": "?", "within": 0, "answer": {"figure": "steps"}})",

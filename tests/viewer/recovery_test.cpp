@@ -140,7 +140,7 @@ class RecoveryTest : public QObject {
       w.recovery.keep();
       const QStringList files = QDir(folder.path()).entryList({"*.json"});
       QCOMPARE(files.size(), 1);
-      // A program that is killed leaves its file, and no lock that is held.
+      // A program that is killed leaves its file, and a lock that nothing holds.
       QVERIFY(QFile::copy(folder.filePath(files[0]), kept));
       radiosity = window->snapshot()->radiosity;
     }
@@ -217,7 +217,7 @@ class RecoveryTest : public QObject {
     row("a dropped scene", "room.obj", "Open");
     row("a dropped session", "session.json", "Open");
     row("a lesson", "lesson_next", "Begin the lesson");
-    row("a kept session", "restore_session", "Go on");
+    row("a kept session", "restore_session", "Continue");
   }
   // Each way to lose a long solve asks once; Cancel keeps the solve, the button loses it.
   void asks_before_another_scene_replaces_long_work() {

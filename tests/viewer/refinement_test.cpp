@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Rounds of refinement in the viewer: the runner makes the same ones as refine() of the library,
+// Rounds of refinement in the viewer: the runner makes the same rounds as refine() of the library,
 // the window shows the patches of each, and they are part of sessions, lessons and commands.
 #include "transillum/refinement.h"
 
@@ -230,7 +230,7 @@ class RefinementTest : public QObject {
     QVERIFY2(watched.failure.contains("engine hemicube"), qPrintable(watched.failure));
   }
 
-  // The rounds are made again; the solve after them goes on where it was.
+  // The rounds are made again; the solve after them continues where it was.
   void goes_on_with_a_checkpoint_of_the_refined_scene() {
     const QTemporaryDir folder;
     const std::string mine = folder.filePath("mine.tck").toStdString();
@@ -252,7 +252,7 @@ class RefinementTest : public QObject {
     WatchedRounds watched;
     watched.runner.resume_from(left.toStdString());
     watched.open(few, choice, {Goal::Kind::passes, 1});
-    // It has more than the one pass that was asked for.
+    // The solve has more than the one pass that was asked for.
     QVERIFY(watched.reaches(
         [](const SolverSnapshot& s) { return !s.refinement.left && s.progress.direction == 25; }));
     QVERIFY(!QFile::exists(left));
@@ -297,7 +297,8 @@ class RefinementTest : public QObject {
     QVERIFY(w.text("scene_summary").contains(QString("%1 patches").arg(patches.back())));
     save_picture(*w.window, "refined");
 
-    // The same as the library, with the materials, the tree and the picker of the new patches.
+    // The scene is the same as by the library, with the materials, the tree and the picker of the
+    // new patches.
     const Refinement expected = refine(cornell_box(), few, {RefineBy::jump, 100, 0});
     QVERIFY(w.window->snapshot()->radiosity == solve(expected.scene, few).radiosity);
     const Solution result = solution_of(*w.window->snapshot());
@@ -324,7 +325,7 @@ class RefinementTest : public QObject {
     const RefinedWindow w;
     w.start("Jumps", 20000);
     auto* cancel = w.part<QPushButton>("cancel_rounds");
-    // Far enough for an estimate of the time.
+    // The rounds are advanced enough for an estimate of the time.
     QVERIFY(wait_for([&] {
       const auto snapshot = w.window->snapshot();
       return snapshot && snapshot->statistics.refinement.size() >= 4 && cancel->isVisible();
@@ -343,7 +344,7 @@ class RefinementTest : public QObject {
     qInfo("canceled in %lld ms", timer.elapsed());
     QCOMPARE(w.window->snapshot()->loaded->scene->patch_count(), 27);
     QVERIFY(w.window->banner_text().isEmpty());
-    // It can be started again.
+    // The refinement can be started again.
     w.part<QSpinBox>("refine_patches")->setValue(60);
     w.part<QPushButton>("restart")->click();
     QVERIFY(w.finishes());
@@ -380,7 +381,7 @@ class RefinementTest : public QObject {
     QCOMPARE(w.window->relighting.edits().changes().size(), std::size_t{1});
     w.start("Jumps", 60);
     QVERIFY(w.finishes());
-    // They are those of the scene now, which is solved and divided with them.
+    // The changed materials now belong to the scene, which is solved and divided with them.
     QVERIFY(w.window->relighting.edits().changes().empty());
     const SolverSnapshot& snapshot = *w.window->snapshot();
     QVERIFY(!snapshot.materials);
@@ -434,7 +435,7 @@ class RefinementTest : public QObject {
     QVERIFY(!panel.differ_from_effect());
     panel.findChild<QSpinBox*>("refine_patches")->setValue(346);
     QVERIFY(panel.differ_from_effect());
-    // That of a result file.
+    // The panel of a result file has no rounds.
     panel.set_scene_fixed(true);
     QVERIFY(!panel.refinement().is_set());
     QVERIFY(!until->isVisibleTo(&panel));
@@ -460,7 +461,7 @@ class RefinementTest : public QObject {
     QVERIFY(with_option(limits, "refine-by", R"("error")").refine == by(RefineBy::error, 300));
   }
 
-  // Its patches would not be those that the answer is about.
+  // The page would not have the patches that the answer is about.
   void lessons_ask_nothing_about_refined_patches() {
     const char* question =
         R"({"title": "t", "pages": [{"title": "p", "text": "{r}",

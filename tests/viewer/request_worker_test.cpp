@@ -19,7 +19,7 @@ namespace transillum::viewer::request_worker_test {
 
 namespace {
 
-/// What a worker did: written on its thread, read by the test.
+/// The actions of a worker: written on its thread, read by the test.
 class Log {
  public:
   void add(int number, const QString& text = {}) {

@@ -65,7 +65,7 @@ class ResultTest : public QObject {
     QVERIFY(wait_for([&] { return window->runner.state() == RunState::finished; }));
     QVERIFY(settles(*window));
     QVERIFY(!window->snapshot()->of_file);
-    // The same patches, options and sums.
+    // The new run has the same patches, options and sums.
     QVERIFY(window->snapshot()->radiosity == written_.radiosity);
     QVERIFY(!window->findChild<QLabel*>("color_note")->isVisible());
 

@@ -32,7 +32,8 @@ class SceneDrawingTest : public QObject {
     QVERIFY(shown.ready);
     shown.trigger("show_direction");
     QWidget* canvas = shown.scene_view->canvas();
-    // The panel of the patch becomes as wide as its numbers: the scene keeps its place beside it.
+    // The panel of the patch becomes as wide as its numbers, and the scene keeps its place beside
+    // it.
     shown.scene_view->setFixedSize(shown.scene_view->size());
     const PatchId front = shown.scene_view->patch_at(canvas->rect().center());
     QVERIFY(front != no_patch);
@@ -57,7 +58,7 @@ class SceneDrawingTest : public QObject {
     QCOMPARE(patches_seen(), all);
     shown.trigger("isolate_selection");
     QCOMPARE(patches_seen(), QSet<PatchId>{front});
-    shown.trigger("show_smooth");  // the other mesh leaves them out too
+    shown.trigger("show_smooth");  // the other mesh omits them too
     const double background = share_of(shown.picture(), theme::scene_background);
     shown.trigger("show_all");
     const double around = share_of(shown.picture(), theme::scene_background);
@@ -132,7 +133,7 @@ class SceneDrawingTest : public QObject {
     const QImage before = shown.picture();
     shown.trigger(name);
     const QImage with = shown.picture();
-    // A line of a tenth of the width at least.
+    // The line has at least a tenth of the width.
     const double least = 0.1 * with.width() / (with.width() * with.height());
     const double shares[] = {share_of(before, color), share_of(with, color)};
     QVERIFY2(shares[1] > shares[0] + least,
@@ -160,7 +161,7 @@ class SceneDrawingTest : public QObject {
     shown.trigger("show_direction");
     shown.part<QComboBox>("clip_axis")->setCurrentIndex(3);
     auto* place = shown.part<QSlider>("clip_place");
-    // The number of pixels that an overlay draws, with all else as it is.
+    // The number of pixels that an overlay draws; nothing else changes.
     const auto drawn = [&shown](const char* overlay) {
       const QImage without = shown.picture();
       shown.trigger(overlay);
@@ -213,7 +214,7 @@ class SceneDrawingTest : public QObject {
       test::drag(*canvas, middle, by);
       return shown.scene_view->view_point();
     };
-    const auto tilt = [](const ViewPoint& view) {  // of the horizon in the picture
+    const auto tilt = [](const ViewPoint& view) {  // tilt of the horizon in the picture
       const Vec3 right = normalized(cross(view.target - view.eye, view.up));
       return std::abs(right.z);
     };

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// How scene files are read (units, orientation), which is remembered for each file, and results
-// exported as colors for other programs, with their preview.
+// The reading of scene files (units, orientation), which is remembered for each file, and the
+// export of results as colors for other programs, with its preview.
 #include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
@@ -249,7 +249,7 @@ class SceneFilesTest : public QObject {
     QVERIFY(std::abs(width(*window) - 0.04) < 1e-12);
     QVERIFY(open_by(*window, {"--units", "m"}));
     QCOMPARE(width(*window), 4.0);
-    // Which is what was chosen last.
+    // The usual reading was chosen last, so nothing is remembered.
     QCOMPARE(window->files().reading().size(), 0);
     QVERIFY(open_by(*window, {}));
     QCOMPARE(width(*window), 4.0);
@@ -274,7 +274,8 @@ class SceneFilesTest : public QObject {
                        ? "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nf 1 2 3\nf 6 5 4\n"
                        : contents_of(corpus).mid(1));
     const auto window = make_window(16);
-    // Over the scene, where a user drops it: the child under the pointer leaves it to the window.
+    // The file is dropped over the scene: the child under the pointer leaves the event to the
+    // window.
     auto* under = window->childAt(window->rect().center());
     QVERIFY(under);
     QVERIFY(drop_file(*window, path) && !under->acceptDrops());

@@ -93,7 +93,7 @@ class ScreenshotTest : public QObject {
     QCOMPARE(outcome.error, QByteArray());
     QCOMPARE(outcome.status, 0);
     QCOMPARE(test::contents_of(path).count("<section>"), 2);
-    // A folder in its place.
+    // A folder has the name of the file.
     QVERIFY(QDir(folder.path()).mkdir("b.html"));
     const Outcome refused = export_to(folder.filePath("b.html"));
     QCOMPARE(refused.status, 1);

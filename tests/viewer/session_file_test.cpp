@@ -456,7 +456,7 @@ class SessionFileTest : public QObject {
     QVERIFY(settles(*window) && window->snapshot()->radiosity.size() == 4);
     window->selection.select(2);
     window->findChild<QAction*>("watch")->setChecked(true);
-    // As programs do that write a new file and rename it.
+    // Replaces the file like programs that write a new file and rename it.
     write_file(path + ".new", QByteArray(triangle_room) + "f 1 2 3\n");
     QVERIFY(QFile::remove(path) && QFile::rename(path + ".new", path));
     QVERIFY(wait_for([&] { return window->snapshot()->radiosity.size() == 5; }, 10000));

@@ -53,7 +53,7 @@ struct Watched {
                            longest_ms);
   }
   // Whether all commands so far are done, and nothing else is: a load that fails leaves the goal as
-  // it is, and another state than that of loading follows when the runner has no goal any more.
+  // it is, and a state other than loading follows when the runner has no goal any more.
   bool handles_all() {
     failure.clear();
     open("/no/such/scene.obj", 16);
@@ -98,7 +98,7 @@ class SolveRunnerTest : public QObject {
     QVERIFY(std::abs(power / area / (5 * 10.0 / 94) - 1) < 0.01);
   }
 
-  // A killed program leaves its checkpoint. The next one goes on where that was saved.
+  // A killed program leaves its checkpoint. The next one continues from there.
   void goes_on_with_the_checkpoint_of_another_program() {
     const QTemporaryDir folder;
     const std::string mine = folder.filePath("mine.tck").toStdString();
@@ -128,7 +128,7 @@ class SolveRunnerTest : public QObject {
     QVERIFY(watched.snapshot->radiosity == radiosity);
   }
 
-  // It is of other options, or damaged: the solve begins at its beginning.
+  // The checkpoint is of other options, or damaged: the solve starts from the beginning.
   void a_checkpoint_that_does_not_fit_is_left_out() {
     const QTemporaryDir folder;
     const QString left = folder.filePath("left.tck");
@@ -216,7 +216,7 @@ class SolveRunnerTest : public QObject {
     QCOMPARE(last.error.rms_limit, last.accuracy->error);
   }
 
-  // The time ends in the middle of a stage, most likely: the one before is the result.
+  // The time most likely ends in the middle of a stage: the previous stage is the result.
   void a_limit_of_time_ends_with_a_finished_stage() {
     Watched w;
     SolveOptions options;
@@ -265,7 +265,7 @@ class SolveRunnerTest : public QObject {
     w.runner.open({"furnace", {options}, {Goal::Kind::finished}});
     QVERIFY(w.reaches(RunState::finished));
     QVERIFY(w.snapshot->statistics.converged);
-    QCOMPARE(w.snapshot->estimate_changes.size(), std::size_t{64});  // of the iteration with passes
+    QCOMPARE(w.snapshot->estimate_changes.size(), std::size_t{64});  // one per pass
     for (const Rgb& b : w.snapshot->radiosity) {
       QVERIFY(std::abs(b.g - 2) < 1e-5);
     }
@@ -319,7 +319,7 @@ class SolveRunnerTest : public QObject {
       return p.iteration == iteration && p.direction == direction;
     }));
     QCOMPARE(w.snapshot->passes_done, std::int64_t{passes});
-    // It stays paused: the goal is already reached.
+    // The solve stays paused: the goal is already reached.
     w.runner.set_goal({Goal::Kind::passes, passes});
     QVERIFY(w.handles_all());
     QCOMPARE(w.snapshot->progress.direction, direction);

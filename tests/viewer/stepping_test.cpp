@@ -192,7 +192,7 @@ class SteppingTest : public QObject {
     const Stepping s("boards");
     QVERIFY(s.ready);
     s.trigger("map_newell");
-    // Along some directions there is an order.
+    // Along some directions, an order exists.
     std::string failure;
     for (int k = 0; k < s.focus.passes() && failure.empty(); ++k) {
       s.focus.go_to({0, k, 2});
@@ -357,7 +357,7 @@ class SteppingTest : public QObject {
     QCOMPARE(turned.count(), 2);
     QVERIFY(norm(s.scene_view->view_point().eye - before.eye) > 0);
 
-    // Polygons go on into the next direction; a second click stops.
+    // The animation of polygons continues into the next direction; a second click stops it.
     play.set_by(PlayControl::By::polygons);
     focus.go_to({0, 2, 0});
     QVERIFY(wait_for([&] { return window.settled() && play.action()->isEnabled(); }));
@@ -368,7 +368,7 @@ class SteppingTest : public QObject {
     handle_posted();
     QVERIFY(!play.playing() && focus.target() == stopped);
 
-    // Once started it can be stopped, but not started, while there is no direction to show.
+    // While there is no direction to show, the animation can be stopped, but not started.
     s.trigger("play");
     focus.begin_run(0);
     QVERIFY(play.action()->isChecked() && play.action()->isEnabled());

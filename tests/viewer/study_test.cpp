@@ -62,7 +62,7 @@ class StudyTest : public QObject {
   void engines_are_compared_against_seconds() {
     const Shown shown("cornell-box");
     const auto* fast = shown.dialog->findChild<QCheckBox*>("study_engine_fast");
-    QVERIFY(fast->isChecked());  // that of the solve
+    QVERIFY(fast->isChecked());  // the engine of the solve
     shown.choose("engine_rays", true);
     shown.choose("random", false);
     shown.study();
@@ -138,7 +138,7 @@ class StudyTest : public QObject {
     QCOMPARE(shown.run()->text(), QString("Run the study"));
   }
 
-  /// Without a study: by the bounds, and from the run.
+  /// Without a study, the numbers follow from the bounds and from the run.
   void figures_show_the_directions_for_one_percent() {
     const auto window = make_window();
     window->set_options({.directions = 96, .replicas = 4}, {});
@@ -152,7 +152,8 @@ class StudyTest : public QObject {
              qPrintable(text("summary_bound")));
   }
 
-  /// The directions of a replica hardly meet the small sources: its row gave errors alone.
+  /// The directions of a replica hardly meet the small sources. Earlier, the row showed only
+  /// errors.
   void figures_name_errors_that_cannot_be_trusted() {
     const auto window = make_window();
     const auto* row = window->findChild<QLabel*>("summary_error");
@@ -184,7 +185,7 @@ class StudyTest : public QObject {
   }
 
   void changes_stay_below_the_prediction() {
-    // For a scene of higher reflectance eq. 21 gives no bound with 64 directions.
+    // For a scene of higher reflectance, eq. 21 gives no bound with 64 directions.
     const SolvedWindow shown("furnace");
     shown.window->runner.run();
     QVERIFY(wait_for([&] { return shown.window->snapshot()->progress.finished; }));
@@ -205,7 +206,8 @@ class StudyTest : public QObject {
     shown.window->open("furnace");
     QVERIFY(wait_for([&] { return shown.dialog->snapshot() == nullptr; }));
     QCOMPARE(shown.run()->text(), QString("Run the study"));
-    // The last figures of the ended study come before the first of the next one: none is shown.
+    // The last snapshot of the ended study comes before the first one of the next study: it is not
+    // shown.
     shown.choose("16384", false);
     shown.run()->click();
     bool others = false;

@@ -23,7 +23,7 @@ inline QString write_file(const QString& path, const QByteArray& text) {
   return path;
 }
 
-/// What a file holds; empty where it cannot be read.
+/// The content of a file; empty where it cannot be read.
 inline QByteArray contents_of(const QString& path) {
   QFile file(path);
   return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();

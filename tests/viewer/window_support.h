@@ -64,7 +64,7 @@ inline double share_of(const QImage& image, const QColor& color) {
   return static_cast<double>(close) / (image.width() * image.height());
 }
 
-/// The number of pixels that differ between two pictures of the same size; -1: of different sizes.
+/// The number of pixels that differ between two pictures; -1 if their sizes differ.
 inline int different_pixels(const QImage& a, const QImage& b) {
   if (a.size() != b.size()) {
     return -1;
@@ -86,8 +86,8 @@ inline bool is_inside(const SceneView& view, const QPoint& point, PatchId patch)
                      [&](const QPoint& offset) { return view.patch_at(point + offset) == patch; });
 }
 
-/// Of points of the scene that are inside of a patch, or of the background: the share of those
-/// whose pixels have the color that `color_of` gives for the patch, or no_patch. 0: no such points.
+/// The fraction of points inside patches, or inside the background, whose pixels have the color
+/// that `color_of` gives for the patch, or no_patch. It is 0 if there are no such points.
 inline double share_in_color(const SceneView& view,
                              const std::function<QColor(PatchId)>& color_of) {
   const QImage picture = view.canvas()->grab().toImage();
@@ -113,8 +113,8 @@ inline double share_in_color(const SceneView& view,
 }
 
 /// The share of points of the scene's picture that have the color of their patch, or of the
-/// background: nearly 1 where the picture is that of these colors, patches and camera. Lines and
-/// the plane of the direction cover some.
+/// background: nearly 1 where the picture has these colors, patches and camera. Lines and the plane
+/// of the direction cover some.
 inline double share_in_own_color(const SceneView& view, const ColorChoice& colors) {
   return share_in_color(view, [&colors](PatchId patch) {
     if (patch == no_patch) {
@@ -125,7 +125,7 @@ inline double share_in_own_color(const SceneView& view, const ColorChoice& color
   });
 }
 
-/// Drags from a point with the left button, in `steps` movements. Other than QTest::mouseMove(), it
+/// Drags from a point with the left button, in `steps` movements. Unlike QTest::mouseMove(), this
 /// does not move the pointer of the screen, whose events arrive at any time.
 inline void drag(QWidget& canvas, const QPoint& from, const QPoint& by, int steps = 4) {
   QTest::mousePress(&canvas, Qt::LeftButton, {}, from);
@@ -154,7 +154,7 @@ struct TestWindow : SharedState, MainWindow {
 };
 
 /// Whether a part of the window is about to change by itself: Qt moves docks by animations, and
-/// panels refresh after pauses, for which timers of theirs run.
+/// panels refresh after pauses, for which their timers run.
 inline bool changes_later(const QWidget& window) {
   const auto animations = window.findChildren<QAbstractAnimation*>();
   const auto timers = window.findChildren<QTimer*>();

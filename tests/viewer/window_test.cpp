@@ -203,7 +203,7 @@ class WindowTest : public QObject {
     const ViewPoint after = solved.scene_view->view_point();
     QVERIFY(after.target == before.target);
     QVERIFY(norm(after.eye - before.eye) > 0.1 * norm(before.eye - before.target));
-    // The picture is that of the new camera.
+    // The picture belongs to the new camera.
     QVERIFY(comes_to_rest(*solved.window));
     const double share = share_in_own_color(*solved.scene_view, solved.window->colors);
     QVERIFY2(share > 0.9, qPrintable(QString::number(share)));
@@ -316,7 +316,7 @@ class WindowTest : public QObject {
     QVERIFY2(too_large.isEmpty(), qPrintable(too_large.join("; ")));
   }
 
-  // Which they get late: they are hidden until a scene is shown.
+  // The controls get their height late: they are hidden until a scene is shown.
   void color_controls_get_their_height_in_windows_of_all_widths() {
     for (const int width : {1120, 1232, 1344, 1392, 1424, 1440, 1520, 1600}) {
       const auto window = make_window(8);
@@ -407,8 +407,8 @@ class WindowTest : public QObject {
     }
   }
 
-  // The strip that holds them follows the number of their rows, also where the width changes while
-  // the page is hidden or a bar appears above.
+  // The strip that holds the controls follows the number of their rows, also where the width
+  // changes while the page is hidden or a bar appears above.
   void color_controls_get_the_height_of_their_rows() {
     QWidget page;
     auto* column = new QVBoxLayout(&page);

@@ -1,10 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Exceptions on the threads of SolveRunner and of the map painter, at each place where they can
-// occur: the program goes on, the user gets a message, and the next request succeeds.
+// occur: the program continues, the user gets a message, and the next request succeeds.
 //
-// Two functions of the library are wrapped in this program by ones that first call a hook: one that
-// SolveRunner calls for each snapshot, one that the painter calls for each picture.
+// Two functions of the library are wrapped in this program by functions that first call a hook: one
+// that SolveRunner calls for each snapshot, one that the painter calls for each picture.
 #include <QTest>
 #include <atomic>
 #include <cstdlib>
@@ -46,7 +46,7 @@ class Hook {
 };
 Hook on_snapshot, on_picture;
 
-/// Of this thread: allocations that still succeed, and how many fail after those.
+/// Allocations of this thread that still succeed, and the number that fail after them.
 thread_local int allocations_left = -1, failing_allocations = 0;
 std::atomic<bool> allocations_may_fail = false;
 
@@ -246,8 +246,8 @@ class WorkerExceptionsTest : public QObject {
     QCOMPARE(w.failure, QString());
   }
 
-  // From each allocation after the snapshot's figures on, some fail: the first ones those of the
-  // snapshot, then those of its message, of the state, and of the message on the failure.
+  // Beginning with each allocation after the snapshot's figures, some fail: first allocations of
+  // the snapshot, then of its message, of the state, and of the message on the failure.
   void any_allocation_may_fail() {
     for (const int failing : {1, 4, 30}) {
       for (int allocation = 0; allocation < 40; ++allocation) {
@@ -268,7 +268,7 @@ class WorkerExceptionsTest : public QObject {
     }
   }
 
-  // Starting a run cancels the solver of the run before, which cannot go on any more.
+  // Starting a run cancels the solver of the previous run, which cannot continue any more.
   void a_run_that_could_not_start_is_tried_again() {
     Watched w;
     w.open({Goal::Kind::direction});

@@ -133,7 +133,7 @@ void ColorBar::mouseReleaseEvent(QMouseEvent* event) {
   const QRectF bar = bar_rect();
   const ColorScale& scale = colors_.scale();
   const auto value_at = [&](double y) { return scale.value_at((bar.bottom() - y) / bar.height()); };
-  // Beyond the ends of the bar are the values that its pointed ends stand for.
+  // A pointed end of the bar stands for the values beyond it.
   const double low = bottom >= bar.bottom() + 2 ? -HUGE_VAL : value_at(bottom);
   const double high = top <= bar.top() - 2 ? HUGE_VAL : value_at(top);
   std::vector<PatchId> patches;

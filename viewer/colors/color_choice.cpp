@@ -15,7 +15,7 @@ namespace transillum::viewer {
 
 namespace {
 
-// Without values to show: B in dark grays, so that the scene remains recognizable.
+// Shows B in dark grays where there are no values, so that the scene remains recognizable.
 void shade_gray(const Scene& scene, std::span<const Rgb> radiosity, std::vector<Color8>& colors) {
   ColorScale scale;
   scale.fit_exposure(scene, radiosity);
@@ -26,7 +26,7 @@ void shade_gray(const Scene& scene, std::span<const Rgb> radiosity, std::vector<
   }
 }
 
-// Quantities that are 0 everywhere if nothing emits.
+// Whether a quantity is 0 everywhere if nothing emits.
 bool needs_light(Quantity quantity) {
   return quantity == Quantity::radiosity || quantity == Quantity::exitance ||
          quantity == Quantity::irradiance || quantity == Quantity::eye_radiance ||
@@ -271,7 +271,8 @@ PatchValues ColorChoice::values_of_shown(const std::shared_ptr<const SolverSnaps
              : values_of(quantity_, *snapshot, selection_.patch(), other);
 }
 
-/// While a newer one is computed, the radiance of an older light of the scene.
+/// The radiance toward the eye. While it is being computed, the last radiance of an older light of
+/// the scene is shown.
 PatchValues ColorChoice::values_by_eye(const std::shared_ptr<const SolverSnapshot>& snapshot) {
   eye_radiance_.request({snapshot->glossy, eye_});
   const auto found = eye_radiance_.result();
@@ -314,7 +315,7 @@ PatchValues ColorChoice::values_of_kept(const std::shared_ptr<const SolverSnapsh
   if (traits_of(quantity_).by_eye && kept->glossy) {
     return values_by_eye(kept);
   }
-  // The tree is that of the open scene.
+  // The number of fragments comes from the tree of the open scene.
   const SolverSnapshot& shown = quantity_ == Quantity::fragments ? *snapshot_ : *kept;
   return values_of(quantity_, shown, selection_.patch(), nullptr);
 }
@@ -345,7 +346,8 @@ void ColorChoice::fit_range() {
     if (quantity_ == Quantity::reflectance) {
       scale_.exposure = 0;
     } else if (traits.by_eye) {
-      // By the mean over all directions: it stays the same while the camera moves.
+      // Fits the range to the mean over all directions, which stays the same while the camera
+      // moves.
       scale_.fit_exposure(scene, mean_radiance(*snapshot_));
     } else {
       scale_.fit_exposure(scene, values_.values);
@@ -374,7 +376,7 @@ void ColorChoice::fit_range() {
   if (!linear()) {
     return;
   }
-  // By the means, as of constant functions: one corner that overshoots does not set the range.
+  // The range follows the means of the patches: one corner that overshoots does not set it.
   std::vector<Rgb> corners;
   for (const double sign : {1.0, -1.0}) {
     const auto size = [this, sign](const Rgb& rgb) { return sign * scale_.value(rgb); };

@@ -46,12 +46,13 @@ class ColorChoice : public QObject {
   bool exposure_is_automatic() const { return automatic_; }
 
   void set_quantity(Quantity quantity);
-  /// Shows the radiance toward the eye in place of B, or B in place of it: what a run in which
-  /// lobes take part, or do not, is looked at by.
+  /// Switches between B and the radiance toward the eye, if one of them is shown: the radiance for
+  /// runs in which lobes take part, B for all others.
   void show_lobes(bool take_part);
   void set_mode(ColorMode mode);
   void set_map(ColorMap map);
-  /// Of the quantities that span decades like the one shown, or of the others.
+  /// Sets the choice for all quantities that span decades if the shown one does; else for all
+  /// others.
   void set_logarithmic(bool logarithmic);
   void set_range_rule(RangeRule rule);
   /// Sets a range with RangeRule::widening.
@@ -128,7 +129,7 @@ class ColorChoice : public QObject {
   ColorScale scale_;
   ColorMap map_ = default_color_map;
   bool logarithmic_ = false;         ///< the user's choice for most quantities
-  bool decades_logarithmic_ = true;  ///< that for quantities that span decades
+  bool decades_logarithmic_ = true;  ///< the user's choice for quantities that span decades
   RangeRule range_rule_ = RangeRule::automatic;
   bool range_is_known_ = false;  ///< the range was fitted since reset_range()
   bool automatic_ = true;
@@ -139,7 +140,8 @@ class ColorChoice : public QObject {
   PatchValues values_;
   std::vector<Color8> patch_colors_;
   Vec3 eye_;
-  std::shared_ptr<const GlossyLight> light_of_range_;  ///< that by_eye quantities were fitted to
+  std::shared_ptr<const GlossyLight> light_of_range_;  ///< the light that the range of by_eye
+                                                       ///< quantities was fitted to
   KeptResult<LightRequest, PatchResponse> response_;
   // While one is being computed, only the newest of later ones is kept.
   KeptResult<std::shared_ptr<const SolverSnapshot>, PatchJumps> jumps_;

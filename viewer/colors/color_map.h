@@ -18,7 +18,7 @@ enum class ColorMap { viridis, cividis, inferno, diverging };
 inline constexpr ColorMap default_color_map = ColorMap::viridis;
 /// Display names of the maps except `diverging`, in the order of the enumeration.
 const std::vector<std::string>& color_map_names();
-/// For values of 0 where they are marked; in no color map.
+/// The color of values of 0 where they are marked. No color map contains it.
 inline constexpr Color8 zero_color{0xbf, 0xc9, 0xd6};
 /// Evenly spaced colors of a map, 2 to 16; linear interpolation between them.
 std::span<const Color8> samples_of(ColorMap map);

@@ -20,8 +20,8 @@ QString text_on_file(const LoadedScene& loaded) {
              ? ColorNote::tr("Values from the file %1. Run (F5) solves its scene from the start.")
                    .arg(name)
              : ColorNote::tr(
-                   "Values from the file %1, of a solve run that was stopped early. Run (F5) "
-                   "solves its scene from the start.")
+                   "Values from the file %1, written by a solve run that was stopped early. "
+                   "Run (F5) solves its scene from the start.")
                    .arg(name);
 }
 

@@ -46,7 +46,7 @@ class ColorScale {
   /// Sets the range. Linear: from 0 to the brightest patch that does not emit, because a room is
   /// much darker than its light sources. Logarithmic: to the brightest patch.
   void fit_range(const Scene& scene, std::span<const Rgb> radiosity);
-  /// Sets the range by all values.
+  /// Fits the range to all values.
   /// @param balanced  symmetric around 0
   void fit_range(std::span<const Rgb> values, bool balanced = false);
   /// Changes the range as little as needed for low < high, and 0 < low if logarithmic.

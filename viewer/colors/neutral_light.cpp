@@ -19,7 +19,8 @@ bool has_light(const SolverSnapshot& snapshot) {
 }
 
 double neutral_brightness(const Vec3& normal) {
-  // From above in files whose up is z, and in those whose up is y. Unit, up to rounding.
+  // The light comes from above in files whose up is z and in files whose up is y. Unit, up to
+  // rounding.
   constexpr Vec3 toward_light{0.36, 0.62, 0.7};
   const double half = 0.5 + 0.5 * std::clamp(dot(normal, toward_light), -1.0, 1.0);
   return 0.25 + 0.75 * half * half;

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The plate beside the pointer, over the scene and over the map. Values come from ColorChoice and
-// its snapshot, so they are those of the colors shown.
+// its snapshot, so they agree with the colors shown.
 #include "colors/pointer_label.h"
 
 #include <QMouseEvent>
@@ -18,7 +18,8 @@ namespace transillum::viewer {
 
 namespace {
 
-// From the pointer's tip to the plate, logical pixels: past the arrow.
+// The distance from the pointer's tip to the plate, logical pixels: the plate does not cover the
+// arrow.
 constexpr QPoint offset{14, 18};
 
 QString value_text(const ColorChoice& colors, const QString& symbol, const Rgb& value) {
@@ -28,7 +29,7 @@ QString value_text(const ColorChoice& colors, const QString& symbol, const Rgb& 
   return QStringLiteral("%1  %2 %3").arg(symbol, number, QString::fromUtf8(traits.unit)).trimmed();
 }
 
-// The value of the quantity: one line, or of a linear one at a known point three.
+// The value of the quantity: one line, or three lines for a linear quantity at a known point.
 QStringList value_lines(const ColorChoice& colors, const PointedPatch& pointed) {
   const QString symbol = QString::fromUtf8(traits_of(colors.quantity()).symbol);
   const Rgb& mean = at(colors.values(), pointed.patch);
@@ -49,7 +50,7 @@ QString form_factor_text(const SolverSnapshot& snapshot, PatchId from, PatchId t
                                  : why_no_form_factors(snapshot));
 }
 
-// The patch to which a form factor is shown; no_patch without.
+// The patch to which a form factor is shown; no_patch if no form factor is shown.
 PatchId target_of(const ColorChoice& colors, PatchId patch) {
   const PatchId selected = colors.selection().patch();
   return selected == patch || selected >= colors.snapshot()->loaded->scene->patch_count()

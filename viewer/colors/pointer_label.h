@@ -16,9 +16,9 @@ struct PointedPatch {
   std::optional<Vec3> point = std::nullopt;
 };
 
-/// What is known about a patch in a few lines: its number, the shown quantity with its unit, of one
-/// that is linear on the patch the point, the value there and the mean; and its form factor to the
-/// selected patch, or why there is none yet.
+/// A few lines about a patch: its number, the shown quantity with its unit, and its form factor to
+/// the selected patch, or why there is none yet. If the quantity is linear on the patch, the lines
+/// show the point, the value there and the mean.
 QString pointer_text(const ColorChoice& colors, const PointedPatch& pointed);
 
 /// A plate beside the mouse pointer with pointer_text() of the patch under it, without delay.
@@ -31,7 +31,7 @@ class PointerLabel : public Plate {
   /// @param patch_at the patch drawn at a point of the canvas, logical pixels
   PointerLabel(const ColorChoice& colors, QWidget& canvas,
                std::function<PointedPatch(const QPoint&)> patch_at);
-  /// More lines, shown once the pointer has rested.
+  /// Further lines that are shown once the pointer has rested.
   void set_details(std::function<QString(const QPoint&)> details);
   /// To be called when the canvas shows something else.
   void point_again();

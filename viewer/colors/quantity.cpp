@@ -94,7 +94,7 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
   return result;
 }
 
-/// B/pi, the same in all directions.
+/// The radiance is B/pi, the same in all directions.
 PatchValues diffuse_radiance(const SolverSnapshot& snapshot) {
   constexpr double share = std::numbers::inv_pi;
   PatchValues result{snapshot.radiosity, {}, snapshot.linear_parts, snapshot.bases};
@@ -124,7 +124,7 @@ constexpr QuantityTraits all_traits[] = {
      .meaning = QT_TRANSLATE_NOOP(
          "Quantity",
          "Radiance that each patch sends from its center toward the camera: what the camera sees. "
-         "Of a diffuse patch B/π, from everywhere; lobes reflect differently toward each point"),
+         "A diffuse patch sends B/π in all directions; lobes reflect differently in each"),
      .section = "6.14",
      .is_light = true,
      .has_channels = true,
@@ -184,8 +184,8 @@ constexpr QuantityTraits all_traits[] = {
      .name = QT_TRANSLATE_NOOP("Quantity", "Share of sky"),
      .symbol = "sky",
      .meaning = QT_TRANSLATE_NOOP("Quantity",
-                                  "Share of the light leaving each patch that meets no other patch "
-                                  "and escapes; where no backs are seen, 1 − Σ F"),
+                                  "Fraction of the light leaving each patch that meets no other "
+                                  "patch and escapes; where no back sides are seen, 1 − Σ F"),
      .section = "6.8"},
     {.quantity = Quantity::origin,
      .name = QT_TRANSLATE_NOOP("Quantity", "What lights the selection"),
@@ -193,8 +193,8 @@ constexpr QuantityTraits all_traits[] = {
      .unit = "W/m²",
      .meaning = QT_TRANSLATE_NOOP(
          "Quantity",
-         "Part of the radiosity of the selected patch i that each patch j emits, by all light "
-         "paths; the parts sum to B_i"),
+         "Part of the radiosity of the selected patch i that comes from the emission of each patch "
+         "j, by all light paths; the parts sum to B_i"),
      .section = "6.7",
      .has_channels = true,
      .of_selection = true,
@@ -206,8 +206,8 @@ constexpr QuantityTraits all_traits[] = {
      .unit = "1/m²",
      .meaning = QT_TRANSLATE_NOOP(
          "Quantity",
-         "By how much the radiosity of the selected patch i rises per watt emitted on each patch "
-         "j, by all light paths"),
+         "Increase of the radiosity of the selected patch i per watt that each patch j would emit, "
+         "by all light paths"),
      .section = "6.7",
      .has_channels = true,
      .of_selection = true,
@@ -239,9 +239,8 @@ constexpr QuantityTraits all_traits[] = {
      .unit = "W/m²",
      .meaning = QT_TRANSLATE_NOOP(
          "Quantity",
-         "By how much B of each patch differs from that of its neighbors along its edges (root of "
-         "the mean square; paint and lamps do not count): where it is large, patches are too "
-         "large"),
+         "Difference between B of each patch and B of its neighbors along its edges (root mean "
+         "square; paint and lamps do not count): where it is large, patches are too large"),
      .section = "6.13",
      .by_jumps = true},
     {.quantity = Quantity::difference,
@@ -250,7 +249,7 @@ constexpr QuantityTraits all_traits[] = {
      .unit = "W/m²",
      .meaning =
          QT_TRANSLATE_NOOP("Quantity",
-                           "B of the current run, or of the one chosen in Kept runs, minus that of "
+                           "B of the current run, or of the run chosen in Kept runs, minus B of "
                            "the kept run A"),
      .has_channels = true,
      .is_signed = true},
@@ -272,7 +271,7 @@ QString tip_of(Quantity quantity) {
 
 std::vector<Rgb> last_change(const SolverSnapshot& snapshot) {
   const SolveProgress& progress = snapshot.progress;
-  // Between two iterations: the change of the one just finished.
+  // Between two iterations, this is the change of the one just finished.
   const int before = progress.direction > 0 ? progress.iteration : progress.iteration - 1;
   const auto& kept = snapshot.kept_radiosity;
   if (!has_index(kept, before)) {
@@ -318,7 +317,7 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
       return {grays(snapshot.form_factor_sums), {}};
     case Quantity::sky_share:
       if (snapshot.sky_shares.empty()) {
-        return {{}, tr("The file does not have the share of sky.")};
+        return {{}, tr("The file does not contain the share of sky.")};
       }
       return {grays(snapshot.sky_shares), {}};
     case Quantity::origin:

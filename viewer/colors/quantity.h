@@ -38,13 +38,13 @@ struct QuantityTraits {
   const char* symbol;         ///< above the color bar
   const char* unit = "";      ///< empty for a number
   const char* meaning;        ///< one sentence
-  const char* section = "";   ///< of ALGORITHM.md; empty: none
+  const char* section = "";   ///< section of ALGORITHM.md; may be empty
   bool is_light = false;      ///< RGB can be shown in true color
   bool has_channels = false;  ///< RGB differ; else all three are equal
   bool is_signed = false;     ///< values can be negative
   bool of_selection = false;  ///< depends on the selected patch
-  /// Spans many powers of ten, and 0 means something else than a small value: shown on a
-  /// logarithmic scale unless the user chooses otherwise, 0 in zero_color.
+  /// The quantity spans many powers of ten, and 0 means something else than a small value: it is
+  /// shown on a logarithmic scale unless the user chooses otherwise, and 0 in zero_color.
   bool spans_decades = false;
   bool by_response = false;  ///< computed from a PatchResponse
   bool by_jumps = false;     ///< computed by find_jumps()
@@ -53,26 +53,27 @@ struct QuantityTraits {
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();
 const QuantityTraits& traits_of(Quantity quantity);
-/// Meaning and section, for tool tips.
+/// The meaning of the quantity and its section, for tool tips.
 QString tip_of(Quantity quantity);
 
 /// A quantity of all patches of a snapshot.
 struct PatchValues {
   std::vector<Rgb> values;  ///< one per patch, or empty; means where the quantity is linear
   QString missing = {};     ///< the reason for the user if they are empty
-  /// Of the quantity, one per patch, where it is linear on patches; empty: it is constant.
+  /// The linear parts of the quantity, one per patch; empty if it is constant on patches.
   std::vector<LinearPart> linear_parts = {};
-  /// With linear_parts; else null.
+  /// The bases of linear_parts; null if those are empty.
   std::shared_ptr<const std::vector<LinearBasis>> bases = nullptr;
 };
-/// Of each patch, the value at its corner where `size` of it is largest; without linear parts the
-/// values themselves.
+/// The value of each patch at the corner where `size` of the value is largest. Without linear
+/// parts, these are the values themselves.
 std::vector<Rgb> largest_corners(const PatchValues& values, const Scene& scene,
                                  const std::function<double(const Rgb&)>& size);
 
 /// @param selected  patch of the form factors; may be no_patch
 /// @param other  snapshot of the same patches to subtract for Quantity::difference; may be null
-/// @param response  of the selected patch, for quantities by it; null: being solved
+/// @param response  of the selected patch, for by_response quantities; null while it is being
+/// solved
 PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId selected,
                       const SolverSnapshot* other, const PatchResponse* response = nullptr);
 

@@ -249,7 +249,7 @@ void DirectionView::draw_points(QPainter& painter, bool front) const {
     }
     color.setAlphaF(front ? 1 : 0.25);
     painter.setBrush(color);
-    // Outlined: the dark end of the color map would vanish on the dark background.
+    // The points are outlined: the dark end of the color map would vanish on the dark background.
     painter.setPen(front && scale == 1 ? QPen(theme::on_dark_dim, 0.7) : QPen(Qt::NoPen));
     painter.drawEllipse(position_of(p), scale * size, scale * size);
   }

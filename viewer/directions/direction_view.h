@@ -15,9 +15,9 @@
 
 namespace transillum::viewer {
 
-/// The sphere of directions with those that the current iteration has processed so far, colored by
-/// what the selected patch receives along each. Dragging rotates it; a click on a point moves the
-/// focus to that direction.
+/// The sphere of directions. It shows the directions that the current iteration has processed so
+/// far, colored by what the selected patch receives along each. Dragging rotates it; a click on a
+/// point moves the focus to that direction.
 class DirectionView : public QWidget {
   Q_OBJECT
 

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Lobes of the selected patch as polar plots. What arrives are lines, one for each direction of the
-// set; what leaves is a surface, because it is known in every direction. Both are drawn in the
-// color of the light, seen obliquely, the patch's normal upward.
+// Lobes of the selected patch as polar plots. The arriving light is drawn as lines, one for each
+// direction of the set; the leaving light as a surface, because it is known in every direction.
+// Both are drawn in the color of the light, seen obliquely, the patch's normal upward.
 #include "directions/lobe_view.h"
 
 #include <QMouseEvent>
@@ -113,7 +113,7 @@ void LobeView::find_light() {
         {in_frame(light.direction(patch, k)), arriving[static_cast<std::size_t>(k)]});
   }
   for (int ring = 0; ring <= rings; ++ring) {
-    // Not quite at the horizon: below the patch there is nothing.
+    // The outermost ring stays just above the horizon: no light leaves below the patch.
     const double theta = std::min(pi / 2 * ring / rings, pi / 2 - 1e-6);
     for (int sector = 0; sector < sectors; ++sector) {
       const double phi = 2 * pi * sector / sectors;

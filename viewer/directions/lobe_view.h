@@ -34,7 +34,7 @@ class LobeView : public QWidget {
   /// The points of the right plot: `rings` + 1 times `sectors`, by angle from the normal.
   const std::vector<Ray>& leaving();
   static constexpr int rings = 22, sectors = 64;
-  /// What is shown instead of the plots; empty: the plots.
+  /// The text that is shown instead of the plots; empty if the plots are shown.
   QString message() const;
 
   QSize sizeHint() const override { return {420, 340}; }
@@ -51,7 +51,7 @@ class LobeView : public QWidget {
     QRectF area;
     QPointF center;
     double radius;   ///< pixels
-    double largest;  ///< W/(m² sr), at the outer ring; 0: nothing
+    double largest;  ///< W/(m² sr), at the outer ring; 0 if there is no light
   };
   void forget();
   void find_light();
@@ -72,7 +72,7 @@ class LobeView : public QWidget {
   const Selection& selection_;
   const ColorChoice& colors_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
-  bool known_ = false;  ///< arriving_ and leaving_ are those of the snapshot and the selection
+  bool known_ = false;  ///< arriving_ and leaving_ belong to the snapshot and the selection
   std::vector<Ray> arriving_, leaving_;
   Vec3 right_{1, 0, 0}, ahead_{0, 1, 0}, normal_{0, 0, 1};  ///< the patch's frame
   double turn_ = 0.9, tilt_ = 0.42;                         ///< radians

@@ -14,12 +14,12 @@
 
 namespace transillum::viewer {
 
-/// What a patch receives along one direction: one term of the outer sum of eq. 11.
+/// The light that a patch receives along one direction: one term of the outer sum of eq. 11.
 struct ReceivedLight {
   int pass = 0;                  ///< from 0
   bool opposite = false;         ///< along -omega of the pass
   double cosine = 0;             ///< between the patch's normal and the direction
-  double area = 0;               ///< of front sides that the patch sees, m² on the plane
+  double area = 0;               ///< area of front sides that the patch sees, m² on the plane
   Rgb irradiance;                ///< contribution to H of the patch, W/m²
   PatchId brightest = no_patch;  ///< the source of the largest contribution (luminance), if any
 
@@ -57,10 +57,10 @@ class ReceivedTable : public FlatTable {
     column_count
   };
 
-  /// Shows those of `lights` that lie on the front side of the patch (positive cosine).
+  /// Shows the entries of `lights` that lie on the front side of the patch (positive cosine).
   /// @param patch_area m²
   void show_lights(const std::vector<ReceivedLight>& lights, double patch_area);
-  /// Emphasizes the rows of this pass; -1: none.
+  /// Emphasizes the rows of this pass; -1 emphasizes no row.
   void set_current_pass(int pass);
   const ReceivedLight& light(int row) const { return at(lights_, row); }
   /// Sum over all rows, W/m².

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The panel "Received": computes, for the selected patch, one term of eq. 11 per direction. B is
-// that of the iteration in focus where it was kept, else the newest; visible areas come from
-// PerDirectionVisibility.
+// taken from the iteration in focus if it was kept, else from the newest snapshot; visible areas
+// come from PerDirectionVisibility.
 #include "directions/received_view.h"
 
 #include <QHeaderView>

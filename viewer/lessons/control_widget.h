@@ -23,7 +23,7 @@ class ControlWidget : public QWidget {
   ControlWidget(PageControl control, Focus& focus, MaterialEdits& edits, QWidget* parent = nullptr);
 
   const PageControl& control() const { return control_; }
-  /// The font of the values: that of the text around.
+  /// Sets the font of the values: the font of the text around them.
   void set_text_font(const QFont& font);
   /// Shows the value of an option.
   void show_options(const RunOptions& options);
@@ -39,7 +39,7 @@ class ControlWidget : public QWidget {
   void follow_focus();
   void follow_edits();
   void show_position(int position);
-  /// Of a gray at a position of the slider.
+  /// The value of the gray at a position of the slider.
   double gray_at(int position) const;
 
   PageControl control_;

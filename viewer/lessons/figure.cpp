@@ -132,7 +132,7 @@ SolveOptions run_from_json(JsonObject& object, const json& page_options, const V
   RunOptions same = page.options;
   same.solve = run.solve;
   if (!(same == run)) {
-    object.fail_at("with", "can change options of the solve, not those of the scene");
+    object.fail_at("with", "can change options of the solve, not of the scene");
   }
   return run.solve;
 }
@@ -178,7 +178,8 @@ Figure figure_from_json(const json& value, const std::string& where, const json&
   if (name.keys & has_reference) {
     figure.reference = 8 * page.options.solve.directions;
     object.read("reference", figure.reference, 1, most_reference_passes);
-    bool without_sources = true;  // of older lessons: errors are always measured without sources
+    bool without_sources = true;  // older lessons have this key: errors are always measured without
+                                  // sources
     object.read("without-sources", without_sources);
   }
   if (name.keys & has_areas) {

@@ -14,7 +14,7 @@ namespace transillum::viewer {
 class JsonObject;
 struct ViewState;
 
-/// What a figure is; `i` is Figure::patch, `j` one of Figure::others. Areas are in m², on the
+/// The kind of a figure; `i` is Figure::patch, `j` one of Figure::others. Areas are in m², on the
 /// transillumination plane of Figure::direction unless stated otherwise.
 enum class FigureKind {
   constant,          ///< Figure::number
@@ -25,46 +25,47 @@ enum class FigureKind {
   contraction,       ///< factor between the changes of its last two iterations
   steps,             ///< number of steps of the direction
   polygons,          ///< largest number of polygons of V along the direction
-  area,              ///< of patch i itself
-  exitance,          ///< of patch i, luminance, W/m²
-  reflectance,       ///< of patch i, luminance
-  radiosity,         ///< of patch i, luminance, W/m²
-  irradiance,        ///< of patch i, luminance, W/m²
-  radiance,          ///< of patch i toward Figure::eye, luminance, W/(m² sr)
-  jump,              ///< of patch i: radiosity_jumps(), W/m²
-  projected_area,    ///< of patch i
-  visible_area,      ///< A(i, j, omega), summed over others; those above i, front or back
+  area,              ///< area of patch i itself
+  exitance,          ///< for patch i: luminance, W/m²
+  reflectance,       ///< for patch i: luminance
+  radiosity,         ///< for patch i: luminance, W/m²
+  irradiance,        ///< for patch i: luminance, W/m²
+  radiance,          ///< for patch i toward Figure::eye: luminance, W/(m² sr)
+  jump,              ///< for patch i: radiosity_jumps(), W/m²
+  projected_area,    ///< for patch i
+  visible_area,      ///< A(i, j, omega), summed over others: patches above i, front or back
   seen,              ///< number of patches j with a visible area, for patch i
   above,             ///< number of patches directly above one of Figure::others
   form_factor,       ///< F_ij, summed over others
-  form_factor_sum,   ///< of patch i
+  form_factor_sum,   ///< for patch i
   function_error,    ///< L2 error of B as a function, over L2 of B, without sources, against linear
                      ///< functions on patches of at most Figure::reference_area
-  rms_error,         ///< of B against Figure::reference passes, over RMS of B
+  rms_error,         ///< RMS error of B against Figure::reference passes, over RMS of B
   estimated_error,   ///< ErrorEstimate::rms
   largest_error,     ///< ErrorEstimate::rms_limit
   light_directions,  ///< SolveStatistics::light_directions per replica
-  covered,  ///< share of B of patches that do not emit whose 95 % interval has the reference
-  ratio     ///< of the two figures of Figure::parts
+  covered,  ///< fraction of all B, of patches that do not emit, whose 95 % interval contains the
+            ///< reference
+  ratio     ///< ratio of the two figures of Figure::parts
 };
 
 /// A number that the program computes for a page of a lesson, as its file names it.
 struct Figure {
   FigureKind kind = FigureKind::constant;
-  double number = 0;            ///< of a constant
-  PatchId patch = no_patch;     ///< i; no_patch: each patch in turn
-  std::vector<PatchId> others;  ///< j; empty: each patch in turn, or all together
+  double number = 0;            ///< the value of a constant
+  PatchId patch = no_patch;     ///< i; each patch in turn if it is no_patch
+  std::vector<PatchId> others;  ///< j; if there are none, each patch in turn or all together
   bool all = false;             ///< j: all patches together
-  std::string material;         ///< of `above`: count only patches of this material; empty: all
-  int iteration = 0;            ///< of the direction, from 0
+  std::string material;         ///< for `above`: count only patches of this material
+  int iteration = 0;            ///< iteration of the direction, from 0
   int direction = 0;            ///< from 0
   int reference = 0;            ///< passes of the reference of rms_error
-  double patch_area = 0;        ///< of function_error: SceneOptions::max_patch_area, m²
-  double reference_area = 0;    ///< of function_error: that of the reference, m²
-  Vec3 eye;                     ///< of a radiance, m
-  std::vector<MaterialChange> changes;  ///< of a radiance: materials other than the scene's
-  SolveOptions solve;         ///< the run: that of the page, with the figure's own changes
-  std::vector<Figure> parts;  ///< of a ratio
+  double patch_area = 0;        ///< for function_error: SceneOptions::max_patch_area, m²
+  double reference_area = 0;    ///< for function_error: max_patch_area of the reference, m²
+  Vec3 eye;                     ///< eye of a radiance, m
+  std::vector<MaterialChange> changes;  ///< for a radiance: changes of the scene's materials
+  SolveOptions solve;                   ///< the run of the page, with the figure's own changes
+  std::vector<Figure> parts;            ///< the two figures of a ratio
 };
 
 /// Reads a number, or an object with the key `figure`.
@@ -77,10 +78,10 @@ Figure figure_from_json(const nlohmann::json& value, const std::string& where,
 /// @throws InputError
 SolveOptions run_from_json(JsonObject& object, const nlohmann::json& page_options,
                            const ViewState& page);
-/// Whether it has one value for each patch, not one for the scene: the patch that it is about is
-/// left out.
+/// Whether the figure has one value for each patch, not one for the scene: the file omits the
+/// patch.
 bool is_per_patch(const Figure& figure);
-/// Whether it is computed at all: anything but a constant.
+/// Whether the figure is computed: true for all but constants.
 bool is_computed(const Figure& figure);
 /// The names of all figures in files.
 std::vector<std::string> figure_names();

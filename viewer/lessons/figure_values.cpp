@@ -23,13 +23,13 @@
 
 namespace transillum::viewer {
 
-/// A solve; finished and with form factors only where a figure needs them.
+/// A solve. It is finished, and has form factors, only where a figure needs them.
 struct FigureValues::Run {
   SolveOptions options;
   RadiositySolver solver;
   FormFactors form_factors = {};
   std::vector<double> jumps = {};
-  /// Where lobes take part, by the changes of materials.
+  /// The solutions of runs in which lobes take part, by the changes of materials.
   std::vector<std::pair<std::vector<MaterialChange>, Solution>> with_lobes = {};
 };
 
@@ -196,7 +196,7 @@ const Solution& FigureValues::divided(double patch_area, const SolveOptions& opt
   }
   SceneOptions scene_options = loaded_->scene->options();
   scene_options.max_patch_area = 0;
-  if (patch_area > 0) {  // of a file, which may ask for any number of patches
+  if (patch_area > 0) {  // a file may ask for any number of patches
     const Scene whole(*loaded_->description, scene_options, cancellation_);
     check_memory(whole.name(), count_patches(whole, patch_area), options.replicas,
                  options.basis == Basis::linear ? 3 : 1);
@@ -238,8 +238,8 @@ double FigureValues::of_run(const Figure& figure) {
   return figure.kind == FigureKind::estimated_error ? estimate.rms : estimate.rms_limit;
 }
 
-/// The rows of the map that the figure is about: fragments of patch i, or what is directly above
-/// them, or above the patches of `others`.
+/// The rows of the map that the figure is about: fragments of patch i, or the polygons directly
+/// above them or above the patches of `others`.
 std::vector<std::int32_t> FigureValues::rows_of(const Figure& figure) {
   const MapHistory& history = history_of(figure);
   const bool counts = figure.kind == FigureKind::above;

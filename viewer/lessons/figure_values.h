@@ -15,8 +15,8 @@ namespace transillum::viewer {
 
 /// Computes figures of one scene; runs and maps that several figures need are computed once.
 ///
-/// Threads: one at a time. It solves the scene again, so that it needs nothing from the window and
-/// its figures are those of the page, whatever the window shows now.
+/// Threads: one at a time. It solves the scene again, so that it needs nothing from the window, and
+/// its figures belong to the page, whatever the window shows now.
 class FigureValues {
  public:
   /// @param cancellation  checked in solves and maps
@@ -36,7 +36,7 @@ class FigureValues {
   struct Run;
   Run& run_of(const SolveOptions& options);
   const RadiositySolver& solved(const SolveOptions& options);
-  /// Where lobes take part, else null.
+  /// The solution of a run in which lobes take part; null for other runs.
   const Solution* solved_with_lobes(const SolveOptions& options,
                                     const std::vector<MaterialChange>& changes = {});
   /// B or H of a patch, or its radiance toward the figure's eye.
@@ -59,7 +59,7 @@ class FigureValues {
   Cancellation cancellation_;
   std::vector<std::unique_ptr<Run>> runs_;
   std::vector<std::pair<Vec3, MapHistory>> histories_;
-  std::map<int, std::vector<Rgb>> references_;  ///< B, by the number of passes
+  std::map<int, std::vector<Rgb>> references_;  ///< B of the reference, by its number of passes
   struct Divided;
   std::vector<std::unique_ptr<Divided>> divided_;
 };

@@ -23,10 +23,11 @@ struct Lesson {
     std::vector<PageControl> controls;  ///< in the text
     std::string large;                  ///< the panel, or `scene`, that gets most of the window
     std::vector<Callout> callouts;
-    ErrorRuns errors;  ///< for the panel of errors; none: as before a lesson
+    ErrorRuns errors;  ///< for the panel of errors; without runs, it is as before the lesson
   };
   std::string title;
-  std::string file;  ///< that it was read from; of a built-in lesson its name, without folder
+  std::string file;  ///< the file that it was read from; a built-in lesson has a name without a
+                     ///< folder
   bool built_in = false;
   std::vector<Page> pages;  ///< at least one
 };

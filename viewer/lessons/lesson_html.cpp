@@ -167,7 +167,8 @@ QString map_html(const ShownPage& shown) {
 
 QByteArray number(double value) { return QByteArray::number(value, 'f', 2); }
 
-// A text beside the point, on the side with more room, and below texts that it would hide.
+// Writes a text beside the point, on the side with more room, and below the texts that it would
+// hide.
 QByteArray callout_svg(const QString& text, double x, double y, double width,
                        std::vector<QRectF>& taken) {
   constexpr double shift = 14, line = 18, letter = 8.5;

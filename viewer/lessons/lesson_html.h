@@ -16,11 +16,11 @@ namespace transillum::viewer {
 /// A page of a lesson as the window shows it.
 struct ShownPage {
   Lesson::Page page;
-  QByteArray picture;                      ///< of the scene, PNG
-  std::shared_ptr<const RecordedMap> map;  ///< of the page's direction; null: without a map
+  QByteArray picture;                      ///< the scene as PNG
+  std::shared_ptr<const RecordedMap> map;  ///< map of the page's direction; null if it has none
   std::int32_t step = -1;                  ///< shown first, from 0
-  std::vector<Color8> patch_colors;        ///< of the map, one per patch
-  std::optional<Solved> solved;            ///< of the page's question
+  std::vector<Color8> patch_colors;        ///< colors of the map, one per patch
+  std::optional<Solved> solved;            ///< answer to the page's question
 };
 
 /// A lesson as one HTML file that refers to no other: text, pictures, and maps as SVG with a slider
@@ -30,7 +30,7 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
 /// The map of a direction as an SVG element. Each polygon that was ever in V has the steps at which
 /// it was made and consumed (`data-made`, `data-consumed`), so that a script shows any step.
 /// @param step  shown without a script
-/// @param all  false: only the polygons of that step
+/// @param all  whether the element has the polygons of all steps, not only of that step
 /// @param callouts  drawn over it, where they are after that step
 QByteArray map_svg(const RecordedMap& map, std::int32_t step,
                    const std::vector<Color8>& patch_colors, bool all,

@@ -44,41 +44,43 @@ class LessonPanel : public QWidget {
   void add(Lesson lesson);
   const std::vector<Lesson>& lessons() const { return lessons_; }
 
-  /// Counted from 0; -1: no lesson.
+  /// The number of the lesson, from 0; -1 if no lesson is shown.
   int lesson() const { return lesson_; }
   int page() const { return page_; }
   /// Nothing happens where the guard refuses.
   void show_page(int lesson, int page);
-  /// Asked before each page whether the window's state may be replaced.
+  /// The guard is asked before each page whether the window's state may be replaced.
   void set_guard(std::function<bool()> guard) { guard_ = std::move(guard); }
   QuestionBox& question() { return *question_; }
-  /// Where the tallies of lessons are kept that cannot be kept beside their file; empty: tallies
-  /// are not kept at all. To be called before the first page is shown.
+  /// Sets the folder for tallies of lessons that cannot be kept beside their file. If it is empty,
+  /// tallies are not kept at all. To be called before the first page is shown.
   void set_tally_folder(const QString& folder) { tally_folder_ = folder; }
   /// Controls in the text show the options of the run.
   void show_snapshot(const SolverSnapshot& snapshot);
-  /// To be called when another scene is opened: what the page names is not in it.
+  /// To be called when another scene is opened: it does not have what the page names.
   void leave_scene();
   /// To be called after the application's font has changed.
   void refresh() { show_state(); }
 
  signals:
-  /// The window is to show `state`, that of the new page.
+  /// The window is to show `state`, the state of the new page.
   void page_shown(const transillum::viewer::ViewState& state);
   void open_clicked();
   /// The window is to solve with another value of an option; PageControl::target and values.
   void option_chosen(const std::string& name, const std::string& value);
   /// The panel of errors is to show these runs.
   void errors_wanted(const transillum::viewer::ErrorRuns& runs);
-  /// What the page names, and what the symbol under the pointer stands for.
+  /// The scene and the map are to mark what the page names, and what the symbol under the pointer
+  /// stands for.
   void callouts_shown(const std::vector<transillum::viewer::Callout>& callouts);
-  /// A symbol of a formula is pointed at, by its first letter; empty: none.
+  /// The pointer is at a symbol of a formula, given by its first letter; empty if it is at no
+  /// symbol.
   void symbol_pointed(const QString& symbol);
-  /// @param panel  is to get most of the window; empty: the usual sizes
+  /// @param panel  is to get most of the window; if empty, all panels get their usual sizes
   void enlarged(const std::string& panel);
   void sketched(const transillum::viewer::MapSketch& sketch);
   void failed(const QString& message);
-  /// As QuestionBox::values_hidden().
+  /// Passes QuestionBox::values_hidden() on.
   void values_hidden(bool hidden);
 
  protected:
@@ -96,12 +98,12 @@ class LessonPanel : public QWidget {
   void show_question();
   void point_at(const QString& link);
   void show_text(const Lesson::Page& page);
-  /// The window's font, `scale` times as large.
+  /// The window's font, enlarged by `scale`.
   QFont text_font(double scale) const;
   void set_text_scale(double scale);
   void fit_text();
   bool is_cut_off() const;
-  /// Scrolls the page on a projector. False at its end.
+  /// Scrolls the page on a projector. @returns false at its end
   bool scroll_on();
   std::shared_ptr<Tally> tally_of(const Lesson& lesson);
 
@@ -118,7 +120,7 @@ class LessonPanel : public QWidget {
   MaterialEdits& edits_;
   PageText* text_;
   std::vector<ControlWidget*> controls_;  ///< in the text shown
-  RunOptions options_;                    ///< of the newest snapshot
+  RunOptions options_;                    ///< options of the newest snapshot
   QuestionBox* question_;
   QAction *previous_, *next_, *again_, *open_;
 };

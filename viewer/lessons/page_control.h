@@ -13,16 +13,16 @@ namespace transillum::viewer {
 struct PageControl {
   enum class Kind {
     option,       ///< one of `values` of an option of the solve
-    reflectance,  ///< of a material, group or face: a gray from `low` to `high`
+    reflectance,  ///< gray of a material, group or face, from `low` to `high`
     exitance,     ///< the same, W/m²
-    step,         ///< of the direction shown
-    direction     ///< of the run
+    step,         ///< step of the direction shown
+    direction     ///< direction of the run
   };
   std::string name;  ///< in the text, between braces
   Kind kind = Kind::option;
   std::string target;               ///< the option; or the material, as for change_materials()
-  std::vector<std::string> values;  ///< of an option: JSON texts, at least 2
-  std::vector<std::string> labels;  ///< of the values
+  std::vector<std::string> values;  ///< values of an option: at least two JSON texts
+  std::vector<std::string> labels;  ///< names of the values
   bool slides = false;              ///< the values are numbers: a slider, else a choice
   double low = 0, high = 1;
 };
@@ -38,7 +38,7 @@ std::vector<PageControl> controls_from_json(const nlohmann::json& value, const s
 /// @param name,value  as in PageControl::target and values
 RunOptions with_option(const RunOptions& options, const std::string& name,
                        const std::string& value);
-/// The index in `values` of what the options have now; -1: none.
+/// The index in `values` of the value that the options have now; -1 if it is not among them.
 int value_in(const PageControl& control, const RunOptions& options);
 
 }  // namespace transillum::viewer

@@ -20,7 +20,7 @@ class PageText : public QTextBrowser, public QTextObjectInterface {
     QString mark;
     QWidget* widget = nullptr;
   };
-  /// Replaces text and widgets; the old widgets are deleted. Takes the new ones over.
+  /// Replaces text and widgets. Deletes the old widgets and owns the new ones.
   void show_page(const QString& markdown, const std::vector<Inset>& insets);
   /// Moves the widgets to their places; call after a change of fonts or formats.
   void place_insets();
@@ -35,7 +35,7 @@ class PageText : public QTextBrowser, public QTextObjectInterface {
  private:
   /// A widget and its place in the document.
   struct Placed {
-    QTextCursor cursor;  ///< before its character
+    QTextCursor cursor;  ///< the position before its character
     QWidget* widget = nullptr;
   };
   std::vector<Placed> placed_;

@@ -24,7 +24,7 @@ constexpr Name<Question::Kind> question_kinds[] = {{"choice", Question::Kind::ch
                                                    {"number", Question::Kind::number},
                                                    {"area", Question::Kind::area}};
 
-// What a question is read from.
+// The JSON and the page that a question is read from.
 struct Place {
   JsonObject& object;
   const json& options;
@@ -68,11 +68,11 @@ void read_choices(Question& question, const Place& place) {
     object.done();
   }
   if (without_value > 1) {
-    place.object.fail_at("choices", "only one of them can be without a \"value\"");
+    place.object.fail_at("choices", "only one choice can be without a \"value\"");
   }
 }
 
-// "largest", "smallest", or an object with one of `rules` and a figure.
+// Reads "largest", "smallest", or an object with one of `rules` and a figure.
 void read_rule(Question& question, const Place& place, const json& answer) {
   const bool of_patches = question.kind == Question::Kind::patch;
   const std::string wanted =
@@ -103,11 +103,11 @@ void check_computed(const Question& question, JsonObject& object) {
       std::any_of(question.choices.begin(), question.choices.end(),
                   [](const auto& choice) { return choice.value && is_computed(*choice.value); });
   if (!is_computed(question.figure) && !of_choices) {
-    object.fail_at("answer", "must be computed: neither it nor a choice is a figure");
+    object.fail_at("answer", "must be computed, but neither the answer nor a choice is a figure");
   }
   const bool of_patches = question.kind == Question::Kind::patch;
   if (is_per_patch(question.figure) != of_patches) {
-    object.fail_at("answer", of_patches ? "the figure must leave out the patch to be found"
+    object.fail_at("answer", of_patches ? "the figure must omit the patch to be found"
                                         : "the figure must be one number: a patch is missing");
   }
   const bool has_region = question.figure.kind == FigureKind::visible_area ||

@@ -26,14 +26,14 @@ struct Question {
   };
   enum class Rule {
     largest,   ///< the choice, or patch, with the largest value
-    smallest,  ///< … with the smallest
+    smallest,  ///< the choice, or patch, with the smallest value
     nearest,   ///< the choice whose value is nearest to `figure`
     equals,    ///< choices whose value is `figure`
     value      ///< `figure` itself
   };
   struct Choice {
-    std::string text;             ///< empty: the value
-    std::optional<Figure> value;  ///< none: right if no other choice is
+    std::string text;             ///< the value is shown if it is empty
+    std::optional<Figure> value;  ///< if it is not set, the choice is right where no other is
   };
 
   Kind kind = Kind::choice;
@@ -41,13 +41,14 @@ struct Question {
   std::vector<Choice> choices;
   Rule rule = Rule::value;
   Figure figure;
-  /// Of a number: relative difference up to which it is right; of an area: least overlap, the
-  /// common part over the union.
+  /// How close an answer has to be: for a number, the largest relative difference; for an area, the
+  /// least overlap (the common part over the union).
   double within = 0;
   bool percent = false;             ///< values are shown, and entered, times 100, with " %"
-  std::string unit;                 ///< of the values
+  std::string unit;                 ///< unit of the values
   std::string then;                 ///< Markdown, shown after Reveal; may be empty
-  std::optional<ViewState> reveal;  ///< what Reveal shows; none: the page stays as it is
+  std::optional<ViewState> reveal;  ///< state that Reveal shows; if not set, the page stays as it
+                                    ///< is
 };
 
 /// Refuses texts of more than 64 KiB: Qt takes 40 s for 1.6 MB of Markdown.
@@ -65,12 +66,13 @@ struct GivenAnswer {
   friend bool operator==(const GivenAnswer& a, const GivenAnswer& b);
 };
 
-/// What the program computed for a question.
+/// The values that the program computed for a question, and the right answers.
 struct Solved {
-  std::vector<double> values;  ///< of choices (NaN: without a value) or of patches; else empty
-  std::vector<int> right;      ///< indices of the right choices, or right patches; ascending
-  double value = 0;            ///< of Question::figure, where it is one number
-  std::vector<std::vector<Vec2>> region;  ///< of an area
+  std::vector<double>
+      values;              ///< values of choices (NaN without a value) or of patches; else empty
+  std::vector<int> right;  ///< indices of the right choices, or right patches; ascending
+  double value = 0;        ///< value of Question::figure, where it is one number
+  std::vector<std::vector<Vec2>> region;  ///< answer to a question for an area
 };
 
 /// Reads the key `question` of a page.
@@ -81,7 +83,8 @@ Question question_from_json(const nlohmann::json& value, const std::string& wher
                             const nlohmann::json& page_state, const ViewState& page,
                             const std::string& folder);
 
-/// Whether it asks for what one direction shows: its map, its steps, or what is above what.
+/// Whether the question is about one direction: its map, its steps, or the patches above each
+/// other.
 bool is_of_direction(const Question& question);
 /// Whether the answer is complete: a choice, a patch, a number, or at least three corners.
 bool is_given(const Question& question, const GivenAnswer& answer);

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What is right of a question, found from the figures of the program, and whether an answer is.
+// Finds the right answers to a question from the figures of the program, and whether a given answer
+// is right.
 #include <QPolygonF>
 #include <algorithm>
 #include <cmath>

@@ -76,7 +76,7 @@ void QuestionBox::make_actions() {
                           "(Ctrl+Shift+Return)"),
                        QKeySequence("Ctrl+Shift+Return"));
   reset_ = make_action(this, "question_reset", tr("Reset the tally"),
-                       tr("Set the tally of this question to zero; Ctrl+Z brings it back"));
+                       tr("Set the tally of this question to zero; Ctrl+Z restores it"));
   connect(reveal_, &QAction::triggered, this, [this] { solved_ ? ask_again() : reveal(); });
   connect(count_, &QAction::triggered, this, &QuestionBox::count);
   connect(reset_, &QAction::triggered, this, [this] { set_counts({}, tr("Reset the tally")); });
@@ -289,7 +289,7 @@ void QuestionBox::show_solved(const Solved& solved) {
   emit then_shown();
 }
 
-// The window shows what the file wants to be seen after Reveal, with the right patch selected.
+// The window shows the state that the file sets for Reveal, with the right patch selected.
 void QuestionBox::select_right() {
   const Question& question = *page_->question;
   const bool of_patches = question.kind == Question::Kind::patch && !solved_->right.empty();
@@ -389,7 +389,7 @@ QString QuestionBox::result_text() const {
     case Question::Kind::patch:
       return solved_->right.empty()
                  ? verdict
-                 : verdict + tr("The program: patch %1, with %2.")
+                 : verdict + tr("The right answer is patch %1, with %2.")
                                  .arg(solved_->right.front())
                                  .arg(value_text(at(solved_->values, solved_->right.front())));
     case Question::Kind::area:
@@ -401,7 +401,7 @@ QString QuestionBox::result_text() const {
   }
   const int percent =
       static_cast<int>(std::lround(100 * overlap(solved_->region, answer_.outline)));
-  return verdict + area + ' ' + tr("Yours overlaps it by %1 %.").arg(percent);
+  return verdict + area + ' ' + tr("Your area overlaps it by %1 %.").arg(percent);
 }
 
 QString QuestionBox::tally_text(const AnswerCounts& counts) const {
@@ -461,8 +461,8 @@ void QuestionBox::show_state() {
     given_->setText(given ? tr("Your answer: patch %1").arg(answer_.patch)
                           : tr("Click a patch in the scene or the map"));
   } else if (given_) {
-    given_->setText(
-        tr("Click its corners in the map, in order: %1 so far").arg(answer_.outline.size()));
+    given_->setText(tr("Click the corners of the area in the map, in order: %1 so far")
+                        .arg(answer_.outline.size()));
     drop_->setEnabled(!solved_ && !answer_.outline.empty());
   }
   show_choices(counts);

@@ -32,13 +32,13 @@ class QuestionBox : public QFrame {
   Q_OBJECT
 
  public:
-  /// The open scene if it is that of the page; else null.
+  /// The open scene if the page is about it; else null.
   using SceneSource = std::function<std::shared_ptr<const LoadedScene>(const ViewState& page)>;
 
   QuestionBox(Selection& selection, Focus& focus, QWidget* parent = nullptr);
 
   void set_scene_source(SceneSource source) { scene_ = std::move(source); }
-  /// Counting and resetting can be undone there; null: no undo.
+  /// Counting and resetting can be undone there. If it is null, they cannot be undone.
   void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
   /// Shows the question of a page; hides the box if it has none. The prediction, and what is
   /// revealed, are dropped.
@@ -53,9 +53,9 @@ class QuestionBox : public QFrame {
   /// Reveal, count and reset, for a menu.
   std::vector<QAction*> actions() const { return {reveal_, count_, reset_}; }
   const GivenAnswer& answer() const { return answer_; }
-  /// As the last values_hidden().
+  /// The argument of the last values_hidden().
   bool hides_values() const { return hides_values_; }
-  /// What Reveal has computed; null before.
+  /// The result of Reveal; null before Reveal.
   const Solved* solved() const { return solved_ ? &*solved_ : nullptr; }
 
  signals:
@@ -110,7 +110,7 @@ class QuestionBox : public QFrame {
   QLabel *ask_, *result_, *counts_;
   QWidget* answers_ = nullptr;
   QButtonGroup* choices_ = nullptr;
-  /// What is shown beside a choice after Reveal.
+  /// The widgets beside a choice that are shown after Reveal.
   struct ChoiceRow {
     QLabel *mark, *value;
     QProgressBar* bar;

@@ -18,7 +18,7 @@ struct Session {
   std::vector<Breakpoint> breakpoints;
   std::vector<CameraBookmarks::Bookmark> saved_views;
   std::string notes;  ///< free text
-  QByteArray docks;   ///< DockLayouts::state() of state.layout; empty: its default
+  QByteArray docks;   ///< DockLayouts::state() of state.layout; empty for its default
   std::vector<Watch> watches = {};
 };
 

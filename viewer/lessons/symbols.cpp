@@ -53,8 +53,8 @@ void link_matches(const QTextBlock& block, const QRegularExpression& pattern, bo
     format.setAnchor(true);
     format.setAnchorHref(prefix + name_of(match.captured(1)));
     format.setToolTip(
-        QTextDocument::tr("Point at it: the scene, the map and the pseudo-code show "
-                          "what it stands for"));
+        QTextDocument::tr("Point at the symbol: the scene, the map and the pseudo-code "
+                          "show what it stands for"));
     cursor.mergeCharFormat(format);
   }
 }
@@ -76,7 +76,7 @@ void lower_indices(const QTextBlock& block) {
   }
 }
 
-// The patch that the step's fragment sees most of.
+// The patch that the step's fragment sees over the largest area.
 PatchId most_seen(const Focus& focus) {
   const MapHistory& history = focus.map()->history;
   std::map<PatchId, double> areas;

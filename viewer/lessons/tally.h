@@ -16,19 +16,20 @@ using AnswerCounts = std::map<std::string, int>;
 /// The answers of a class to the questions of one lesson, kept in a file.
 class Tally {
  public:
-  /// In memory only.
+  /// Keeps the answers in memory only.
   Tally() = default;
-  /// Kept in a file, which is made by the first answer.
+  /// Keeps the answers in a file, which is made by the first answer.
   /// @throws InputError where it cannot be read; then use the default constructor
   explicit Tally(const QString& file);
 
-  /// Empty if the question has not been answered, or was another one when it was.
+  /// The answers to a question. Empty if it has not been answered, or if the page had another
+  /// question when it was answered.
   /// @param page from 0
   AnswerCounts of(int page, const Question& question) const;
   /// @throws std::runtime_error where the file cannot be written
   void set(int page, const Question& question, AnswerCounts counts);
 
-  /// Empty: in memory only.
+  /// The file; empty if the answers are kept in memory only.
   const QString& file() const { return file_; }
 
  private:

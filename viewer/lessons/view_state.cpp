@@ -18,7 +18,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int largest_number = std::numeric_limits<int>::max() - 1;  ///< as a step: the last one
+constexpr int largest_number = std::numeric_limits<int>::max() - 1;  ///< a step of this number is
+                                                                     ///< the last one
 
 constexpr Name<ColorMode> color_modes[] = {{"true-color", ColorMode::true_color},
                                            {"luminance", ColorMode::luminance},

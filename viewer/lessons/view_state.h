@@ -24,8 +24,8 @@ namespace transillum::viewer {
 /// A step of a direction described by its kind: the first such step of the direction.
 enum class StepName {
   exchange,  ///< its fragment exchanges light
-  cut,       ///< it splits a polygon of V
-  event,     ///< it concerns the selected patch
+  cut,       ///< the step splits a polygon of V
+  event,     ///< the step concerns the selected patch
   fullest,   ///< MapRecord::fullest_step()
   polygon,   ///< its fragment is part of the selected patch
 };
@@ -35,37 +35,38 @@ using StepChoice = std::variant<std::int32_t, StepName>;
 /// The position of a run to show.
 struct FocusChoice {
   int iteration = 0, direction = 0;  ///< from 0
-  StepChoice step = -1;              ///< from 0; -1: before the first; beyond the last: the last
+  StepChoice step = -1;              ///< from 0; -1 is before the first step; numbers beyond the
+                                     ///< last step mean the last
   Phase phase = Phase::after;
 };
 
-/// The state of the window, as lessons and session files describe it. Default values are those of
-/// a newly opened window.
+/// The state of the window, as lessons and session files describe it. Default values describe a
+/// newly opened window.
 struct ViewState {
-  std::string scene;  ///< file or built-in; empty: the open one
+  std::string scene;  ///< file or built-in; the open scene if it is empty
   RunOptions options;
   Goal solve{Goal::Kind::finished};
-  std::optional<FocusChoice> focus;       ///< none: follow the newest direction
+  std::optional<FocusChoice> focus;       ///< if not set, the view follows the newest direction
   std::vector<MaterialChange> materials;  ///< relative to the scene's own
   PatchId selection = no_patch;
   std::vector<PatchRange> also_selected;    ///< besides `selection`
-  std::vector<PatchRange> hidden;           ///< left out of the picture
-  std::optional<ClipPlane> clip;            ///< none: off
-  std::optional<ViewPoint> camera;          ///< none: the initial view
+  std::vector<PatchRange> hidden;           ///< omitted from the picture
+  std::optional<ClipPlane> clip;            ///< if not set, clipping is off
+  std::optional<ViewPoint> camera;          ///< the initial view if not set
   Quantity quantity = Quantity::radiosity;  ///< shown in color; never Quantity::difference
   ColorMode color_mode = ColorMode::true_color;
   ColorMap color_map = default_color_map;
-  std::optional<bool> logarithmic;  ///< none: as suits the quantity
+  std::optional<bool> logarithmic;  ///< chosen by the quantity if not set
   RangeRule range_rule = RangeRule::automatic;
-  std::optional<std::pair<double, double>> range;  ///< ends of the color map; none: automatic
-  std::optional<double> exposure;                  ///< of true color, EV; none: automatic
+  std::optional<std::pair<double, double>> range;  ///< ends of the color map; automatic if not set
+  std::optional<double> exposure;  ///< exposure of true color, EV; automatic if not set
   double gamma = ColorScale().gamma;
-  std::optional<bool> outlines;  ///< none: the default for the scene
+  std::optional<bool> outlines;  ///< the default for the scene if not set
   bool direction_shown = true;
   std::vector<Overlay> overlays;
   MapKind algorithm = MapKind::local;  ///< whose pseudo-code is shown
   bool labels = false;                 ///< patch numbers shown in the map
-  std::optional<Layout> layout;        ///< none: unchanged
+  std::optional<Layout> layout;        ///< unchanged if not set
   std::vector<std::string> panels;     ///< short names of panels to bring to the front
 };
 
@@ -78,7 +79,7 @@ nlohmann::json to_json(const ViewPoint& camera);
 /// @throws InputError with a message that begins with `where`
 ViewState view_state_from_json(const nlohmann::json& value, const std::string& where,
                                const std::string& folder);
-/// Complete: view_state_from_json() restores the same state.
+/// The complete state: view_state_from_json() restores it.
 nlohmann::json to_json(const ViewState& state);
 
 }  // namespace transillum::viewer

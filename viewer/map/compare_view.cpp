@@ -55,7 +55,7 @@ QString figures_text(const EngineComparison::Side& side, double exchanged) {
 
 QString direction_text(const EngineComparison& c) {
   QString text = CompareView::tr(
-                     "Along this direction, “%3” assigns %1 of the area that “%2” exchanges to "
+                     "Along this direction, “%3” assigns %1 of the area that “%2” finds to "
                      "other pairs of patches.")
                      .arg(percent_text(c.transfers.misplaced), engine_label(c.first.engine),
                           engine_label(c.other.engine));
@@ -70,9 +70,9 @@ QString direction_text(const EngineComparison& c) {
                          largest.area > 0 ? CompareView::tr("less") : CompareView::tr("more"));
 }
 
-/// Without those that differ by rounding.
+/// The pairs of patches, except those that differ only by rounding.
 std::vector<PairDifference> pairs_of(const TransferComparison& transfers) {
-  constexpr double rounding = 1e-13;  // of all that is exchanged
+  constexpr double rounding = 1e-13;  // relative to the whole exchanged area
   std::vector<PairDifference> pairs = transfers.pairs;
   std::erase_if(pairs, [&](const PairDifference& pair) {
     return std::abs(pair.first - pair.other) < rounding * transfers.exchanged;
@@ -83,8 +83,8 @@ std::vector<PairDifference> pairs_of(const TransferComparison& transfers) {
 QString row_text(const EngineComparison& c, std::size_t directions) {
   QString text = CompareView::tr(
                      "Form factors have no direction, so one patch is compared: “%4” assigns %3 "
-                     "of what patch %1 sees by “%2” to other patches (all %5 directions of the "
-                     "run).")
+                     "of the area that patch %1 sees by “%2” to other patches (all %5 directions "
+                     "of the run).")
                      .arg(c.eye)
                      .arg(engine_label(c.first.engine), percent_text(c.transfers.misplaced),
                           engine_label(c.other.engine))
@@ -162,9 +162,10 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
 }
 
 void CompareView::make_large_action() {
-  large_ = make_action(this, "compare_large", tr("Compare engines, large"),
-                       tr("Give the comparison of engines most of the window, or take it back (G)"),
-                       Qt::Key_G);
+  large_ = make_action(
+      this, "compare_large", tr("Compare engines, large"),
+      tr("Give the comparison of engines most of the window, or restore the layout (G)"),
+      Qt::Key_G);
   large_->setIconText(tr("Large"));
   large_->setCheckable(true);
   connect(large_, &QAction::toggled, this, &CompareView::enlarged);
@@ -176,7 +177,8 @@ QWidget* CompareView::make_words() {
   text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   worst_ = named(
       "worst_pair", new QPushButton(tr("Worst pair")),
-      tr("Select the patch of the largest difference and go to the step where it meets the other"));
+      tr("Select the patch of the largest difference and go to the step where it meets the other "
+         "patch of the pair"));
   connect(worst_, &QPushButton::clicked, this, [this] {
     const Transfer& worst = comparison_->transfers.largest;
     go_to(worst.receiver, worst.source);
@@ -217,7 +219,8 @@ void CompareView::show_pair(int row) {
   }
 }
 
-/// Of the chosen pair, or the selected patch, if it sees anything, or of the largest difference.
+/// The receiver of the chosen pair; else the selected patch, if it sees anything; else the receiver
+/// of the largest difference.
 PatchId CompareView::receiver_to_show() const {
   if (list_->currentIndex().isValid()) {
     return pairs_->pair(list_->currentIndex().row()).receiver;
@@ -243,8 +246,8 @@ CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
   choice.figures->setContentsMargins(10, 4, 10, 4);
   choice.figures->setToolTip(
       tr("Processor time for this direction; number of pairs of patches that exchange light; "
-         "projected area over which they do; share of the receivers' projected area that sees "
-         "another patch"));
+         "projected area over which they exchange it; fraction of the receivers' projected area "
+         "that sees another patch"));
   choice.picture->addWidget(choice.map);
   choice.picture->addWidget(choice.hemicube);
   choice.map->set_height_hint(map_height);

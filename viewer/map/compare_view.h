@@ -29,8 +29,8 @@ class PairPicture;
 class PairTable;
 
 /// Two engines on the direction in focus, side by side: map, processor time and transfers of each,
-/// maps of where they differ, by patch and by polygon, and the pairs of patches in which they do.
-/// The maps share one view.
+/// maps of their differences by patch and by polygon, and the pairs of patches in which they
+/// differ. The maps share one view.
 class CompareView : public QWidget {
   Q_OBJECT
 
@@ -42,9 +42,9 @@ class CompareView : public QWidget {
   void clear();
   /// Whether the comparison shown is of the direction in focus and the chosen engines.
   bool up_to_date() const;
-  /// Whether a comparison is on its way to the panel, which is visible.
+  /// Whether the panel is visible and waits for a comparison.
   bool busy() const;
-  /// Gives the panel most of the window, and takes it back.
+  /// Switches between a large panel, which takes most of the window, and the layout in use.
   QAction* large() const { return large_; }
 
  signals:
@@ -65,7 +65,8 @@ class CompareView : public QWidget {
     bool is_hemicube() const;
     bool has_directions() const;
     bool up_to_date() const;
-    /// As in EngineRequest: 0 for an engine without one; even for a hemicube.
+    /// The resolution of an EngineRequest: 0 for an engine that has none, an even number for a
+    /// hemicube.
     int requested_resolution() const;
   };
   /// Whether the maps show the comparison.

@@ -79,7 +79,8 @@ double DifferencePicture::share(PatchId patch) const {
     return -1;
   }
   const double projected = at(comparison_->projected, patch);
-  // What one patch loses another gains, so half of the difference belongs to this patch.
+  // Another patch gains the area that one patch loses, so half of the difference belongs to this
+  // patch.
   return projected > 0 ? at(comparison_->transfers.differences, patch) / (2 * projected) : 0;
 }
 

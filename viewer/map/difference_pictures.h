@@ -33,7 +33,7 @@ class ColorLegend : public QWidget {
 };
 
 /// The map V of a direction, with each patch colored by the share of its projected area that two
-/// engines assign to different patches. White: none; red: a tenth or more.
+/// engines assign to different patches. White stands for 0, red for a tenth or more.
 class DifferencePicture : public QWidget {
  public:
   static constexpr double full_color_at = 0.1;
@@ -52,8 +52,9 @@ class DifferencePicture : public QWidget {
   std::shared_ptr<const EngineComparison> comparison_;
 };
 
-/// What one patch sees along a direction, polygon by polygon, each in the color of the difference
-/// that two engines have in its pair of patches. Blue: the second finds less; orange: more.
+/// The polygons that one patch sees along a direction, each in the color of the difference between
+/// two engines for its pair of patches. The second engine finds less where it is blue, more where
+/// it is orange.
 class PairPicture : public QWidget {
   Q_OBJECT
 

@@ -24,9 +24,9 @@ struct PixelView {
   std::int32_t step = 0;
   MapEngineChoice choice;
   VisibilityMap drawn;                    ///< polygons of pixels; empty for engine corrected
-  std::optional<CorrectedMap> corrected;  ///< of engine corrected
+  std::optional<CorrectedMap> corrected;  ///< map of engine corrected
   std::string failure;                    ///< the engine's message; empty on success
-  double wrong = 0;  ///< wrong share of the area of V or of the pixels, 0 to 1; 0 if not requested
+  double wrong = 0;  ///< wrong fraction of the area of V or of the pixels; 0 if not requested
 
   bool shows(const RecordedMap& map, std::int32_t after, const MapEngineChoice& by) const {
     return of.get() == &map && step == after && choice == by;

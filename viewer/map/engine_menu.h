@@ -9,8 +9,8 @@ class QActionGroup;
 
 namespace transillum::viewer {
 
-/// A button with a menu to choose whose V the map shows, the exact one or that of another engine,
-/// its resolution and whether errors are marked.
+/// A button with a menu that chooses the V that the map shows (the exact V, or the V of another
+/// engine), its resolution and whether errors are marked.
 class EngineMenu : public QToolButton {
   Q_OBJECT
 

@@ -91,7 +91,7 @@ void HemicubeView::work(const Task& task, const Cancellation& cancellation) {
   post([this, compared, number = task.number] { show_comparison(compared, number, true); });
 }
 
-// On the worker's thread; what it posts runs on the window's.
+// Runs on the worker's thread; what it posts runs on the window's thread.
 void HemicubeView::post_failure(const QString& message, quint64 number) {
   const auto show = [this, message, number] {
     if (number != sent_.number) {
@@ -106,7 +106,7 @@ void HemicubeView::post_failure(const QString& message, quint64 number) {
 void HemicubeView::show_comparison(std::shared_ptr<const HemicubeComparison> comparison,
                                    quint64 number, bool last) {
   if (number != sent_.number) {
-    return;  // of an outdated request
+    return;  // the request is outdated
   }
   comparison_ = std::move(comparison);
   if (last) {

@@ -31,7 +31,7 @@ class HemicubeView : public QWidget {
   void show_scene(Content content);
   void clear();
   bool up_to_date() const { return done_ == sent_.number; }
-  /// What is shown; null if nothing is.
+  /// The comparison that is shown; null if there is none.
   std::shared_ptr<const HemicubeComparison> comparison() const { return comparison_; }
   /// Patch and error, progress, or the reason why nothing is shown.
   QString status_text() const;
@@ -67,7 +67,7 @@ class HemicubeView : public QWidget {
   Content content_;
   std::shared_ptr<const HemicubeComparison> comparison_;
   QString failure_;
-  double progress_ = 0;  ///< of the exact form factors, 0 to 1
+  double progress_ = 0;  ///< finished fraction of the exact form factors
   QImage cross_;         ///< one image pixel per hemicube pixel
   Task sent_;            ///< the newest
   quint64 done_ = 0;     ///< number of the request whose final result is shown

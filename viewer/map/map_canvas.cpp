@@ -61,7 +61,7 @@ MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
 void MapCanvas::show_map(Content content) {
   content_ = std::move(content);
   repaint_map();
-  // Queued: runs after all other views have the new step, before the window is next painted.
+  // A queued call runs after all other views have the new step, before the window is next painted.
   if (content_.step_shown) {
     QMetaObject::invokeMethod(this, &MapCanvas::wait_for_picture, Qt::QueuedConnection);
   }
@@ -147,8 +147,8 @@ void MapCanvas::repaint_map() {
   if (!content_.map) {
     return;
   }
-  // While the view moves or new directions arrive, pictures being painted are finished: an old one
-  // now and then is better than none. A change that the user made cancels them.
+  // While the view moves or new directions arrive, pictures being painted are finished: an
+  // occasional old picture is better than none. A change by the user cancels them.
   const bool cancels = content_.choice != sent_.picture.choice ||
                        (content_.step_shown && content_.map != sent_.picture.map);
   sent_ = {{content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
@@ -364,7 +364,7 @@ void MapCanvas::draw_callouts(QPainter& painter, const MapTransform& shown) cons
   }
 }
 
-// V as a whole has a frame, an inside list is filled.
+// A region that is the whole V has a frame; an inside list is filled.
 void MapCanvas::mark_callout(QPainter& painter, const MapTransform& shown,
                              const Callout& callout) const {
   if (callout.anchor == Callout::Anchor::map) {
@@ -413,7 +413,7 @@ void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {
 
 namespace {
 
-// With a plate behind it: in a low picture the text covers the map.
+// The text has a plate behind it: in a low picture it covers the map.
 void draw_text(QPainter& painter, const QPointF& baseline, const QString& text) {
   QColor plate = theme::scene_background;
   plate.setAlphaF(0.7);
@@ -500,13 +500,14 @@ void MapCanvas::draw_legend(QPainter& painter) const {
   for (const auto& [brush, text] : entries) {
     total += width_of(text);
   }
-  // Between the scale bar with its text and the axes; without room, back sides are left out.
+  // The legend is between the scale bar with its text and the axes; without room, back sides are
+  // omitted.
   const double left = width() / 4.0 + 80, right = width() - axes;
   if (entries.size() > 1 && left + total > right) {
     total -= width_of(entries.front().second);
     entries.erase(entries.begin());
   }
-  // In a low map that leaves its sides free, one above the other at the left.
+  // In a low map that leaves its sides free, the entries are one above the other at the left.
   constexpr int low = 140, row = 20, side = 130;
   const auto scale_in = [this](int room) {
     return fit_map(*content_.map, QSizeF(room, height())).scale;

@@ -30,7 +30,7 @@ class MapCanvas : public QWidget {
  public:
   explicit MapCanvas(Selection& selection, QWidget* parent = nullptr);
 
-  /// What to draw; the view (where) belongs to the canvas.
+  /// The content to draw; zoom and shift belong to the canvas.
   struct Content {
     std::shared_ptr<const RecordedMap> map;
     std::int32_t step = 0;
@@ -47,9 +47,9 @@ class MapCanvas : public QWidget {
   void clear();
   /// Highlights a region of the map shown; nullopt removes the highlight.
   void mark_region(const std::optional<MapRegion>& region);
-  /// Draws a polygon, and the region that it was to match, over the map until the next call.
+  /// Draws a polygon, and the region that it should match, over the map until the next call.
   void show_sketch(const MapSketch& sketch);
-  /// Names what the callouts point at, until the next call.
+  /// Shows these callouts until the next call.
   void show_callouts(const std::vector<Callout>& callouts);
   const std::vector<Callout>& callouts() const { return callouts_; }
   /// Shows the whole map.
@@ -57,7 +57,7 @@ class MapCanvas : public QWidget {
   /// Zoom and shift, independent of the size of the canvas, so that canvases can share them.
   struct View {
     double zoom = 1;  ///< relative to the scale at which the whole map fits
-    QPointF shift;    ///< of the center, meters on the plane times `zoom`
+    QPointF shift;    ///< shift of the center, meters on the plane times `zoom`
 
     friend bool operator==(const View&, const View&) = default;
   };
@@ -70,13 +70,13 @@ class MapCanvas : public QWidget {
   bool up_to_date() const { return painted_ == sent_.number; }
   /// The patch drawn at a point in logical pixels; no_patch if none.
   PatchId patch_at(const QPointF& position) const;
-  /// The point of that patch, m; none without a patch.
+  /// The point of that patch, m; not set without a patch.
   std::optional<Vec3> patch_point_at(const QPointF& position) const;
   /// The row of the record whose polygon is drawn at a point; MapRecord::no_row if none, or if V
   /// is not drawn exactly.
   std::int32_t row_at(const QPointF& position) const;
-  /// Outlines the polygon of a row of the map shown, and numbers its corners; MapRecord::no_row:
-  /// none.
+  /// Outlines the polygon of a row of the map shown, and numbers its corners; MapRecord::no_row
+  /// outlines nothing.
   void mark_row(std::int32_t row);
   /// The point on the plane, meters, at a point in logical pixels; nullopt without a picture.
   std::optional<Vec2> point_at(const QPointF& position) const;
@@ -129,7 +129,7 @@ class MapCanvas : public QWidget {
   Selection& selection_;
   Content content_;
   std::optional<MapRegion> region_;
-  std::shared_ptr<const RecordedMap> marked_map_;  ///< that of marked_row_
+  std::shared_ptr<const RecordedMap> marked_map_;  ///< the map of marked_row_
   std::int32_t marked_row_ = MapRecord::no_row;
   MapSketch sketch_;
   std::vector<Callout> callouts_;

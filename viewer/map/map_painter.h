@@ -22,7 +22,8 @@ QBrush back_side_brush(double pixel_ratio);
 /// @throws Canceled
 MapPicture paint_map(const MapPictureRequest& request, const Cancellation& cancellation = {});
 
-/// Bounds of the step's fragment and of the polygons of V that it cuts, meters; null without any.
+/// Bounds of the step's fragment and of the polygons of V that it cuts, meters; null if there are
+/// none.
 QRectF step_bounds(const RecordedMap& map, std::int32_t step);
 
 QPolygonF row_polygon(const MapRecord& record, const MapRecord::Row& row,

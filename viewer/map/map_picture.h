@@ -35,11 +35,11 @@ struct MapTransform {
   }
 };
 
-/// Which engine's V is drawn: exactly, in the pixels of an engine with has_pixels(), or with the
-/// open shares of engine corrected. (A hemicube has a separate picture: HemicubeView.)
+/// How V is drawn: exactly, in the pixels of an engine with has_pixels(), or with the open shares
+/// of engine corrected. (A hemicube has a separate picture: HemicubeView.)
 struct MapEngineChoice {
-  std::optional<Engine> engine;              ///< nullopt: exact
-  PaintersOrder order = PaintersOrder::bsp;  ///< of engine painter
+  std::optional<Engine> engine;              ///< nullopt draws V exactly
+  PaintersOrder order = PaintersOrder::bsp;  ///< order for engine painter
   int resolution = 64;                       ///< pixels along the longer side
   bool differences = true;                   ///< mark errors
 
@@ -60,18 +60,18 @@ struct MapPictureRequest {
   bool labels = false;      ///< patch numbers on polygons with room for them
   MapEngineChoice choice;
   std::shared_ptr<const PixelView>
-      known_pixels;  ///< of an earlier picture, for reuse; may be of another map
+      known_pixels;  ///< pixels of an earlier picture, for reuse; may be of another map
   std::shared_ptr<const std::vector<Color8>> patch_colors;
   MapTransform transform;  ///< to logical pixels
   QSizeF size;             ///< logical
   double pixel_ratio = 1;
-  PatchId receiver = no_patch;  ///< draw what it sees; no_patch: V
+  PatchId receiver = no_patch;  ///< draw what this patch sees; V if it is no_patch
 };
 
 struct MapPicture {
   MapPictureRequest request;
   QImage image;
-  std::shared_ptr<const PixelView> pixels;  ///< what was drawn; null for exact pictures
+  std::shared_ptr<const PixelView> pixels;  ///< the pixels drawn; null for exact pictures
   std::vector<std::int32_t>
       rows;  ///< drawn: polygons of V, or the parts into which a step splits them
 };

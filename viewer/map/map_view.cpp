@@ -122,7 +122,7 @@ void MapView::show_context_menu(const MapCanvas& canvas, const QPoint& position)
   }
   auto* menu = named("map_menu", new QMenu(this));
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  // Searches this direction only: along others the point is elsewhere on the plane.
+  // Searches this direction only: along other directions the point is elsewhere on the plane.
   const auto add_run = [&](const QString& text, StepOrder order) {
     RunPosition target = focus_.position();
     target.step = find_changes_at(*point)(focus_.map()->history, target.step, order);

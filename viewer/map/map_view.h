@@ -22,7 +22,7 @@ class MapCanvas;
 class EngineMenu;
 class PhasePair;
 
-/// The visibility map V of the direction in focus, and how the current step changes it.
+/// The visibility map V of the direction in focus, and its changes by the current step.
 class MapView : public QWidget {
   Q_OBJECT
 

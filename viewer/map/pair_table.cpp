@@ -63,7 +63,7 @@ ColumnHeader PairTable::header(int column) const {
       return {area_format_.header(tr("Second, m²")), tr("A(i, j, ω) by the second engine")};
     default:
       return {difference_format_.header(tr("Difference, m²")),
-              tr("What the second engine assigns beyond the first")};
+              tr("Area by the second engine minus area by the first")};
   }
 }
 

@@ -11,8 +11,8 @@ class QToolButton;
 
 namespace transillum::viewer {
 
-/// How the map shows V before and after a step: one phase, both side by side, or in turn. In turn,
-/// each is shown for half a second, while the window is active.
+/// How the map shows V before and after a step: one phase, both side by side, or both in turn. In
+/// turn, each phase is shown for half a second while the window is active.
 class PhasePair : public QObject {
   Q_OBJECT
 
@@ -25,9 +25,9 @@ class PhasePair : public QObject {
 
   Choice choice() const { return choice_; }
   void choose(Choice choice);
-  /// Whether it is the turn of V before the step.
+  /// Whether V before the step is shown now, where the phases are shown in turn.
   bool before() const { return before_; }
-  /// Whether the turns change now.
+  /// Whether the phases alternate at present.
   bool blinks() const { return timer_.isActive(); }
   /// A button with a menu of the choices.
   QToolButton* button() const { return button_; }
@@ -41,7 +41,7 @@ class PhasePair : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  /// Lets it blink if it is to be seen.
+  /// Starts to alternate the phases if the map is visible.
   void start_or_stop();
 
   QWidget& view_;

@@ -85,7 +85,7 @@ QString row_text(const RecordedMap& map, std::int32_t r) {
                 : tr("Cut by step %1 (patch %2) from the fragment of step %3")
                       .arg(step_text(row.made), QString::number(map.history.cut_by(r)),
                            step_text(map.row(map.history.whole_of(r)).made)));
-  lines << tr("Corner u, v in m, and whose edge leads to the next:");
+  lines << tr("Corner u, v in m, and the patch whose edge leads to the next:");
   const auto outline = map.record().outline(row);
   const auto edges = map.record().edge_lines(row);
   const auto origins = map.history.edge_origins(r);

@@ -14,7 +14,7 @@ namespace transillum::viewer {
 
 namespace {
 
-/// As one word of a shell.
+/// The text as one word of a shell, in quotes where it needs them.
 std::string quoted(const std::string& word) {
   const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -39,7 +39,7 @@ class Line {
     add("--" + option);
     add(value);
   }
-  /// The options in which a run differs from the default one, those that `is_wanted`.
+  /// Adds the options that differ from their defaults, if they satisfy `is_wanted`.
   template <class IsWanted>
   void add_differences(const RunOptions& options, IsWanted is_wanted) {
     for (const auto& [name, value] : differences_from_default(options)) {

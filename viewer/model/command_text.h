@@ -15,12 +15,12 @@ namespace transillum::viewer {
 /// The line for a shell that makes the same solve with the program `transillum`, to the same bits.
 /// Only options that differ from their defaults are in it.
 /// @param scene a file or a built-in
-/// @param changes of materials, beyond those of options.input
+/// @param changes of materials, in addition to options.input
 std::string solve_command(const std::string& scene, const RunOptions& options,
                           const std::vector<MaterialChange>& changes);
 /// The same for the visibility map of one direction.
 /// @param omega the direction, written with all digits
-/// @param steps of the direction that are done; unset: all
+/// @param steps of the direction that are done; all if not set
 std::string map_command(const std::string& scene, const RunOptions& options,
                         const std::vector<MaterialChange>& changes, const Vec3& omega,
                         std::optional<std::int32_t> steps = {});

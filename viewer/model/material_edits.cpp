@@ -197,7 +197,7 @@ void MaterialEdits::push(const MaterialChange& change, const QString& text) {
     return;
   }
   if (after.size() > changes_.size()) {
-    SceneDescription tried = faces_;  // where it does not fit, nothing is changed
+    SceneDescription tried = faces_;  // if a change does not fit, nothing is changed
     change_materials(tried, std::vector{change});
   }
   auto command = std::make_unique<Change>(*this, change.target, std::move(after));

@@ -14,12 +14,12 @@
 
 namespace transillum::viewer {
 
-/// What a change of E, rho or a lobe applies to.
+/// The kinds of target that a change of E, rho or a lobe applies to.
 enum class TargetKind { material, group, face };
 
-/// The user's changes of E, rho and lobes of materials, groups and faces, which can be undone. Of
-/// two changes for a face, that of the face holds before that of its group, and that before its
-/// material's.
+/// The user's changes of E, rho and lobes of materials, groups and faces, which can be undone. If
+/// several changes apply to a face, the change of the face takes precedence over the change of its
+/// group, and both over the change of its material.
 ///
 /// A target is written as for change_materials(), with its kind: `material:NAME`, `group:NAME`,
 /// `face:N`.
@@ -50,7 +50,7 @@ class MaterialEdits : public QObject {
   bool has_light() const { return has_light_; }
   /// Whether the exitance of any patch differs from the scene's.
   bool changes_exitance() const;
-  /// E and rho of the target's first patch; those of a black surface if it has none.
+  /// E and rho of the target's first patch; a black surface if the target has no patch.
   Material values_of(const std::string& target) const;
   /// Number of patches of a target, and whether they all have the same E and rho.
   struct Extent {
@@ -71,7 +71,7 @@ class MaterialEdits : public QObject {
   /// The changes, materials first and faces last; empty if no face differs from the scene.
   std::vector<MaterialChange> changes() const;
   /// Replaces all changes and clears the undo stack.
-  /// @returns a sentence about each change that does not fit the scene, which is left out
+  /// @returns a sentence about each change that does not fit the scene, which is ignored
   std::vector<std::string> start_over(const std::vector<MaterialChange>& changes);
 
   /// The changes between begin_macro() and end_macro() are undone together.

@@ -10,7 +10,7 @@
 namespace transillum::viewer {
 
 /// E and rho of all patches of a scene, with the user's changes. The materials of the scene come
-/// first, in its order; those of faces and groups with values of their own follow.
+/// first, in its order; the materials of faces and groups with values of their own follow.
 struct PatchMaterials {
   std::vector<Material> materials;
   std::vector<std::int32_t> of_patch;  ///< index into `materials` for each patch

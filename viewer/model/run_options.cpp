@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* material_changes = "changes";
 
-/// Of the computer that wrote the file, not of the run.
+/// Whether files store the option: it describes the run, not the computer that wrote the file.
 bool is_stored(const Option& option) { return option.in_files && option.group != "Machine"; }
 
 /// Sets the options that an object has; returns their names.
@@ -69,7 +69,7 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   object.done();
   try {
     set_dependent_defaults(options, given);
-    options.input.patches = 0;  // of the command line: here, the area says it
+    options.input.patches = 0;  // only the command line has this option; files have the area
     options.validate();
   } catch (const InputError& error) {
     object.fail(error.what());

@@ -13,8 +13,8 @@
 
 namespace transillum::viewer {
 
-/// Whether a solve with the options `in_effect` is that of `asked`: a goal that is the same has
-/// chosen directions, replicas and the tolerance.
+/// Whether a solve with the options `in_effect` is the one that `asked` asks for. Directions,
+/// replicas and the tolerance may differ if both have the same goal, which chooses them.
 bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked);
 
 /// Reads options from a lesson or session file. Names as on the command line, without dashes;
@@ -22,7 +22,7 @@ bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked);
 /// are not included.
 /// @throws InputError that begins with `where`
 RunOptions run_options_from_json(const nlohmann::json& value, const std::string& where);
-/// All options of run_options_from_json().
+/// The JSON of all options that run_options_from_json() reads.
 nlohmann::json to_json(const RunOptions& options);
 
 /// Reads the list of changed materials under `key`; empty if there is none. `name` is a target of

@@ -26,16 +26,18 @@ namespace transillum::viewer {
 /// A scene with its BSP tree and ray picker. Immutable, shared by all threads.
 struct LoadedScene {
   std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const SceneDescription> description;  ///< of the scene; null: of a result file
+  std::shared_ptr<const SceneDescription>
+      description;  ///< description of the scene; null for a result file
   std::shared_ptr<const BspTree> tree;
   std::shared_ptr<const Picker> picker;
   SceneMeasures measures;
-  double back_share = 0;                   ///< BackShare::share
-  std::shared_ptr<const Solution> stored;  ///< of the result file that was opened; else null
-  std::string file;                        ///< path of the result file
-  double seconds_load = 0;                 ///< wall-clock time of reading
-  double seconds_bsp = 0;                  ///< wall-clock time of building the tree
-  /// The scene before patches were divided in rounds; null: none were.
+  double back_share = 0;  ///< BackShare::share
+  std::shared_ptr<const Solution>
+      stored;               ///< solution of the result file that was opened; else null
+  std::string file;         ///< path of the result file
+  double seconds_load = 0;  ///< wall-clock time of reading
+  double seconds_bsp = 0;   ///< wall-clock time of building the tree
+  /// The scene before patches were divided in rounds; null if none were divided.
   std::shared_ptr<const LoadedScene> whole;
 };
 
@@ -45,11 +47,10 @@ inline std::shared_ptr<const LoadedScene> whole_of(
   return loaded && loaded->whole ? loaded->whole : loaded;
 }
 
-/// How far the rounds of a refinement are; those that are done are in
-/// SolveStatistics::refinement.
+/// The progress of a refinement; its finished rounds are in SolveStatistics::refinement.
 struct RefinementState {
-  PatchId patches = 0;  ///< of the scene so far
-  bool left = false;    ///< the solve is that of a round, not yet that of the refined scene
+  PatchId patches = 0;  ///< patches of the scene so far
+  bool left = false;    ///< the solve belongs to a round, not yet to the refined scene
 };
 
 /// The RMS error of B over RMS of B, estimated from replicas, and the limits that it is between in
@@ -65,8 +66,8 @@ struct SolverSnapshot {
   RefineChoice refine;
   RefinementState refinement;  ///< if `refine` is set
   SolveProgress progress;
-  /// Of all iterations so far. A pass that several iterations use (in the growing scheme, or from
-  /// stored sums) counts in each.
+  /// The passes of all iterations so far. A pass that several iterations use (in the growing
+  /// scheme, or from stored sums) counts in each.
   std::int64_t passes_done = 0;
   std::shared_ptr<const std::vector<Vec3>>
       directions;  ///< omega of each pass of the newest iteration
@@ -76,21 +77,23 @@ struct SolverSnapshot {
   /// M of each iteration that has begun; smaller in the first ones of the growing scheme.
   std::vector<int> kept_passes;
   SolveStatistics statistics;
-  std::vector<Rgb> radiosity;  ///< B, running estimate, W/m², one per patch; its mean
-  /// Of B, one per patch, where it is linear on patches; empty: it is constant.
+  std::vector<Rgb> radiosity;  ///< B, running estimate, W/m², one per patch; the mean where B is
+                               ///< linear on patches
+  /// The linear parts of B, one per patch; empty where B is constant on patches.
   std::vector<LinearPart> linear_parts;
-  /// Of the scene's patches, with linear_parts; else null.
+  /// The bases of the scene's patches; null without linear_parts.
   std::shared_ptr<const std::vector<LinearBasis>> bases;
   std::vector<Rgb> irradiance;  ///< H of the last finished iteration, W/m², one per patch
-  /// Of all passes so far; null until SolveRunner::include_form_factors() was called and they are
-  /// assembled.
+  /// The form factors of all passes so far; null until SolveRunner::include_form_factors() was
+  /// called and they are assembled.
   std::shared_ptr<const FormFactors> form_factors;
-  std::shared_ptr<const DirectLight> shot;  ///< of the first shot; zeros without one
+  std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
   /// Radiance by direction, of the last finished iteration; null where no lobes take part.
   std::shared_ptr<const GlossyLight> glossy;
-  /// E, rho and lobes of radiosity and irradiance if they differ from the scene's; else null.
+  /// E, rho and lobes that radiosity and irradiance were computed with, if they differ from the
+  /// scene's; else null.
   std::shared_ptr<const PatchMaterials> materials;
-  /// The values are those of loaded->stored; nothing has been solved yet.
+  /// The values come from loaded->stored; nothing has been solved yet.
   bool of_file = false;
   bool form_factors_fit = true;  ///< false: the memory limit was exceeded
   /// B(n), one per patch, for each iteration n that has begun; null if the memory limit was
@@ -98,21 +101,23 @@ struct SolverSnapshot {
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
   /// The linear parts of B(n) likewise; empty where B is constant on patches.
   std::vector<std::shared_ptr<const std::vector<LinearPart>>> kept_linear_parts;
-  std::vector<double> form_factor_sums;   ///< one per patch; 0 before the first pass
-  std::vector<double> sky_shares;         ///< Solution::sky_shares; 0 before the first pass
-  std::vector<Rgb> sky_irradiance;        ///< Solution::sky_irradiance; empty without a sky
-  std::vector<double> estimate_changes;   ///< of the newest iteration with passes, one per pass
+  std::vector<double> form_factor_sums;  ///< one per patch; 0 before the first pass
+  std::vector<double> sky_shares;        ///< Solution::sky_shares; 0 before the first pass
+  std::vector<Rgb> sky_irradiance;       ///< Solution::sky_irradiance; empty without a sky
+  std::vector<double>
+      estimate_changes;  ///< changes in the newest iteration with passes, one per pass
   std::vector<double> quadrature_errors;  ///< epsilon after each pass
-  ErrorEstimate error;                    ///< from replicas; empty without
-  std::vector<ErrorBand> errors;  ///< of B after each finished iteration; empty without replicas
-  /// How many standard errors in `error` cannot be trusted; 0 for those of a file, which does not
-  /// tell what was shot first.
+  ErrorEstimate error;                    ///< from replicas; empty without replicas
+  std::vector<ErrorBand>
+      errors;  ///< errors of B after each finished iteration; empty without replicas
+  /// The number of standard errors in `error` that cannot be trusted. It is 0 for a result file,
+  /// which does not say which sources were shot first.
   std::int64_t uncertain_patches = 0;
-  /// Of a solve with a goal, once its first stage is finished.
+  /// The report of a solve with a goal, once its first stage is finished.
   std::optional<AccuracyReport> accuracy;
-  int estimate_iteration = 0;  ///< number of that iteration, from 0
+  int estimate_iteration = 0;  ///< number of the iteration of estimate_changes, from 0
 
-  /// Directions of an iteration; the newest one's if they were not stored.
+  /// Directions of an iteration; the directions of the newest iteration if they were not stored.
   const std::shared_ptr<const std::vector<Vec3>>& directions_of(int iteration) const {
     const bool stored = has_index(kept_directions, iteration) && at(kept_directions, iteration);
     return stored ? at(kept_directions, iteration) : directions;
@@ -128,7 +133,7 @@ inline const Material& material_of(const SolverSnapshot& snapshot, PatchId i) {
   return snapshot.materials ? snapshot.materials->of(i) : snapshot.loaded->scene->material(i);
 }
 
-/// What the solve runner does.
+/// The present activity of the solve runner.
 enum class RunState { empty, loading, paused, running, finished };
 
 }  // namespace transillum::viewer

@@ -15,15 +15,16 @@
 namespace transillum::viewer {
 
 /// The solution that a snapshot shows, with the light of changed materials; its scene has the
-/// materials of before the changes. Copies all values: for a worker where there are many patches.
-/// @param complete  the solve has finished; of a result file, what the file says
+/// materials from before the changes. Copies all values: for a worker where there are many patches.
+/// @param complete  whether the solve has finished; ignored for a result file, which says so itself
 Solution solution_of(const SolverSnapshot& snapshot, bool complete = true);
 
 /// The value at a point of a linear function on a patch.
 /// @param mean  over the patch
 Rgb value_at(const Rgb& mean, const LinearPart& part, const LinearBasis& basis, const Vec3& point);
 
-/// B at a point of patch i, W/m²; its mean where B is constant on patches. It may be below 0.
+/// B at a point of patch i, W/m², which may be below 0; the mean of the patch where B is constant
+/// on patches.
 Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point);
 
 /// SolveStatistics::negative_corners of the snapshot.

@@ -31,13 +31,13 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
     : QObject(parent), colors_(colors), window_(window) {
   keep_ = make_action(
       this, "keep_run", tr("Keep this run"),
-      tr("Keep this result in the list of kept runs; it becomes A, to compare others with (K)"),
+      tr("Keep this result in the list of kept runs as A, to compare other runs with it (K)"),
       Qt::Key_K);
   show_ = new QAction(tr("Show A (hold key A)"), this);
   show_->setObjectName("show_kept_run");
   show_->setCheckable(true);
   difference_ = make_action(this, "show_difference", tr("Color by difference from A"),
-                            tr("Color each patch by the difference of the runs (Shift+K)"),
+                            tr("Color each patch by the difference between the runs (Shift+K)"),
                             QKeySequence("Shift+K"));
   difference_->setCheckable(true);
   connect(keep_, &QAction::triggered, this, &CompareActions::keep_run);
@@ -60,7 +60,7 @@ void CompareActions::keep_run() {
                     .arg(1e-9 * static_cast<double>(KeptRuns::most_bytes)));
   } else if (const auto* main = qobject_cast<const QMainWindow*>(window_)) {
     main->statusBar()->showMessage(
-        tr("Kept as A, %1: hold key A to show it; Shift+K colors by the difference")
+        tr("%1 is kept as A: hold key A to show it; Shift+K colors by the difference")
             .arg(colors_.kept_runs().all().back().name),
         6000);
   }

@@ -10,7 +10,7 @@ class QMenu;
 
 namespace transillum::viewer {
 
-/// Keeps the newest run as A; shows A while a key is held down, or the difference from it.
+/// Keeps the newest run as A. Shows A while a key is held down, or colors by the difference from A.
 class CompareActions : public QObject {
   Q_OBJECT
 

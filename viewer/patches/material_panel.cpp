@@ -54,8 +54,9 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
 }
 
 QLayout* MaterialPanel::make_choice() {
-  kind_ = named("material_kind", new QComboBox,
-                tr("What the sliders change: a material, a group of faces or a single face"));
+  kind_ =
+      named("material_kind", new QComboBox,
+            tr("Choose what the sliders change: a material, a group of faces or a single face"));
   name_ = named("material", new ElidedComboBox,
                 tr("Click a patch in the scene to choose what it belongs to"));
   name_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -79,8 +80,8 @@ QWidget* MaterialPanel::make_sliders() {
   reflectance_ = new ChannelSliders("rho", tr("Reflectance ρ"), 3);
   lobe_ = new ChannelSliders("lobe", tr("Lobe reflects k"), 3);
   lobe_->setToolTip(
-      tr("<span>Share of the light that the lobe reflects, most of it about the mirror direction; "
-         "with ρ, at most 1 (where it is more, it is lowered)</span>"));
+      tr("<span>Fraction of the light that the lobe reflects, most of it near the mirror "
+         "direction. The sum of k and ρ is at most 1; where it is more, k is lowered</span>"));
   gloss_ = new GlossSlider;
   exitance_ = new ChannelSliders("exitance", tr("Emitted exitance E, W/m²"), 2);
   account_ = make_note("material_account");
@@ -183,7 +184,7 @@ void MaterialPanel::fill_names(PatchId patch) {
       }
       break;
     case TargetKind::face:
-      // A list of all faces would be too long: the face of the selected patch.
+      // A list of all faces would be too long: only the face of the selected patch is listed.
       if (MaterialEdits::kind_of(wanted) == TargetKind::face) {
         add(wanted);
       }
@@ -215,7 +216,7 @@ void MaterialPanel::show_state() {
 }
 
 void MaterialPanel::hold_exposure() {
-  // Without light, the exposure is to follow the first.
+  // Without light, the exposure is to follow the first light.
   if (colors_.exposure_is_automatic() && relighting_.edits().has_light()) {
     colors_.set_automatic_exposure(false);
     holds_exposure_ = true;

@@ -58,7 +58,7 @@ class MaterialPanel : public QWidget {
   QComboBox *kind_, *name_;
   QLabel* extent_;    ///< how many patches the target has, and whether they differ
   QLabel* obstacle_;  ///< why materials cannot be changed now
-  QLabel* account_;   ///< what B is computed from
+  QLabel* account_;   ///< note on the source of B
   QWidget* sliders_;
   ChannelSliders *reflectance_, *lobe_, *exitance_;
   GlossSlider* gloss_;

@@ -28,7 +28,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr int parts_interval_ms = 400;
-constexpr int power_column = 2;  // of the table of exchanges
+constexpr int power_column = 2;  // column of the table of exchanges
 constexpr Rgb first_exitance{10, 10, 10}, first_reflectance{0.5, 0.5, 0.5};
 
 QString count_of(std::size_t number, const char* one, const char* several) {
@@ -145,13 +145,14 @@ QLayout* PartsPanel::make_buttons() {
   select_ =
       add_action("select_part", tr("Select its patches"), tr("Select all its patches (Return)"),
                  "Return", &PartsPanel::select_current);
-  // H and I are keys of the window, which act on the selected patches: those of the marked row.
+  // H and I are keys of the window, which act on the selected patches: the patches of the marked
+  // row.
   hide_ = add_action("hide_part", tr("Hide"),
-                     tr("Leave its patches out of the scene's picture (H); Shift+H shows all"),
-                     nullptr, &PartsPanel::hide_current);
-  isolate_ = add_action("isolate_part", tr("Isolate"),
-                        tr("Leave all others out of the scene's picture (I)"), nullptr,
-                        &PartsPanel::isolate_current);
+                     tr("Hide the patches of the row in the scene (H); Shift+H shows all"), nullptr,
+                     &PartsPanel::hide_current);
+  isolate_ =
+      add_action("isolate_part", tr("Isolate"), tr("Hide all other patches in the scene (I)"),
+                 nullptr, &PartsPanel::isolate_current);
   emit_ = add_action("emit_part", tr("Make it emit"), {}, "E", &PartsPanel::make_emit);
   reflect_ = add_action("reflect_part", tr("Make it reflect"), {}, "R", &PartsPanel::make_reflect);
   auto* row = make_row({8, 4, 8, 6});
@@ -348,11 +349,11 @@ void PartsPanel::show_state() {
                            : !fits             ? tr("The form factors exceed the memory limit")
                                                : QString();
   emit_->setToolTip(!obstacle.isEmpty() ? obstacle
-                                        : tr("Give it an exitance of 10 W/m² (E); the sliders in "
+                                        : tr("Set an exitance of 10 W/m² (E); the sliders in "
                                              "Materials change it"));
-  reflect_->setToolTip(!obstacle.isEmpty()
-                           ? obstacle
-                           : tr("Let it emit nothing (R); ρ stays, or becomes 0.5 where it is 0"));
+  reflect_->setToolTip(
+      !obstacle.isEmpty() ? obstacle
+                          : tr("Set the exitance to 0 (R); ρ stays, or becomes 0.5 where it is 0"));
 }
 
 }  // namespace transillum::viewer

@@ -21,8 +21,8 @@ class QTimer;
 
 namespace transillum::viewer {
 
-/// The groups and the materials of the scene with their powers, and what they exchange. A row
-/// selects its patches; actions hide or isolate them, and make them emit or reflect.
+/// The groups and the materials of the scene with their powers, and the powers that they exchange.
+/// A row selects its patches; actions hide or isolate them, and make them emit or reflect.
 class PartsPanel : public QWidget {
   Q_OBJECT
 
@@ -55,11 +55,11 @@ class PartsPanel : public QWidget {
   void show_state();
   void clear();
 
-  /// The part of the current row; null on the page of exchanges, or without a row.
+  /// The part of the current row; null on the page of exchanges, or without a current row.
   const PartPower* current() const;
   PartsBy current_kind() const;
   std::vector<PatchId> patches_of(const PartPower& part) const;
-  /// The part's target of MaterialEdits; empty: the patches of no group.
+  /// The part's target of MaterialEdits; empty for the patches of no group.
   std::string target_of(const PartPower& part) const;
   void select_current();
   void hide_current();

@@ -103,20 +103,21 @@ void PatchInspector::make_coefficients() {
   };
   mean_b_ = add("coefficient_0", tr("b₀"), tr("Mean of B over the patch, also B at its center"));
   first_b_ = add("coefficient_1", tr("b₁"),
-                 tr("By how much B differs from its mean along the longest edge (root of the mean "
-                    "square);\npositive: B grows in the direction of φ₁"));
-  second_b_ =
-      add("coefficient_2", tr("b₂"),
-          tr("By how much B differs from its mean across the longest edge (root of the mean "
-             "square);\npositive: B grows in the direction of φ₂"));
+                 tr("Difference of B from its mean along the longest edge (root mean square);\n"
+                    "positive if B grows in the direction of φ₁"));
+  second_b_ = add("coefficient_2", tr("b₂"),
+                  tr("Difference of B from its mean across the longest edge (root mean square);\n"
+                     "positive if B grows in the direction of φ₂"));
   const auto add_direction = [this](const QString& symbol) {
-    return coefficients_->add_row(symbol, {}, tr("The direction in which it grows, a unit vector"));
+    return coefficients_->add_row(symbol, {},
+                                  tr("The direction in which the function grows, a unit vector"));
   };
   first_direction_ = add_direction(tr("φ₁ along"));
   second_direction_ = add_direction(tr("φ₂ along"));
-  lowest_ = add("corner_lowest", tr("least"),
-                tr("Least B of a corner, in each channel. Below 0 where a patch lies across the "
-                   "edge of a shadow:\nit is kept in results, and drawn as 0"));
+  lowest_ =
+      add("corner_lowest", tr("least"),
+          tr("Least B of a corner, in each channel. B can be below 0 where a patch lies across "
+             "the edge\nof a shadow; results keep such values, pictures show them as 0"));
   highest_ = add("corner_highest", tr("largest"), tr("Largest B of a corner, in each channel"));
 }
 

@@ -24,7 +24,7 @@ class PatchInspector : public QWidget {
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
  private:
-  /// Adds a row whose symbol, unit and tip are those of the quantity.
+  /// Adds a row with the symbol, unit and tip of the quantity.
   QLabel* add_quantity(Quantity quantity, const char* name);
   void make_sums();
   void make_coefficients();
@@ -37,10 +37,11 @@ class PatchInspector : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* hint_;
   ValueGrid *sums_, *values_;
-  ValueGrid* coefficients_;  ///< of B, where it is linear on patches
+  ValueGrid* coefficients_;  ///< coefficients of B, where B is linear on patches
   QLabel *mean_b_, *first_b_, *second_b_, *first_direction_, *second_direction_, *lowest_,
       *highest_;
-  QLabel *count_, *total_area_, *emitted_, *leaving_, *received_, *mean_;  ///< of several patches
+  QLabel *count_, *total_area_, *emitted_, *leaving_, *received_, *mean_;  ///< shown for several
+                                                                           ///< patches
   QLabel *id_, *face_, *material_, *group_, *area_, *center_, *normal_, *exitance_, *reflectance_,
       *radiosity_, *irradiance_, *form_factor_sum_, *sky_share_, *swatch_;
 };

@@ -30,7 +30,7 @@ struct PatchColumn {
   Kind kind = Kind::number;
   std::vector<Rgb> values;  ///< one per patch; only red is used, except for channels
   QStringList texts = {};
-  ColumnFormat format = {};  ///< of numbers and channels; set by PatchTable
+  ColumnFormat format = {};  ///< format of numbers and channels; set by PatchTable
 };
 
 /// A table of patches. Sorting and searching permute row indices only, so that tens of thousands of
@@ -44,7 +44,8 @@ class PatchTable : public FlatTable {
   /// Replaces the contents; order and search stay.
   /// @param columns each with one value per entry of `patches`
   void set_contents(std::vector<PatchId> patches, std::vector<PatchColumn> columns);
-  /// Shows only patches with `text` in a text column, or whose number begins with it; empty: all.
+  /// Shows only patches with `text` in a text column, or whose number begins with it; all patches
+  /// if `text` is empty.
   void set_search(const QString& text);
 
   /// The patch in a shown row.

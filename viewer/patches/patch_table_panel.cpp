@@ -27,7 +27,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr int refresh_interval_ms = 400;
-constexpr int share_column = 4;  // of the table of partners
+constexpr int share_column = 4;  // column of the table of partners
 
 }  // namespace
 
@@ -68,7 +68,7 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
     bool is_number = false;
     const PatchId number = search_->text().trimmed().toInt(&is_number);
     selection_.select(is_number && table.row_of(number) >= 0 ? number : table.patch(0));
-    search_->clear();  // it would filter the table of partners too
+    search_->clear();  // a text would filter the table of partners too
   });
   connect(export_button, &QPushButton::clicked, this, &PatchTablePanel::choose_csv);
   connect(tabs_, &QTabWidget::currentChanged, this, &PatchTablePanel::refresh);
@@ -88,7 +88,8 @@ TablePage PatchTablePanel::add_page(const QString& title, const char* name) {
   const TablePage page = add_table_page(*tabs_, title, name, {});
   connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this, page](const QModelIndex& index) {
-            // Not in the table of partners: selecting another patch would replace its contents.
+            // Does nothing in the table of partners: selecting another patch would replace its
+            // contents.
             if (index.isValid() && page.view->hasFocus() && page.table == all_.table) {
               selection_.select(page.table->patch(index.row()));
             }
@@ -183,7 +184,8 @@ void PatchTablePanel::count_rows() {
   all_.caption->setText(snapshot_ ? count(*all_.table) : tr("Open a scene to list its patches."));
   const PatchId patch = selection_.patch();
   if (!snapshot_ || patch == no_patch) {
-    partners_.caption->setText(tr("Select a patch to list those that it exchanges light with."));
+    partners_.caption->setText(
+        tr("Select a patch to list the patches that it exchanges light with."));
   } else if (!snapshot_->form_factors) {
     partners_.caption->setText(why_no_form_factors(*snapshot_));
   } else {

@@ -88,8 +88,8 @@ void PathPanel::make_table() {
   table_->setHorizontalHeaderLabels({tr("Share, %"), tr("B, W/m²"), tr("Bounces"), tr("Path")});
   const QString tips[] = {
       tr("Part of the radiosity of the selected patch, by luminance"),
-      tr("Luminance of what the path adds to the radiosity B of the selected patch"),
-      tr("Reflections on the way, that of the selected patch included"),
+      tr("Luminance that the path adds to the radiosity B of the selected patch"),
+      tr("Number of reflections on the path, including the one by the selected patch"),
       tr("Patches from the source to the selected patch; click a row to emphasize it in the "
          "scene")};
   for (int column = 0; column < 4; ++column) {
@@ -174,10 +174,10 @@ void PathPanel::show_paths() {
   table_->horizontalHeaderItem(1)->setText(light_format.header(tr("B, W/m²")));
   for (int row = 0; row < rows; ++row) {
     const LightPath& path = at(paths_->paths, row);
-    const QString texts[] = {share_format.text(100 * share_of(*paths_, path.contribution)),
-                             light_format.text(luminance(path.contribution)),
-                             QString::number(path.patches.size() - 1),
-                             path.patches.size() > 1 ? path_text(path) : tr("emits it itself")};
+    const QString texts[] = {
+        share_format.text(100 * share_of(*paths_, path.contribution)),
+        light_format.text(luminance(path.contribution)), QString::number(path.patches.size() - 1),
+        path.patches.size() > 1 ? path_text(path) : tr("emitted by the patch itself")};
     for (int column = 0; column < 4; ++column) {
       auto* item = new QTableWidgetItem(texts[column]);
       const auto side = column < 3 ? Qt::AlignRight : Qt::AlignLeft;
@@ -204,14 +204,14 @@ void PathPanel::show_caption() {
     caption_->setText(tr("No light reaches patch %1.").arg(patch));
   } else {
     const double rest = 100 * share_of(*paths_, paths_->cut_off);
-    caption_->setText(tr("%1 paths carry %2 % of B of patch %3, all others together %4 %.")
+    caption_->setText(tr("%1 paths carry %2 % of B of patch %3, all other paths together %4 %.")
                           .arg(paths_->paths.size())
                           .arg(100 - rest, 0, 'f', 1)
                           .arg(patch)
                           .arg(rest, 0, 'f', 1));
     if (!paths_->complete) {
       caption_->setText(caption_->text() + QLatin1Char(' ') +
-                        tr("The search ran out of memory: stronger ones may be missing."));
+                        tr("The search ran out of memory: stronger paths may be missing."));
     }
   }
 }

@@ -29,7 +29,7 @@ class PathPanel : public QWidget {
   void clear();
   /// While the panel is hidden, nothing is searched, and no path is shown.
   void set_watched(bool watched);
-  /// The paths listed; null: none yet.
+  /// The paths listed; null before the first search has ended.
   std::shared_ptr<const LightPaths> paths() const { return paths_; }
   bool busy() const { return finder_.busy(); }
   /// Writes the paths as CSV, or as JSON where the path ends so.
@@ -37,8 +37,8 @@ class PathPanel : public QWidget {
   void write(const QString& path) const;
 
  signals:
-  /// @param paths  null: none
-  /// @param highlighted  index of the path to emphasize; -1: none
+  /// @param paths  null if there are none
+  /// @param highlighted  index of the path to emphasize, or -1
   void paths_shown(std::shared_ptr<const transillum::LightPaths> paths, int highlighted);
   void form_factors_requested();
   void failed(const QString& message);
@@ -48,7 +48,7 @@ class PathPanel : public QWidget {
     LightRequest light;
     int count = 0;
     std::vector<Rgb> start;
-    std::vector<Rgb> sky;  ///< what each patch receives from a sky; empty: none
+    std::vector<Rgb> sky;  ///< light that each patch receives from a sky; may be empty
 
     friend bool operator==(const Request& a, const Request& b) {
       // `start` changes only the time, and the sky's light belongs to the form factors.
@@ -67,7 +67,7 @@ class PathPanel : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   bool watched_ = false;
   Request requested_;
-  PatchId receiver_ = no_patch;  ///< of paths_
+  PatchId receiver_ = no_patch;  ///< receiver of paths_
   std::shared_ptr<const LightPaths> paths_;
   QString error_;
   QSpinBox* count_;

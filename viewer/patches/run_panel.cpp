@@ -109,7 +109,7 @@ void RunPanel::make_table() {
 
 QLayout* RunPanel::make_buttons(QAction& keep, QAction& difference) {
   remove_ = named("remove_run", new QToolButton,
-                  tr("Remove the run chosen in the list (Del); Undo brings it back"));
+                  tr("Remove the run chosen in the list (Del); Undo restores it"));
   remove_->setText(tr("Remove"));
   connect(remove_, &QToolButton::clicked, this, &RunPanel::remove_current);
   auto* row = make_row({8, 4, 8, 0});
@@ -123,7 +123,8 @@ QLayout* RunPanel::make_buttons(QAction& keep, QAction& difference) {
 
 QLayout* RunPanel::make_choices() {
   second_ = make_choice("run_b", tr("The run whose difference from A is shown"));
-  first_ = make_choice("run_a", tr("Run A: subtracted, and shown while the key A is held"));
+  first_ =
+      make_choice("run_a", tr("Run A, which is subtracted, and shown while the key A is held"));
   auto* row = make_row({10, 0, 8, 2}, 6);
   row->addWidget(second_, 1);
   row->addWidget(new QLabel(tr("minus A:")));
@@ -229,7 +230,7 @@ void RunPanel::rename(const QTableWidgetItem& item) {
   const auto k = static_cast<std::size_t>(item.row());
   const QString name = item.text().trimmed();
   if (name.isEmpty()) {
-    // Later: the table still edits the item.
+    // The change is made later: the table still edits the item.
     QMetaObject::invokeMethod(this, &RunPanel::show_list, Qt::QueuedConnection);
     return;
   }

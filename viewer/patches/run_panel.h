@@ -16,8 +16,8 @@ class QToolButton;
 
 namespace transillum::viewer {
 
-/// The list of kept runs, to name and remove them; which two are compared, and by how much they
-/// differ.
+/// The list of kept runs, to name and remove them; the choice of two to compare, and their
+/// difference.
 class RunPanel : public QWidget {
   Q_OBJECT
 

@@ -19,12 +19,10 @@ SelectionActions::SelectionActions(Selection& selection, HiddenPatches& hidden, 
   face_ = make_action(this, "select_face", tr("Select the face"),
                       tr("Select all patches that the selected patch's face was divided into"),
                       QKeySequence("Ctrl+Shift+F"));
-  hide_ =
-      make_action(this, "hide_selection", tr("Hide the selection"),
-                  tr("Leave the selected patches out of the scene's picture"), QKeySequence("H"));
-  isolate_ =
-      make_action(this, "isolate_selection", tr("Isolate the selection"),
-                  tr("Leave all other patches out of the scene's picture"), QKeySequence("I"));
+  hide_ = make_action(this, "hide_selection", tr("Hide the selection"),
+                      tr("Do not draw the selected patches in the scene"), QKeySequence("H"));
+  isolate_ = make_action(this, "isolate_selection", tr("Isolate the selection"),
+                         tr("Draw only the selected patches in the scene"), QKeySequence("I"));
   show_all_ = make_action(this, "show_all", tr("Show all patches"),
                           tr("Show the hidden patches again"), QKeySequence("Shift+H"));
   connect(material_, &QAction::triggered, this, [this] {

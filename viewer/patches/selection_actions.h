@@ -13,7 +13,7 @@ class QMenu;
 
 namespace transillum::viewer {
 
-/// Selects what belongs together, and hides or isolates what is selected.
+/// Selects patches that belong together, and hides or isolates the selected patches.
 class SelectionActions : public QObject {
   Q_OBJECT
 

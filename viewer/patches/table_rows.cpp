@@ -119,7 +119,7 @@ PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i) {
   PatchRows rows;
   double total = 0;
   for (PatchId j = 0; j < scene.patch_count(); ++j) {
-    constexpr double rounding = 1e-13;  // of exchanges along an edge that both share
+    constexpr double rounding = 1e-13;  // for exchanges along a common edge
     if (!(at(from, j) > rounding || at(to, j) > rounding)) {
       continue;
     }
@@ -221,7 +221,7 @@ PatchRows rows_of_parts(const PowerTable& table, bool received_known) {
                 &PartPower::from_sky);
     }
     if (max_abs(table.total.escaped) > 0) {
-      add_power(part_text("Escaped, W"), part_text("Power that leaves it and meets no patch"),
+      add_power(part_text("Escaped, W"), part_text("Power that leaves and meets no patch"),
                 "escaped", &PartPower::escaped);
     }
   }
@@ -237,19 +237,22 @@ PatchRows rows_of_exchanges(const PowerTable& table) {
       largest = std::max(largest, max_abs(power));
     }
   }
-  constexpr double rounding = 1e-13;  // of exchanges along an edge that both share
+  constexpr double rounding = 1e-13;  // exchanges along an edge that two patches share are below
+                                      // this
   QStringList senders, receivers;
-  PatchColumn power{part_text("Power, W"),
-                    with_luminance(part_text("Power that leaves one and reaches the other "
-                                             "directly: Σ A F B")),
-                    "power",
-                    Kind::channels,
-                    {}};
-  PatchColumn share{part_text("Share, %"),
-                    part_text("Of what the receiver gets from all patches, by luminance"),
-                    "share_percent",
-                    Kind::number,
-                    {}};
+  PatchColumn power{
+      part_text("Power, W"),
+      with_luminance(part_text("Power that leaves one group or material and reaches the other "
+                               "directly: Σ A F B")),
+      "power",
+      Kind::channels,
+      {}};
+  PatchColumn share{
+      part_text("Share, %"),
+      part_text("Fraction of the power that the receiver gets from all patches, by luminance"),
+      "share_percent",
+      Kind::number,
+      {}};
   for (std::size_t i = 0; i < count; ++i) {
     double received = 0;
     for (const Rgb& from : table.exchanged[i]) {
@@ -267,10 +270,11 @@ PatchRows rows_of_exchanges(const PowerTable& table) {
       share.values.push_back({received > 0 ? 100 * luminance(from) / received : 0, 0, 0});
     }
   }
-  rows.columns.push_back(
-      column_of_names(part_text("From"), part_text("What the light leaves"), "from", senders));
-  rows.columns.push_back(
-      column_of_names(part_text("To"), part_text("What it reaches next"), "to", receivers));
+  rows.columns.push_back(column_of_names(
+      part_text("From"), part_text("Group or material that the light leaves"), "from", senders));
+  rows.columns.push_back(column_of_names(part_text("To"),
+                                         part_text("Group or material that the light reaches next"),
+                                         "to", receivers));
   rows.columns.push_back(std::move(power));
   rows.columns.push_back(std::move(share));
   return rows;

@@ -30,11 +30,11 @@ PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i);
 QString part_text(const PartPower& part);
 
 /// Contents of a PatchTable whose rows are the parts of a power table, by their position.
-/// @param received_known  false: without the columns of received light
+/// @param received_known  whether there are columns of received light
 PatchRows rows_of_parts(const PowerTable& table, bool received_known);
 
-/// What parts exchange, the pairs that do, without those below rounding. Entry k of the rows is
-/// pair number `patches[k]` = receiver * number of parts + sender.
+/// The powers that parts exchange: the pairs whose exchange is above rounding. Entry k of the rows
+/// is pair number `patches[k]` = receiver * number of parts + sender.
 PatchRows rows_of_exchanges(const PowerTable& table);
 
 }  // namespace transillum::viewer

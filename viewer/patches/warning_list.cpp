@@ -49,7 +49,7 @@ void WarningList::show_scene(std::shared_ptr<const Scene> scene) {
       list << patch;
     }
     item->setData(patches_role, list);
-    item->setToolTip(patches.empty() ? tr("This is about no face of the picture")
+    item->setToolTip(patches.empty() ? tr("This warning is about no face of the scene")
                                      : tr("Click to go to the face"));
   }
   if (count() == 0) {

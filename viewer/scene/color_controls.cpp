@@ -132,7 +132,7 @@ bool ColorControls::event(QEvent* event) {
   }
   const bool placed = event->type() == QEvent::Resize || event->type() == QEvent::Show;
   if (placed && height() != grid_->sizeHint().height()) {
-    ask_for_height();  // the layout above used what was right before
+    ask_for_height();  // the layout above used the old size
   }
   return QWidget::event(event);
 }
@@ -141,13 +141,13 @@ void ColorControls::arrange() {
   const QMargins margins = grid_->contentsMargins();
   const int room = width() - margins.left() - margins.right();
   const int tools = tools_->sizeHint().width();
-  // Without room the slider is hidden: the box beside it shows the same value.
+  // Hides the slider where there is no room: the box beside it shows the same value.
   const int spare =
       exposure_label_->sizeHint().width() + exposure_slider_->sizeHint().width() + 2 * spacing;
   const int exposure = pages_->widget(0)->sizeHint().width();
   const int scale = pages_->widget(1)->sizeHint().width();
-  // The same whether the slider is hidden or not: otherwise each arrangement could ask for the
-  // other.
+  // The result does not depend on whether the slider is hidden: otherwise each arrangement could
+  // ask for the other.
   const int page = std::max(exposure - (exposure_slider_->isHidden() ? 0 : spare), scale);
   const int quantity = quantity_row_->minimumSizeHint().width();
   setMinimumWidth(std::max({quantity, tools, page}) + margins.left() + margins.right());

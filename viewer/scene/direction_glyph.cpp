@@ -168,10 +168,10 @@ vtkSmartPointer<vtkActor> actor_on_top(vtkPolyData* data, const QColor& color, d
 
 StepGlyph::StepGlyph(vtkRenderer& renderer)
     : polygon_(vtkSmartPointer<vtkPolyData>::New()), loop_(vtkSmartPointer<vtkPolyData>::New()) {
-  // Depth offsets that put it in front of the whole scene.
+  // Depth offsets that put the glyph in front of the whole scene.
   fill_ = actor_on_top(polygon_, theme::processed, -1e5, renderer);
   fill_->GetProperty()->SetOpacity(0.55);
-  fill_->ForceOpaqueOn();  // as in DirectionGlyph
+  fill_->ForceOpaqueOn();  // like DirectionGlyph
   halo_ = actor_on_top(loop_, Qt::black, -1.1e5, renderer);
   border_ = actor_on_top(loop_, theme::processed, -1.2e5, renderer);
 }

@@ -24,9 +24,9 @@ class DirectionGlyph {
  public:
   explicit DirectionGlyph(vtkRenderer& renderer);
 
-  /// `omega` points toward the source: light travels along -omega, with `two_way` also along omega.
-  /// The plane is `distance` from `center`, on the side nearer to `eye`; its size is proportional
-  /// to `radius`. Lengths in meters.
+  /// `omega` points toward the source: light travels along -omega, and also along omega if
+  /// `two_way` is set. The plane is `distance` from `center`, on the side nearer to `eye`; its size
+  /// is proportional to `radius`. Lengths in meters.
   void show(const Vec3& omega, bool two_way, const Vec3& center, double radius, double distance,
             const Vec3& eye);
   /// The same with the plane through `middle`.

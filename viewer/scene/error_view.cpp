@@ -28,7 +28,7 @@ constexpr int picture_side = 320;  // pixels
 constexpr int reference_factor = 8;
 constexpr ColorMap error_map = ColorMap::inferno;
 
-// The patch at each pixel, row by row; no_patch: nothing.
+// The patch at each pixel, row by row; no_patch where there is none.
 std::vector<PatchId> patches_in_view(const LoadedScene& loaded, const ViewPoint& view,
                                      const Cancellation& cancellation) {
   const Vec3 forward = normalized(view.target - view.eye);
@@ -79,7 +79,7 @@ QImage picture_of(const std::vector<PatchId>& patches, const std::vector<double>
   return image;
 }
 
-// Nearly the largest error of all runs: a single patch does not set the scale.
+// The scale ends at nearly the largest error of all runs: a single patch does not set it.
 double scale_of(const std::vector<std::vector<double>>& errors) {
   constexpr double share = 0.95;
   double most = 1e-12;

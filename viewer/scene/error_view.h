@@ -20,13 +20,13 @@ namespace transillum::viewer {
 /// Pictures of the scene side by side, one for each set of directions, colored by the error of B
 /// against a reference, all on one scale.
 ///
-/// It solves on its own thread: the runs of a lesson's page as soon as they are shown, others when
-/// the user asks.
+/// It solves on its own thread: the runs of a lesson's page as soon as they are shown, other runs
+/// when the user asks.
 class ErrorView : public QWidget {
   Q_OBJECT
 
  public:
-  /// What was measured.
+  /// The measured errors of all runs.
   struct Result {
     std::vector<QImage> pictures;  ///< one per run
     std::vector<double> rms;       ///< RadiosityError::rms, one per run
@@ -37,8 +37,8 @@ class ErrorView : public QWidget {
   explicit ErrorView(std::function<ViewPoint()> view, QWidget* parent = nullptr);
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
-  /// Measures these runs whenever the panel is visible and a scene is open; none: random,
-  /// Hammersley and default directions, when the user asks.
+  /// Measures these runs whenever the panel is visible and a scene is open. Without runs, it
+  /// measures random, Hammersley and default directions when the user asks.
   void set_runs(const ErrorRuns& runs);
   /// Null until the newest runs have been measured.
   const Result* result() const { return result_.get(); }
@@ -74,13 +74,13 @@ class ErrorView : public QWidget {
 
   std::function<ViewPoint()> view_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
-  ErrorRuns wanted_;   ///< of a lesson's page
+  ErrorRuns wanted_;   ///< runs of a lesson's page
   ErrorRuns running_;  ///< measured, or being measured
   std::shared_ptr<const LoadedScene> running_scene_;
   std::shared_ptr<const Result> result_;
   bool busy_ = false;
-  double share_ = 0;  ///< of the passes done
-  int number_ = 0;    ///< of the newest job
+  double share_ = 0;  ///< finished fraction of the passes
+  int number_ = 0;    ///< number of the newest job
   QPushButton* button_;
   RequestWorker<Job> worker_;
 };

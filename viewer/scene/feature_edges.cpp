@@ -21,7 +21,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double cos_bend = 0.94;     // of 20 degrees
+constexpr double cos_bend = 0.94;     // cosine of 20 degrees
 constexpr int largest_contrast = 24;  // sum over channels, of colors that look the same
 
 std::vector<FeatureEdge> sides_of(const Scene& scene) {
@@ -39,12 +39,12 @@ std::vector<FeatureEdge> sides_of(const Scene& scene) {
   return sides;
 }
 
-// Whether the surface goes on in the plane of the edge's patch on both sides of it.
+// Whether the surface continues in the plane of the edge's patch on both sides of the edge.
 bool continues(const LoadedScene& loaded, const FeatureEdge& edge) {
   const Scene& scene = *loaded.scene;
   const Vec3& normal = scene.patch(edge.first).normal;
   const Vec3 a = scene.point(edge.begin), b = scene.point(edge.end);
-  // Beyond what the picker may confuse.
+  // This distance is large enough that the picker cannot confuse two surfaces.
   const double small = 1e-4 * scene.bounds().diagonal();
   const auto covered = [&](const Vec3& aside) {
     const auto hit =
@@ -164,8 +164,8 @@ void FeatureEdges::follow_camera(const Vec3& eye) {
   if (!drawn_ || norm(eye - eye_) > 0) {
     draw(eye);
   }
-  // Scaled about the camera, the lines stay in place in the picture. By so much that in an inner
-  // corner, a floor seen at a grazing angle does not hide half of the line's width.
+  // Scaled about the camera, the lines stay in place in the picture. The scale is chosen so that in
+  // an inner corner, a floor seen at a grazing angle does not hide half of the line's width.
   actor_->SetOrigin(eye.x, eye.y, eye.z);
   actor_->SetScale(1 - 3e-3);
 }

@@ -19,21 +19,22 @@ namespace transillum::viewer {
 /// An edge at which the surface bends or ends.
 struct FeatureEdge {
   PointId begin, end;
-  PatchId first, second;  ///< second: no_patch where the surface ends
+  PatchId first, second;  ///< second is no_patch where the surface ends
 };
-/// Edges between patches at more than 20 degrees, and those of one patch only that do not continue
-/// in its plane (as at a T-junction). Sorted by their points.
+/// Edges between patches at more than 20 degrees, and edges of a single patch where the surface
+/// does not continue in its plane (it does at a T-junction). Sorted by their points.
 std::vector<FeatureEdge> feature_edges(const LoadedScene& loaded);
 
-/// Draws feature edges where both sides have about the same color, so that the shape is seen under
-/// a quantity that is the same on all of them; with a front side toward the camera only.
+/// Draws feature edges where both sides have about the same color, so that the shape is seen even
+/// if the quantity is the same on all patches. Only edges with a front side toward the camera are
+/// drawn.
 class FeatureEdges {
  public:
   explicit FeatureEdges(vtkRenderer& renderer);
 
   void show_scene(std::shared_ptr<const LoadedScene> loaded);
   /// @param colors  one per patch
-  /// @param hidden  patches left out, one per patch
+  /// @param hidden  whether a patch is omitted, one per patch
   void show(std::span<const Color8> colors, const std::vector<bool>& hidden);
   vtkActor* actor() const { return actor_; }
   void hide();
@@ -51,7 +52,7 @@ class FeatureEdges {
   std::shared_ptr<const LoadedScene> loaded_;
   bool found_ = false;  ///< all_ is of loaded_
   std::vector<FeatureEdge> all_, flat_;
-  std::vector<Color8> flat_colors_;  ///< of the lines, one per edge of flat_
+  std::vector<Color8> flat_colors_;  ///< colors of the lines, one per edge of flat_
   Vec3 eye_;
   bool drawn_ = false;  ///< lines_ is of flat_ and eye_
   vtkSmartPointer<vtkPolyData> lines_;

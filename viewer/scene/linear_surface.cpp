@@ -2,9 +2,9 @@
 //
 // VTK interpolates colors of corners, but the color of a mean is not the mean of colors: neither
 // with a gamma, nor with a color map, nor where values are below 0 or too bright. So the values go
-// through the vertex shader, and the fragment shader does what ColorScale::color() does. Replaced
-// are blocks of VTK's shaders for polygons; a geometry shader, which VTK adds for edges and thick
-// lines, passes the values on ("VSOut" is renamed in the fragment shader then).
+// through the vertex shader, and the fragment shader does what ColorScale::color() does. Blocks of
+// VTK's shaders for polygons are replaced. A geometry shader, which VTK adds for edges and thick
+// lines, passes the values on ("VSOut" is then renamed in the fragment shader).
 #include "scene/linear_surface.h"
 
 #include <vtkCellArray.h>

@@ -28,11 +28,11 @@ class LinearSurface {
   vtkActor* actor() const { return actor_; }
   /// The surface of a scene, hidden until show().
   void show_scene(std::shared_ptr<const Scene> scene);
-  /// Leaves patches out.
+  /// Omits patches.
   /// @param hidden  one per patch
   void leave_out(const std::vector<bool>& hidden);
   /// Shows the values of `colors`, which are linear.
-  /// @param dimmed  patches to dim, one per patch; empty: none
+  /// @param dimmed  whether a patch is dimmed, one per patch; empty if none is
   void show(const ColorChoice& colors, const std::vector<bool>& dimmed);
   void hide() { actor_->VisibilityOff(); }
 
@@ -41,7 +41,8 @@ class LinearSurface {
 
   std::shared_ptr<const Scene> scene_;
   vtkSmartPointer<vtkPolyData> surface_;
-  vtkSmartPointer<vtkFloatArray> light_;  ///< of each point: red, green, blue, and 1: dimmed
+  vtkSmartPointer<vtkFloatArray> light_;  ///< for each point: red, green, blue, and 1 if it is
+                                          ///< dimmed
   vtkSmartPointer<vtkPolyDataMapper> mapper_;
   vtkSmartPointer<vtkActor> actor_;
   std::vector<bool> hidden_;

@@ -20,7 +20,7 @@ namespace transillum::viewer {
 /// patches, or with a quantity that is linear on patches.
 class PatchSurface {
  public:
-  /// @param hidden  patches that are left out
+  /// @param hidden  patches that are omitted
   PatchSurface(vtkRenderer& renderer, const HiddenPatches& hidden);
 
   void show_scene(std::shared_ptr<const Scene> scene);
@@ -34,7 +34,8 @@ class PatchSurface {
   void set_outlined(bool outlined);
   void set_line_width(double pixels);
   /// @param patch_colors  one per patch
-  /// @param dimmed  patches to dim where the quantity is linear, one per patch; empty: none
+  /// @param dimmed  whether to dim a patch where the quantity is linear, one per patch; empty if
+  /// none is
   void color(const ColorChoice& colors, std::span<const Color8> patch_colors,
              const std::vector<bool>& dimmed);
   bool outlined() const;

@@ -31,7 +31,7 @@ vtkSmartPointer<vtkActor> line_actor(vtkPolyData* data, double units, vtkRendere
   mapper->SetInputData(data);
   mapper->SetColorModeToDirectScalars();
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  // As StepGlyph: a depth offset that puts it in front of the whole scene.
+  // A depth offset puts the lines in front of the whole scene, like StepGlyph.
   mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, units);
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
@@ -56,7 +56,7 @@ void start_lines(vtkPolyData& data) {
   data.SetLines(vtkNew<vtkCellArray>());
 }
 
-// The point at a share of the length of a path.
+// The point at a fraction of the length of a path.
 Vec3 point_on(const Scene& scene, const LightPath& path, double share) {
   const auto center = [&](std::size_t k) { return scene.patch(path.patches[k]).center; };
   double length = 0;
@@ -110,7 +110,7 @@ void PathGlyph::show(const Scene& scene, const LightPaths& paths, int emphasized
       continue;
     }
     add_line(*lines_, scene, path);
-    // By the root, so that weak ones are visible beside strong ones.
+    // The square root makes weak paths visible beside strong ones.
     const double strength =
         std::sqrt(luminance(path.contribution) / luminance(paths.paths.front().contribution));
     const auto gray = static_cast<unsigned char>(70 + std::lround(185 * std::min(strength, 1.0)));

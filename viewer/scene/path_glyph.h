@@ -15,12 +15,13 @@
 namespace transillum::viewer {
 
 /// Light paths as lines between the centers of their patches, in front of the whole scene: the
-/// stronger, the brighter. The shares of the strongest, and of the emphasized one, are written.
+/// stronger, the brighter. The shares of the strongest paths, and of the emphasized path, are
+/// written.
 class PathGlyph {
  public:
   explicit PathGlyph(vtkRenderer& renderer);
 
-  /// @param emphasized  index of a path; -1: none
+  /// @param emphasized  index of a path, or -1
   void show(const Scene& scene, const LightPaths& paths, int emphasized);
   void hide();
   bool shown() const { return lines_actor_->GetVisibility() != 0; }
@@ -31,7 +32,7 @@ class PathGlyph {
 
   vtkSmartPointer<vtkPolyData> lines_, emphasized_;
   vtkSmartPointer<vtkActor> lines_actor_, emphasized_actor_;
-  std::array<vtkSmartPointer<vtkTextActor>, 4> labels_;  ///< the last: emphasized
+  std::array<vtkSmartPointer<vtkTextActor>, 4> labels_;  ///< the last line is emphasized
 };
 
 }  // namespace transillum::viewer

@@ -22,7 +22,7 @@ class SceneMesh {
   explicit SceneMesh(std::shared_ptr<const Scene> scene);
 
   vtkPolyData* surface() const { return surface_; }
-  /// Leaves patches out.
+  /// Omits patches.
   /// @param hidden  one per patch
   void leave_out(const std::vector<bool>& hidden);
   /// One color per patch. Changes the cells' colors, never their shape.
@@ -31,7 +31,7 @@ class SceneMesh {
  private:
   std::shared_ptr<const Scene> scene_;
   vtkSmartPointer<vtkPolyData> surface_;
-  std::vector<PatchId> patches_;  ///< of each cell
+  std::vector<PatchId> patches_;  ///< patch of each cell
   vtkSmartPointer<vtkUnsignedCharArray> colors_;
 };
 
@@ -47,7 +47,7 @@ class SmoothMesh {
   explicit SmoothMesh(const Scene& scene);
 
   vtkPolyData* surface() const { return surface_; }
-  /// Leaves patches of the scene out.
+  /// Omits patches of the scene.
   /// @param hidden  one per patch
   void leave_out(const Scene& scene, const std::vector<bool>& hidden);
   /// One color per patch.

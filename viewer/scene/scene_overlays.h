@@ -21,11 +21,11 @@ struct OrientationPlan;
 namespace transillum::viewer {
 
 /// The edges of the fragments of all patches that `tree` cuts, `lift` meters in front of them.
-/// @param hidden  patches left out, one per patch
+/// @param hidden  whether a patch is omitted, one per patch
 vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& tree, double lift,
                                             const std::vector<bool>& hidden);
 /// A line from the center of each patch along its normal, half as long as the patch is wide.
-/// @param hidden  patches left out, one per patch
+/// @param hidden  whether a patch is omitted, one per patch
 vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene, const std::vector<bool>& hidden);
 
 /// Geometry drawn in addition to the colored patches; computed when it is first shown.
@@ -38,7 +38,7 @@ class SceneOverlays {
   /// @param surface the scene's polygons, to draw their back sides
   /// @param lift meters by which lines are drawn in front of their patches
   void show_scene(std::shared_ptr<const LoadedScene> loaded, vtkPolyData* surface, double lift);
-  /// Leaves the lines of patches out; back sides follow `surface`.
+  /// Omits the lines of patches; back sides follow `surface`.
   /// @param hidden  one per patch
   void leave_out(const std::vector<bool>& hidden);
   void set_shown(Kind kind, bool shown);

@@ -28,16 +28,16 @@ class ScenePage : public QWidget {
             QWidget* parent = nullptr);
 
   Banner* banner() const { return banner_; }
-  /// Above all others: a session that can be gone on with.
+  /// The topmost bar: it offers to resume a session.
   Banner* recovery_bar() const { return recovery_bar_; }
-  /// Above banner(): the scene that is being loaded.
+  /// The bar above banner(): it shows the scene that is being loaded.
   Banner* loading_bar() const { return loading_bar_; }
-  /// Names the scene that is being loaded where scenes are chosen; empty: none.
+  /// Names the scene that is being loaded on the page where scenes are chosen; empty if none is.
   void set_loading(const QString& name);
-  /// Below banner(): what the window offers for the open scene.
+  /// The bars below banner(): they show what the window offers for the open scene.
   Banner* light_bar() const { return light_bar_; }
   Banner* orientation_bar() const { return orientation_bar_; }
-  /// How the file of the open scene was read, where that was remembered.
+  /// The bar that says how the file of the open scene was read, if that was remembered.
   Banner* reading_bar() const { return reading_bar_; }
   ColorControls* color_controls() const { return color_controls_; }
   SceneView* scene_view() const { return scene_view_; }

@@ -48,7 +48,7 @@ class CameraStyle : public vtkInteractorStyleTrackballCamera {
       vtkInteractorStyleTrackballCamera::Rotate();
       return;
     }
-    // As VTK's trackball: a drag across the whole picture turns by 200 degrees.
+    // A drag across the whole picture turns by 200 degrees, like VTK's trackball.
     const int* now = Interactor->GetEventPosition();
     const int* before = Interactor->GetLastEventPosition();
     const int* size = Interactor->GetSize();
@@ -56,7 +56,7 @@ class CameraStyle : public vtkInteractorStyleTrackballCamera {
          -200.0 * (now[1] - before[1]) / std::max(size[1], 1));
   }
 
-  /// Turns by azimuth and elevation, degrees; empty: trackball.
+  /// Turns by azimuth and elevation, degrees; empty for a trackball.
   std::function<void(double, double)> turn;
 };
 
@@ -103,7 +103,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   feature_edges_ = std::make_unique<FeatureEdges>(*renderer_);
   turn_preview_ = std::make_unique<TurnPreview>(*renderer_);
   path_glyph_ = std::make_unique<PathGlyph>(*renderer_);
-  // Drawn in this order: the translucent ones last.
+  // The actors are drawn in this order: the translucent ones last.
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
   step_glyph_ = std::make_unique<StepGlyph>(*renderer_);
 
@@ -131,7 +131,7 @@ QWidget* SceneView::canvas() const { return canvas_; }
 bool SceneView::at_rest() const { return !pressed_ && !rest_timer_->isActive(); }
 
 void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
-  // Other patches of the same scene: the camera stays.
+  // The scene is the same with other patches: the camera stays.
   const bool stays = loaded_ && whole_of(loaded) == whole_of(loaded_);
   loaded_ = std::move(loaded);
   snapshot_ = nullptr;
@@ -190,7 +190,7 @@ void SceneView::set_smooth_shading(bool smooth) {
 }
 
 void SceneView::leave_out_hidden() {
-  // After a new scene was announced, the flags may be of that one already.
+  // After a new scene was announced, the flags may already belong to it.
   if (!loaded_ || std::ssize(hidden_.flags()) != loaded_->scene->patch_count()) {
     return;
   }
@@ -394,7 +394,8 @@ void SceneView::show_direction() {
                     focus_point_ + dot(center - focus_point_, omega) * omega, radius_);
     return;
   }
-  // Before the first step it is the direction of the map, else the last one of the run.
+  // Before the first step, it shows the direction of the map, or else the last direction of the
+  // run.
   const Vec3 omega = !snapshot_   ? Vec3{}
                      : stepping() ? focus_.map()->record().frame.omega
                                   : snapshot_->progress.last_direction;
@@ -402,7 +403,7 @@ void SceneView::show_direction() {
     glyph_->hide();
     return;
   }
-  // Just outside the scene, or outside the part of interest of a large enclosure.
+  // The glyph is just outside the scene, or outside the part of interest of a large enclosure.
   double reach = 0;
   for (const Vec3& p : loaded_->scene->points()) {
     reach = std::max(reach, std::abs(dot(p - focus_point_, omega)));

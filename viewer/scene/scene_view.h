@@ -58,8 +58,8 @@ class SceneView : public QWidget {
   void set_outlines_shown(bool shown);
   void set_overlay_shown(SceneOverlays::Kind kind, bool shown);
   void set_wireframe(bool wireframe);
-  /// Interpolates colors across patches, instead of one color per patch. Of quantities that are
-  /// linear on patches, it changes nothing.
+  /// Interpolates colors across patches, instead of drawing one color per patch. For quantities
+  /// that are linear on patches, this changes nothing.
   void set_smooth_shading(bool smooth);
   /// Antialiases edges while the scene is at rest; doubles the time per picture without a GPU.
   void set_antialiased(bool antialiased);
@@ -68,18 +68,19 @@ class SceneView : public QWidget {
   /// Draws the faces that `plan` would change over the scene, until hide_turn() or another scene.
   void preview_turn(const OrientationPlan& plan);
   void hide_turn();
-  /// Draws light paths of the scene over it, until others or another scene are shown.
-  /// @param paths  null: none
-  /// @param emphasized  index of a path; -1: none
+  /// Draws light paths of the scene over it, until other paths or another scene are shown.
+  /// @param paths  null if there are none
+  /// @param emphasized  index of a path, or -1
   void show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized);
   bool previews_turn() const { return turn_preview_->shown(); }
   /// Keeps the viewing direction and fits the whole scene.
   void fit_all();
   void fit_selected();
   void view_from_side(Side side);
-  /// Names what the callouts point at, until the next call.
+  /// Shows these callouts until the next call.
   void show_callouts(const std::vector<Callout>& callouts);
-  /// The point in the scene that a callout is at, m; empty where what it names is not shown.
+  /// The point in the scene that a callout points at, m; not set where the named object is not
+  /// shown.
   std::optional<Vec3> anchor_of(const Callout& callout) const;
   /// The camera; set_view_point() keeps the radius of the scene's part of interest.
   ViewPoint view_point() const;
@@ -87,7 +88,7 @@ class SceneView : public QWidget {
   /// How a drag rotates: as a trackball, or as a turntable, about the vertical of the scene, which
   /// stays upright.
   void set_turntable(bool turntable);
-  /// Cuts the picture open along a plane; none: not.
+  /// Clips the picture by a plane; shows all of it if no plane is given.
   void set_clip(const std::optional<ClipPlane>& clip);
   bool turntable() const { return turntable_; }
   /// Turns the camera about the vertical of the scene, and above or below it, degrees.
@@ -99,7 +100,7 @@ class SceneView : public QWidget {
   QImage picture(int scale) const;
   /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
   PatchId patch_at(const QPoint& position) const;
-  /// That patch with the point of it.
+  /// The patch drawn at a point of canvas(), and its point there.
   std::optional<PickedPoint> hit_at(const QPoint& position) const;
   QWidget* canvas() const;
   /// Whether the picture is final: no button is held, and no further step has come for a while.
@@ -138,7 +139,7 @@ class SceneView : public QWidget {
   std::vector<Color8> patch_colors_;
   Vec3 focus_point_;              ///< center of the part of interest, meters
   double radius_ = 1;             ///< its radius, meters
-  std::optional<Vec3> eye_;       ///< of the newest picture
+  std::optional<Vec3> eye_;       ///< eye of the newest picture
   ViewPoint initial_view_point_;  ///< set by reset_view()
   bool direction_shown_ = true;
   bool antialiased_ = true;

@@ -22,14 +22,14 @@ constexpr int steps = 200;
 
 ClipControls::ClipControls(QWidget* parent) : QWidget(parent) {
   axis_ = named("clip_axis", new QComboBox,
-                tr("The axis across which a plane cuts the scene open (X: the next one)"));
+                tr("The axis that is perpendicular to the clipping plane (X: the next axis)"));
   axis_->addItems({tr("Off"), tr("x"), tr("y"), tr("z")});
-  place_ = named("clip_place", new QSlider(Qt::Horizontal), tr("Where the plane cuts the scene"));
+  place_ = named("clip_place", new QSlider(Qt::Horizontal), tr("Position of the clipping plane"));
   place_->setRange(0, steps);
   place_->setValue(steps / 2);
   place_->setMinimumWidth(120);
   other_side_ = named("clip_other_side", new QCheckBox(tr("Other side")),
-                      tr("Show what the plane cuts away, instead of the rest"));
+                      tr("Show the other side of the plane"));
   auto* label = new QLabel(tr("Clipping plane"));
   label->setBuddy(axis_);
   auto* row = make_row(this, {14, 6, 14, 8});
@@ -127,7 +127,7 @@ void ShowMenu::set_linear(bool linear) {
   QAction* smooth = at(overlays_, Overlay::smooth);
   smooth->setEnabled(!linear);
   smooth->setToolTip(
-      linear ? tr("The quantity shown is linear on each patch: nothing is left to interpolate")
+      linear ? tr("The quantity shown is linear on each patch: it is already interpolated")
              : tr("Interpolate colors across patches; the solution is constant on each"));
 }
 

@@ -26,7 +26,7 @@ class ClipControls : public QWidget {
  public:
   explicit ClipControls(QWidget* parent = nullptr);
 
-  /// None: off.
+  /// The chosen clipping plane; not set if clipping is off.
   std::optional<ClipPlane> choice() const;
   void set_choice(const std::optional<ClipPlane>& clip);
   /// Switches from off to x, y, z and back to off.
@@ -51,7 +51,7 @@ class ShowMenu : public QToolButton {
   QAction* outlines() const { return outlines_; }
   QAction* direction() const { return direction_; }
   ClipControls* clip() const { return clip_; }
-  /// Whether the quantity shown is linear on patches: then smooth shading is not available.
+  /// Sets whether the quantity shown is linear on patches: smooth shading is then not available.
   void set_linear(bool linear);
   QAction* next_clip_axis() const { return next_clip_axis_; }
   QAction* overlay(Overlay overlay) const { return at(overlays_, overlay); }

@@ -116,7 +116,7 @@ void WelcomePage::show_back_button() { back_->show(); }
 
 void WelcomePage::changeEvent(QEvent* event) {
   QScrollArea::changeEvent(event);
-  // Later, when the cards have the new font.
+  // The call is made later, when the cards have the new font.
   if (event->type() == QEvent::FontChange) {
     QTimer::singleShot(0, this, &WelcomePage::measure);
   }
@@ -134,7 +134,7 @@ void WelcomePage::show_title() {
   bold.setBold(true);
   bold.setPixelSize(theme::scaled(24));
   title = QFontMetrics(bold).elidedText(title, Qt::ElideMiddle, viewport()->width() - 2 * margin);
-  // As HTML: a font set on the label would be lost when the style sheet changes.
+  // The title is HTML: a font set on the label would be lost when the style sheet changes.
   title_->setText(QStringLiteral("<span style='font-size: %1px; font-weight: bold'>%2</span>")
                       .arg(theme::scaled(24))
                       .arg(title.toHtmlEscaped()));

@@ -20,7 +20,7 @@ class WelcomePage : public QScrollArea {
 
   /// Shows the button that goes back to the open scene.
   void show_back_button();
-  /// Names the scene that is being loaded in the title; empty: none.
+  /// Names the scene that is being loaded in the title; empty if none is.
   void set_loading(const QString& name);
 
  signals:

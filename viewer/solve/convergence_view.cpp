@@ -19,7 +19,7 @@ namespace {
 
 std::vector<LogChart::Level> levels_of(const SolverSnapshot& snapshot) {
   const double accuracy = snapshot.options.goal.accuracy;
-  if (accuracy > 0) {  // it has chosen the tolerance
+  if (accuracy > 0) {  // the goal has chosen the tolerance
     return {{ConvergenceView::tr("accuracy %1 %").arg(number_text(100 * accuracy)), theme::ink,
              accuracy}};
   }
@@ -30,7 +30,8 @@ std::vector<LogChart::Level> levels_of(const SolverSnapshot& snapshot) {
            theme::warm, snapshot.options.tolerance}};
 }
 
-/// The error of B after each iteration, by the spread of replicas, between its limits.
+/// Adds the error of B after each iteration, estimated from the spread of replicas, between its
+/// limits.
 void add_error_band(const SolverSnapshot& snapshot, std::vector<LogChart::Line>& lines) {
   if (snapshot.errors.empty()) {
     return;
@@ -84,17 +85,17 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
 
   iteration_chart_->setObjectName("iteration_chart");
   iteration_chart_->setToolTip(symbol_tip(
-      tr("not propagated: bound of the light that further iterations add, relative to the "
-         "reflected light, of all patches or of the dimmest tenth of their area\n"
+      tr("not propagated: bound of the light that further iterations add to all patches, or to the "
+         "dimmest tenth of their area, relative to the reflected light\n"
          "eq. 25: the paper's rule, the largest change of B over the largest B, with E\n"
-         "eq. 22: bound of that change, by the contraction with eq. 21, from the first change on\n"
-         "error of B: its estimate from the replicas, between its limits\n"
+         "eq. 22: bound of that change: the first one, reduced by the contraction with eq. 21\n"
+         "error of B: estimate from the replicas, between its limits\n"
          "Click to go to an iteration"),
       "6"));
   direction_chart_->setObjectName("direction_chart");
   direction_chart_->setToolTip(symbol_tip(
-      tr("change of B: by which each direction changes the running estimate, relative\n"
-         "ε/π: by how much a sum of form factors can be off with the directions so far (eq. 17)\n"
+      tr("change of B: relative change of the running estimate by each direction\n"
+         "ε/π: largest error of a sum of form factors with the directions so far (eq. 17)\n"
          "eq. 21: bound of ε for evenly spread directions, divided by π\n"
          "Click to go to a direction"),
       "7.1"));
@@ -121,7 +122,7 @@ void ConvergenceView::show_position() {
 }
 
 void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
-  // Of the semi-iterative scheme: the change is that of an iteration, the error that of the mean.
+  // In the semi-iterative scheme, the change belongs to one iteration, the error to the mean.
   const bool averages = snapshot.options.scheme == Scheme::semi_iterative;
   std::vector<double> remainders, changes, mean_errors;
   for (const IterationRecord& iteration : snapshot.statistics.iteration_records) {
@@ -145,7 +146,7 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   direction_chart_->set_title(
       tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));
   const int passes = snapshot.progress.passes;
-  // Error of the directions so far in integrating the cosine, and its bound (section 4).
+  // The error of the directions so far in integrating the cosine, and its bound (section 4).
   std::vector<double> errors, bounds;
   const int per_pass = snapshot.options.two_way ? 2 : 1;
   for (std::size_t d = 0; d < snapshot.quadrature_errors.size(); ++d) {

@@ -30,7 +30,7 @@ class ConvergenceView : public QWidget {
   Focus& focus_;
   LogChart* iteration_chart_;
   LogChart* direction_chart_;
-  int shown_iteration_ = 0;  ///< of direction_chart_, from 0
+  int shown_iteration_ = 0;  ///< iteration of direction_chart_, from 0
 };
 
 /// Upper bounds of the change of B in each iteration by eqs. 22 and 25, given the first change: for

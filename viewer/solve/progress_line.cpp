@@ -23,22 +23,22 @@ QString iterations_text(int count) {
 
 QString percent(double share) { return ProgressLine::tr("%1 %").arg(number_text(100 * share)); }
 
-// Of a finished solve with a goal.
+// The text on a finished solve with a goal.
 QString accuracy_text(const AccuracyReport& report) {
   const QString passes = count_text(report.passes_made);
   if (report.goal.accuracy == 0) {
-    return ProgressLine::tr("Time is up: error at most %1, %2 passes")
+    return ProgressLine::tr("Time is up: error at most %1 after %2 passes")
         .arg(percent(report.error), passes);
   }
   if (!report.reached) {
-    return ProgressLine::tr("Not reached: error at most %1 of %2 asked, %3 passes")
+    return ProgressLine::tr("Not reached: error at most %1 (limit %2), %3 passes")
         .arg(percent(report.error), percent(report.goal.accuracy), passes);
   }
-  return ProgressLine::tr("Good enough: error at most %1 of %2 asked, %3 passes")
+  return ProgressLine::tr("Good enough: error at most %1 (limit %2), %3 passes")
       .arg(percent(report.error), percent(report.goal.accuracy), passes);
 }
 
-// A result file: its own name and that of its scene.
+// The name of the scene; for a result file, the names of the file and of its scene.
 QString name_of(const LoadedScene& loaded) {
   const auto short_name = [](const std::string& path) {
     return QFileInfo(QString::fromStdString(path)).fileName();

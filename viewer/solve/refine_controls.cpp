@@ -31,7 +31,7 @@ RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
   by_->addItems({tr("None"), tr("Jumps"), tr("Error")});
   by_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   by_->setMinimumContentsLength(8);
-  patches_ = named("refine_patches", new QSpinBox, tr("The most patches to make"));
+  patches_ = named("refine_patches", new QSpinBox, tr("Largest number of patches"));
   patches_->setRange(1, 1 << 24);
   patches_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   patches_->setValue(usual_patches);
@@ -41,8 +41,7 @@ RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
   until_->setValidator(percent);
   until_->setPlaceholderText(tr("No limit"));
   until_->setToolTip(
-      tr("The rounds end when their figure, in percent of B, is this small:\nthe RMS jump, or the "
-         "L2 error"));
+      tr("The rounds end when the RMS jump or the L2 error,\nin percent of B, is this small"));
   limits_ = new QWidget;
   auto* limits = new QFormLayout(limits_);
   limits->setContentsMargins(0, 2, 0, 0);

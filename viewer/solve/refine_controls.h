@@ -31,9 +31,9 @@ class RefineControls : public QWidget {
 
   bool available_ = true;
   RefineChoice base_;  ///< with all digits of what the controls show
-  QComboBox* by_;      ///< none, then those of RefineBy
+  QComboBox* by_;      ///< none, then the values of RefineBy
   QSpinBox* patches_;
-  QLineEdit* until_;  ///< percent; empty: no limit
+  QLineEdit* until_;  ///< percent; empty without a limit
   QWidget* limits_;
 };
 

@@ -44,7 +44,7 @@ RoundsAhead rounds_ahead(PatchId patches, const RefineChoice& refine) {
   }
   ahead.patches += refine.patches;
   if (refine.by == RefineBy::error) {
-    ++ahead.rounds;  // the last tells the error of what is solved then
+    ++ahead.rounds;  // the last round tells the error of the mesh that is solved then
     ahead.patches += 0.25 * refine.patches;
   }
   return ahead;
@@ -74,7 +74,7 @@ RoundPanel::RoundPanel(QWidget* parent) : QWidget(parent) {
   row->addWidget(bar_, 1);
   row->addWidget(cancel_);
   auto* layout = make_column(this, {}, 6);
-  // Above the table, which grows.
+  // The buttons are above the table, because the table grows.
   layout->addWidget(phase_);
   layout->addLayout(row);
   layout->addWidget(table_);
@@ -90,7 +90,7 @@ void RoundPanel::show_snapshot(const SolverSnapshot& snapshot) {
   show_table(snapshot);
   show_progress(snapshot);
   if (table_->rowCount() != rows && is_under_way(snapshot)) {
-    // Later: the layout does not know the new height yet.
+    // The call is made later: the layout does not know the new height yet.
     QTimer::singleShot(0, this, &RoundPanel::scroll_here);
   }
 }
@@ -99,8 +99,9 @@ void RoundPanel::show_table(const SolverSnapshot& snapshot) {
   const bool jump = snapshot.refine.by == RefineBy::jump;
   table_->horizontalHeaderItem(figure_column)->setText(jump ? tr("Jump, %") : tr("Error, %"));
   table_->horizontalHeaderItem(figure_column)
-      ->setToolTip(jump ? tr("RMS of the jumps across edges, relative to B")
-                        : tr("L2 norm of what the patches cannot represent of B, relative to B"));
+      ->setToolTip(
+          jump ? tr("RMS of the jumps across edges, relative to B")
+               : tr("L2 norm of the part of B that the patches cannot represent, relative to B"));
   const auto& rounds = snapshot.statistics.refinement;
   const int done = static_cast<int>(rounds.size());
   // The last row: the round, or the solve, that is under way or done.
@@ -130,7 +131,7 @@ void RoundPanel::show_table(const SolverSnapshot& snapshot) {
   table_->scrollToBottom();
 }
 
-/// In a panel that is higher than its dock, the rounds are below what started them.
+/// In a panel that is higher than its dock, the rounds are below the settings that started them.
 void RoundPanel::scroll_here() {
   for (QWidget* around = parentWidget(); around; around = around->parentWidget()) {
     if (auto* area = qobject_cast<QScrollArea*>(around)) {

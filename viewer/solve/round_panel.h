@@ -12,8 +12,8 @@ class QTableWidget;
 
 namespace transillum::viewer {
 
-/// The rounds of a refinement: patches, figure and time of each, how far they are, and a button
-/// that cancels them. Hidden where there are none.
+/// The rounds of a refinement: patches, error measure and time of each, their progress, and a
+/// button that cancels them. Hidden where there are none.
 class RoundPanel : public QWidget {
   Q_OBJECT
 

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Solve settings": bases and lobes, and the notes on what these cannot be combined with.
+// The panel "Solve settings": bases and lobes, and the notes on settings that they cannot be
+// combined with.
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>

@@ -145,7 +145,7 @@ void SettingsPanel::add_engine_rows(QFormLayout& form) {
   add_choices<PaintersOrder>(*order_);
   order_->setToolTip(
       tr("Order of painting\nBSP tree: splits polygons that overlap cyclically, so an order always "
-         "exists\nNewell's tests: split nothing, and fail on cyclic overlap"));
+         "exists\nNewell's tests: do not split, and fail on cyclic overlap"));
   form.addRow(tr("Engine"), engine_);
   resolution_label_ = new QLabel(tr("Resolution"), this);
   order_label_ = new QLabel(tr("Painter's order"), this);
@@ -166,8 +166,8 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   add_choices<Scheme>(*scheme_);
   scheme_->setToolTip(
       tr("Fixed: the same directions in every iteration\n"
-         "Growing: twice as many in each iteration, up to M\n"
-         "Semi-iterative: M new ones in each iteration, and the mean over iterations\n"
+         "Growing: twice as many directions in each iteration, up to M\n"
+         "Semi-iterative: M new directions in each iteration, and the mean over iterations\n"
          "Conjugate gradients: one set of passes, then the linear system is solved"));
   replicas_ = named("replicas", new QSpinBox, tip("replicas"));
   replicas_->setRange(1, 64);
@@ -233,13 +233,13 @@ void SettingsPanel::add_sky_rows(QFormLayout& form) {
   sky_note_ = named("sky_note", new QLabel);
   sky_note_->setForegroundRole(QPalette::PlaceholderText);
   sky_note_->hide();
-  column->addWidget(sky_note_);  // one line: the layout of a form does not count further ones
+  column->addWidget(sky_note_);  // one line: the layout of a form does not count further lines
   form.addRow(tr("Sky, W/m²"), column);
   sky_model_ = named("sky_model", new QComboBox);
   // In the order of SkyModel.
   add_choices<SkyModel>(*sky_model_);
   sky_model_->setToolTip(tr(
-      "Uniform: the same from everywhere, also from below\n"
+      "Uniform: the same radiance from all directions, also from below\n"
       "CIE overcast: three times as bright at the zenith as at the horizon, nothing from below"));
   form.addRow(tr("Sky model"), sky_model_);
   sky_up_ = named("sky_up", new QComboBox);
@@ -326,8 +326,8 @@ void SettingsPanel::show_sky_state() {
   for (QWidget* widget : {static_cast<QWidget*>(sky_slider_), static_cast<QWidget*>(sky_value_)}) {
     widget->setEnabled(enabled);
     widget->setToolTip(
-        tr("What an unobstructed patch turned upward receives from the sky; it "
-           "lights an open scene where no patch is met (0: no sky)"));
+        tr("Irradiance of an unobstructed patch that faces the zenith; the sky lights "
+           "an open scene along directions without a patch. 0 switches the sky off"));
   }
   const bool any = enabled && sky_value_->value() > 0;
   sky_model_->setEnabled(any);
@@ -370,7 +370,7 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   area_column->addWidget(max_patch_area_);
   form.addRow(tr("Patch area, m²"), area_column);
   forecast_ = named("patch_forecast", note_label(),
-                    tr("Patches that this area makes, and about how much memory a solve takes"));
+                    tr("Number of patches for this area, and approximate memory for a solve"));
   forecast_->hide();
   area_column->addWidget(forecast_);
   form.addRow(QString(), two_sided_);
@@ -528,8 +528,8 @@ void SettingsPanel::show_state() {
   for (QWidget* widget : {static_cast<QWidget*>(directions_), static_cast<QWidget*>(replicas_)}) {
     widget->setEnabled(!chosen);
   }
-  directions_->setToolTip(chosen ? tr("Chosen by the accuracy") : tip("directions"));
-  replicas_->setToolTip(chosen ? tr("Chosen by the accuracy") : tip("replicas"));
+  directions_->setToolTip(chosen ? tr("Chosen to reach the accuracy") : tip("directions"));
+  replicas_->setToolTip(chosen ? tr("Chosen to reach the accuracy") : tip("replicas"));
   const Engine engine = engine_of(*engine_);
   engine_->setToolTip(engine_sentence(engine));
   show_sky_state();
@@ -544,7 +544,7 @@ void SettingsPanel::show_state() {
            : tr("Default: %1 px").arg(EngineOptions::default_resolution));
   resolution_->setToolTip(
       rays ? tr("Pixels along the longer side of the projected scene, one ray through each;\n"
-                "minimum: a number of rays per patch instead")
+                "the smallest value sets a number of rays per patch instead")
            : tr("Pixels along the longer side of the projected scene"));
   const bool differs = enabled_ && differ_from_effect();
   restart_->setEnabled(enabled_);

@@ -43,24 +43,24 @@ class SettingsPanel : public QWidget {
                      const RefineChoice& refine = {});
   bool differ_from_effect() const;
   void set_restart_enabled(bool enabled);
-  /// The share of the light of all patches that escapes from the open scene; unset: not known yet.
-  /// Where none does, no sky is seen, and its controls are disabled.
+  /// Sets the fraction of the light of all patches that escapes from the open scene; not set while
+  /// it is unknown. If no light escapes, no sky is seen, and its controls are disabled.
   void show_escape(std::optional<double> share);
-  /// The vertical of a new scene: the zenith that is proposed for a sky that needs one.
+  /// Sets the vertical of a new scene: the zenith that is proposed for a sky that needs one.
   void set_scene_up(const Vec3& up);
-  /// The lobes that materials of the open scene have.
+  /// Sets the lobes that materials of the open scene have.
   void set_scene_lobes(const Scene& scene);
-  /// Whether the patches are those of a result file, so that the scene options cannot change.
+  /// Sets whether the patches come from a result file, so that the scene options cannot change.
   void set_scene_fixed(bool fixed);
   /// The rounds of the current solve, below the button.
   RoundPanel* rounds() const { return rounds_; }
   /// Shows what scene_options() would make of the scene, unless they have changed since.
-  /// @param text empty: nothing
+  /// @param text  empty if nothing is known
   void show_forecast(const SceneOptions& options, const QString& text);
 
  signals:
   void restart_clicked();
-  /// The options differ from those of the open scene, and show_forecast() is to be called.
+  /// The options differ from the options of the open scene, and show_forecast() is to be called.
   void forecast_wanted(const transillum::SceneOptions& options);
 
  private:
@@ -83,7 +83,7 @@ class SettingsPanel : public QWidget {
   void add_scene_rows(QFormLayout& form);
   void show_state();
   void want_forecast();
-  /// Shows or hides a row below that of the engine.
+  /// Shows or hides a row below the row of the engine.
   void show_row(QLabel* label, QWidget* field, bool shown);
 
   SolveOptions base_;  ///< carries options without a control, such as threads and memory
@@ -94,7 +94,7 @@ class SettingsPanel : public QWidget {
   bool enabled_ = false;
   QFormLayout* form_;
   QSpinBox* directions_;
-  QLineEdit* accuracy_;  ///< percent; empty: none
+  QLineEdit* accuracy_;  ///< percent; empty if not asked for
   QComboBox* accuracy_of_;
   QComboBox* sampling_;
   QLineEdit* seed_;
@@ -105,13 +105,13 @@ class SettingsPanel : public QWidget {
   QComboBox* pass_serves_;  ///< SolveOptions::two_way
   QComboBox* normalize_;
   QComboBox* basis_;
-  QLabel* basis_note_;  ///< what it cannot be combined with, if that is chosen
+  QLabel* basis_note_;  ///< the chosen settings that the basis cannot be combined with
   QCheckBox* glossy_;
   QLabel* glossy_note_;
-  std::optional<double> largest_exponent_;  ///< of the lobes of the open scene; none: no lobes
+  std::optional<double> largest_exponent_;  ///< in the open scene; not set without lobes
   QComboBox* stop_at_;
   QStackedWidget* stop_value_;
-  Rgb sky_color_{1, 1, 1};  ///< of the sky; its largest channel is 1
+  Rgb sky_color_{1, 1, 1};  ///< color of the sky; its largest channel is 1
   bool closed_ = false;     ///< no light escapes from the open scene
   QSlider* sky_slider_;
   QDoubleSpinBox* sky_value_;  ///< largest channel of the exitance

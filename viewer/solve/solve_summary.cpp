@@ -10,7 +10,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double accuracy = 0.01;  ///< of the rows "Directions for 1 %"
+constexpr double accuracy = 0.01;  ///< accuracy of the rows "Directions for 1 %"
 
 }  // namespace
 
@@ -21,11 +21,12 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
   transfers_ = grid->add_row(tr("Exchanges"), {}, tr("Found by the passes of the first iteration"));
   form_factors_ = grid->add_row(tr("Form factors"), {},
                                 tr("Kept in memory, so that later iterations need no passes"));
-  closure_ = grid->add_row(tr("Closure defect"), {},
-                           tr("Largest share of a patch's projected area that is unaccounted for"));
-  escaped_ =
-      grid->add_row(tr("Open to the sky"), {},
-                    tr("Share of all projected area with nothing above it; 0 in a closed scene"));
+  closure_ =
+      grid->add_row(tr("Closure defect"), {},
+                    tr("Largest fraction of a patch's projected area that is unaccounted for"));
+  escaped_ = grid->add_row(
+      tr("Open to the sky"), {},
+      tr("Fraction of all projected area with nothing above it; 0 in a closed scene"));
   negative_ = grid->add_row(
       tr("Corners below 0"), {},
       symbol_tip(tr("Corners of patches at which B, linear on the patch, is below 0 in a channel; "
@@ -41,17 +42,18 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
   lobes_->setObjectName("summary_lobes");
   energy_ =
       grid->add_row(tr("Energy defect"), {},
-                    tr("Difference between power received and power sent, relative to the latter"));
+                    tr("Difference between power received and power sent, relative to power sent"));
   contraction_ =
       grid->add_row(tr("Contraction"), {},
                     symbol_tip(tr("Factor by which the newest iteration reduced the change of B, "
                                   "and its\nbound by eq. 22 with eq. 21"),
                                "6"));
-  error_ = grid->add_row(tr("Error of B"), {},
-                         tr("RMS over patches, from the spread of the replicas, and what it does\n"
-                            "not exceed in 95 % of all runs; set an accuracy or the number of\n"
-                            "replicas in Solve settings. It is too small on patches to which few\n"
-                            "directions of each replica bring the light of small sources"));
+  error_ =
+      grid->add_row(tr("Error of B"), {},
+                    tr("RMS over patches, from the spread of the replicas, and the limit that\n"
+                       "it does not exceed in 95 % of all runs. Set an accuracy or the number\n"
+                       "of replicas in Solve settings. The estimate is too small on patches\n"
+                       "that few directions of each replica connect to small sources"));
   error_->setObjectName("summary_error");
   bound_ =
       grid->add_row(tr("Directions for 1 %:\nguaranteed"), {},
@@ -85,7 +87,7 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
                     : s.escaped < rounding ? number_text(s.closure_defect_max)
                                            : tr("open scene"));
   escaped_->setText(!any_pass              ? none
-                    : s.escaped < rounding ? tr("0: closed scene")
+                    : s.escaped < rounding ? tr("0, the scene is closed")
                                            : tr("%1 %").arg(number_text(100 * s.escaped)));
   negative_->setText(snapshot.linear_parts.empty() ? tr("constant B")
                                                    : count_text(s.negative_corners));
@@ -94,7 +96,7 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   const QString lobes =
       tr("%1 patches, %2 MB")
           .arg(count_text(g.patches), number_text(1e-6 * static_cast<double>(bytes)));
-  lobes_->setText(g.patches == 0 ? tr("none reflect")
+  lobes_->setText(g.patches == 0 ? tr("no lobe reflects")
                   : g.exponent > resolved_exponent(s.passes)
                       ? tr("%1; n = %2 needs M = %3")
                             .arg(lobes, number_text(g.exponent), number_text(10 * g.exponent))

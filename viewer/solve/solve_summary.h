@@ -9,7 +9,7 @@ class QLabel;
 
 namespace transillum::viewer {
 
-/// Statistics of the scene and of the solve, and the directions that an accuracy of 1 % takes.
+/// Statistics of the scene and of the solve, and the directions that an accuracy of 1 % requires.
 class SolveSummary : public QWidget {
   Q_OBJECT
 

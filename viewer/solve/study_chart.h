@@ -34,7 +34,7 @@ class StudyChart : public QWidget {
   std::shared_ptr<const StudySnapshot> snapshot_;
   ErrorMeasure measure_ = ErrorMeasure::rms;
   StudyAxis axis_ = StudyAxis::passes;
-  QImage picture_;  ///< in device pixels; null: to be drawn
+  QImage picture_;  ///< in device pixels; null until it is drawn
 };
 
 }  // namespace transillum::viewer

@@ -144,7 +144,7 @@ std::vector<Engine> StudyChoices::engines() const {
 }
 
 void StudyChoices::show_solve() {
-  fixed_settings_->setText(tr("As in the current solve: normalization %1, scheme %2")
+  fixed_settings_->setText(tr("From the current solve: normalization %1, scheme %2")
                                .arg(QString::fromStdString(name_of(solve_.normalize)),
                                     QString::fromStdString(name_of(solve_.scheme))));
   show_cost();
@@ -191,7 +191,7 @@ void StudyChoices::show_cost() {
     cost_->setText(tr("Choose a sampling, what a pass serves, and a number of directions"));
     return;
   }
-  // How many iterations burn-in takes depends on the scene's reflectances.
+  // The number of iterations of a burn-in depends on the scene's reflectances.
   bool exact = true;
   std::int64_t passes = 0;
   for (const StudySeries& series : options.series) {

@@ -20,8 +20,8 @@ class StudyChoices : public QWidget {
  public:
   explicit StudyChoices(QWidget* parent = nullptr);
 
-  /// Sets what has no control here: normalization, scheme, first shot, seed, memory, threads.
-  /// Another engine becomes the only one that is checked.
+  /// Sets the options that have no control here: normalization, scheme, first shot, seed, memory,
+  /// threads. If the engine changes, it becomes the only one that is checked.
   void set_solve(const SolveOptions& solve);
   /// All valid combinations of the checked choices; without series or directions where none is
   /// checked.
@@ -38,7 +38,7 @@ class StudyChoices : public QWidget {
   QCheckBox* add_box(std::vector<Choice>& choices, const QString& name, const QString& text,
                      int value, bool on);
   void check_engine();
-  /// Those checked; that of the solve where none is.
+  /// The checked engines; the engine of the solve if none is checked.
   std::vector<Engine> engines() const;
   void show_solve();
   void show_cost();

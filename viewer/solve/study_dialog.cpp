@@ -117,7 +117,7 @@ QWidget* StudyDialog::make_results() {
     show_table();
   });
   axis_ = named("study_axis", new QComboBox,
-                tr("What the error is shown against: the number of passes, or the processor time "
+                tr("Show the error against the number of passes, or against the processor time "
                    "of passes\nand iteration, which compares engines"));
   axis_->addItems({tr("Against passes"), tr("Against seconds")});
   connect(axis_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
@@ -129,7 +129,7 @@ QWidget* StudyDialog::make_results() {
   progress_->setRange(0, 1000);
   progress_->setFixedSize(180, 16);
   save_ = named("study_save", new QPushButton(tr("Save…")),
-                tr("Save the plot as SVG or PNG, or the figures as CSV"));
+                tr("Save the plot as SVG or PNG, or the values as CSV"));
   save_->setAutoDefault(false);
   connect(save_, &QPushButton::clicked, this, &StudyDialog::choose_file);
   auto* bar = make_row({}, 12);

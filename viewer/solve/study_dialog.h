@@ -25,7 +25,7 @@ class StudyDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param cache folder for reference solutions; empty: none are kept
+  /// @param cache folder for reference solutions; if it is empty, none are kept
   explicit StudyDialog(const std::filesystem::path& cache, QWidget* parent = nullptr);
 
   /// Shows the dialog in front of all other windows.

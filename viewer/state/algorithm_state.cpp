@@ -67,7 +67,7 @@ std::vector<CodeLine> lines_of_local_map(const Focus& focus, const MapHistory& h
   return {CodeLine::put_in};
 }
 
-/// The last event of the line at or before `step`; null: none.
+/// The last event of the line at or before `step`; null if there is none.
 const StepEvent* event_reached(const std::vector<StepEvent>& line, std::int32_t step) {
   const StepEvent* reached = nullptr;
   for (const StepEvent& event : line) {
@@ -107,7 +107,7 @@ int directions_of(const SolverSnapshot& snapshot, const Focus& focus) {
   return snapshot.passes_of(focus.position().iteration) * (snapshot.options.two_way ? 2 : 1);
 }
 
-/// B_j(n), if it was stored.
+/// B_j(n); not set if it was not stored.
 std::optional<Rgb> kept_radiosity(const SolverSnapshot& snapshot, int iteration, PatchId patch) {
   const auto& kept = snapshot.kept_radiosity;
   if (!has_index(kept, iteration) || !at(kept, iteration)) {

@@ -206,7 +206,7 @@ class HitCounter {
     if (!begin_) {
       begin_ = {omega, from};
     } else if (omega == begin_->first) {
-      // Back in the first direction: what is beyond the beginning has been counted.
+      // Back in the first direction, the steps beyond the beginning have been counted.
       end = by > 0 ? std::min(end, begin_->second + 1) : std::max(end, begin_->second - 1);
     }
     for (std::int32_t k = from + by; by > 0 ? k < end : k > end; k += by) {
@@ -277,7 +277,7 @@ void write(QSettings& settings, const Condition& condition) {
   settings.setValue("value", condition.value);
 }
 
-/// nullopt: of a later version.
+/// nullopt if it comes from a later version.
 std::optional<Condition> read_condition(const QSettings& settings) {
   const auto kind = breakpoint_kind(settings.value("kind").toString().toStdString());
   if (!kind) {

@@ -20,10 +20,10 @@ namespace transillum::viewer {
 struct Condition {
   enum class Kind {
     patch,           ///< the step processes, cuts or covers a polygon of `patch`
-    cut,             ///< it cuts a fragment of `patch`
+    cut,             ///< the step cuts a fragment of `patch`
     pair,            ///< `patch` and `other` exchange light, either way
-    small_fragment,  ///< it makes a fragment smaller than `value` m²
-    open_receiver,   ///< the closure defect of its receiver exceeds `value`, 0 to 1
+    small_fragment,  ///< the step makes a fragment smaller than `value` m²
+    open_receiver,   ///< the closure defect of the step's receiver exceeds `value`, 0 to 1
     large_map,       ///< V grows beyond `value` polygons
   };
   Kind kind = Kind::patch;
@@ -37,7 +37,7 @@ struct Condition {
 /// more strongly than "or".
 struct Breakpoint {
   using Kind = Condition::Kind;
-  /// A further condition, and how it is joined to those before it.
+  /// A further condition, and how it is joined to the previous conditions.
   struct Further {
     bool alternative = false;  ///< by "or"
     Condition condition;
@@ -63,30 +63,30 @@ QString text_of(const Breakpoint& breakpoint);
 const char* name_of(Condition::Kind kind);
 std::optional<Condition::Kind> breakpoint_kind(const std::string& name);
 
-/// Per breakpoint of the list: number of steps of a run at which it held.
+/// The number of steps of a run at which each breakpoint of the list held.
 using HitCounts = std::vector<std::int64_t>;
 
-/// The list of breakpoints of the open scene: patches of another scene have the same numbers. Those
-/// of all scenes are saved in the settings between runs of the program.
+/// The list of breakpoints of the open scene: patches of another scene have the same numbers. The
+/// lists of all scenes are saved in the settings between runs of the program.
 class Breakpoints : public QObject {
   Q_OBJECT
 
  public:
   using QObject::QObject;
 
-  /// Changes can be undone there, except set_list() and load(); null: no undo.
+  /// Changes can be undone there, except set_list() and load(). Without a stack, they cannot.
   void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
   const std::vector<Breakpoint>& list() const { return list_; }
   void set_list(std::vector<Breakpoint> list);
-  /// Replaces the list by that of another scene.
-  /// @param scene as opened: a file or a built-in; empty: a list that is not saved
+  /// Replaces the list by the list of another scene.
+  /// @param scene a file or a built-in, as it was opened; the list is not saved if this is empty
   void set_scene(const std::string& scene);
   /// Sets the list of a scene, which may be opened later.
   void set_list_of(const std::string& scene, std::vector<Breakpoint> list);
   void add(const Breakpoint& breakpoint);
   void remove(std::size_t k);
   void set_enabled(std::size_t k, bool enabled);
-  /// Joins a condition to those of breakpoint k.
+  /// Joins a condition to the conditions of breakpoint k.
   void join(std::size_t k, const Breakpoint::Further& further);
   /// Removes the last condition of breakpoint k, unless it is the only one.
   void remove_last_condition(std::size_t k);
@@ -95,11 +95,11 @@ class Breakpoints : public QObject {
 
   /// Finds the nearest step where an enabled breakpoint holds.
   StepFinder finder() const;
-  /// For one run: finds where an enabled breakpoint is hit for the time at which it stops. A step
-  /// is counted once, even if the search comes back to its direction.
+  /// The finder for one run: it finds where an enabled breakpoint has the hit at which it stops. A
+  /// step is counted once, even if the search comes back to its direction.
   /// @param hits  receives the counts of the run so far; the finder keeps it
   StepFinder run_finder(std::shared_ptr<HitCounts> hits) const;
-  /// All steps of a direction where one holds, ascending.
+  /// All steps of a direction where a breakpoint holds, ascending.
   std::vector<std::int32_t> steps_in(const MapHistory& history) const;
 
   void save(QSettings& settings) const;
@@ -115,7 +115,7 @@ class Breakpoints : public QObject {
 
   std::string scene_;
   std::vector<Breakpoint> list_;
-  std::map<std::string, std::vector<Breakpoint>> other_lists_;  ///< of scenes that are not open
+  std::map<std::string, std::vector<Breakpoint>> other_lists_;  ///< lists of other scenes
   QUndoStack* undo_ = nullptr;
 };
 

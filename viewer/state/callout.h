@@ -13,7 +13,7 @@ namespace transillum::viewer {
 
 /// A text that names something in the scene and in the visibility map.
 struct Callout {
-  /// What it points at.
+  /// The kinds of object that a callout points at.
   enum class Anchor {
     patch,      ///< a patch: its center; in the map its largest visible part
     point,      ///< a point of the scene; in the map its projection
@@ -27,9 +27,9 @@ struct Callout {
   Vec3 point;  ///< m
 };
 
-/// Where a callout points at in the visibility map, meters on the plane: for a patch the middle of
-/// its largest polygon. None where that is not in the map, or for the map as a whole and the
-/// direction.
+/// The point of the visibility map that a callout points at, meters on the plane; for a patch, the
+/// middle of its largest polygon. Not set where that is not in the map, or for the whole map and
+/// the direction.
 /// @param rows  of the map's record: the polygons shown
 /// @param step  whose inside list is meant, from 0
 std::optional<Vec2> place_in_map(const Callout& callout, const RecordedMap& map,

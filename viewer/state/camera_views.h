@@ -15,7 +15,7 @@ namespace transillum::viewer {
 struct ViewPoint {
   Vec3 eye, target, up;
   double view_angle = 30;  ///< vertical, degrees
-  double radius = 1;       ///< of the region of interest around `target`, meters
+  double radius = 1;       ///< radius of the region of interest around `target`, meters
 
   friend bool operator==(const ViewPoint&, const ViewPoint&) = default;
 };
@@ -43,7 +43,8 @@ ViewPoint fitting_view(const Scene& scene, const ViewPoint& from, double aspect)
 ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from);
 
 /// The view after the eye has moved around the target: about `vertical` by `azimuth`, and up by
-/// `elevation`, to at most 89 degrees against the horizontal. Upright: `up` is `vertical`.
+/// `elevation`, to at most 89 degrees against the horizontal. `up` of the view is `vertical`, so
+/// that it is upright.
 /// @param vertical  unit vector
 /// @param azimuth, elevation  degrees
 ViewPoint turned(const ViewPoint& from, const Vec3& vertical, double azimuth, double elevation);
@@ -60,9 +61,9 @@ class CameraBookmarks : public QObject {
   using QObject::QObject;
 
   const std::vector<Bookmark>& all() const { return bookmarks_; }
-  /// Changes can be undone there, except set(); null: no undo.
+  /// Changes can be undone there, except set(). Without a stack, they cannot.
   void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
-  /// @param name  empty: "View" and an unused number
+  /// @param name  if it is empty, "View" and an unused number
   void add(const ViewPoint& view, const QString& name = {});
   void rename(std::size_t k, const QString& name);
   void remove(std::size_t k);

@@ -112,8 +112,8 @@ bool Focus::step_by(std::int32_t steps) {
     return true;
   }
   RunPosition to = position_;
-  // After the last step comes the empty map of the next direction; before an empty map, the last
-  // step of the previous direction.
+  // The empty map of the next direction follows the last step; the last step of the previous
+  // direction precedes an empty map.
   if (steps > 0 && position_.step == last) {
     to = moved_by(position_, 1, -1);
   } else if (steps < 0 && position_.step == -1) {
@@ -188,7 +188,8 @@ void Focus::seek_from(std::int32_t from, StepFinder finder, StepOrder order) {
   end_following();
   finder_ = std::move(finder);
   order_ = order;
-  // Every direction once, and the first one again for its steps on the other side of the position.
+  // Visits every direction once, and the first one again for its steps on the other side of the
+  // position.
   const bool same_directions = !renews_ && passes_of(0) == passes_;
   seek_total_ = seek_left_ = (same_directions ? 1 : std::int64_t{iterations_}) * passes_ + 1;
   target_ = position_;

@@ -20,16 +20,16 @@ namespace transillum::viewer {
 
 /// A position in the sequence of steps of a solve run, ordered by time.
 struct RunPosition {
-  int iteration = 0;       ///< n, from 0: computes B(n+1) from B(n)
+  int iteration = 0;       ///< n, from 0; iteration n computes B(n+1) from B(n)
   int direction = 0;       ///< from 0: number of the pass
-  std::int32_t step = -1;  ///< of the direction, from 0; -1: before the first
+  std::int32_t step = -1;  ///< step of the direction, from 0; -1 before the first
 
   friend auto operator<=>(const RunPosition&, const RunPosition&) = default;
 };
 
 /// The part of a step that is shown, in the order of the paper's pseudo-code (section 3.2).
 enum class Phase {
-  before,  ///< polygon i is next; V as the steps before left it
+  before,  ///< polygon i is next; V is as the previous step left it
   split,   ///< V is clipped by i: the inside and the outside list
   after,   ///< V without the inside list and with i
 };
@@ -62,12 +62,12 @@ class Focus : public QObject {
     return has_index(iteration_passes_, iteration) ? at(iteration_passes_, iteration) : passes_;
   }
 
-  /// The shown position; its direction is map()'s. Valid only with a map.
+  /// The shown position; map() has its direction. Valid only with a map.
   const RunPosition& position() const { return position_; }
   std::shared_ptr<const RecordedMap> map() const { return map_; }
   Phase phase() const { return phase_; }
-  /// The requested position, else position(). The step may be unknown (-1) until the direction is
-  /// recorded.
+  /// The requested position, or position() if none is requested. The step may be unknown (-1) until
+  /// the direction is recorded.
   const RunPosition& target() const { return target_; }
   bool arrived() const { return !under_way_; }
   /// Whether the position follows the newest direction.
@@ -84,22 +84,23 @@ class Focus : public QObject {
   // Each of these functions, except follow(), ends following. Values out of range are clamped.
 
   void go_to(const RunPosition& position);
-  /// To a step of the same direction.
+  /// Goes to a step of the same direction.
   void go_to_step(std::int32_t step);
-  /// To the first step of a direction that `finder` finds; before the first step if it finds none.
+  /// Goes to the first step of a direction that `finder` finds; before the first step if it finds
+  /// none.
   void go_to_first(int iteration, int direction, StepFinder finder);
-  /// At most to an end of the direction; from there to the next direction. With a filter, to the
-  /// nearest step from there on that has an event which passes, as seek() does.
+  /// Goes at most to an end of the direction, and from there to the next direction. With a filter,
+  /// continues to the nearest step that has an event which passes, like seek().
   /// @return false at an end of the run
   bool step_by(std::int32_t steps);
-  /// The same step of another direction or iteration.
+  /// Goes to the same step of another direction or iteration.
   void direction_by(int directions);
   void iteration_by(int iterations);
-  /// One phase forward (+1) or back (-1), over the ends of a step.
+  /// Goes one phase forward (+1) or back (-1), over the ends of a step.
   void phase_by(int phases);
   void set_phase(Phase phase);
-  /// To the nearest step after (before) this one that `finder` finds, searching all directions of
-  /// the run; ends with seek_ended() or seek_stopped().
+  /// Goes to the nearest step after (before) this one that `finder` finds, searching all directions
+  /// of the run; ends with seek_ended() or seek_stopped().
   void seek(StepFinder finder, StepOrder order);
   /// Drops the target and ends a search.
   void stop();
@@ -121,7 +122,7 @@ class Focus : public QObject {
   void filtered();  ///< filter()
 
  private:
-  /// Selects the step of a recorded direction; MapHistory::none: continue with another direction.
+  /// Selects the step of a recorded direction; MapHistory::none continues with another direction.
   using Arrival = std::function<std::int32_t(const MapHistory&)>;
 
   /// Whether `map` is of the direction at `position`.

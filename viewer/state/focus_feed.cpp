@@ -67,8 +67,8 @@ void FocusFeed::follow() {
     return;
   }
   const SolveProgress& progress = snapshot_->progress;
-  // After the end of an iteration: its last direction, which in the growing scheme is not the last
-  // of all directions.
+  // After the end of an iteration, the newest direction is the last one of that iteration; in the
+  // growing scheme, this is not the last of all directions.
   if (progress.direction > 0) {
     focus_.follow(progress.iteration, progress.direction - 1);
   } else if (progress.iteration > 0) {

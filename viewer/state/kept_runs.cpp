@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Runs that the user keeps. Of a snapshot only what pictures of it need is stored, some hundred
-// bytes per patch: form factors and the BSP tree take far more.
+// Runs that the user keeps. Only the parts of a snapshot that pictures need are stored, some
+// hundred bytes per patch: form factors and the BSP tree take far more.
 #include "state/kept_runs.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::shared_ptr<const SolverSnapshot> part_to_keep(const SolverSnapshot& snapsho
   kept->sky_shares = snapshot.sky_shares;
   kept->sky_irradiance = snapshot.sky_irradiance;
   kept->error = snapshot.error;
-  // The last change of B needs the newest two.
+  // The last change of B needs the newest two iterations.
   kept->kept_radiosity = snapshot.kept_radiosity;
   for (std::size_t n = 0; n + 2 < kept->kept_radiosity.size(); ++n) {
     kept->kept_radiosity[n] = nullptr;
@@ -55,7 +55,7 @@ std::int64_t bytes_of(const Scene& scene) {
   std::int64_t bytes = bytes_of(scene.patches()) + bytes_of(scene.points()) +
                        bytes_of(scene.pieces()) + bytes_of(scene.materials());
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    // The corners of the patch, and those of its pieces, of which there are about as many.
+    // The corners of the patch, and about as many corners of its pieces.
     bytes += 2 * static_cast<std::int64_t>(scene.outline(i).size_bytes());
   }
   return bytes;
@@ -108,11 +108,12 @@ bool same_patches(const Scene& a, const Scene& b) {
 QString why_other(const Scene& kept, const Scene& open) {
   const QString name = QString::fromStdString(kept.name());
   if (kept.name() != open.name()) {
-    return KeptRuns::tr("It is a run of another scene: %1.").arg(name);
+    return KeptRuns::tr("This is a run of another scene: %1.").arg(name);
   }
   return kept.patch_count() == open.patch_count()
-             ? KeptRuns::tr("Its patches have other corners than those of the open scene.")
-             : KeptRuns::tr("It has %1 patches, the open scene %2.")
+             ? KeptRuns::tr(
+                   "The patches of this run have other corners than the patches of the open scene.")
+             : KeptRuns::tr("This run has %1 patches, the open scene has %2.")
                    .arg(count_text(kept.patch_count()), count_text(open.patch_count()));
 }
 

@@ -19,15 +19,16 @@ struct KeptRun {
   QString name;
   QDateTime kept;  ///< local time
   /// Has B, H, sums of form factors, the error estimate and the last change of B, but no form
-  /// factors and no directions; of `loaded` only the scene.
+  /// factors and no directions. `loaded` has only the scene.
   std::shared_ptr<const SolverSnapshot> snapshot;
 };
 
-/// How B of one run differs from A of another.
+/// The difference between B of one run and A, which is B of another run.
 struct RunDifference {
   double rms = 0;            ///< RadiosityError::rms of B, with A as the reference
   double largest = 0;        ///< largest magnitude of B - A in a channel, W/m²
-  PatchId worst = no_patch;  ///< the first patch that has it; no_patch where nothing differs
+  PatchId worst = no_patch;  ///< the first patch with the largest difference; no_patch where
+                             ///< nothing differs
 };
 /// @param b, a  W/m², one per patch of `scene`
 RunDifference difference_of(const Scene& scene, const std::vector<Rgb>& b,
@@ -41,28 +42,29 @@ class KeptRuns : public QObject {
   Q_OBJECT
 
  public:
-  /// No more is kept: bytes of all kept runs together.
+  /// Limit of all kept runs together, bytes.
   static constexpr std::int64_t most_bytes = 1'000'000'000;
 
   using QObject::QObject;
 
   const std::vector<KeptRun>& all() const { return runs_; }
-  /// Changes of the list can be undone there; null: no undo.
+  /// Changes of the list can be undone there. Without a stack, they cannot.
   void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
   /// Keeps a run as "Run N", which becomes A.
-  /// @returns false where it would exceed `bytes`
+  /// @returns false where all kept runs would exceed `bytes`
   bool keep(const SolverSnapshot& snapshot, std::int64_t bytes = most_bytes);
-  /// An empty name changes nothing.
+  /// Renames a run; an empty name changes nothing.
   void rename(std::size_t k, const QString& name);
   void remove(std::size_t k);
 
-  /// The scene whose patches the compared runs must have. Emits only changed(), although A and B
-  /// may be others.
+  /// Sets the scene whose patches the compared runs must have. Emits only changed(), although A and
+  /// B may be other runs afterward.
   void set_scene(std::shared_ptr<const Scene> scene);
-  /// Why run k cannot be compared with one of the scene, for the user; empty: it can.
+  /// A message on why run k cannot be compared with runs of the scene; empty if it can.
   const QString& reason_against(std::size_t k) const;
 
-  /// Index of A, -1 where no run can be compared; of B, -1 for the current run.
+  /// The indices of A and B. The first is -1 where no run can be compared, the second is -1 for the
+  /// current run.
   int first() const;
   int second() const;
   /// Ignored where the run cannot be compared.
@@ -72,7 +74,7 @@ class KeptRuns : public QObject {
   std::shared_ptr<const SolverSnapshot> run(int k) const;
 
  signals:
-  /// The list, its names or its reasons.
+  /// The list, its names or its reasons have changed.
   void changed();
   /// Another run is A or B.
   void compared_changed();
@@ -86,8 +88,9 @@ class KeptRuns : public QObject {
   std::vector<KeptRun> runs_;
   std::vector<QString> reasons_;  ///< one per run
   std::shared_ptr<const Scene> scene_;
-  std::shared_ptr<const SolverSnapshot> first_, second_;  ///< as chosen; may have been removed
-  int kept_ = 0;                                          ///< the number of runs ever kept
+  std::shared_ptr<const SolverSnapshot> first_,
+      second_;    ///< chosen by the user; may have been removed
+  int kept_ = 0;  ///< the number of runs ever kept
   QUndoStack* undo_ = nullptr;
 };
 

@@ -7,10 +7,12 @@
 
 namespace transillum::viewer {
 
-/// What is drawn over the visibility map to answer a question. Points are in meters on the plane.
+/// The areas that are drawn over the visibility map to answer a question. Points are in meters on
+/// the plane.
 struct MapSketch {
   std::vector<Vec2> outline;             ///< corners by the user, in the order clicked
-  std::vector<std::vector<Vec2>> right;  ///< the program's region: convex polygons; empty: hidden
+  std::vector<std::vector<Vec2>> right;  ///< the program's region: convex polygons; empty while
+                                         ///< hidden
 };
 
 }  // namespace transillum::viewer

@@ -29,8 +29,8 @@ class Selection : public QObject {
   void select_all(std::vector<PatchId> patches);
 
  signals:
-  void changed(transillum::PatchId patch);  ///< patch() is another
-  void patches_changed();                   ///< patches() are others; after changed()
+  void changed(transillum::PatchId patch);  ///< patch() has changed
+  void patches_changed();                   ///< patches() have changed; emitted after changed()
 
  private:
   void set(PatchId patch, std::vector<PatchId> patches);

@@ -25,7 +25,7 @@ struct StepEvent {
   std::int32_t step = 0;
   Kind kind = Kind::inserted;
   PatchId below = no_patch;  ///< patch of the polygon that the step processes
-  PatchId above = no_patch;  ///< patch of the cut polygon; no_patch: inserted or edge-on
+  PatchId above = no_patch;  ///< patch of the cut polygon; no_patch if none is cut
   double area = 0;           ///< m²: of the polygon, or of the cut part above it
   int parts = 0;             ///< number of parts of the cut polygon that remain in V
   double pair_area = 0;      ///< events_at_point(): A(below, above) of the direction, m²
@@ -45,11 +45,12 @@ std::vector<StepEvent> events_at_point(const MapHistory& history, const Vec2& p)
 /// A verb phrase without the patches.
 QString text_of(StepEvent::Kind kind);
 
-/// Which events of steps are listed, and stepped to. The default lets all pass.
+/// Chooses the events of steps that are listed and stepped to. The default lets all pass.
 struct EventFilter {
   double least_area = 0;                                          ///< m²
   double largest_area = std::numeric_limits<double>::infinity();  ///< m²
-  PatchId patch = no_patch;                                       ///< below or above; no_patch: any
+  PatchId patch = no_patch;                                       ///< below or above; any if
+                                                                  ///< no_patch
   std::array<bool, StepEvent::kind_count> kinds = all_kinds();
 
   static constexpr std::array<bool, StepEvent::kind_count> all_kinds() {
@@ -59,15 +60,16 @@ struct EventFilter {
   }
   bool shows(StepEvent::Kind kind) const { return kinds[static_cast<std::size_t>(kind)]; }
   bool passes(const StepEvent& event) const;
-  /// Whether an event of the step passes that involves `patch`; no_patch: any event.
+  /// Whether an event of the step passes that involves `patch`, or any event if `patch` is
+  /// no_patch.
   bool passes_at(const MapHistory& history, std::int32_t step, PatchId patch = no_patch) const;
-  /// Whether it can hold back an event.
+  /// Whether the filter can hold back an event.
   bool on() const { return !(*this == EventFilter{}); }
 
   friend bool operator==(const EventFilter&, const EventFilter&) = default;
 };
 
-/// What passes, in a few words; empty for a filter that is not on().
+/// The events that pass, in a few words; empty for a filter that is not on().
 QString text_of(const EventFilter& filter);
 
 enum class StepOrder { forward, backward };

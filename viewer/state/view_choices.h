@@ -19,7 +19,7 @@ struct ClipPlane {
   enum class Axis { x, y, z };
   Axis axis = Axis::x;
   double place = 0.5;       ///< on the axis, in [0, 1] of the scene's extent
-  bool other_side = false;  ///< what lies before the plane is shown, instead of what lies beyond
+  bool other_side = false;  ///< the side before the plane is shown, instead of the side beyond it
 
   friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };

@@ -14,11 +14,11 @@ class QUndoStack;
 
 namespace transillum::viewer {
 
-/// A figure of each step of a direction, to be followed over its steps.
+/// A value of each step of a direction, to be followed over the steps.
 struct Watch {
   enum class Kind {
     patch_area,      ///< area of `patch` in V after the step, m²
-    closure_defect,  ///< of the step's receiver, 0 to 1; none if the step processes a source
+    closure_defect,  ///< defect of the step's receiver, 0 to 1; NaN if the step has no receiver
     map_size,        ///< number of polygons of V after the step
   };
   Kind kind = Kind::map_size;
@@ -27,7 +27,8 @@ struct Watch {
   friend bool operator==(const Watch&, const Watch&) = default;
 };
 
-/// Entry 0 is that before the first step, entry k + 1 that of step k; NaN: none.
+/// The watched values: entry 0 is the value before the first step, entry k + 1 the value of step k.
+/// NaN stands for a step without a value.
 std::vector<double> values_of(const Watch& watch, const MapHistory& history);
 QString text_of(const Watch& watch);
 /// The name of a kind in files.
@@ -42,7 +43,7 @@ class Watches : public QObject {
   using QObject::QObject;
   static constexpr std::size_t most = 6;
 
-  /// Changes can be undone there, except set_list(); null: no undo.
+  /// Changes can be undone there, except set_list(). Without a stack, they cannot.
   void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
   const std::vector<Watch>& list() const { return list_; }
   void set_list(std::vector<Watch> list);
@@ -50,7 +51,7 @@ class Watches : public QObject {
   void set_scene(const std::string& scene);
   /// Sets the list of a scene, which may be opened next.
   void set_list_of(const std::string& scene, std::vector<Watch> list);
-  /// Unless it is in the list, or the list has `most`.
+  /// Adds a watch, unless it is in the list or the list has `most`.
   void add(const Watch& watch);
   void remove(std::size_t k);
 

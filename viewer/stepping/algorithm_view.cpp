@@ -115,7 +115,7 @@ QWidget* AlgorithmView::make_local_values() {
   values_->layout()->setContentsMargins(12, 10, 12, 4);
   position_ = values_->add_row(
       tr("n, d"), {},
-      tr("n: index of the B(n) that the iteration starts from, 0 first as in the paper; "
+      tr("n: index of the B(n) that the iteration starts from, beginning with 0 as in the paper; "
          "d: number of the direction"));
   i_ = values_->add_row(tr("i"), {}, tr("The patch whose fragment this step processes"));
   i_->setObjectName("value_i");
@@ -147,10 +147,10 @@ QWidget* AlgorithmView::make_local_values() {
   moments_ = moments_grid_->add_row(
       tr("T^ab"), tr("m²"),
       symbol_tip(
-          tr("Moments of what i sees of j: ∫ φ_a(x) φ_b(y) dp over A(j), x and y being the "
-             "points of i and j.\nRows: function a of i; columns: function b of j. The first "
-             "is A(j); the rest of its row weighs the linear part of j\nin the mean of "
-             "i, the rest of its column the mean of j in the linear part of i"),
+          tr("Moments of the area that i sees of j: ∫ φ_a(x) φ_b(y) dp over A(j), where x and y "
+             "are the points of i and j.\nRows: function a of i; columns: function b of j. "
+             "The first value is A(j). The rest of its row weights the linear part of j\nin "
+             "the mean of i, the rest of its column weights the mean of j in the linear part of i"),
           "6.12"));
   moments_->setObjectName("value_moments");
   values_->add_wide(moments_grid_);
@@ -181,7 +181,7 @@ QWidget* AlgorithmView::make_region_values() {
   region_i_->setObjectName("value_region_i");
   region_j_ = region_values_->add_row(
       tr("j, Σ A(R)"), tr("m²"),
-      tr("The next patch above i; the area of it that i sees in all regions"));
+      tr("The next patch j above i, and the area of j that i sees in all regions"));
   region_j_->setObjectName("value_region_j");
   region_radiosity_ =
       region_values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));

@@ -23,9 +23,9 @@ class AlgorithmView : public QWidget {
  public:
   AlgorithmView(const Focus& focus, const Selection& selection, QWidget* parent = nullptr);
 
-  /// Which map's pseudo-code is shown.
+  /// The map whose pseudo-code is shown.
   MapKind kind() const;
-  /// Marks the lines with a symbol, given by its letter; empty: none.
+  /// Marks the lines with a symbol, given by its letter; marks no line if it is empty.
   void point_at(const QString& symbol);
   void set_kind(MapKind kind);
   /// Hides the values of the step, while a question asks for one of them.
@@ -48,7 +48,7 @@ class AlgorithmView : public QWidget {
   const Focus& focus_;
   const Selection& selection_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
-  std::vector<QLabel*> lines_;  ///< as algorithm_code()
+  std::vector<QLabel*> lines_;  ///< in the order of algorithm_code()
   QString pointed_;             ///< a symbol
   QComboBox* kind_;
   QLabel* hidden_note_;

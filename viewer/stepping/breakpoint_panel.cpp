@@ -29,7 +29,7 @@ using Kind = Condition::Kind;
 struct Choice {
   Kind kind;
   const char* text;
-  const char* unit;  ///< of the value; null if it has none
+  const char* unit;  ///< unit of the value; null if it has none
   const char* first_value;
 };
 constexpr Choice choices[] = {
@@ -159,15 +159,16 @@ QLayout* BreakpointPanel::make_join_row() {
     return result;
   };
   add_ = button("add_breakpoint", tr("Add"), tr("Add a breakpoint with this condition (Return)"));
-  and_ = button("and_condition", tr("And"),
-                tr("Let the breakpoint chosen in the list stop only where this holds too;\n"
-                   "“and” binds more strongly than “or”"));
+  and_ =
+      button("and_condition", tr("And"),
+             tr("Let the breakpoint chosen in the list stop only where this condition holds too;\n"
+                "“and” binds more strongly than “or”"));
   or_ = button("or_condition", tr("Or"),
-               tr("Let the breakpoint chosen in the list stop also where this holds"));
+               tr("Let the breakpoint chosen in the list stop also where this condition holds"));
   stop_at_ = named(
       "breakpoint_stop_at", new QSpinBox,
       tr("The hit of the breakpoint chosen in the list at which a run stops, counted from where "
-         "the run begins.\nThe list tells how often the last run hit each breakpoint."));
+         "the run begins.\nThe list shows how often the last run hit each breakpoint."));
   stop_at_->setRange(1, Breakpoint::most_hits);
   stop_at_->setKeyboardTracking(false);
   auto* label = new QLabel(tr("Stop at &hit"));
@@ -201,9 +202,9 @@ void BreakpointPanel::show_run_menu(const QPoint& position) {
       });
   auto* menu = named("breakpoint_menu", new QMenu(this));
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  menu->addAction(tr("Run back to the previous step where this is true"), this,
+  menu->addAction(tr("Run back to the previous step where the breakpoint holds"), this,
                   [this, finder] { focus_.seek(finder, StepOrder::backward); });
-  menu->addAction(tr("Run forward to the next step where this is true"), this,
+  menu->addAction(tr("Run forward to the next step where the breakpoint holds"), this,
                   [this, finder] { focus_.seek(finder, StepOrder::forward); });
   const auto k = static_cast<std::size_t>(row);
   menu->addAction(tr("Remove its last condition"), this,

@@ -59,7 +59,7 @@ class BreakpointPanel : public QWidget {
   QLabel* hint_;
   QToolButton *add_, *and_, *or_, *remove_;
   QSpinBox* stop_at_;
-  std::shared_ptr<HitCounts> hits_;  ///< of the last run; null: the list has changed since
+  std::shared_ptr<HitCounts> hits_;  ///< hits of the last run; null if the list has changed since
   QAction *run_on_, *run_back_;
 };
 

@@ -23,7 +23,7 @@ class EventFilterRow : public QWidget {
   void add_to(QMenu& menu) const;
 
  signals:
-  void requested();  ///< by its key: to be brought to the front
+  void requested();  ///< by its key: the panel is to be brought to the front
 
  private:
   void make_kinds();

@@ -70,7 +70,7 @@ void PlayControl::make_menu() {
   menu_->addAction(turns_);
   turns_->setObjectName("play_turns");
   turns_->setCheckable(true);
-  turns_->setToolTip(tr("About the vertical, meanwhile"));
+  turns_->setToolTip(tr("Turn the camera about the vertical while playing"));
 }
 
 QActionGroup* PlayControl::add_group(const QString& title) {

@@ -15,31 +15,31 @@ class QMenu;
 
 namespace transillum::viewer {
 
-/// Plays a run as an animation: moves the focus on at a chosen speed until the end of the run, or
-/// until it is stopped. A direction that is still being recorded is waited for.
+/// Plays a run as an animation: moves the focus forward at a chosen speed until the end of the run,
+/// or until it is stopped. It waits for a direction that is still being recorded.
 class PlayControl : public QObject {
   Q_OBJECT
 
  public:
-  /// What one picture of the animation goes on by.
+  /// The unit by which the focus moves from one picture of the animation to the next.
   enum class By { polygons, directions, iterations };
 
   /// @param focus must outlive this object
   explicit PlayControl(Focus& focus, QObject* parent = nullptr);
   ~PlayControl() override;
 
-  /// Starts and stops it.
+  /// Starts and stops the animation.
   QAction* action() const { return action_; }
-  /// What to play, how fast, and whether the camera turns.
+  /// The menu that sets what is played, how fast, and whether the camera turns.
   QMenu* menu() const { return menu_.get(); }
   By by() const { return by_; }
   void set_by(By by);
   /// @param per_second pictures, above 0
   void set_speed(double per_second);
   double speed() const { return per_second_; }
-  /// Whether a next picture follows.
+  /// Whether another picture follows.
   bool playing() const { return timer_.isActive(); }
-  /// Waits with the next picture while `may_go_on` says false.
+  /// Waits with the next picture while `may_go_on` returns false.
   void set_gate(std::function<bool()> may_go_on) { may_go_on_ = std::move(may_go_on); }
 
  signals:
@@ -53,7 +53,7 @@ class PlayControl : public QObject {
   /// Without a direction to play from, only a play that is under way can be stopped.
   void show_state();
   void show_next();
-  /// False at the end of the run.
+  /// Shows the next position. @returns false at the end of the run
   bool advance();
 
   Focus& focus_;

@@ -106,7 +106,7 @@ void StepActions::event(StepOrder order) {
 }
 void StepActions::exchange(StepOrder order) { seek(find_exchanges(), no_patch, order); }
 
-/// Skips steps none of whose events, of the patch if one is given, passes the filter.
+/// Skips steps without an event that passes the filter; if a patch is given, only its events count.
 void StepActions::seek(StepFinder finder, PatchId patch, StepOrder order) {
   const EventFilter& filter = focus_.filter();
   if (filter.on()) {

@@ -98,7 +98,7 @@ void StepPanel::list(const Tab& tab, const QString& text, std::vector<StepEvent>
   const std::size_t all = events.size();
   std::erase_if(events, [this](const StepEvent& event) { return !focus_.filter().passes(event); });
   const std::size_t hidden = all - events.size();
-  // Without the hint that follows the first sentence: small screens have one line.
+  // Omits the hint that follows the first sentence: small screens have one line.
   tab.text->setText(hidden == 0 ? text
                                 : tr("%1 The filter hides %2 of %3.")
                                       .arg(text.section(QStringLiteral(". "), 0, 0) + '.',
@@ -114,7 +114,7 @@ void StepPanel::show_step_tab() {
     events = events_of_step(map->history, focus_.position().step);
   }
   const QString text = events.empty() ? tr("No events before the first step.")
-                                      : tr("Events of step %1. Click one to select its patch.")
+                                      : tr("Events of step %1. Click an event to select its patch.")
                                             .arg(count_text(focus_.position().step + 1));
   list(step_, text, std::move(events));
 }
@@ -132,7 +132,7 @@ void StepPanel::show_patch_tab() {
     const QString text =
         patch == no_patch
             ? tr("Select a patch to list its events along this direction.")
-            : tr("Events of direction %1 for patch %2. Double-click one to go to its step.")
+            : tr("Events of direction %1 for patch %2. Double-click an event to go to its step.")
                   .arg(count_text(map ? map->direction + 1 : 0))
                   .arg(patch);
     list(patch_, text, std::move(events));
@@ -158,7 +158,7 @@ void StepPanel::show_line_tab() {
       : events.empty()
           ? tr("The line hits no patch.")
           : tr("Patches along the line, the nearest to the source first; %1 of them receive light "
-               "there. Areas: of the fragment at the point, and of the whole pair.")
+               "there. The areas are of the fragment at the point, and of the whole pair.")
                 .arg(exchanges);
   list(line_, text, std::move(events));
   line_.table->set_current_step(focus_.position().step);

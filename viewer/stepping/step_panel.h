@@ -38,7 +38,7 @@ class StepPanel : public QWidget {
   void show_step_tab();
   void show_patch_tab();
   void show_line_tab();
-  /// Lists the events that pass the filter, below `text`, which says if there are others.
+  /// Lists the events that pass the filter, below `text`, which says whether events are hidden.
   void list(const Tab& tab, const QString& text, std::vector<StepEvent> events);
 
   Focus& focus_;

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The timeline: step buttons, a text on the current step, the lanes, and the chart of what is
-// watched. Input: Focus, Watches and snapshots.
+// The timeline: step buttons, a text on the current step, the lanes, and the chart of the watched
+// values. Input: Focus, Watches and snapshots.
 #include "stepping/timeline_bar.h"
 
 #include <QMenu>
@@ -41,7 +41,7 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, Watches& watches,
   stop_->setText(tr("Stop search"));
   connect(stop_, &QToolButton::clicked, &focus_, &Focus::stop);
   filter_ = named("filter_shown", new QToolButton,
-                  tr("Only steps with these events are stepped to; click to show all"));
+                  tr("Stepping skips steps without these events; click to show all events"));
   filter_->setIcon(theme::icon(theme::Icon::clear));
   filter_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   connect(filter_, &QToolButton::clicked, this, [this] { focus_.set_filter({}); });

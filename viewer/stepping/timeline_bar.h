@@ -30,11 +30,11 @@ class TimelineBar : public QWidget {
   void show_snapshot(const SolverSnapshot& snapshot);
   TimelineLanes* lanes() const { return lanes_; }
   PlayControl* play() const { return play_; }
-  /// Of what can be watched.
+  /// The menu of values that can be watched.
   QMenu* watch_menu() const;
 
  signals:
-  /// The chart of what is watched has been shown or hidden.
+  /// The chart of the watched values has been shown or hidden.
   void chart_shown();
 
  private:

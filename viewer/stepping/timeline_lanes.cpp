@@ -35,7 +35,7 @@ double TimelineLanes::value_width() const {
   return width;
 }
 
-// While the newest direction is followed, the one that is shown, as in the map.
+// While the newest direction is followed, the lanes show the same direction as the map.
 const RunPosition& TimelineLanes::position_shown() const {
   return focus_.following() && focus_.map() ? focus_.position() : focus_.target();
 }

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The chart below the timeline. What is watched comes from Watches, the values from the map in
+// The chart below the timeline. The list of watches comes from Watches, the values from the map in
 // Focus. Lines go through the smallest and largest value of each pixel column.
 #include "stepping/watch_chart.h"
 
@@ -24,7 +24,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr int plot_height = 52;
-// Where the panels leave no more, and the buttons are beside the plot.
+// The height where the panels leave no more room; the buttons are then beside the plot.
 constexpr int least_height = 37, least_plot_height = 30;
 constexpr int top_gap = 4, bottom_gap = 5;
 constexpr double least_defect = 1e-17;  ///< bottom of the logarithmic scale of closure defects
@@ -46,7 +46,7 @@ WatchChart::WatchChart(Focus& focus, Selection& selection, Watches& watches,
       lanes_(lanes),
       menu_(std::make_unique<QMenu>()) {
   setToolTip(
-      tr("Watched figures over the steps of the direction, each on its own scale from 0 to "
+      tr("Watched values over the steps of the direction, each on its own scale from 0 to "
          "its largest value (closure defects: logarithmic, from 10⁻¹⁷ to 1). Click or drag "
          "to go to a step."));
   make_menu();
@@ -111,7 +111,7 @@ void WatchChart::show_list() {
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     button->setAutoRaise(true);
     button->setIconSize({theme::scaled(12), theme::scaled(12)});
-    // Later: the button is deleted with its list.
+    // The call is made later: the button is deleted with its list.
     connect(
         button, &QToolButton::clicked, this, [this, k] { watches_.remove(k); },
         Qt::QueuedConnection);
@@ -129,7 +129,7 @@ void WatchChart::compute() {
     series.values = computed_ ? values_of(series.watch, computed_->history) : std::vector<double>();
     series.largest = 0;
     for (const double value : series.values) {
-      series.largest = std::fmax(series.largest, value);  // not a number: none
+      series.largest = std::fmax(series.largest, value);  // not a number where there is no value
     }
   }
 }
@@ -201,7 +201,7 @@ void WatchChart::place_buttons() {
   for (const Series& series : series_) {
     wanted += series.button->sizeHint().width();
   }
-  // Without room, texts are cut off; the tool tips have them.
+  // Texts without room are cut off; the tool tips have them.
   const double room = width() - 2 * margin - gap * (count - 1);
   const double share = std::min(1.0, room / std::max(wanted, 1));
   int left = margin;
@@ -252,7 +252,7 @@ void WatchChart::draw(QPainter& painter, std::size_t k) const {
   const std::vector<double>& values = series_[k].values;
   const QRectF frame = plot();
   QPolygonF line;
-  double column = -1;  // of the last two points
+  double column = -1;  // column of the last two points
   for (std::size_t step = 0; step < values.size(); ++step) {
     if (std::isnan(values[step])) {
       continue;

@@ -17,27 +17,27 @@ namespace transillum::viewer {
 
 class TimelineLanes;
 
-/// Lines of the watched figures over the steps of the direction, below the lane of steps, each on
-/// its own scale. Above them, or beside them in a low window, a button for each, which tells the
-/// value and removes it. Hidden without any.
+/// Lines of the watched values over the steps of the direction, below the lane of steps, each on
+/// its own scale. Above them, or beside them in a low window, is a button for each, which shows the
+/// value and removes the line. Hidden without watches.
 class WatchChart : public QWidget {
   Q_OBJECT
 
  public:
-  /// @param lanes above it, as wide
+  /// @param lanes above the chart, as wide as it is
   WatchChart(Focus& focus, Selection& selection, Watches& watches, const TimelineLanes& lanes,
              QWidget* parent = nullptr);
   ~WatchChart() override;
 
-  /// A menu of what can be watched.
+  /// A menu of the values that can be watched.
   QMenu* menu() const { return menu_.get(); }
   /// The plot, and the height in it of a value of watch k.
   QRectF plot() const;
   double height_of(std::size_t k, double value) const;
-  /// In the current appearance.
+  /// The color of watch k in the current appearance.
   static QColor color_of(std::size_t k);
 
-  /// Its plot is lower where the panels of a small screen leave no more room.
+  /// The plot is lower where the panels of a small screen leave no more room.
   QSize minimumSizeHint() const override;
   QSize sizeHint() const override;
 
@@ -52,7 +52,7 @@ class WatchChart : public QWidget {
   struct Series {
     Watch watch;
     std::vector<double> values;
-    double largest = 0;  ///< of the values
+    double largest = 0;  ///< the largest value
     QToolButton* button;
   };
   void make_menu();
@@ -60,7 +60,7 @@ class WatchChart : public QWidget {
   void compute();
   void show_values();
   int button_height() const;
-  /// Whether it is too low for buttons above the plot.
+  /// Whether the chart is too low for buttons above the plot.
   bool is_low() const;
   void place_buttons();
   void draw(QPainter& painter, std::size_t k) const;

@@ -8,7 +8,7 @@
 
 namespace transillum::viewer {
 
-/// The setting of the panel that may help, as " (…)"; empty for Remedy::none.
+/// The setting of the panel that may help, in parentheses; empty for Remedy::none.
 QString remedy_hint(Remedy remedy);
 /// A message for `error`, with the hint of a SolveError. Never empty.
 QString failure_text(const std::exception& error);

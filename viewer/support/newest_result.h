@@ -23,7 +23,7 @@ template <class Request, class Result>
 class NewestResult {
  public:
   using Job = std::function<Result(const Request&, const Cancellation&)>;
-  /// `result` is null where the job failed, with a message for the user in `error`.
+  /// If the job failed, `result` is null and `error` has a message for the user.
   using Deliver = std::function<void(const Request&, std::shared_ptr<const Result> result,
                                      const QString& error)>;
 
@@ -55,7 +55,7 @@ class NewestResult {
     Request request;
     quint64 number;
   };
-  // On the worker's thread; what it posts runs on the owner's.
+  // Runs on the worker's thread; what it posts runs on the owner's thread.
   void post(const Task& task, std::shared_ptr<const Result> result, const QString& error) {
     const auto deliver = [this, task, result = std::move(result), error] {
       if (task.number == newest_ || (current_ == CurrentJob::finish && task.number > delivered_)) {
@@ -104,7 +104,8 @@ class KeptResult {
     result_ = nullptr;
     error_.clear();
   }
-  /// The newest, which may be of an older request; null: none has been computed, or it failed.
+  /// The newest radiance, which may belong to an older request; null if none has been computed or
+  /// the last request failed.
   std::shared_ptr<const Result> result() const { return result_; }
   /// Why the last request failed; empty while the next is computed.
   QString error() const { return busy() ? QString() : error_; }

@@ -46,7 +46,7 @@ class ColumnFormat {
   friend bool operator==(const ColumnFormat&, const ColumnFormat&) = default;
 
  private:
-  int exponent_ = 0;  ///< of the power of ten, a multiple of 3
+  int exponent_ = 0;  ///< exponent of the power of ten, a multiple of 3
   int decimals_ = 4;
 };
 

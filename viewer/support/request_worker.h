@@ -21,10 +21,10 @@
 
 namespace transillum::viewer {
 
-/// What a new request does to the job that is running.
+/// The effect of a new request on the job that is running.
 enum class CurrentJob { cancel, finish };
 
-/// When a request's job begins: as soon as the worker is free, or after the pause as well.
+/// When the job of a request begins: as soon as the worker is free, or only after the pause.
 enum class Start { at_once, after_pause };
 
 /// The pause between the end of a job and a request with Start::after_pause: the longer of the two.
@@ -36,8 +36,8 @@ struct Pause {
 /// A thread that runs a job for the newest request; requests that have not begun are replaced.
 ///
 /// Threads: the public functions may be called from any thread; the job and the failure handler run
-/// on the worker's own. The members of the owner that they use must outlive the worker: declare the
-/// worker last.
+/// on the worker's own thread. The members of the owner that they use must outlive the worker:
+/// declare the worker last.
 template <class Request>
 class RequestWorker {
  public:
@@ -141,7 +141,7 @@ class RequestWorker {
   std::mutex mutex_;  // guards all below except the thread
   std::condition_variable wake_;
   std::optional<Request> waiting_;
-  Start start_ = Start::at_once;  // of waiting_
+  Start start_ = Start::at_once;  // start of waiting_
   bool quit_ = false;
   Cancellation cancellation_;
   std::thread thread_;

@@ -11,7 +11,8 @@
 namespace transillum::viewer {
 
 /// Draws the fragments in and below a plane (tree_visit_role) as a bar in BSP order: processed
-/// dark, later ones pale, those in the plane yellow, the selected patch's marked below the bar.
+/// fragments dark, later ones pale, fragments in the plane yellow; the fragments of the selected
+/// patch are marked below the bar.
 class OrderBar : public QStyledItemDelegate {
  public:
   /// A click on a step selects its patch, a double-click goes to it.

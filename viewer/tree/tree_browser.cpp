@@ -40,7 +40,7 @@ TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
   });
   connect(view_, &QTreeView::doubleClicked, this, [this](const QModelIndex& index) {
     const TreeVisit& visit = model_->visit(index);
-    // A free plane holds no fragment: go to the first one of its far side.
+    // A free plane holds no fragment: go to the first fragment of its far side.
     if (index.column() != TreeModel::of_order) {
       focus_.go_to_step(visit.plane_begin < visit.end ? visit.plane_begin : visit.begin);
     }

@@ -22,7 +22,7 @@ class TreeBrowser : public QWidget {
  public:
   TreeBrowser(Focus& focus, Selection& selection, QWidget* parent = nullptr);
 
-  /// @param outline null: show nothing
+  /// @param outline null shows an empty view
   void show_position(const std::shared_ptr<const TreeOutline>& outline);
 
  protected:

@@ -161,7 +161,7 @@ QVariant TreeModel::headerData(int section, Qt::Orientation orientation, int rol
     case of_order:
       return pick(tr("Order"),
                   tr("Fragments in and below the plane: processed dark, later ones pale, "
-                     "in the plane yellow; those of the selected patch are marked"));
+                     "in the plane yellow; fragments of the selected patch are marked"));
     default:
       return pick(tr("Fragments"), tr("Number of fragments in and below the plane"));
   }
@@ -169,7 +169,7 @@ QVariant TreeModel::headerData(int section, Qt::Orientation orientation, int rol
 
 void TreePathTable::show_path(std::shared_ptr<const TreeOutline> outline,
                               std::vector<TreeVisit> path, std::int32_t step) {
-  // A reset between its two clicks would lose a double-click.
+  // A reset between two clicks would lose a double-click.
   if (outline == outline_ && step == step_ && path == path_) {
     return;
   }

@@ -84,7 +84,7 @@ void TreeView::show_position() {
     if (!outline_ || &outline_->tree() != map->loaded->tree.get()) {
       outline_ = std::make_shared<const TreeOutline>(map->loaded->tree);
     }
-    // Before the first step: the path to its fragment.
+    // Before the first step, the path to its fragment is shown.
     const std::int32_t step = std::max(focus_.position().step, 0);
     path_->show_path(outline_, outline_->path_to(step, map->record().frame.omega), step);
     table_->scrollToBottom();

@@ -17,7 +17,7 @@ struct Style {
   const char *background, *border;
   theme::Icon icon;
 };
-// By Banner::Kind.
+// The colors of each Banner::Kind.
 constexpr Style styles[] = {{"#fdecec", "#e3b4b4", theme::Icon::error},
                             {"#fff6e0", "#e5cf97", theme::Icon::warning},
                             {"#e4effb", "#a9c4e2", theme::Icon::info}};

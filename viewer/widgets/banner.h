@@ -9,8 +9,8 @@ class QPushButton;
 
 namespace transillum::viewer {
 
-/// Non-modal message bar above the scene: an error, warnings about the scene, or something that the
-/// window offers to do, with buttons.
+/// Non-modal message bar above the scene: an error, warnings about the scene, or an offer of the
+/// window, with buttons.
 class Banner : public QFrame {
   Q_OBJECT
 
@@ -24,7 +24,7 @@ class Banner : public QFrame {
   /// Replaces the shown message. `details` is the tool tip.
   void show_message(Kind kind, const QString& text, const QString& details = {});
   void dismiss();
-  /// Empty while hidden.
+  /// The shown message; empty while the bar is hidden.
   QString text() const;
 
  signals:

@@ -51,8 +51,8 @@ inline QToolButton* button_for(QAction* action) {
   return button;
 }
 
-/// @param parent  gets the layout; null: it is part of another
-/// @param spacing  pixels; -1: as the style has it
+/// @param parent  gets the layout; null if the layout is part of another one
+/// @param spacing  pixels; -1 for the spacing of the style
 template <class Layout>
 Layout* make_layout(QWidget* parent, const QMargins& margins, int spacing) {
   auto* layout = parent ? new Layout(parent) : new Layout;
@@ -75,7 +75,7 @@ inline QVBoxLayout* make_column(const QMargins& margins, int spacing = -1) {
 
 /// A tool tip that explains a symbol or an equation, with the section of ALGORITHM.md that derives
 /// it on a line of its own.
-/// @param section number of the section, such as "6.1"; empty: none is named
+/// @param section number of the section, such as "6.1"; empty if none is to be named
 inline QString symbol_tip(const QString& meaning, const char* section) {
   return *section
              ? meaning + QStringLiteral("\nALGORITHM.md, section ") + QString::fromLatin1(section)

@@ -10,8 +10,8 @@ namespace transillum::viewer {
 
 namespace {
 
-// The first of the four corners around `anchor` that is within `bounds` and free; else within
-// `bounds` at the first.
+// The first of the four places around `anchor` that is within `bounds` and free; else the first
+// place, moved into `bounds`.
 QRectF place_for(const QSizeF& size, const QPointF& anchor, const QRectF& bounds,
                  const std::vector<QRectF>& taken) {
   const double shift = 16 * theme::scale();

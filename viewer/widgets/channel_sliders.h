@@ -21,11 +21,11 @@ class ChannelSliders : public QWidget {
   /// @param name  prefix of the object names of its parts: name_red, …, name_together
   ChannelSliders(const char* name, const QString& title, int decimals, QWidget* parent = nullptr);
 
-  /// Emits no signal. `most`: right end of the sliders.
+  /// Emits no signal. `most` is the right end of the sliders.
   void show_value(const Rgb& value, double most);
 
  signals:
-  /// Before the first moved() of a drag, a press or a key, however often it repeats.
+  /// Emitted before the first moved() of a drag, a press or a key, however often it repeats.
   void drag_began();
   void moved(const transillum::Rgb& value);
 

@@ -18,7 +18,7 @@ class PageDialog : public QDialog {
 
 /// Shows a file dialog for a file to write. Starts in the last chosen folder with the name
 /// `proposed`; existing files need confirmation.
-/// @param suffix appended to a name without one; empty: that of `proposed`
+/// @param suffix appended to a name without one; if it is empty, the suffix of `proposed` is used
 /// @return the path; empty if the dialog was canceled
 QString ask_where_to_write(QWidget* parent, const QString& title, const QString& filter,
                            const QString& proposed, const QString& suffix = {});

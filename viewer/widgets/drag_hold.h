@@ -45,7 +45,7 @@ class DragHold : public QObject {
  private:
   std::function<void()> began_;
   bool held_ = false;     ///< a mouse button or a key is down
-  bool changed_ = false;  ///< since it is
+  bool changed_ = false;  ///< since the press
 };
 
 }  // namespace transillum::viewer

@@ -16,7 +16,8 @@ class ElidedComboBox : public QComboBox {
   void paintEvent(QPaintEvent* event) override;
 };
 
-/// A line of clauses, the most important first: as many as fit, then "…". The tool tip has all.
+/// A line of clauses, the most important first. It shows as many as fit, then "…"; the tool tip has
+/// all.
 class ClauseLabel : public QLabel {
  public:
   explicit ClauseLabel(QWidget* parent = nullptr);

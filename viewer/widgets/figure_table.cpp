@@ -20,7 +20,7 @@ class SizeByFont : public QObject {
       : QObject(&table), table_(table), widest_(std::move(widest)) {
     table_.installEventFilter(this);
     if (const QAbstractItemModel* model = table_.model()) {
-      // Later: a QTableWidget resets its model while it is being destroyed.
+      // The call is made later: a QTableWidget resets its model while it is being destroyed.
       connect(model, &QAbstractItemModel::headerDataChanged, this, &SizeByFont::measure,
               Qt::QueuedConnection);
       connect(model, &QAbstractItemModel::modelReset, this, &SizeByFont::measure,

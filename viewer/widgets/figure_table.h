@@ -9,8 +9,8 @@ namespace transillum::viewer {
 
 /// Sets the common appearance of tables of numbers; rows and columns scale with the font.
 ///
-/// @param widest  longest expected text per column; empty: the width is not changed.
-///                Further columns are as wide as a number.
+/// @param widest  longest expected text per column. The width does not change where the text is
+///                empty; further columns are as wide as a number.
 void set_up_figure_table(QTableView& table, QStringList widest);
 
 }  // namespace transillum::viewer

@@ -26,7 +26,7 @@ class FullScreen : public QObject {
   void show_all();
 
  signals:
-  /// Before views are hidden, and after all are shown again.
+  /// Emitted before views are hidden, and after all are shown again.
   void beginning();
   void ended();
   /// The user has ended it by the action.

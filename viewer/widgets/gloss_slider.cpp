@@ -54,9 +54,9 @@ GlossSlider::GlossSlider(QWidget* parent) : QWidget(parent), drag_([this] { emit
   auto* column = make_column(this, {}, 1);
   column->addWidget(title_);
   column->addLayout(row);
-  setToolTip(tr(
-      "<span>Width of the lobe: of Phong's the exponent n of the cosine, of GGX the roughness. A "
-      "sharp lobe takes more directions: about ten times its exponent.</span>"));
+  setToolTip(
+      tr("<span>Width of the lobe: the exponent n of the cosine (Phong), or the roughness (GGX). A "
+         "sharp lobe requires more directions: about ten times its exponent.</span>"));
   connect(slider_, &QSlider::valueChanged, this,
           [this](int step) { change(value_at_place(1.0 * step / gloss_steps, is_exponent_)); });
   connect(box_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &GlossSlider::change);

@@ -24,7 +24,7 @@ class GlossSlider : public QWidget {
   void show_roughness(double roughness);
 
  signals:
-  /// Before the first moved() of a drag, a press or a key.
+  /// Emitted before the first moved() of a drag, a press or a key.
   void drag_began();
   /// The exponent or the roughness, whichever is shown.
   void moved(double value);

@@ -53,7 +53,7 @@ class LogChart : public QWidget {
   void show_lines(std::vector<Line> lines, std::vector<Level> levels, int x_max);
   /// The text shown if there is nothing to draw.
   void set_hint(const QString& hint);
-  /// The current count, marked by a vertical line; none: no mark.
+  /// Sets the current count, which a vertical line marks; no mark if it is not set.
   void set_mark(std::optional<int> x);
   std::optional<int> mark() const { return mark_; }
   /// The count nearest to a position in the widget, clamped to the axis.
@@ -88,8 +88,8 @@ class LogChart : public QWidget {
   std::vector<Level> levels_;
   int x_max_ = 1;
   std::optional<int> mark_;
-  mutable QImage picture_;  ///< in device pixels; null: not painted yet
-  mutable ChartArea area_;  ///< of the plot in the picture, logical pixels
+  mutable QImage picture_;  ///< in device pixels; null until it is painted
+  mutable ChartArea area_;  ///< area of the plot in the picture, logical pixels
 };
 
 /// Exponents of the powers of ten that enclose all positive values: first < last; [-1, 0] without

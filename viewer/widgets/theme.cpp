@@ -52,7 +52,7 @@ QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
   return {mix(a.red(), b.red()), mix(a.green(), b.green()), mix(a.blue(), b.blue())};
 }
 
-/// A box that is checked is filled: Fusion's marks can hardly be seen in dark panels.
+/// Fills a checked box: Fusion's marks can hardly be seen in dark panels.
 void draw_check_box(QPainter& painter, const QRect& rect, QStyle::State state) {
   const bool enabled = state & QStyle::State_Enabled;
   const QColor edge = enabled ? ink_dim : disabled_ink;
@@ -93,8 +93,8 @@ void draw_pressed_button(QPainter& painter, const QStyleOption& option) {
   painter.restore();
 }
 
-/// Scales icons and indicators with the font; marks what is on so that it is seen in every
-/// appearance.
+/// Scales icons and indicators with the font; marks active buttons and boxes so that they are
+/// recognized in every appearance.
 class ScaledStyle : public QProxyStyle {
  public:
   ScaledStyle() : QProxyStyle(QStringLiteral("Fusion")) {}
@@ -187,7 +187,7 @@ class SvgIcon : public QIconEngine {
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
     if (mode == QIcon::Disabled) {
-      painter->setOpacity(source_.contains('#') ? 0.5 : 1);  // it has colors of its own
+      painter->setOpacity(source_.contains('#') ? 0.5 : 1);  // the icon has its own colors
     }
     QSvgRenderer(colored(source_, color)).render(painter, square);
     painter->restore();

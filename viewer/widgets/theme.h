@@ -23,7 +23,7 @@ inline QColor warm;          ///< second curve of a chart
 inline QColor exchange_ink;  ///< text about light that is exchanged: `inside`, readable on `paper`
 inline QColor hover;         ///< under the pointer
 inline QColor title;         ///< behind a dock's title
-inline QColor finished;      ///< what is finished of a lane of the timeline
+inline QColor finished;      ///< finished part of a lane of the timeline
 
 /// Colors that are the same in every appearance.
 inline const QColor on_yellow{0x1b, 0x21, 0x2a};  ///< text on `processed`
@@ -67,9 +67,9 @@ enum class Icon {
   newest,
   study,
   info,
-  clear  ///< as close, in the color of text
+  clear  ///< like `close`, in the color of text
 };
-/// Follows the appearance and the screen's resolution, also after it was created.
+/// An icon that follows the appearance and the screen's resolution, also after it was created.
 QIcon icon(Icon which);
 
 /// Factor for line widths and text, at least 1. Any thread.

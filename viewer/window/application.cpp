@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array ending_signals{SIGHUP, SIGINT, SIGTERM};
 
-// From the handler, which may call few functions, to the event loop.
+// The pipe leads from the handler, which may call few functions, to the event loop.
 std::array<int, 2> ends{-1, -1};
 
 void pass_on(int number) {

@@ -11,13 +11,13 @@
 
 namespace transillum::viewer {
 
-/// Passes on exceptions that nothing else catches, such as std::bad_alloc in an event handler or
-/// an action, as messages. Without it, they would leave Qt's event loop, which must not happen.
+/// Reports exceptions that nothing else catches, such as std::bad_alloc in an event handler or an
+/// action, as messages. Without it, they would leave Qt's event loop, which must not happen.
 class Application : public QApplication {
  public:
   using QApplication::QApplication;
 
-  /// Called with a message for the user. Unset: exceptions are not caught.
+  /// Called with a message for the user. If it is not set, exceptions are not caught.
   std::function<void(const QString& message)> on_failure;
 
   bool notify(QObject* receiver, QEvent* event) override {
@@ -34,8 +34,8 @@ class Application : public QApplication {
 };
 
 /// Reports SIGINT, SIGTERM and SIGHUP in the event loop instead of ending the process at once.
-/// Signals that were ignored when the program started stay ignored. The second one of a kind ends
-/// the process.
+/// Signals that were ignored when the program started stay ignored. The second signal of a kind
+/// ends the process.
 ///
 /// Threads: the main thread only. At most one object at a time.
 class EndingSignals : public QObject {
@@ -46,11 +46,11 @@ class EndingSignals : public QObject {
   explicit EndingSignals(QObject* parent = nullptr);
   ~EndingSignals() override;
 
-  /// The first signal received; 0: none.
+  /// The first signal received, or 0.
   int number() const { return number_; }
 
  signals:
-  /// Once, on the first signal.
+  /// Emitted once, on the first signal.
   void received(int number);
 
  private:

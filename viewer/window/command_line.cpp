@@ -19,12 +19,13 @@ namespace transillum::viewer {
 
 namespace {
 
-/// Directions of a solve for a screenshot: an error of about a percent, within seconds.
+/// Directions of a solve for a screenshot. They give an error of about a percent within seconds.
 constexpr int screenshot_directions = 128;
-/// With linear functions, which show what single directions miss as wrong slopes.
+/// Directions with linear functions, where light that single directions miss appears as wrong
+/// slopes.
 constexpr int soft_directions = 1024;
 
-/// @throws InputError where the file has another ending, or no folder
+/// @throws InputError where the file has another ending, or its folder does not exist
 void check_output(const std::string& option, const std::string& file, const std::string& ending) {
   const std::filesystem::path path(file);
   if (path.extension() != ending) {
@@ -36,7 +37,7 @@ void check_output(const std::string& option, const std::string& file, const std:
   }
 }
 
-/// Whether none but these options is given.
+/// Whether no options other than these are given.
 bool has_only(const CLI::App& app, const std::set<std::string>& names) {
   const auto options = app.get_options();
   return std::all_of(options.begin(), options.end(), [&](const CLI::Option* option) {
@@ -44,7 +45,7 @@ bool has_only(const CLI::App& app, const std::set<std::string>& names) {
   });
 }
 
-/// What a screenshot shows unless options say otherwise.
+/// Chooses the solve of a screenshot unless options say otherwise.
 void choose_look(CommandLine& line, const CLI::App& app) {
   SolveOptions& solve = line.options.solve;
   if (!solve.goal.is_set() && app.count("--directions") + app.count("--after") == 0) {
@@ -83,7 +84,7 @@ void finish(CommandLine& line, const cli::GivenOptions& given, const CLI::App& a
   }
 }
 
-/// The lesson, its export, and the screenshot.
+/// Adds the options of the lesson, its export, and the screenshot.
 void add_window_options(CLI::App& app, CommandLine& line) {
   auto* lesson =
       app.add_option("--lesson", line.lesson, "a lesson file, or the number of a built-in lesson")
@@ -109,7 +110,7 @@ void add_window_options(CLI::App& app, CommandLine& line) {
   }
 }
 
-/// The definitions, and where they put what they parse.
+/// The definitions, and the members that receive the parsed values.
 struct Definitions {
   CLI::App app{"Shows how the light in a diffuse scene converges, direction by direction.",
                "transillum-viewer"};

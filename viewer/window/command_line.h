@@ -18,14 +18,14 @@ namespace transillum::viewer {
 
 /// The parsed arguments.
 struct CommandLine {
-  std::string scene;           ///< file or built-in; empty: none given
-  RunOptions options;          ///< of the run
-  bool reading_given = false;  ///< whether they say how the scene is read, were it as is usual
-  std::string lesson;          ///< number of a built-in lesson, or a file; empty: none
-  int page = 1;                ///< of the lesson, from 1
-  std::string screenshot;      ///< path of a PNG; empty: none
-  int after = 0;               ///< directions before the screenshot; 0: a converged solve
-  std::string lesson_file;     ///< path of an HTML file for the lesson; empty: none
+  std::string scene;           ///< file or built-in; empty if none is given
+  RunOptions options;          ///< options of the run
+  bool reading_given = false;  ///< whether the options say how the scene is read
+  std::string lesson;          ///< number of a built-in lesson, or a file; empty if none is given
+  int page = 1;                ///< page of the lesson, from 1
+  std::string screenshot;      ///< path of a PNG; empty if none is given
+  int after = 0;               ///< directions before the screenshot; 0 for a converged solve
+  std::string lesson_file;     ///< path of an HTML file for the lesson; empty if none is given
 };
 
 /// Either a command line to run, or the status to exit with at once.

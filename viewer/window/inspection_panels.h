@@ -28,8 +28,8 @@ class SelectionActions;
 class WarningList;
 struct SharedState;
 
-/// The panels that inspect a scene: tables of patches, materials to change, kept runs to compare
-/// with; with their docks and menus.
+/// The panels that inspect a scene: tables of patches, materials to change, kept runs to compare;
+/// with their docks and menus.
 class InspectionPanels : public QObject {
   Q_OBJECT
 
@@ -43,7 +43,7 @@ class InspectionPanels : public QObject {
   /// Adds the menus Edit and Compare.
   void add_to(QMenuBar& bar);
 
-  /// Whether a panel still waits for what it shows.
+  /// Whether a panel still waits for its content.
   bool busy() const;
   MaterialPanel& materials() const { return *materials_; }
 
@@ -52,9 +52,9 @@ class InspectionPanels : public QObject {
 
  signals:
   void failed(const QString& message);
-  /// As WarningList::face_chosen() and RunPanel::patch_chosen().
+  /// Passes WarningList::face_chosen() and RunPanel::patch_chosen() on.
   void face_chosen();
-  /// As PathPanel::paths_shown().
+  /// Passes PathPanel::paths_shown() on.
   void paths_shown(std::shared_ptr<const transillum::LightPaths> paths, int emphasized);
 
  private:

@@ -67,7 +67,7 @@ void LayoutMemory::restore() {
   }
   appearance_.load(settings);  // may show parts of the layout
   if (!fits && settings.contains("window/state")) {
-    // Later: opening the first scene dismisses messages.
+    // The message is shown later: opening the first scene dismisses messages.
     QTimer::singleShot(0, this, [this] {
       frame_.notifier.show_warnings(
           {tr("The saved layout is damaged, or of another version; the usual one is used")});

@@ -12,8 +12,8 @@ namespace transillum::viewer {
 class AppearanceActions;
 class FileActions;
 
-/// Layout, appearance and choices of the window, in the settings of the program: those of the last
-/// run are restored, and those of this one saved for the next.
+/// Layout, appearance and choices of the window, in the settings of the program: the values of the
+/// last run are restored, and the values of this run are saved for the next.
 class LayoutMemory : public QObject {
  public:
   /// The references must outlive this object.

@@ -66,8 +66,8 @@ void exit_without_display(QtMsgType type, const QMessageLogContext&, const QStri
   }
 }
 
-/// Whether an OpenGL context that VTK can use can be made. On X11, VTK needs GLX; Qt would also do
-/// with EGL.
+/// Whether an OpenGL context that VTK can use can be made. On X11, VTK needs GLX; Qt alone could
+/// also use EGL.
 bool has_opengl() {
   QOffscreenSurface surface;
   surface.create();
@@ -84,7 +84,8 @@ bool has_opengl() {
 #endif
 }
 
-/// For an exception that has left a function that must not throw: even the report may fail.
+/// Ends the program after an exception that has left a function that must not throw; even the
+/// report may fail.
 [[noreturn]] void end_with_line() {
   const char* text = "unknown error";
   try {
@@ -101,7 +102,7 @@ bool has_opengl() {
   std::_Exit(1);
 }
 
-/// The scene to open; without arguments, one that shows a solve at work.
+/// The scene to open; without arguments, a scene that shows the progress of a solve well.
 std::string scene_of(const CommandLine& command_line) {
   return command_line.scene.empty() && command_line.lesson.empty() ? "sphere-flake"
                                                                    : command_line.scene;
@@ -114,8 +115,8 @@ std::optional<Goal> goal_of(const CommandLine& command_line) {
   return std::nullopt;
 }
 
-/// For a program that is to write one file and exit: what prevents that is printed, and ends the
-/// event loop. @returns what to call with other failures and the exit status for them
+/// Prepares a program that is to write one file and exit: a failure that prevents this is printed,
+/// and ends the event loop. @returns what to call with other failures and the exit status for them
 std::function<void(const QString&, int)> exit_on_failure(MainWindow& window,
                                                          const SolveRunner& runner) {
   const auto fail = [failed = std::make_shared<bool>(false)](const QString& message,
@@ -128,7 +129,7 @@ std::function<void(const QString&, int)> exit_on_failure(MainWindow& window,
   QObject::connect(
       &runner, &SolveRunner::failed, qApp,
       [fail](const QString& message, bool bad_input) { fail(message, bad_input ? 2 : 1); });
-  // Later: before the event loop, exit() has no effect.
+  // The call is made later: before the event loop, exit() has no effect.
   QObject::connect(
       &window.applier(), &ViewStateApplier::unreachable, qApp,
       [fail](const QString& message) { fail(message, 2); }, Qt::QueuedConnection);

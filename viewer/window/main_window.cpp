@@ -77,7 +77,7 @@ namespace {
 
 constexpr QSize usual_size(1600, 1000);
 
-/// The share of light that escapes; unset before the first pass.
+/// The fraction of light that escapes; not set before the first pass.
 std::optional<double> escape_of(const SolverSnapshot& snapshot) {
   const bool any_pass = snapshot.passes_done > 0;
   return any_pass ? std::optional(snapshot.statistics.escaped) : std::nullopt;
@@ -150,7 +150,7 @@ void MainWindow::make_views() {
                                                           : nullptr;
   });
   notes_ = named("notes", new QPlainTextEdit);
-  notes_->setPlaceholderText(tr("Your notes. Saved with the session."));
+  notes_->setPlaceholderText(tr("Your notes; they are saved with the session."));
   timeline_ = new TimelineBar(state_.focus, state_.selection, state_.watches, *step_actions_);
   timeline_->lanes()->set_marks(
       [this](const MapHistory& history) { return state_.breakpoints.steps_in(history); });
@@ -275,7 +275,7 @@ void MainWindow::connect_views() {
     // After the layouts have received the new font.
     QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
   });
-  // Later: the window does not know the new least height yet.
+  // The call is made later: the window does not know the new least height yet.
   connect(
       timeline_, &TimelineBar::chart_shown, this,
       [this] {
@@ -300,7 +300,7 @@ void MainWindow::show_title_and_warnings(const LoadedScene& loaded) {
   }
 }
 
-/// Views of the patches begin with other ones.
+/// Views of the patches begin with the new patches.
 void MainWindow::show_patches(const std::shared_ptr<const LoadedScene>& loaded) {
   state_.selection.select(no_patch);
   state_.focus_feed.clear();
@@ -536,7 +536,8 @@ void MainWindow::dropEvent(QDropEvent* event) {
     return;
   }
   event->acceptProposedAction();
-  // Later: the program from which it was dragged waits, and opening may ask a question.
+  // The file is opened later: the program from which it was dragged waits, and opening may ask a
+  // question.
   QMetaObject::invokeMethod(
       files_, [this, file] { files_->try_open(file); }, Qt::QueuedConnection);
 }

@@ -40,13 +40,14 @@ class TimelineBar;
 class ViewStateApplier;
 class WindowSession;
 
-/// The one window: creates the views and what acts on all of them, places them in docks and menus,
-/// and connects them. What they do is theirs; nothing but main() and the tests includes this file.
+/// The one window: creates the views and the objects that act on all of them, places them in docks
+/// and menus, and connects them. Their behavior is in their own files; only main() and the tests
+/// include this file.
 class MainWindow : public QMainWindow {
   Q_OBJECT
 
  public:
-  /// @param state what the views follow; must outlive the window
+  /// @param state the state that the views follow; must outlive the window
   /// @param remember restore the layout of the last run, and save it for the next
   MainWindow(SharedState& state, bool remember, QWidget* parent = nullptr);
   ~MainWindow() override;
@@ -60,7 +61,7 @@ class MainWindow : public QMainWindow {
   /// Whether the solver is idle and every view shows the newest state.
   bool settled() const;
   /// Closes the window without a dialog. Notes that have not been saved are written to a session
-  /// file, whose path is returned; empty: there are none.
+  /// file, whose path is returned; it is empty if there are no such notes.
   /// @throws std::runtime_error where that file cannot be written; the window is closed
   QString close_without_questions();
 
@@ -84,7 +85,7 @@ class MainWindow : public QMainWindow {
   void make_view_menu();
   void make_tool_bar();
   void fill_built_in_menu(QMenu& menu);
-  /// Asks about long work and unsaved notes. Whether the window may close.
+  /// Asks about long work and unsaved notes. @returns whether the window may close
   bool may_close();
 
   SharedState& state_;

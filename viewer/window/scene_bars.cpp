@@ -124,7 +124,7 @@ void LightOffer::update() {
   bar.show_message(
       Banner::Kind::offer,
       frame_.state.selection.patch() == no_patch
-          ? tr("No light: the scene is shown in a neutral one. Click a face to make it emit.")
+          ? tr("No light: the scene is shown in neutral light. Click a face to make it emit.")
           : tr("No light: make the selected face, material or group emit."));
 }
 
@@ -165,7 +165,7 @@ void LightOffer::make_emit(const std::string& target) {
   constexpr Rgb white{first_exitance, first_exitance, first_exitance};
   const auto snapshot = frame_.state.scene.snapshot();
   if (snapshot && !snapshot->form_factors_fit && frame_.state.scene.loaded()->description) {
-    // Form factors that exceed the memory limit light nothing: a new solve does.
+    // Form factors that exceed the memory limit cannot give light: only a new solve can.
     if (!frame_.guard.may_lose(&frame_.window, tr("Make it emit"))) {
       return;
     }
@@ -259,13 +259,14 @@ void OrientationOffer::offer() {
   const QString percent = QString::number(std::lround(100 * loaded->back_share));
   if (frame_.state.scene.input().orient) {
     show(State::nothing_to_turn,
-         tr("%1 % of what is seen is the back of a face, also after turning faces. "
-            "Two-sided faces, in the settings, light and receive on both sides.")
+         tr("%1 % of the surface that light meets is the back of faces, even after turning faces. "
+            "Two-sided faces, in the settings, emit and receive on both sides.")
              .arg(percent));
     return;
   }
   show(State::offered,
-       tr("%1 % of what is seen is the back of a face, which neither emits nor reflects.")
+       tr("%1 % of the surface that light meets is the back of faces, which neither emits nor "
+          "reflects.")
            .arg(percent));
 }
 
@@ -277,7 +278,7 @@ void OrientationOffer::plan() {
 void OrientationOffer::preview(const OrientationPlan& plan) {
   if (!plan.changes()) {
     show(State::nothing_to_turn,
-         tr("No faces to turn were found. Two-sided faces, in the settings, light and receive on "
+         tr("No faces to turn were found. Two-sided faces, in the settings, emit and receive on "
             "both sides."),
          sentences_of(plan.report));
     return;

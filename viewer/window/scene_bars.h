@@ -19,13 +19,13 @@ namespace transillum::viewer {
 class MaterialPanel;
 class ViewStateApplier;
 
-/// The bar above the scene while another one is loaded: what is done, how far, and a button that
-/// cancels. The title of the window names the scene that is loaded.
+/// The bar above the scene while another one is loaded. It shows the present task, its progress,
+/// and a button that cancels. The title of the window names the scene that is loaded.
 class LoadingNotice : public QObject {
   Q_OBJECT
 
  public:
-  /// What `parts` refers to must outlive this object.
+  /// The objects that `parts` refers to must outlive this object.
   explicit LoadingNotice(const WindowFrame& frame);
 
  private:
@@ -34,12 +34,12 @@ class LoadingNotice : public QObject {
 
   WindowFrame frame_;
   QString phase_, title_before_, loading_title_;
-  double share_ = -1;  ///< as by SolveRunner::load_progressed()
+  double share_ = -1;  ///< the arguments of SolveRunner::load_progressed()
   QTimer delay_;       ///< a scene that loads at once needs no bar
 };
 
-/// The bar above a scene in which nothing emits: says so, and lets the user make the selected face,
-/// its material or its group emit. It is gone once anything emits.
+/// The bar above a scene in which nothing emits. It says so, and lets the user make the selected
+/// face, its material or its group emit. It is hidden once anything emits.
 class LightOffer : public QObject {
   Q_OBJECT
 
@@ -64,8 +64,8 @@ class LightOffer : public QObject {
   bool closed_ = false;  ///< by the user, for the open scene
 };
 
-/// The bar above a scene of which more than a tenth of what is seen is a back: shows which faces
-/// would be turned, and turns them.
+/// The bar above a scene in which more than a tenth of the surface that light meets is the back of
+/// faces. It shows which faces would be turned, and turns them.
 class OrientationOffer : public QObject {
   Q_OBJECT
 

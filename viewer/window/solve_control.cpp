@@ -119,8 +119,8 @@ void SolveControl::solve_again() {
   }
 }
 
-/// Of the panel, for the open scene. Materials that were changed in the window become those of the
-/// scene: they are solved, estimated, refined and copied as any others.
+/// The options of the panel, for the open scene. Materials that were changed in the window become
+/// materials of the scene: they are solved, estimated, refined and copied like all others.
 RunOptions SolveControl::wanted_options() const {
   RunOptions options = settings_.options();
   options.input = frame_.state.scene.input();

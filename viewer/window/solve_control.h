@@ -28,12 +28,12 @@ class SolveControl : public QObject {
   void run();
   /// Solves with the settings of the panel; reads the scene again where its options differ.
   void solve_again();
-  /// Asks about long work. Whether the solve may be thrown away.
+  /// Asks about long work. @returns whether the solve may be discarded
   bool may_solve_again() const;
   void solve_with_replicas();
   void request_forecast(const SceneOptions& options);
   void show_forecast(const SceneOptions& options, std::int64_t patches);
-  /// Asks about a scene of very many patches. Whether to make it.
+  /// Asks about a scene of very many patches. @returns whether to make it
   bool may_refine(std::int64_t patches);
   RunOptions wanted_options() const;
   void open_again();

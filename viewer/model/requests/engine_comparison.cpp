@@ -147,8 +147,9 @@ Transfers run_engine(const EngineRequest& request, EngineComparison::Side& side,
   return transfers;
 }
 
-/// Per patch j, half the larger of A_i F_ij by the two engines, m²; of the eye i: A_i. This is the
-/// area that differences are relative to: a patch seen by one engine only differs wholly.
+/// The areas that differences are relative to, m²: half the larger of A_i F_ij by the two engines
+/// for each patch j, and A_i for the eye i. A patch that only one engine sees has the largest
+/// possible difference.
 std::vector<double> seen_areas(const Transfers& first, const Transfers& other, PatchId eye) {
   std::vector<double> seen(first.forward.size());
   for (const Transfers* transfers : {&first, &other}) {

@@ -24,22 +24,22 @@ struct EngineComparison {
   };
   std::shared_ptr<const LoadedScene> loaded;
   Vec3 direction;
-  PatchId eye = no_patch;  ///< patch whose row was compared; no_patch: a direction was compared
+  PatchId eye = no_patch;  ///< patch whose row was compared; no_patch if a direction was compared
   Side first, other;
-  TransferComparison transfers;   ///< set if ok(); of a row: A_i F_ij, m²
+  TransferComparison transfers;   ///< set if ok(); for a row A_i F_ij, m²
   std::vector<double> projected;  ///< per patch: its area on the plane, m²; or half of A_i F_ij
 
   bool ok() const { return first.failure.empty() && other.failure.empty(); }
 };
 
-/// What is compared.
+/// The direction or row, and the engines, to compare.
 struct EngineRequest {
   std::shared_ptr<const LoadedScene> loaded;
   Vec3 direction;
   EngineOptions options;  ///< except the resolution
   Engine first = Engine::fast, other = Engine::corrected;
   int first_resolution = 0, other_resolution = 0;
-  // If one has no directions:
+  // Used if an engine has no directions:
   PatchId eye = no_patch;
   std::shared_ptr<const std::vector<Vec3>> directions;
   bool two_way = true;

@@ -22,7 +22,7 @@ struct HemicubeComparison {
   };
   Request request;
   HemicubeImage image;
-  std::vector<double> exact;  ///< F_ij with i = request.eye, one per patch j; empty: not computed
+  std::vector<double> exact;  ///< F_ij with i = request.eye, one per patch j; empty if not computed
 
   /// (F_hemicube - F_exact) / max(F_hemicube, F_exact) of patch j, -1 to 1. Requires `exact`.
   double surplus(PatchId j) const;
@@ -37,7 +37,7 @@ struct HemicubeComparison {
 std::shared_ptr<const HemicubeComparison> render_hemicube(
     const HemicubeComparison::Request& request, const Cancellation& cancellation);
 /// `image_only` and exact form factors, which may take seconds. Any thread.
-/// @param progress called with the share that is done, 0 to 1
+/// @param progress called with the finished fraction, 0 to 1
 /// @throws Canceled
 std::shared_ptr<const HemicubeComparison> with_exact(const HemicubeComparison& image_only,
                                                      const Cancellation& cancellation,

@@ -12,8 +12,8 @@
 
 namespace transillum::viewer {
 
-/// What one patch sees along each direction of a solve run, computed on its own thread while
-/// the solver runs; the newest request replaces older ones. Results for the same patch and run are
+/// Finds what one patch sees along each direction of a solve run, on its own thread while the
+/// solver runs; the newest request replaces older ones. Results for the same patch and run are
 /// kept.
 ///
 /// Threads: the public functions and the signals belong to the thread that created it.
@@ -67,7 +67,7 @@ class PerDirectionVisibility : public QObject {
   // Used by the owner's thread only.
   Request request_;
   std::vector<VisibleAreas> found_;
-  quint64 number_ = 0;  ///< of the newest request; results of others are dropped
+  quint64 number_ = 0;  ///< number of the newest request; results of others are dropped
 
   // Used by the worker's thread only.
   TransferEngine engine_;

@@ -26,7 +26,7 @@ struct RecordedMap {
 struct MapRequest {
   std::shared_ptr<const LoadedScene> loaded;
   Vec3 omega;
-  int iteration = 0, direction = 0, passes = 0;  ///< of the RecordedMap
+  int iteration = 0, direction = 0, passes = 0;  ///< values of the RecordedMap
   std::uint64_t memory = 0;                      ///< SolveOptions::memory
 };
 /// Any thread.

@@ -69,11 +69,11 @@ QString Relighting::method_note() const {
     return {};
   }
   if (snapshot_->glossy) {
-    return tr("Changed light is found from the kept transfers, by direction.");
+    return tr("Changed light is computed from the kept transfers, by direction.");
   }
   if (snapshot_->options.basis == Basis::linear) {
     return tr(
-        "Changed light is constant on each patch: the form factors kept are those of constant "
+        "Changed light is constant on each patch: the stored form factors belong to constant "
         "functions.");
   }
   if (snapshot_->options.scheme == Scheme::semi_iterative) {
@@ -133,7 +133,7 @@ std::shared_ptr<const SolverSnapshot> Relighting::lit(
     ask_solver();
     return snapshot_;
   }
-  // Form factors of more passes than those of the newest request.
+  // The snapshot has form factors of more passes than the newest request.
   if (edits_.any() && snapshot_->form_factors && snapshot_->form_factors != used_) {
     request_light();
   }
@@ -142,7 +142,7 @@ std::shared_ptr<const SolverSnapshot> Relighting::lit(
   }
   auto lit = std::make_shared<SolverSnapshot>(*snapshot_);
   lit->radiosity = light_->radiosity;
-  lit->linear_parts.clear();  // form factors are those of constant functions
+  lit->linear_parts.clear();  // the form factors belong to constant functions
   lit->bases = nullptr;
   lit->kept_linear_parts.clear();
   lit->irradiance = light_->irradiance;

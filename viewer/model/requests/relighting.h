@@ -12,7 +12,8 @@
 
 namespace transillum::viewer {
 
-/// Replaces the light in snapshots by that of edited materials, computed from stored form factors.
+/// Replaces the light in snapshots by the light of edited materials, computed from stored form
+/// factors.
 ///
 /// Threads: the main thread only.
 class Relighting : public QObject {
@@ -25,13 +26,13 @@ class Relighting : public QObject {
   MaterialEdits& edits() { return edits_; }
   /// Starts with the unedited materials of a new scene.
   void show_scene(std::shared_ptr<const Scene> scene);
-  /// The snapshot to show for one of the solver: the same, or with the edited materials and their
-  /// light once it is computed.
+  /// The snapshot to show in place of one of the solver: the same, or one with the edited materials
+  /// and their light once it is computed.
   std::shared_ptr<const SolverSnapshot> lit(std::shared_ptr<const SolverSnapshot> snapshot);
   /// The reason why materials cannot be edited now; empty if they can.
   QString reason_unavailable() const;
-  /// A sentence for the user on how the light of edited materials is computed; empty if it is only
-  /// from the form factors of the solve run.
+  /// A sentence for the user on how the light of edited materials is computed; empty if only the
+  /// form factors of the solve run are used.
   QString method_note() const;
   /// Whether lobes take part in the run.
   bool by_lobes() const { return snapshot_ && snapshot_->glossy; }
@@ -44,8 +45,8 @@ class Relighting : public QObject {
   /// The result of lit() has changed.
   void changed();
   void form_factors_requested();
-  /// Of a run in which lobes take part: its solver is to find the light of these materials.
-  /// @param materials  null: those of the scene
+  /// The solver is to find the light of these materials, in a run in which lobes take part.
+  /// @param materials  null for the materials of the scene
   void solver_light_requested(std::shared_ptr<const transillum::viewer::PatchMaterials> materials);
   void failed(const QString& message);
 
@@ -56,7 +57,7 @@ class Relighting : public QObject {
     std::shared_ptr<const DirectLight> shot;  ///< may be null
     std::shared_ptr<const PatchMaterials> materials;
     std::vector<Rgb> start;  ///< initial B, W/m², one per patch
-    std::vector<Rgb> sky;    ///< what the patches receive from the sky, W/m²; empty: no sky
+    std::vector<Rgb> sky;    ///< light that the patches receive from the sky, W/m²; may be empty
     double tolerance = 1e-6;
   };
   static RelightResult relit(const Request& request, const Cancellation& cancellation);
@@ -65,10 +66,11 @@ class Relighting : public QObject {
 
   MaterialEdits edits_;
   std::shared_ptr<const SolverSnapshot> snapshot_;   ///< newest of the solver
-  std::shared_ptr<const FormFactors> used_;          ///< of the newest request
-  std::shared_ptr<const RelightResult> light_;       ///< null: the solver's light
-  std::shared_ptr<const PatchMaterials> materials_;  ///< of light_
-  std::shared_ptr<const PatchMaterials> asked_;      ///< of solver_light_requested(), the newest
+  std::shared_ptr<const FormFactors> used_;          ///< form factors of the newest request
+  std::shared_ptr<const RelightResult> light_;       ///< null for the solver's light
+  std::shared_ptr<const PatchMaterials> materials_;  ///< materials of light_
+  std::shared_ptr<const PatchMaterials>
+      asked_;  ///< materials of the newest solver_light_requested()
   NewestResult<Request, RelightResult> relighter_;
 };
 

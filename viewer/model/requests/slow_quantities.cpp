@@ -8,7 +8,7 @@ namespace transillum::viewer {
 
 PatchJumps find_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot,
                       const Cancellation& cancellation) {
-  // As the materials are now, which may have been changed.
+  // Uses the current materials, which the user may have changed.
   std::vector<Rgb> reflectance;
   for (PatchId i = 0; i < snapshot->loaded->scene->patch_count(); ++i) {
     const Material& material = material_of(*snapshot, i);

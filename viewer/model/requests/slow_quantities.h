@@ -20,15 +20,15 @@ namespace transillum::viewer {
 struct LightRequest {
   std::shared_ptr<const LoadedScene> loaded;
   std::shared_ptr<const FormFactors> form_factors;
-  std::shared_ptr<const PatchMaterials> materials;  ///< null: those of the scene
+  std::shared_ptr<const PatchMaterials> materials;  ///< null for the materials of the scene
   PatchId receiver = no_patch;
-  double tolerance = 0;  ///< of the solve run
+  double tolerance = 0;  ///< tolerance of the solve run
 
   const Scene& scene() const { return *loaded->scene; }
   const std::vector<Material>& material_list() const {
     return materials ? materials->materials : scene().materials();
   }
-  /// Index into material_list() for each patch; empty: Patch::material.
+  /// Index into material_list() for each patch; empty if Patch::material is that index.
   std::span<const std::int32_t> patch_materials() const {
     return materials ? std::span<const std::int32_t>(materials->of_patch)
                      : std::span<const std::int32_t>();
@@ -36,7 +36,7 @@ struct LightRequest {
   friend bool operator==(const LightRequest&, const LightRequest&) = default;
 };
 
-/// None where the snapshot has no form factors or no such patch.
+/// The request for a snapshot; not set where the snapshot has no form factors or no such patch.
 inline std::optional<LightRequest> light_request(const SolverSnapshot& snapshot, PatchId receiver) {
   if (!snapshot.form_factors || receiver < 0 || receiver >= snapshot.loaded->scene->patch_count()) {
     return std::nullopt;
@@ -45,7 +45,7 @@ inline std::optional<LightRequest> light_request(const SolverSnapshot& snapshot,
                       snapshot.options.tolerance};
 }
 
-/// By how much B of each patch differs from that of its neighbors.
+/// The difference between B of each patch and B of its neighbors.
 struct PatchJumps {
   std::shared_ptr<const Scene> scene;
   std::vector<double> values;  ///< radiosity_jumps(), W/m², one per patch
@@ -69,7 +69,7 @@ struct RadianceToward {
 };
 RadianceToward radiance_toward(const EyeRequest& request, const Cancellation& cancellation);
 
-/// What light emitted by each patch does to one patch.
+/// The effect that light emitted by each patch has on one patch.
 struct PatchResponse {
   std::shared_ptr<const LoadedScene> loaded;
   PatchId receiver = no_patch;

@@ -15,34 +15,35 @@ namespace transillum::viewer {
 /// ignored: a full disk must not interrupt the user every minute.
 ///
 /// Threads: save_to() and resume_from() may be called by any thread; the others belong to the
-/// worker's.
+/// worker's thread.
 class CheckpointKeeper {
  public:
   ~CheckpointKeeper() { save_to({}); }
 
-  /// Saves the solve in `file` from now on; empty: nowhere. The file before is removed.
+  /// Saves the solve in `file` from now on; nothing is saved if `file` is empty. The previous file
+  /// is removed.
   /// @param interval s
   void save_to(std::string file, double interval = 60);
   /// The next solve continues the checkpoint in `file`, if that is of the same scene and options.
   void resume_from(std::string file);
 
-  /// Continues the solve in the file of resume_from(), if there is one, and removes it. Where it is
-  /// of another solve, the session begins at its beginning; the file then stays for a later round,
-  /// if there is one.
+  /// Continues the solve in the file of resume_from(), if there is one, and removes it. If the file
+  /// is from another solve, the session starts from the beginning; the file then stays for a later
+  /// round, if there is one.
   /// @param session has made no pass
   /// @param options of its solves
   /// @throws Canceled; as SolveSession::prepare()
   void resume(SolveSession& session, const SolveOptions& options);
-  /// Another solve begins; the one before is no longer kept.
+  /// To be called when another solve begins; the previous one is no longer saved.
   /// @param options of the solve
   void begin(std::shared_ptr<const Scene> scene, const SolveOptions& options);
   /// To be called after each pass and iteration, and in pauses: saves when the interval has passed;
-  /// after an iteration and in a pause, a twelfth of it.
+  /// after an iteration and in a pause, when a twelfth of it has passed.
   void save_if_due(const SolveSession& session, bool in_pause = false);
 
  private:
   std::mutex mutex_;         ///< guards all below
-  std::string resume_from_;  ///< checkpoint of another program; empty: none
+  std::string resume_from_;  ///< checkpoint of another program; empty if there is none
   std::string file_;
   double interval_ = 60;
   std::shared_ptr<const Scene> scene_;

@@ -5,8 +5,8 @@
 
 namespace transillum::viewer {
 
-/// What a solve is to reach before it pauses. With rounds of refinement: `finished` and `passes`
-/// are about the solve after the last round.
+/// The state that a solve is to reach before it pauses. With rounds of refinement, `finished` and
+/// `passes` are about the solve after the last round.
 struct Goal {
   enum class Kind { pause, direction, iteration, passes, finished };
   Kind kind = Kind::pause;

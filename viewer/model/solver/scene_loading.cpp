@@ -58,7 +58,7 @@ SceneDescription describe(const std::string& spec, const SceneInput& input,
   return description;
 }
 
-/// Sets what follows from the patches.
+/// Sets the members that follow from the patches.
 void examine(LoadedScene& loaded, const Cancellation& cancellation) {
   loaded.picker = std::make_shared<const Picker>(loaded.scene, cancellation);
   loaded.measures = measure(*loaded.scene, cancellation);

@@ -15,8 +15,8 @@
 
 namespace transillum::viewer {
 
-/// Called on any thread, one at a time, with what is done and its finished share, 0 to 1; negative:
-/// unknown.
+/// Called on any thread, one at a time, with the name of the present task and its finished
+/// fraction, 0 to 1; negative if unknown.
 using LoadProgress = std::function<void(const QString& phase, double share)>;
 
 /// Passes preparations of a solve on to `progress`, not too often.

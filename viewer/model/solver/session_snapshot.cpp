@@ -99,7 +99,7 @@ void SolveHistory::store_radiosity(const SolveSession& session) {
   }
   linear_parts_.resize(iteration + 1);
   if (iteration == 0) {
-    // B(0) is E; the solver's parts may be those of the estimate already.
+    // B(0) is E; the solver's parts may already belong to the estimate.
     linear_parts_[0] = shared(std::vector<LinearPart>(patches));
   } else if (progress.direction == 0) {
     linear_parts_[iteration] = shared(session.linear_parts());
@@ -135,7 +135,7 @@ void SolveHistory::store_errors(const SolveSession& session) {
     return;
   }
   const ErrorEstimate error = session.error_estimate();
-  errors_.resize(iterations);  // those of iterations that were not observed are 0
+  errors_.resize(iterations);  // iterations that were not observed have 0
   errors_.back() = {error.rms_lowest, error.rms, error.rms_limit};
 }
 

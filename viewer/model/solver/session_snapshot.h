@@ -14,24 +14,25 @@
 
 namespace transillum::viewer {
 
-/// A snapshot with the values and figures of the stage of a session. Before its first pass, those
-/// of the result file, if one was opened.
+/// A snapshot with the values and statistics of the present stage of a session. Before the first
+/// pass, it has the values of the result file, if one was opened.
 /// @param session prepared
 /// @param loaded of the session's scene
 SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const LoadedScene> loaded);
 
-/// What snapshots show of all iterations of a stage: directions, passes, B, errors, and the changes
-/// of the estimate in the newest iteration with passes.
+/// The data of all iterations of a stage that snapshots show: directions, passes, B, errors, and
+/// the changes of the estimate in the newest iteration with passes.
 class SolveHistory {
  public:
-  /// Of no stage; it may only be assigned to.
+  /// A history of no stage, which may only be assigned to.
   SolveHistory() = default;
-  /// @param session prepared; iterations that it has made before are included, but for their B
+  /// @param session prepared; iterations that it has made before are included, except their B
   explicit SolveHistory(const SolveSession& session);
 
   /// To be called after each pass and iteration, and when a replica was added.
   void update(const SolveSession& session);
-  /// Sets the history, and what follows from linear parts, of a snapshot that has its other values.
+  /// Sets the history of a snapshot whose other values are set, and the members that follow from
+  /// linear parts.
   void write_to(SolverSnapshot& snapshot);
 
  private:
@@ -39,22 +40,23 @@ class SolveHistory {
   void store_directions(const SolveSession& session);
   void store_errors(const SolveSession& session);
 
-  // As in SolverSnapshot.
+  // The values of members of SolverSnapshot.
   std::vector<std::shared_ptr<const std::vector<Vec3>>> directions_;
   std::vector<int> passes_;
   std::vector<std::shared_ptr<const std::vector<Rgb>>> radiosity_;
   std::vector<std::shared_ptr<const std::vector<LinearPart>>> linear_parts_;
   std::vector<ErrorBand> errors_;
 
-  int replicas_ = 1;             // that have directions in directions_.front()
-  std::vector<double> changes_;  // of the newest iteration with all its passes
+  int replicas_ = 1;             // the number of replicas whose directions are in
+                                 // directions_.front()
+  std::vector<double> changes_;  // changes of the newest iteration with all its passes
   int changes_iteration_ = 0;
-  std::shared_ptr<const std::vector<LinearBasis>> bases_;  // null: not needed yet
+  std::shared_ptr<const std::vector<LinearBasis>> bases_;  // null until they are needed
 };
 
-/// The form factors of a stage for its snapshots, from the moment on when they are requested.
+/// The form factors of a stage for its snapshots, as soon as they are requested.
 ///
-/// Threads: request() may be called by any; the others belong to the worker's.
+/// Threads: request() may be called by any; the others belong to the worker's thread.
 class KeptFormFactors {
  public:
   /// @returns whether they were not requested before

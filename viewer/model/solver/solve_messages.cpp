@@ -51,7 +51,7 @@ void SolveMessages::deliver_snapshot() {
   std::shared_ptr<const SolverSnapshot> newest;
   {
     const std::lock_guard lock(mutex_);
-    // A snapshot of a scene that is not announced yet waits for that.
+    // A snapshot of a scene that is not announced yet waits for the announcement.
     if (!pending_snapshot_ || pending_snapshot_->loaded != announced_) {
       return;
     }

@@ -11,7 +11,7 @@
 
 namespace transillum::viewer {
 
-/// What a solve tells the window.
+/// Posts the messages of a solve to the window.
 ///
 /// Threads: signals and state() belong to the thread that created the object. The other functions
 /// may be called by any thread; the signals follow in the order of the calls. A snapshot that has
@@ -31,7 +31,7 @@ class SolveMessages : public QObject {
   void post_load_progress(const QString& phase, double share);
   /// Posts the exception that is being handled, unless it is Canceled; to be called in a catch
   /// block.
-  /// @param no_memory message for std::bad_alloc; empty: that of failure_text()
+  /// @param no_memory message for std::bad_alloc; failure_text() if it is empty
   void post_current_failure(const QString& no_memory = {});
 
  signals:
@@ -40,7 +40,7 @@ class SolveMessages : public QObject {
   /// The open scene has other patches, of a round of refinement or of a new run.
   void patches_changed(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
   void snapshot_ready(std::shared_ptr<const transillum::viewer::SolverSnapshot> snapshot);
-  /// @param share  done, 0 to 1; negative: unknown
+  /// @param share  finished fraction, 0 to 1; negative if unknown
   void load_progressed(const QString& phase, double share);
   /// @param bad_input  the user can correct it (exit status 2)
   void failed(const QString& message, bool bad_input);
@@ -49,8 +49,8 @@ class SolveMessages : public QObject {
   void deliver_snapshot();
   void post(std::function<void()> message);
 
-  RunState state_ = RunState::empty;              // as last reported to the window
-  std::shared_ptr<const LoadedScene> announced_;  // of the last signal
+  RunState state_ = RunState::empty;              // the last state reported to the window
+  std::shared_ptr<const LoadedScene> announced_;  // scene of the last signal
 
   std::mutex mutex_;  // guards pending_snapshot_
   std::shared_ptr<const SolverSnapshot> pending_snapshot_;

@@ -48,7 +48,7 @@ class SolveRunner : public SolveMessages {
   void stop();
   /// Solves for other materials with the kept transfers of a glossy run, which the snapshots then
   /// have; newer ones replace these. Nothing happens in other runs.
-  /// @param materials null: those of the scene
+  /// @param materials null for the materials of the scene
   void relight(std::shared_ptr<const PatchMaterials> materials);
   /// Starts a new solve run of the open scene.
   /// @param refine rounds that come first; not of a result file
@@ -56,13 +56,13 @@ class SolveRunner : public SolveMessages {
 
   /// From now on, the solve is saved to `file`: every minute, some seconds after iterations and
   /// when it pauses; with an interval of 0 after every pass. A solve that is replaced is not kept,
-  /// and glossy ones are not saved. Empty: nothing is saved, and the file is removed.
+  /// and glossy ones are not saved. If `file` is empty, nothing is saved, and the file is removed.
   /// @param interval s
   void save_to(std::string file, double interval = 60) {
     worker_.checkpoints().save_to(std::move(file), interval);
   }
-  /// The next solve continues the checkpoint in `file`, if that is of the same scene and options;
-  /// else it begins at its beginning. The file is removed then.
+  /// The next solve continues the checkpoint in `file` if it is of the same scene and options; else
+  /// it starts from the beginning. The file is then removed.
   void resume_from(std::string file) { worker_.checkpoints().resume_from(std::move(file)); }
 
   /// From now on, snapshots include the form factors if they fit into the memory limit.
@@ -88,8 +88,8 @@ class SolveRunner : public SolveMessages {
   bool quit_ = false;
   bool loading_ = false;
   SolveWorker::Run run_;             // the present or failed one
-  Cancellation load_cancellation_;   // of the running or the last load
-  Cancellation solve_cancellation_;  // of run_
+  Cancellation load_cancellation_;   // cancels the running or the last load
+  Cancellation solve_cancellation_;  // cancels run_
 
   SolveWorker worker_{*this};
   std::thread thread_;

@@ -102,7 +102,7 @@ RunState SolveWorker::state() const {
   return has_more() ? RunState::paused : RunState::finished;
 }
 
-/// Whether the present stage of the session is prepared, and so is what is shown of it.
+/// Whether the present stage of the session, and what is shown of it, is prepared.
 bool SolveWorker::is_ready() const {
   return session_ && session_->is_prepared() && session_->tree() == loaded_->tree;
 }
@@ -122,7 +122,7 @@ void SolveWorker::advance(const Goal& goal) {
 }
 
 /// Advances the session within a stage, or to its end, where the next is prepared.
-/// @returns whether to continue with the next
+/// @returns whether to continue with the next stage
 bool SolveWorker::advance_stage(const Goal& goal) {
   using Until = SolveSession::Until;
   const bool to_passes = goal.kind == Goal::Kind::passes && !session_->in_rounds();
@@ -165,7 +165,7 @@ void SolveWorker::prepare_stage() {
   if (is_ready()) {
     return;
   }
-  // A round has a tree of its own, even where no patch was divided before the last.
+  // A round has its own tree, even if no patch was divided before the last round.
   const auto is_round = [this] { return session_->tree() != loaded_->tree; };
   if (is_round()) {
     checkpoints_.resume(*session_, run_.solve);
@@ -181,11 +181,11 @@ void SolveWorker::prepare_stage() {
 }
 
 /// Called after each pass and iteration.
-/// @returns whether to go on
+/// @returns whether to continue
 bool SolveWorker::observe() {
   history_.update(*session_);
   checkpoints_.save_if_due(*session_);
-  // The end of a stage of which the patches, or perhaps the values, are replaced by another.
+  // The end of a stage: the next stage replaces its patches, or perhaps its values.
   const bool is_end =
       session_->progress().finished && (session_->in_rounds() || run_.solve.goal.seconds > 0);
   // Snapshots take at most a fifth of the solver's time.
@@ -208,7 +208,8 @@ void SolveWorker::take_patches(const std::shared_ptr<const LoadedScene>& loaded)
   since_patches_.start();
 }
 
-/// The first passes of a round would show a dark scene in place of the finished one before it.
+/// Whether new patches are not shown yet: the first passes of a round would show a dark scene in
+/// place of the finished one before it.
 bool SolveWorker::holds_patches_back() const {
   constexpr qint64 longest_ms = 1000;
   return patches_to_announce_ && !session_->rounds().empty() &&
@@ -233,7 +234,7 @@ void SolveWorker::post_snapshot() {
 std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   const SolveSession& session = *session_;
   if (session.finished() && !session.progress().finished && stage_result_) {
-    // Time was up: the result is that of the stage before.
+    // The time was up: the result is the result of the previous stage.
     auto snapshot = std::make_shared<SolverSnapshot>(*stage_result_);
     snapshot->statistics = session.solution().statistics;
     snapshot->accuracy = session.accuracy();

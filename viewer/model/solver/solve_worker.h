@@ -18,13 +18,15 @@
 
 namespace transillum::viewer {
 
-/// The open scene and its solve, advanced toward goals, with a snapshot now and then.
+/// The open scene and its solve. It advances the solve toward goals and makes snapshots at
+/// intervals.
 ///
 /// Threads: interrupt(), set_refresh_interval(), request_form_factors() and checkpoints() may be
-/// called by any thread; the others belong to one, and may throw what their caller has to report.
+/// called by any thread; the others belong to one thread, and may throw exceptions, which their
+/// caller has to report.
 class SolveWorker {
  public:
-  /// What a run is made of.
+  /// The options of a run.
   struct Run {
     SolveOptions solve;
     RefineChoice refine;
@@ -34,13 +36,13 @@ class SolveWorker {
     Run run;
     std::shared_ptr<const LoadedScene> loaded;  ///< with the patches of the first round
     SolveSession session;
-    Cancellation cancellation;  ///< of the session
+    Cancellation cancellation;  ///< cancels the session
   };
 
   /// @param messages get snapshots, scenes and progress
   explicit SolveWorker(SolveMessages& messages) : messages_(messages) {}
 
-  /// Loads a scene and prepares its solve; the open one stays.
+  /// Loads a scene and prepares its solve; the open scene stays.
   /// @param spec file or built-in
   /// @throws InputError, Canceled
   Prepared load(const std::string& spec, const RunOptions& options,
@@ -53,7 +55,7 @@ class SolveWorker {
   /// Whether the last start() has succeeded.
   bool has_started() const { return !unstarted_; }
   /// Solves for other materials, from the present light, where lobes take part.
-  /// @param materials null: those of the scene
+  /// @param materials null for the materials of the scene
   void relight(std::shared_ptr<const PatchMaterials> materials);
   /// Advances the solve until the goal is reached, or interrupt().
   void advance(const Goal& goal);
@@ -93,18 +95,19 @@ class SolveWorker {
   std::atomic<bool> interrupted_ = false;
   std::atomic<int> refresh_interval_ = 66;
 
-  std::shared_ptr<const LoadedScene> loaded_;        // null: none
-  std::shared_ptr<const PatchMaterials> materials_;  // where lobes take part; null: the scene's
-  Run run_;                                          // of session_
+  std::shared_ptr<const LoadedScene> loaded_;        // null if no scene is open
+  std::shared_ptr<const PatchMaterials> materials_;  // where lobes take part; null for the
+                                                     // materials of the scene
+  Run run_;                                          // options of session_
   std::optional<SolveSession> session_;
   std::optional<Run> unstarted_;  // to be started; session_ is canceled
-  Cancellation cancellation_;     // of session_ or unstarted_
+  Cancellation cancellation_;     // cancels session_ or unstarted_
   bool failed_ = false;           // session_ cannot be continued
-  SolveHistory history_;          // of the present stage
-  /// Of a goal with a limit of time: the end of the last stage.
+  SolveHistory history_;          // history of the present stage
+  /// The end of the last stage, if the goal has a time limit.
   std::shared_ptr<const SolverSnapshot> stage_result_;
 
-  bool patches_to_announce_ = false;  // those of loaded_
+  bool patches_to_announce_ = false;  // the patches of loaded_
   QElapsedTimer since_patches_;
   QElapsedTimer since_snapshot_;
   double snapshot_cost_ms_ = 0;

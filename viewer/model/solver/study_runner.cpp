@@ -15,7 +15,7 @@ namespace {
 
 constexpr qint64 refresh_interval_ms = 100;
 
-/// Nothing done yet, not running.
+/// A snapshot in which nothing has been done and nothing runs.
 StudySnapshot without_points(const StudyRunner::Request& request) {
   StudySnapshot snapshot;
   snapshot.loaded = request.loaded;

@@ -23,9 +23,9 @@ struct StudySnapshot {
   bool running = false;
   bool reference = false;     ///< computing the reference solution
   std::size_t under_way = 0;  ///< index of the series being computed
-  int directions = 0;         ///< M being computed; or finished passes of the reference
+  int directions = 0;         ///< M being computed, or finished passes of the reference
   int passes = 0;             ///< all passes of the reference
-  double share = 0;           ///< of the work done, 0 to 1
+  double share = 0;           ///< finished fraction of the work, 0 to 1
   double passes_per_second = 0, seconds_left = 0;
 };
 

@@ -20,7 +20,8 @@ namespace transillum::viewer {
 
 namespace {
 
-// To be raised when docks are added, removed or renamed: older saved layouts then become invalid.
+// Raise this number when docks are added, removed or renamed: older saved layouts then become
+// invalid.
 constexpr int layout_version = 11;
 
 struct Widths {
@@ -60,9 +61,9 @@ QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* c
                               std::vector<Place> places) {
   auto* dock = named(name, new QDockWidget(title, &window_));
   dock->setWidget(content);
-  // Qt moves a tab behind others off screen but reports it as visible: its content would go on
-  // working, and would not be notified when it comes to the front.
-  // Without the next lines, a dock with hidden content gets no space, nor do its neighbors.
+  // Qt moves a tab behind others off screen but reports it as visible: its content would continue
+  // to work, and would not be notified when it comes to the front. Without the next lines, a dock
+  // with hidden content gets no space, nor do its neighbors.
   QSizePolicy policy = content->sizePolicy();
   policy.setRetainSizeWhenHidden(true);
   content->setSizePolicy(policy);
@@ -130,8 +131,8 @@ void DockLayouts::arrange(Layout layout) {
   });
 }
 
-// Docks without a place in this layout open as tabs of the side of their place in another one:
-// beside the others, they would make the window higher than small screens.
+// Docks without a place in this layout open as tabs, on the side of their place in another layout:
+// beside the other docks, they would make the window higher than small screens.
 void DockLayouts::place_others(const QList<QDockWidget*>& shown) {
   for (const Dock& dock : docks_) {
     if (!dock.widget->isHidden() || dock.places.empty()) {
@@ -148,7 +149,7 @@ void DockLayouts::place_others(const QList<QDockWidget*>& shown) {
   }
 }
 
-/// @param shown, heights what is in front in the layout so far
+/// @param shown, heights the docks in front in the layout so far, and their heights
 void DockLayouts::place(const Dock& dock, Layout layout, QList<QDockWidget*>& shown,
                         QList<int>& heights) {
   dock.widget->hide();
@@ -365,7 +366,8 @@ void DockLayouts::show_alone(const std::string& panel) {
     }
   }
   bring_to_front(panel);
-  constexpr double share = 0.62;  // the scene needs less than it has beside two columns of panels
+  constexpr double share = 0.62;  // the scene needs less width than it has beside two columns of
+                                  // panels
   window_.resizeDocks({found->widget}, {static_cast<int>(share * window_.width())}, Qt::Horizontal);
   emit alone(alone_);
 }

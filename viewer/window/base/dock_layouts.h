@@ -38,7 +38,7 @@ class DockLayouts : public QObject {
                    std::vector<Place> places);
   /// Switches to a layout as it is at first.
   void arrange(Layout layout);
-  /// Switches to a layout as the user left it; the one in use is reset.
+  /// Switches to a layout as the user left it; the layout in use is reset.
   void choose(Layout layout);
   /// Arranges the layout in use as it was at first.
   void reset();
@@ -46,17 +46,18 @@ class DockLayouts : public QObject {
   void follow_type();
   /// Gives panels at the bottom the height that they ask for, if the window is high enough.
   void fit_bottom();
-  /// The places and sizes of all docks, for restore(). While held, those of before.
+  /// The places and sizes of all docks, for restore(). While held, their places and sizes from
+  /// before hold().
   QByteArray state() const;
-  /// Restores a state saved in layout number `layout`. False where it is damaged or does not fit
-  /// this version.
+  /// Restores a state saved in layout number `layout`. @returns false where it is damaged or does
+  /// not fit this version
   bool restore(int layout, const QByteArray& state);
   /// Saves the places and sizes of all docks in all layouts, and the layout in use.
   void save(QSettings& settings) const;
-  /// Arranges the saved layout. Saved places that are damaged or do not fit this version are left
-  /// out. @returns false where those of the layout in use are
+  /// Arranges the saved layout. Saved places that are damaged or do not fit this version are
+  /// ignored. @returns false where the places of the layout in use are ignored
   bool load(const QSettings& settings);
-  /// While held, layouts and panels stay as they are, whoever asks for others.
+  /// While held, layouts and panels stay as they are, whatever is requested.
   void hold(bool held);
   /// The layout in use.
   Layout current() const { return current_; }
@@ -64,10 +65,12 @@ class DockLayouts : public QObject {
   /// @param panel the name of its dock without "_dock"
   /// @returns false where there is none
   bool bring_to_front(const std::string& panel);
-  /// Gives a panel, or the `scene`, most of the window; empty: the usual sizes again.
+  /// Gives a panel, or the `scene`, most of the window; restores the usual sizes if `panel` is
+  /// empty.
   void enlarge(const std::string& panel);
-  /// Hides all panels but this one and those at the bottom, and gives it what the scene can spare;
-  /// empty: all as before. Another layout ends it too, and so does a page of a lesson.
+  /// Hides all panels but this one and the panels at the bottom, and gives it the room that the
+  /// scene can spare. An empty name restores all panels, and so does another layout or a page of a
+  /// lesson.
   void show_alone(const std::string& panel);
   /// The names that bring_to_front() accepts.
   std::vector<std::string> panels() const;
@@ -75,7 +78,7 @@ class DockLayouts : public QObject {
   void add_to(QMenu& menu);
 
  signals:
-  /// The panel that show_alone() shows now, or empty.
+  /// The panel that show_alone() shows now has changed; it may be empty.
   void alone(const QString& panel);
 
  protected:
@@ -85,9 +88,10 @@ class DockLayouts : public QObject {
   /// The places and sizes of all docks, as they were before show_alone().
   QByteArray plain_state() const;
   void end_alone();
-  /// Where a separator has moved away, Qt leaves a part of it behind what has no background.
+  /// Repaints areas without a background: where a separator has moved away, Qt leaves a part of it
+  /// there.
   void repaint_moved();
-  /// The usual sizes of the layout, without moving docks.
+  /// Arranges the usual sizes of the layout, without moving docks.
   void arrange_sizes();
 
   struct Dock {
@@ -104,7 +108,7 @@ class DockLayouts : public QObject {
   bool held_ = false;
   QByteArray held_state_;
   bool enlarged_ = false;
-  std::vector<QRect> places_;  ///< of docks_ when the window was painted
+  std::vector<QRect> places_;  ///< places of docks_ when the window was painted
   QString alone_;              ///< argument of show_alone()
   QByteArray before_alone_;    ///< state of the window
 };

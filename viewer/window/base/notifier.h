@@ -17,7 +17,7 @@ class Notifier : public QObject {
   Q_OBJECT
 
  public:
-  /// Both must outlive this object.
+  /// The references must outlive this object.
   Notifier(Banner& banner, QStatusBar& status_bar);
 
   void show_failure(const QString& message);

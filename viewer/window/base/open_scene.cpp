@@ -40,8 +40,8 @@ bool OpenScene::at_start() const {
 }
 
 bool OpenScene::outlined_by_default() const {
-  // Without outlines, a few large patches of similar brightness cannot be told apart, nor can what
-  // rounds have divided.
+  // Without outlines, large patches of similar brightness cannot be told apart, nor can patches
+  // that rounds have divided.
   constexpr PatchId few_patches = 64;
   return loaded_ && (loaded_->scene->patch_count() <= few_patches || loaded_->whole);
 }
@@ -67,7 +67,7 @@ void OpenScene::take_scene(std::shared_ptr<const LoadedScene> loaded) {
 
 void OpenScene::take_patches(std::shared_ptr<const LoadedScene> loaded) {
   if (whole_of(loaded) != whole_of(loaded_)) {
-    return;  // of the scene before
+    return;  // the snapshot is of the previous scene
   }
   loaded_ = std::move(loaded);
   newest_ = shown_ = nullptr;

@@ -23,16 +23,16 @@ class OpenScene : public QObject {
   Q_OBJECT
 
  public:
-  /// Both must outlive this object.
+  /// The references must outlive this object.
   OpenScene(SolveRunner& runner, Relighting& relighting);
 
-  /// Loads and solves a scene; the open one stays until the new one is loaded.
+  /// Loads and solves a scene; the open scene stays until the new one is loaded.
   /// @param spec a file, or a built-in with its parameters
   void open(const std::string& spec, const RunOptions& options, Goal goal = {Goal::Kind::finished});
 
   /// The scene that open() was called with last.
   const std::string& requested_spec() const { return requested_spec_; }
-  /// Empty before the first scene is loaded.
+  /// The open scene; empty before the first scene is loaded.
   const std::string& spec() const { return spec_; }
   /// How the faces became patches; a result file has options of its own.
   const SceneOptions& options() const { return options_; }
@@ -44,7 +44,7 @@ class OpenScene : public QObject {
 
   /// Whether a scene has been requested and has neither been loaded nor failed to load.
   bool is_opening() const { return opening_; }
-  /// Whether `spec` is open, read with the same options, except those of the solve.
+  /// Whether `spec` is open and was read with the same options; options of the solve may differ.
   bool is_open(const std::string& spec, const RunOptions& options) const;
   /// Whether the solve has processed no direction yet.
   bool at_start() const;
@@ -57,15 +57,15 @@ class OpenScene : public QObject {
  signals:
   /// A scene has been requested; it may still fail to load.
   void opening();
-  /// For views: a new scene replaces the old one.
+  /// Emitted for views: a new scene replaces the old one.
   void scene_loaded(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
-  /// After all views have received scene_loaded().
+  /// Emitted after all views have received scene_loaded().
   void scene_shown();
-  /// For views: the open scene has other patches, of a round of refinement or of a new run.
+  /// Emitted for views: the open scene has other patches, of a round of refinement or of a new run.
   void patches_changed(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
-  /// For views: a new snapshot of the open scene.
+  /// Emitted for views: there is a new snapshot of the open scene.
   void snapshot_ready(std::shared_ptr<const transillum::viewer::SolverSnapshot> snapshot);
-  /// After all views have received snapshot_ready().
+  /// Emitted after all views have received snapshot_ready().
   void snapshot_shown();
 
  private:
@@ -80,21 +80,21 @@ class OpenScene : public QObject {
   SceneOptions options_;
   bool opening_ = false;
   std::shared_ptr<const LoadedScene> loaded_;
-  std::shared_ptr<const SolverSnapshot> newest_;  ///< as the solver posted it
+  std::shared_ptr<const SolverSnapshot> newest_;  ///< the snapshot that the solver posted
   std::shared_ptr<const SolverSnapshot> shown_;   ///< with the light of changed materials
 };
 
 class OpenScene;
 
-/// Asks before a solve that took long is thrown away.
+/// Asks before a solve that took long is discarded.
 class WorkGuard {
  public:
   /// @param scene must outlive this object
   explicit WorkGuard(const OpenScene& scene) : scene_(scene) {}
 
-  /// Whether the solve of the open scene may be thrown away: it took less than a minute, or the
-  /// user agrees.
-  /// @param what the button says, such as "Quit"
+  /// Whether the solve of the open scene may be discarded: it took less than a minute, or the user
+  /// agrees.
+  /// @param what  text of the button, such as "Quit"
   bool may_lose(QWidget* parent, const QString& what) const;
   /// For tests: the time from which a solve took long.
   void set_long_seconds(double seconds) { long_seconds_ = seconds; }

@@ -140,7 +140,7 @@ void ViewStateApplier::reload() {
   if (frame_.state.scene.spec().empty()) {
     return;
   }
-  // A request that nothing has been applied of yet is repeated.
+  // Repeats a request of which nothing has been applied yet.
   const bool pending = awaits_ == Awaits::scene || awaits_ == Awaits::run;
   if (!pending || requested_.scene.empty()) {
     requested_ = state();
@@ -151,7 +151,7 @@ void ViewStateApplier::reload() {
 void ViewStateApplier::open_again(const RunOptions& options) {
   requested_ = state();
   requested_.options = options;
-  // Changed materials may be among those of the scene now.
+  // The changed materials may now belong to the scene.
   const auto& changes = options.input.changes;
   const auto& edits = requested_.materials;
   if (changes.size() >= edits.size() &&
@@ -252,14 +252,14 @@ bool ViewStateApplier::is_requested(const SolverSnapshot& snapshot) const {
          (snapshot.refine == requested_.options.refine || snapshot.loaded->stored);
 }
 
-// Until the last round is done, there are other patches than the state is about; where nothing is
-// to be solved, there are no others.
+// Whether the patches that the state is about exist. Until the last round is done, the scene has
+// other patches; where nothing is to be solved, there are no rounds.
 bool ViewStateApplier::has_patches() const {
   return requested_.scene.empty() || requested_.solve.kind == Goal::Kind::pause ||
          !frame_.state.scene.snapshot()->refinement.left;
 }
 
-// Judged by the snapshot: the runner's state may still be that of the previous run.
+// Uses the snapshot, because the state of the runner may still belong to the previous run.
 bool ViewStateApplier::run_is_over() const {
   const SolverSnapshot& snapshot = *frame_.state.scene.snapshot();
   if (snapshot.progress.finished) {
@@ -324,7 +324,7 @@ void ViewStateApplier::apply_view() {
        frame_.state.relighting.edits().start_over(requested_.materials)) {
     frame_.notifier.show_failure(tr("materials: %1").arg(QString::fromStdString(misfit)));
   }
-  // Set only now: the previous scene would have widened the range.
+  // The range is set only now: the previous scene would have widened it.
   if (requested_.range_rule != RangeRule::widening) {
     return;
   }

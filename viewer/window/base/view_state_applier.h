@@ -23,29 +23,30 @@ class ViewStateApplier : public QObject {
   /// A newer request replaces an older one. A scene that is open with the same options is not
   /// solved again.
   void show(const ViewState& state);
-  /// The same for a page of a lesson: what the user had set before comes back with leave_lesson().
+  /// The same for a page of a lesson: leave_lesson() restores the settings that the user had
+  /// before.
   void show_page(const ViewState& page);
-  /// Solves with another value of one option, for a control of a lesson's page; all else stays as
-  /// it is shown now.
+  /// Solves with another value of one option, for a control of a lesson's page; everything else
+  /// stays as it is shown now.
   /// @param name,value  as in PageControl
   void set_option(const std::string& name, const std::string& value);
-  /// Call before opening a scene for the user: restores the options of before the lesson now, and
+  /// Call before opening a scene for the user: restores the options from before the lesson now, and
   /// colors, overlays and camera once the scene is loaded.
   void leave_lesson();
   /// Whether a page has been shown, and leave_lesson() not called since.
   bool in_lesson() const { return before_lesson_ && !leaving_; }
-  /// Reads the file of the open scene again, and shows the same state of it.
+  /// Reads the file of the open scene again, and shows it in the same state.
   void reload();
   /// Reads the open scene again with other options and solves it. Camera, colors and changed
   /// materials stay; the selection does not, since patches may be others.
   void open_again(const RunOptions& options);
   /// Whether the newest request has been carried out.
   bool arrived() const;
-  /// What the window shows now.
+  /// The state that the window shows now.
   ViewState state() const;
 
  signals:
-  /// A part of the newest request does not exist; the nearest one is shown.
+  /// A position or patch of the newest request does not exist; the nearest position is shown.
   /// @param message as in the window
   void unreachable(const QString& message);
 
@@ -53,7 +54,7 @@ class ViewStateApplier : public QObject {
   enum class Awaits { nothing, scene, run, rounds, iteration, direction };
 
   void apply(const ViewState& state);
-  /// Colors, overlays, labels.
+  /// Applies colors, overlays and labels.
   void apply_appearance(const ViewState& state);
   ViewState appearance() const;
   void read_patches(ViewState& state) const;
@@ -83,8 +84,8 @@ class ViewStateApplier : public QObject {
   bool leaving_ = false;                    ///< leave_lesson() was called for the next scene
   bool applies_view_ = false;               ///< within apply_view()
   Awaits awaits_ = Awaits::nothing;
-  /// The first directions of the run that the requested one replaces; null: none. Each run has its
-  /// own copy.
+  /// The first directions of the run that the requested run replaces; null if it replaces none.
+  /// Each run has its own copy.
   std::shared_ptr<const std::vector<Vec3>> run_before_;
   bool opened_here_ = false;  ///< the scene being loaded was requested by this object
 };

@@ -28,9 +28,9 @@ class ScenePage;
 class SettingsPanel;
 class WorkGuard;
 
-/// What the views follow and change. It outlives every widget of the window.
+/// The state that the views follow and change. It outlives every widget of the window.
 struct SharedState {
-  QUndoStack undo;  ///< of everything that can be undone
+  QUndoStack undo;  ///< commands of everything that can be undone
   Selection selection;
   ColorChoice colors{selection};
   SolveRunner runner;
@@ -43,8 +43,8 @@ struct SharedState {
   PerDirectionVisibility visibility;
 };
 
-/// What everything that acts on the whole window needs (files, exports, applying a saved state);
-/// the views that it acts on are given one by one.
+/// The references that objects need which act on the whole window (files, exports, applying a saved
+/// state). The views that they act on are passed one by one.
 struct WindowFrame {
   QMainWindow& window;
   SharedState& state;

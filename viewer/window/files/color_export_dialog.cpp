@@ -94,7 +94,7 @@ QLabel* ColorExportDialog::make_picture() {
   palette.setColor(QPalette::WindowText, theme::on_dark);
   picture->setPalette(palette);
   picture->setToolTip(
-      tr("From where the scene is seen now. Colors are linear, without lighting; back sides are "
+      tr("Preview from the current viewpoint. Colors are linear, without lighting; back sides are "
          "transparent"));
   return picture;
 }
@@ -113,14 +113,15 @@ void ColorExportDialog::make_fields(const Vec3& up) {
   }
   up_->setToolTip(tr("The direction that becomes up (+y) in glTF"));
   exposure_ = named("color_exposure", new QDoubleSpinBox,
-                    tr("A patch whose B times this is 1 or more is white"));
+                    tr("A patch is white if its B times the exposure is 1 or more"));
   exposure_->setDecimals(6);
   exposure_->setRange(1e-6, 1e9);
   exposure_->setValue(1);
   exposure_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   exposure_->setSuffix(tr(" m²/W"));
-  automatic_ = named("color_automatic", new QCheckBox(tr("automatic")),
-                     tr("98 % of the area that does not emit is below white"));
+  automatic_ =
+      named("color_automatic", new QCheckBox(tr("automatic")),
+            tr("Choose the exposure so that 98 % of the area that does not emit is below white"));
   automatic_->setChecked(true);
   light_map_ =
       named("color_light_map", new QCheckBox(tr("as a light map")),

@@ -17,8 +17,8 @@ class QLabel;
 
 namespace transillum::viewer {
 
-/// Asks how a result is exported for programs that show its colors, with a preview of what they
-/// will show.
+/// Asks how a result is exported for programs that show its colors, with a preview of the picture
+/// that they will show.
 class ColorExportDialog : public QDialog {
   Q_OBJECT
 

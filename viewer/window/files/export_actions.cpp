@@ -99,14 +99,16 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
           },
           CurrentJob::finish) {
   using E = ExportActions;
-  add("export_scene", tr("Picture of the scene…"), tr("As PNG, at any scale"), &E::choose_scene);
+  add("export_scene", tr("Picture of the scene…"), tr("Write the scene as PNG, at any scale"),
+      &E::choose_scene);
   add("export_result", tr("Result…"),
       tr("B of all patches, with E, ρ and H: VTP, which can be opened again, CSV, PLY or OBJ"),
       &E::choose_result);
-  add("export_map", tr("Visibility map…"), tr("As vectors (SVG), PNG, VTP or JSON"),
+  add("export_map", tr("Visibility map…"), tr("Write the map as vectors (SVG), PNG, VTP or JSON"),
       &E::choose_map);
-  add("export_charts", tr("Convergence charts…"), tr("As vectors (SVG) or PNG"), &E::choose_charts);
-  add("export_figures", tr("Convergence figures…"), tr("The data of the charts as CSV"),
+  add("export_charts", tr("Convergence charts…"), tr("Write the charts as vectors (SVG) or PNG"),
+      &E::choose_charts);
+  add("export_figures", tr("Convergence figures…"), tr("Write the data of the charts as CSV"),
       &E::choose_figures);
   save_scene_ =
       make_action(this, "save_scene", tr("Save scene…"),

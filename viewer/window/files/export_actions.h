@@ -31,18 +31,18 @@ class ExportActions : public QObject {
   ExportActions(const WindowFrame& frame, MapView& map, ConvergenceView& charts);
 
   void add_to(QMenu& menu) const;
-  /// The scene as it is drawn, `scale` times as many pixels a side (1 … 8).
+  /// Writes the scene as it is drawn, with `scale` times as many pixels a side (1 … 8).
   void write_scene(const QString& path, int scale) const;
-  /// The result shown, in the formats of `transillum solve`: .vtp, .csv or .ply. Written on a
-  /// worker thread; a failure there is shown in the window.
+  /// Writes the result shown, in the formats of `transillum solve`: .vtp, .csv or .ply. A worker
+  /// thread writes; a failure there is shown in the window.
   /// @throws InputError where it is clear at once that it cannot be written
   void write_result(const QString& path);
-  /// The radiosity shown, with that of changed materials, as colors for other programs: .glb, .gltf
-  /// or .ply. Written as results are.
+  /// Writes the radiosity shown, including the effect of changed materials, as colors for other
+  /// programs: .glb, .gltf or .ply. A worker thread writes, as in write_result().
   /// @throws InputError where it is clear at once that it cannot be written
   void write_colors(const QString& path, const DisplayOptions& display);
-  /// The open scene with the changes of materials and the faces turned, as OBJ with MTL, in meters.
-  /// Written as results are.
+  /// Writes the open scene with the changes of materials and the faces turned, as OBJ with MTL, in
+  /// meters. A worker thread writes, as in write_result().
   /// @throws InputError where it is clear at once that it cannot be written
   void write_scene_file(const QString& path);
   /// For the menu File.
@@ -51,11 +51,11 @@ class ExportActions : public QObject {
   QAction* color_action() const { return export_colors_; }
   /// Whether a result or a scene is still being written.
   bool writing() const { return writer_.busy(); }
-  /// The map of the step in focus, as vectors (.svg) or by the other endings of write_map().
+  /// Writes the map of the step in focus, as vectors (.svg) or in the formats of write_map().
   void write_map_picture(const QString& path) const;
-  /// The convergence charts as vectors.
+  /// Writes the convergence charts as vectors.
   void write_charts(const QString& path) const;
-  /// What the charts draw: chart,x,change,quadrature_error.
+  /// Writes the data of the charts: chart,x,change,quadrature_error.
   void write_chart_figures(const QString& path) const;
 
  private:
@@ -68,7 +68,7 @@ class ExportActions : public QObject {
   void choose_map();
   void choose_charts();
   void choose_figures();
-  /// A file name made of the open scene's.
+  /// A file name that begins with the name of the open scene.
   QString name_with(const char* ending) const;
   template <class Write>
   void write_chosen(const QString& title, const QString& filter, const QString& proposed,

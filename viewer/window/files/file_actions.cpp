@@ -96,7 +96,7 @@ void FileActions::make_actions() {
   watch_->setCheckable(true);
   reading_ = make_action(this, "reading", tr("Units and orientation…"),
                          tr("Read the scene's file in another unit, or with its faces turned or "
-                            "joined; remembered for the file"));
+                            "joined; the choice is remembered for the file"));
   reading_->setEnabled(false);
   connect(reading_, &QAction::triggered, this, &FileActions::choose_reading);
 }
@@ -105,7 +105,8 @@ void FileActions::make_reading_bar() {
   Banner* bar = frame_.page.reading_bar();
   QPushButton* change = bar->add_button("change_reading", tr("Change…"));
   QPushButton* usual = bar->add_button("usual_reading", tr("Read as usual"));
-  usual->setToolTip(tr("In meters, with faces as in the file; forgets what was chosen before"));
+  usual->setToolTip(
+      tr("Read the file in meters, with faces as in the file; forget the earlier choice"));
   connect(change, &QPushButton::clicked, this, &FileActions::choose_reading);
   connect(usual, &QPushButton::clicked, this, [this] {
     SceneInput input;
@@ -128,7 +129,8 @@ void FileActions::read_again(const SceneInput& input) {
   }
 }
 
-/// Says how the file was read where that was recalled, and remembers it for the next time.
+/// Shows how the file was read, if an earlier choice was applied, and remembers it for the next
+/// time.
 void FileActions::show_reading() {
   const QString path =
       QFileInfo(QString::fromStdString(frame_.state.scene.spec())).absoluteFilePath();
@@ -138,7 +140,7 @@ void FileActions::show_reading() {
   const QString text = ReadingMemory::text_of(frame_.state.scene.input());
   if (from_file && recalled_ == path && !text.isEmpty()) {
     frame_.page.reading_bar()->show_message(
-        Banner::Kind::offer, tr("Read as chosen before for this file: %1.").arg(text));
+        Banner::Kind::offer, tr("This file is read as chosen before: %1.").arg(text));
   } else {
     frame_.page.reading_bar()->dismiss();
   }
@@ -229,8 +231,8 @@ void FileActions::open_built_in(const QString& name) {
   load_scene(name, {Goal::Kind::finished}, input, false);
 }
 
-/// Takes back what was set for the open scene alone.
-/// @param next what is opened instead
+/// Resets the options that were set for the open scene alone.
+/// @param next the scene that is opened instead
 void FileActions::leave_scene(const QString& next) {
   applier_.leave_lesson();
   if (next.toStdString() != frame_.state.scene.spec() && std::exchange(basis_is_of_card_, false)) {
@@ -256,7 +258,7 @@ void FileActions::load_scene(const QString& spec, Goal goal, const SceneInput& i
     choose_lobes(spec, options.solve);
   }
   if (frame_.state.scene.loaded() && spec.toStdString() != frame_.state.scene.spec()) {
-    options.scene = {};  // those of the open scene
+    options.scene = {};  // the options in the panel are of the open scene
     options.refine = {};
   }
   frame_.state.scene.open(spec.toStdString(), options, goal);
@@ -276,11 +278,11 @@ bool FileActions::choose_basis(Basis basis) {
 }
 
 /// Lobes take part in the built-in scene that is about them, where the other settings allow it; in
-/// other scenes only where they are asked for.
+/// other scenes only where the user asks for them.
 void FileActions::choose_lobes(const QString& spec, SolveOptions& solve) {
   const bool has_lobes = spec.section(QLatin1Char(':'), 0, 0) == QLatin1String("gallery");
   if (!has_lobes && !frame_.state.scene.loaded()) {
-    return;  // what the command line says
+    return;  // the command line decides
   }
   solve.glossy = has_lobes;
   try {

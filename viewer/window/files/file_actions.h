@@ -35,10 +35,10 @@ class FileActions : public QObject {
   QAction* open_action() const { return open_; }
 
   /// Opens a scene, a result, a session or a lesson, by its name and content.
-  /// @param goal none: a scene is solved, a result only shown
-  /// @param input how a scene is read; ignored for results, sessions and lessons. By default as the
-  /// file was read before
-  /// @param as_given read by `input` also where it is the default
+  /// @param goal if it is not set, a scene is solved, and a result is only shown
+  /// @param input how a scene is read; ignored for results, sessions and lessons. By default, the
+  /// file is read as it was read before
+  /// @param as_given whether the file is read by `input` even if that is the default
   /// @throws InputError where a session or lesson cannot be read; a scene that cannot be read is
   /// reported later by SolveRunner::failed
   void open(const QString& path, std::optional<Goal> goal = {}, const SceneInput& input = {},
@@ -46,11 +46,11 @@ class FileActions : public QObject {
   /// open() for files that the user has chosen or dropped: errors go to the banner.
   void try_open(const QString& path);
   /// Opens a file or a built-in scene with the default camera and exposure and without anything
-  /// that a lesson has set, and follows the newest direction. Asks before long work is lost, as all
-  /// of these do.
+  /// that a lesson has set, and follows the newest direction. Asks before long work is lost, like
+  /// the other functions.
   void open_scene(const QString& spec, Goal goal = {Goal::Kind::finished},
                   const SceneInput& input = {}, bool as_given = false);
-  /// open_scene() for the card of a built-in scene: if it is not the open one, and its faces are
+  /// open_scene() for the card of a built-in scene: if the scene is not open yet, and its faces are
   /// large, they are divided and get linear functions (first_look.h), where the other settings
   /// allow these.
   void open_built_in(const QString& name);
@@ -63,10 +63,10 @@ class FileActions : public QObject {
   void choose_lesson();
   /// @throws InputError
   void open_session(const QString& path);
-  /// Written whole or not at all. @throws std::runtime_error
+  /// Writes the session, whole or not at all. @throws std::runtime_error
   void save_session(const QString& path) const;
-  /// Saves the session in the user's folder for data of the program, when no question can be asked
-  /// where.
+  /// Saves the session in the user's folder for data of the program, when the user cannot be asked
+  /// for a file.
   /// @returns the path, which is also a recent file  @throws std::runtime_error
   QString save_unasked();
 
@@ -107,7 +107,7 @@ class FileActions : public QObject {
   QAction *open_, *save_session_, *reload_, *watch_, *reading_;
   ReadingMemory reading_memory_;
   bool basis_is_of_card_ = false;  ///< linear functions were set by open_built_in()
-  QString recalled_;               ///< the file that is opened as it was read before; empty: none
+  QString recalled_;               ///< the file that is opened as it was read before; may be empty
   QMenu* recent_menu_;
   QStringList recent_;
   QFileSystemWatcher watcher_;

@@ -5,7 +5,7 @@ namespace transillum::viewer {
 
 std::int64_t soft_patches(const std::string& spec) {
   const std::string name = spec.substr(0, spec.find(':'));
-  // Some seconds for 1,024 directions on one core.
+  // This number takes some seconds for 1,024 directions on one core.
   return name == "cornell-box" || name == "rooms" ? 1500 : 0;
 }
 

@@ -2,7 +2,7 @@
 //
 // Recording of the scene. Pictures of an animation wait in a short queue for the worker, which
 // reduces their colors and compresses them; Play waits for the queue. Where a solve is faster than
-// the worker, the picture shown is taken once there is room.
+// the worker, the picture that is shown when there is room is taken.
 #include "window/files/frame_recorder.h"
 
 #include <QDir>
@@ -68,7 +68,7 @@ FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play)
   add_status(frame);
   play_.set_gate([this] { return has_room(); });
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] { record(); });
-  // While the newest direction is followed, snapshots already are recorded.
+  // While the newest direction is followed, snapshots are already recorded.
   connect(&frame_.state.focus, &Focus::moved, this, [this] {
     if (!frame_.state.focus.following()) {
       record();
@@ -86,7 +86,7 @@ void FrameRecorder::add_status(const WindowFrame& frame) {
   finish_ = named("finish_recording", new QToolButton,
                   tr("Write the animation with the pictures so far (Shift+L)"));
   finish_->setText(tr("Finish"));
-  auto* discard = named("cancel_recording", new QToolButton, tr("Throw the animation away"));
+  auto* discard = named("cancel_recording", new QToolButton, tr("Discard the animation"));
   discard->setText(tr("Cancel"));
   auto* row = make_row(status_, {0, 0, 6, 0});
   row->addWidget(status_text_);
@@ -222,7 +222,7 @@ void FrameRecorder::record_animated() {
   show_state();
 }
 
-// On the worker's thread. A request that was replaced by another has been served by it.
+// Runs on the worker's thread. A request that was replaced by another has been served by it.
 void FrameRecorder::write_waiting(const AnimationRequest& animation,
                                   const Cancellation& cancellation) {
   while (true) {

@@ -32,7 +32,7 @@ class FrameRecorder : public QObject {
   FrameRecorder(const WindowFrame& frame, PlayControl& play);
   ~FrameRecorder() override;
 
-  /// Adds both ways to record.
+  /// Adds both kinds of recording.
   void add_to(QMenu& menu) const;
   QAction* animation_action() const { return animation_action_; }
 
@@ -40,11 +40,11 @@ class FrameRecorder : public QObject {
   void begin_frames(const QString& folder);
   /// From now on, each new picture is added to an animated GIF at the speed of PlayControl.
   void begin_animation(const QString& path);
-  /// Ends the recording. An animation is there when writing() has become false.
+  /// Ends the recording. The file of an animation is complete when writing() has become false.
   void end();
-  /// Throws an animation away, at once.
+  /// Discards an animation at once.
   void cancel();
-  /// Number of pictures of this recording, or with those of earlier ones in the folder.
+  /// Number of pictures of this recording; for frames, including earlier recordings in the folder.
   int frames() const { return frames_; }
   /// Whether an animation is being recorded or written.
   bool writing() const { return animation_ != nullptr; }

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Export of a lesson: the window itself shows each page, so that the file has what a class saw.
-// What is right in a question is solved on a worker thread.
+// Export of a lesson: the window itself shows each page, so that the file has what a class saw. The
+// answers to questions are computed on a worker thread.
 #include "window/files/lesson_export.h"
 
 #include <QAction>

@@ -31,7 +31,7 @@ class LessonExport : public QObject {
 
  signals:
   void written(const QString& path);
-  /// Nothing has been written.
+  /// The export has failed or was canceled; nothing has been written.
   void failed(const QString& message);
 
  private:
@@ -49,7 +49,7 @@ class LessonExport : public QObject {
   QAction* action_;
   QTimer poll_;
   QProgressDialog* progress_ = nullptr;
-  QString path_;  ///< empty: idle
+  QString path_;  ///< empty while idle
   int lesson_ = 0, page_before_ = 0;
   int quiet_ = 0;  ///< consecutive times that the window was found settled
   std::vector<ShownPage> pages_;

@@ -27,7 +27,7 @@ namespace {
 struct Unit {
   const char *name, *text;
 };
-// By the names of length_unit_names().
+// The display names of length_unit_names(), in their order.
 constexpr Unit units[] = {{"m", QT_TRANSLATE_NOOP("ReadingDialog", "meters")},
                           {"cm", QT_TRANSLATE_NOOP("ReadingDialog", "centimeters")},
                           {"mm", QT_TRANSLATE_NOOP("ReadingDialog", "millimeters")},
@@ -56,7 +56,8 @@ ReadingDialog::ReadingDialog(const QString& file, const SceneInput& input, QWidg
       named("reading_photometric", new QCheckBox(tr("Emissive colors are luminances, cd/m²")));
   const QString ending = QFileInfo(file).suffix().toLower();
   photometric_->setEnabled(ending == "gltf" || ending == "glb");
-  photometric_->setToolTip(tr("glTF only: divided by 683 lm/W instead of read as radiances"));
+  photometric_->setToolTip(
+      tr("Only for glTF: divide by 683 lm/W instead of reading the values as radiances"));
   fill_units();
 
   auto* form = new QFormLayout;
@@ -66,7 +67,7 @@ ReadingDialog::ReadingDialog(const QString& file, const SceneInput& input, QWidg
   form->addRow(tr("Joining"), join_);
   form->addRow(QString(), photometric_);
   auto* title = new QLabel(tr("How %1 is read").arg(QFileInfo(file).fileName()));
-  auto* note = new QLabel(tr("Remembered for this file."));
+  auto* note = new QLabel(tr("The choice is remembered for this file."));
   note->setForegroundRole(QPalette::PlaceholderText);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   buttons->addButton(tr("Read again"), QDialogButtonBox::AcceptRole)->setDefault(true);

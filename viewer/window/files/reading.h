@@ -24,7 +24,7 @@ class ReadingDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param input  shown at first; what the dialog does not ask for stays as it is
+  /// @param input  shown at first; values that the dialog does not ask for stay as they are
   ReadingDialog(const QString& file, const SceneInput& input, QWidget* parent = nullptr);
 
   SceneInput input() const;
@@ -46,21 +46,22 @@ class ReadingMemory {
   /// Beyond this number, the file shown longest ago is forgotten.
   static constexpr int most_files = 200;
 
-  /// What is remembered of an input: all but its changes of materials and its number of patches.
+  /// The part of an input that is remembered: all but its changes of materials and its number of
+  /// patches.
   static SceneInput reading_of(const SceneInput& input);
-  /// A sentence part about what differs from usual, such as "lengths in centimeters, faces turned";
-  /// empty: nothing does.
+  /// A part of a sentence on the differences from the usual reading, such as "lengths in
+  /// centimeters, faces turned"; empty if there are none.
   static QString text_of(const SceneInput& input);
 
-  /// How the file was read; nothing: as usual, or never.
+  /// How the file was read; not set if it was read as usual, or never.
   /// @param path  absolute, as by QFileInfo::absoluteFilePath()
   std::optional<SceneInput> find(const QString& path) const;
-  /// Notes how a file has been read; it becomes the newest.
+  /// Notes how a file has been read; the file becomes the newest.
   void remember(const QString& path, const SceneInput& input);
   int size() const { return static_cast<int>(files_.size()); }
 
   void save(QSettings& settings) const;
-  /// Entries that cannot be read are left out.
+  /// Entries that cannot be read are ignored.
   void load(const QSettings& settings);
 
  private:

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Per running program one file of the session, NAME.json, one of its solve, NAME.tck, and a lock
-// file, NAME.lock, which tells other programs whether it still runs.
+// Each running program has a file of its session, NAME.json, a file of its solve, NAME.tck, and a
+// lock file, NAME.lock, which tells other programs whether it still runs.
 #include "window/files/recovery.h"
 
 #include <QDateTime>
@@ -34,7 +34,7 @@ QString made(const QString& folder) {
   return folder;
 }
 
-/// The solve of a session.
+/// The file of the solve of a session.
 QString checkpoint_of(const QString& session) {
   return session.chopped(QStringLiteral("json").size()) + QStringLiteral("tck");
 }
@@ -60,11 +60,12 @@ Recovery::Recovery(const WindowFrame& frame, WindowSession& session, const QStri
   every_.start();
   frame_.state.runner.save_to(checkpoint_of(session_file(name_)).toStdString());
   Banner* bar = frame_.page.recovery_bar();
-  QPushButton* restore = bar->add_button("restore_session", tr("Go on"));
-  restore->setToolTip(tr("Open the scene as it was, with its solve, position, views and notes"));
+  QPushButton* restore = bar->add_button("restore_session", tr("Continue"));
+  restore->setToolTip(
+      tr("Open the saved session, with its scene, solve, position, views and notes"));
   connect(restore, &QPushButton::clicked, this, &Recovery::restore);
   QPushButton* discard = bar->add_button("discard_session", tr("Discard"));
-  discard->setToolTip(tr("Delete the kept session"));
+  discard->setToolTip(tr("Delete the saved session"));
   connect(discard, &QPushButton::clicked, this, [this] {
     this->discard();
     offer();
@@ -123,7 +124,7 @@ void Recovery::keep() {
 
 void Recovery::offer() {
   remove_orphans();
-  // The newest first; others are offered once it is discarded, or by later starts.
+  // The newest session comes first; others are offered once it is discarded, or by later starts.
   for (const QFileInfo& found : QDir(folder_).entryInfoList({"*.json"}, QDir::Files, QDir::Time)) {
     QLockFile lock(folder_ + '/' + found.completeBaseName() + ".lock");
     lock.setStaleLockTime(0);
@@ -133,14 +134,14 @@ void Recovery::offer() {
     offered_ = found.filePath();
     frame_.page.recovery_bar()->show_message(
         Banner::Kind::offer,
-        tr("The program did not end as it should. Its session is kept, from %1.")
+        tr("The program ended unexpectedly. Its session of %1 was saved.")
             .arg(found.lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"))));
     return;
   }
 }
 
 void Recovery::restore() {
-  if (!frame_.guard.may_lose(&frame_.window, tr("Go on"))) {
+  if (!frame_.guard.may_lose(&frame_.window, tr("Continue"))) {
     return;
   }
   frame_.page.recovery_bar()->dismiss();

@@ -13,30 +13,30 @@ namespace transillum::viewer {
 class WindowSession;
 
 /// Keeps the session of the window in a file while the program runs: every minute, and soon after
-/// each iteration; the solve in a checkpoint beside it (SolveRunner::save_to()). If the program is
-/// killed, the next one offers to go on from there. A solve without a checkpoint is made again;
-/// either way it ends with the bits of the unbroken one.
+/// each iteration. The solve is in a checkpoint beside it (SolveRunner::save_to()). If the program
+/// is killed, the next one offers to continue from there. A solve without a checkpoint is repeated;
+/// in both cases the result has the bits of an uninterrupted solve.
 ///
 /// Threads: the main thread only. Several programs may use one folder.
 class Recovery : public QObject {
   Q_OBJECT
 
  public:
-  /// What the arguments refer to must outlive this object.
+  /// The objects that the arguments refer to must outlive this object.
   /// @param folder where the sessions are kept; created if it is missing
   Recovery(const WindowFrame& frame, WindowSession& session, const QString& folder);
   /// The program ends as it should: removes the session that it kept.
   ~Recovery() override;
 
   static QString usual_folder();
-  /// Shows a bar that offers to go on from a session whose program no longer runs, if there is one.
+  /// Shows a bar that offers to continue a session whose program no longer runs, if there is one.
   void offer();
   /// Keeps the session now. Does nothing without a scene, or where the file cannot be written.
   void keep();
 
  private:
   QString session_file(const QString& name) const;
-  /// Makes a checkpoint of another program this one's; empty if there is none.
+  /// Takes over a checkpoint of another program. @returns its new path, empty if there is none
   QString taken_over(const QString& checkpoint) const;
   /// Removes solves whose sessions are gone.
   void remove_orphans() const;
@@ -48,7 +48,7 @@ class Recovery : public QObject {
   WindowSession& session_;
   QString folder_, name_;
   QLockFile lock_;   ///< held while the program runs
-  QString offered_;  ///< file of the session that is offered; empty: none
+  QString offered_;  ///< file of the session that is offered; may be empty
   QTimer every_, soon_;
   int kept_iteration_ = -1;
 };

@@ -12,7 +12,7 @@ namespace transillum::viewer {
 
 class ViewStateApplier;
 
-/// What a session file holds of the window: read from it, and brought back.
+/// The state of the window that a session file holds: reads it from the window, and restores it.
 class WindowSession : public QObject {
   Q_OBJECT
 

@@ -24,7 +24,7 @@ class AppearanceActions : public QObject {
   void load(const QSettings& settings);
 
  signals:
-  /// Views that paint with theme colors must repaint.
+  /// The appearance has changed: views that paint with theme colors must repaint.
   void changed();
 
  private:

@@ -20,11 +20,11 @@ CommandActions::CommandActions(const WindowFrame& frame) : QObject(&frame.window
     return action;
   };
   solve_ = add("copy_solve", tr("Copy the solve as a command"), "Ctrl+Shift+C",
-               tr("Copy a line for a shell that makes this solve with the program transillum"));
+               tr("Copy a shell command that makes this solve with the program transillum"));
   map_ = add("copy_map", tr("Copy the map as a command"), "Ctrl+Shift+M",
-             tr("Copy a line for a shell that writes the map of this direction; add --out FILE"));
+             tr("Copy a shell command that writes the map of this direction; add --out FILE"));
   step_ = add("copy_step", tr("Copy the step as a command"), "Ctrl+Alt+M",
-              tr("Copy a line for a shell that writes V at this step and phase; add --out FILE"));
+              tr("Copy a shell command that writes V at this step and phase; add --out FILE"));
   connect(step_, &QAction::triggered, this, &CommandActions::copy_step);
   connect(solve_, &QAction::triggered, this, &CommandActions::copy_solve);
   connect(map_, &QAction::triggered, this, [this] { copy_map({}); });

@@ -15,7 +15,7 @@ class CommandActions : public QObject {
   Q_OBJECT
 
  public:
-  /// What `parts` refers to must outlive this object.
+  /// The objects that `parts` refers to must outlive this object.
   explicit CommandActions(const WindowFrame& frame);
 
   void add_to(QMenu& menu) const;

@@ -72,13 +72,13 @@ void add_keys(const QMenu& menu, std::vector<KeyUse>& keys) {
   }
 }
 
-// What no action has: the pointer, and keys that belong to one view.
+// The uses of the pointer, and the keys that belong to one view; no action has them.
 KeyGroup pointer_group() {
   const auto tr = [](const char* text) { return QMainWindow::tr(text); };
   return {
       tr("Pointer"),
       {{tr("Scene"), tr("drag: rotate; Shift+drag or middle button: pan; wheel: zoom; click: "
-                        "select a patch; Ctrl+click: add it, or take it out")},
+                        "select a patch; Ctrl+click: add it, or remove it")},
        {tr("Color bar"), tr("drag: select the patches with values in a range")},
        {tr("Map"), tr("drag: pan; wheel: zoom; double-click: fit; click: select a patch and "
                       "list the patches on its line; right-click: run to a point")},

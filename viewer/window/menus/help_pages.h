@@ -23,7 +23,7 @@ void show_settings(QWidget& parent);
 struct KeyUse {
   QString keys;
   QString text;
-  bool enabled = true;  ///< whether its action is enabled now
+  bool enabled = true;  ///< whether the action of the key is enabled now
 };
 struct KeyGroup {
   QString menu;
@@ -32,7 +32,7 @@ struct KeyGroup {
 
 /// All keys of the window's menus, in the order of the menus; read from the actions.
 std::vector<KeyGroup> keys_of(const QMainWindow& window);
-/// The same as a page of HTML in two columns, with the functions of the pointer.
+/// All keys as a page of HTML in two columns, with the functions of the pointer.
 QString key_page(const QMainWindow& window);
 /// Shows that page in a non-modal dialog.
 void show_keys(QMainWindow& window);

@@ -25,7 +25,7 @@ ProjectorMode::ProjectorMode(const WindowFrame& frame, DockLayouts& docks, Lesso
       full_screen_(full_screen),
       appearance_(appearance),
       timeline_(timeline) {
-  // Panels that are hidden for the time being are no part of a layout.
+  // Panels that are hidden temporarily are no part of a layout.
   connect(&full_screen_, &FullScreen::beginning, this, [this] { docks_.hold(true); });
   connect(&full_screen_, &FullScreen::ended, this, [this] { docks_.hold(false); });
   connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
@@ -78,7 +78,7 @@ void ProjectorMode::project(bool on) {
   for (QWidget* view : projected_) {
     view->show();
   }
-  // Once the window has its new size.
+  // The call is made once the window has its new size.
   QTimer::singleShot(0, this, &ProjectorMode::arrange);
 }
 

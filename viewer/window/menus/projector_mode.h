@@ -26,7 +26,7 @@ class ProjectorMode : public QObject {
   ProjectorMode(const WindowFrame& frame, DockLayouts& docks, LessonPanel& lessons,
                 FullScreen& full_screen, AppearanceActions& appearance, TimelineBar& timeline);
 
-  /// Begins or ends it, as the appearance asks for.
+  /// Begins or ends projector mode, as the appearance says.
   void follow_appearance();
   /// Gives the timeline the height that it needs now.
   void follow_timeline();
@@ -36,7 +36,7 @@ class ProjectorMode : public QObject {
   void follow_page();
   void arrange();
   QDockWidget* dock(const std::string& panel) const;
-  /// The view that the page says is large, or the scene, and what is beside it.
+  /// Arranges the view that the page wants to be large, or the scene, and the panels beside it.
   QList<QWidget*> views() const;
 
   WindowFrame frame_;
