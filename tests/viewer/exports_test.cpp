@@ -13,10 +13,10 @@
 #include "solved_window.h"
 #include "stepping/play_control.h"
 #include "test_files.h"
-#include "window/export_actions.h"
-#include "window/file_actions.h"
-#include "window/frame_recorder.h"
-#include "window/work_guard.h"
+#include "window/base/open_scene.h"
+#include "window/files/export_actions.h"
+#include "window/files/file_actions.h"
+#include "window/files/frame_recorder.h"
 
 namespace transillum::viewer::exports_test {
 

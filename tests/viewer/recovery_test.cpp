@@ -20,14 +20,14 @@
 #include "stepping/play_control.h"
 #include "test_files.h"
 #include "widgets/banner.h"
-#include "window/export_actions.h"
-#include "window/file_actions.h"
-#include "window/frame_recorder.h"
+#include "window/base/open_scene.h"
+#include "window/base/view_state_applier.h"
+#include "window/files/export_actions.h"
+#include "window/files/file_actions.h"
+#include "window/files/frame_recorder.h"
+#include "window/files/recovery.h"
+#include "window/files/window_session.h"
 #include "window/inspection_panels.h"
-#include "window/recovery.h"
-#include "window/view_state_applier.h"
-#include "window/window_session.h"
-#include "window/work_guard.h"
 
 namespace transillum::viewer::recovery_test {
 
