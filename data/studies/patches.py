@@ -146,7 +146,7 @@ def measure(program):
 WIDTH, HEIGHT = 640, 440
 LEFT, RIGHT, TOP, BOTTOM = 70, 18, 44, 104
 COLORS = {"constant": "#d1495b", "linear": "#2f6fc4"}
-EXPONENTS = {"constant": 1, "linear": 2}  # of h, where B is smooth
+EXPONENTS = {"constant": 1, "linear": 2}  # exponents of h where B is smooth
 DASHES = {"even": "", "jump": "7 4", "error": "2 4"}
 TITLES = {
     "square": "A square below a lamp, without shadow edges",

@@ -29,7 +29,7 @@ void write_all(const std::vector<std::function<void()>>& writers);
 /// Standard output cannot be written.
 class StandardOutputError : public std::runtime_error {
  public:
-  /// @param error_number errno of the failed write; 0: not known
+  /// @param error_number errno of the failed write; 0 if not known
   explicit StandardOutputError(int error_number);
   /// Whether what reads a pipe, such as `head`, has closed it: that is no failure.
   bool no_reader() const noexcept { return no_reader_; }

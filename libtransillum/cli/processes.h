@@ -13,8 +13,8 @@ namespace transillum::cli {
 /// same arguments. The first one prints and writes everything; the others are silent and share
 /// the passes of `solve`.
 struct Processes {
-  std::shared_ptr<PatchSums> sums;       ///< theirs, of a solve; null: this process alone
-  int here = 1;                          ///< those on this machine
+  std::shared_ptr<PatchSums> sums;       ///< sums of a solve; null if this process is alone
+  int here = 1;                          ///< processes on this machine
   int threads = 0;                       ///< default of --threads; 0: the number of cores
   std::function<std::string()> figures;  ///< says what was sent, in a sentence; all must call it
 };

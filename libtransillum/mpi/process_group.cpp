@@ -3,7 +3,7 @@
 // The passes of an iteration in a group of processes: each is made by one member, split into what
 // each member needs of it, and added on every member in the order of the passes.
 //
-// Why the bits are those of one process: what a patch receives is summed by its owner, which gets
+// Why one process gives the same bits: what a patch receives is summed by its owner, which gets
 // all exchanges of the patch, in the order of one process; maxima do not depend on the order; sums
 // over patches within a pass are made by the member that made it (decisions/0063-processes.md).
 #include "process_group.h"

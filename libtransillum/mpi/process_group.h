@@ -15,7 +15,7 @@ namespace transillum::mpi {
 
 /// One message for each member of a group, one after the other.
 struct GroupMessages {
-  std::unique_ptr<std::byte[]> bytes;  ///< of all messages; each takes a multiple of 16
+  std::unique_ptr<std::byte[]> bytes;  ///< bytes of all messages; each takes a multiple of 16
   std::vector<std::size_t> begin;      ///< per member: where its message begins; then their end
 
   /// The message for a member.
@@ -30,9 +30,9 @@ struct GroupMessages {
 struct GroupPasses {
   int first = 0;                      ///< the first pass
   int last = 0;                       ///< one past the last pass
-  int threads = 1;                    ///< of this member
+  int threads = 1;                    ///< threads of this member
   std::uint64_t bytes_of_a_pass = 0;  ///< rough size of its messages to all members, bytes
-  Cancellation cancellation;          ///< of this member
+  Cancellation cancellation;          ///< cancels this member
   /// Makes a pass: what each member needs of it. Called on any thread, several at a time.
   std::function<GroupMessages(int pass)> make;
   /// Adds a pass from the message for this member. Called in the order of the passes, on the thread

@@ -51,8 +51,8 @@ int run_solve(SolveCall& call);
 /// Makes the passes of call.share and writes them; returns the exit status.
 int run_shard(SolveCall& call);
 
-/// The arguments that a command was given, such that they can be parsed again; without those of
-/// runs, outputs and machines (add_output_options(), --checkpoint, --resume, --shard).
+/// The arguments that a command was given, such that they can be parsed again; without arguments
+/// about runs, outputs and machines (add_output_options(), --checkpoint, --resume, --shard).
 std::vector<std::string> stored_arguments(const CLI::App& command);
 
 /// The options that a command was given, without its positional arguments.

@@ -30,7 +30,7 @@ struct DirectionStatistics {
   SolveOptions set;
   double star = 0, star_two_way = 0;  ///< two_way: of the directions and their opposites
   CapDiscrepancy cap, cap_two_way;
-  std::shared_ptr<const Scene> scene;    ///< scene whose normals were used; null: all normals
+  std::shared_ptr<const Scene> scene;  ///< scene whose normals were used; null if all normals were
   std::vector<double> one_way, two_way;  ///< eps_i(M) of eq. 17, one per normal
 };
 

@@ -28,11 +28,11 @@ struct SolveJob {
   bool form_factors = false;                  ///< wanted in the solution, if they are kept
   bool has_series = false;                    ///< a series gets the result after every iteration
   ResultSeries* series = nullptr;             ///< gets them in the first process
-  int series_every = 0;                       ///< and after so many directions; 0: not
+  int series_every = 0;                       ///< and after this many directions; 0 disables it
   CheckpointCall checkpoint = {};             ///< file and whether to resume
   double checkpoint_every = 60;               ///< s
   std::vector<std::string> shards = {};       ///< the passes are read from these
-  std::shared_ptr<PatchSums> sums = nullptr;  ///< of processes that share the passes
+  std::shared_ptr<PatchSums> sums = nullptr;  ///< sums over the passes that processes share
 };
 
 /// Solves by passes, until it has finished or is interrupted.

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // How a solve sums what its passes bring to its patches: the one interface between RadiositySolver
-// and where the sums are kept. By default this process keeps those of all patches. The program
-// transillum-mpi keeps those of each patch in one of several processes; the library needs no MPI
+// and where the sums are kept. By default this process keeps the sums of all patches. The program
+// transillum-mpi keeps the sums of a patch in one of several processes; the library needs no MPI
 // (decisions/0063-processes.md).
 #pragma once
 
@@ -34,7 +34,7 @@ struct PatchRange {
 
 /// The result of one pass.
 struct Pass {
-  Transfers transfers;        ///< of all patches; once prepared, coverages of PatchSums::owned()
+  Transfers transfers;        ///< between all patches; once prepared, coverages of owned() only
   std::vector<Transfer> run;  ///< exchanges as sums of them are kept; empty: they are not kept
   // Figures over all patches, of a pass along a new direction:
   ClosureDefect closure;       ///< largest defects
@@ -48,8 +48,8 @@ struct PassLoop {
   int first = 0;                   ///< the first pass
   int last = 0;                    ///< one past the last pass
   int threads = 1;                 ///< that make them, in this process
-  PatchId patches = 0;             ///< of the scene
-  Cancellation cancellation = {};  ///< of this process
+  PatchId patches = 0;             ///< number of patches of the scene
+  Cancellation cancellation = {};  ///< cancels this process
   /// Makes a pass. Called on any thread, several at a time; must not read what `add` writes.
   std::function<Pass(int pass)> make;
   /// Prepares a pass for `add`, in the process that adds it. Called on any thread.
@@ -121,7 +121,7 @@ class PatchSums {
   /// @throws where `body` throws in a process: there its error, OtherProcessFailed where it did
   /// not.
   void agree(const std::function<void()>& body);
-  /// What may stop work that the other processes wait for: `requested`, or nothing if there are
+  /// The cancellation of work that the other processes wait for: `requested`, or none if there are
   /// others, which stop together.
   Cancellation own(const Cancellation& requested) const;
 };

@@ -36,8 +36,8 @@ struct SolveRequest {
   std::shared_ptr<const BspTree> tree = nullptr;      ///< tree of `scene`; built if null
   std::shared_ptr<const DirectLight> shot = nullptr;  ///< direct light of `scene`; shot if null
   TransferEngine engine = {};                         ///< makes the passes; options.engine if null
-  std::shared_ptr<PatchSums> sums = nullptr;          ///< as for RadiositySolver
-  bool keep_form_factors = false;                     ///< as RadiositySolver::keep_form_factors()
+  std::shared_ptr<PatchSums> sums = nullptr;          ///< SolverParts::sums
+  bool keep_form_factors = false;  ///< calls RadiositySolver::keep_form_factors()
   /// Called with the finished share of a preparation, 0 to 1, on any thread, one at a time.
   std::function<void(Preparation, double)> preparing = {};
 };

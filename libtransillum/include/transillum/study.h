@@ -166,9 +166,9 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
                                  const std::function<void(const SolveProgress&)>& observer = {},
                                  const Cancellation& cancellation = {});
 
-/// What a study compares with, and what is already done.
+/// The reference of a study, and the points that are already known.
 struct StudyStart {
-  std::span<const Rgb> reference;  ///< of solve_reference()
+  std::span<const Rgb> reference;  ///< radiosity by solve_reference()
   /// Points of an earlier call with the same arguments, in the order of StudyProgress::points; they
   /// are not solved again.
   std::span<const StudyPoint> done = {};

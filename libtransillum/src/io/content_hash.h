@@ -16,7 +16,7 @@ class ContentHash {
  public:
   enum class Method {
     xxh3,  ///< XXH3 with 128 bits
-    md5,   ///< of files that were written before XXH3 was used
+    md5,   ///< in files that were written before XXH3 was used
   };
 
   explicit ContentHash(Method method = Method::xxh3);

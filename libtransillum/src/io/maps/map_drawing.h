@@ -76,7 +76,7 @@ double difference_share(const VisibilityMap& map);
 /// Where a label is drawn, pixels.
 struct PlacedLabel {
   std::string text;
-  Vec2 point;            ///< what it points at
+  Vec2 point;            ///< the point that it marks
   Vec2 base;             ///< begin of the text on its base line, or its end
   bool ends_at = false;  ///< whether `base` is the end
 };

@@ -9,7 +9,7 @@
 
 namespace transillum {
 
-/// What two runs must have in common to have the same bits.
+/// Data that two runs must have in common to have the same bits.
 struct RunIdentity {
   nlohmann::ordered_json json;  ///< version, scene, and the options that results depend on
   /// The scene as files name it that were written before XXH3 was used.

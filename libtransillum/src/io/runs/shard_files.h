@@ -30,10 +30,10 @@ struct ShardInfo {
   std::vector<std::string> notes;
 };
 
-/// What write_shard() writes.
+/// Contents of a shard that write_shard() makes.
 struct ShardOptions {
   Share share;                     ///< its part of the passes
-  std::vector<std::string> notes;  ///< as ShardInfo::notes
+  std::vector<std::string> notes;  ///< ShardInfo::notes
   /// Called after each pass with the number done; may be empty.
   std::function<void(int)> progress;
 };

@@ -59,7 +59,7 @@ RunIdentity study_identity(const Scene& scene, const StudyOptions& options,
 struct [[gnu::visibility("hidden")]] StudyCheckpoint::Impl {
   std::filesystem::path file;
   RunIdentity identity;
-  std::size_t series, points;  ///< of the whole study
+  std::size_t series, points;  ///< numbers of the whole study
 };
 
 StudyCheckpoint::StudyCheckpoint(std::filesystem::path file, const Scene& scene,

@@ -25,7 +25,7 @@ class ExchangeSums {
 
   /// @param budget limit of the sums, bytes, also while passes are merged into them. Passes under
   /// way, two per thread, and a few numbers per patch come on top.
-  /// @param share rows that are summed; those of other patches are incomplete
+  /// @param share rows that are summed; rows of other patches are incomplete
   ExchangeSums(const PatchShare& share, bool two_way, std::uint64_t budget,
                const Cancellation& cancellation);
 
@@ -61,7 +61,7 @@ class ExchangeSums {
     }
   }
 
-  /// For StateOutput and StateInput. The state is that of all rows, whoever sums them; each share
+  /// For StateOutput and StateInput. The state has all rows, whoever sums them; each share
   /// gives its own, one at a time in memory, and takes what it needs. Passes that wait stay so,
   /// since what is dropped and when depends on them.
   static void visit_state(StateOutput& archive, const ExchangeSums& self) { self.save(archive); }

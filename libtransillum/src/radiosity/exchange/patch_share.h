@@ -14,16 +14,16 @@
 
 namespace transillum {
 
-/// The patches whose sums a solver computes, or the unknowns of those patches. Functions that are
-/// not constants are those of PatchSums.
+/// The patches whose sums a solver computes, or the unknowns of those patches. All functions but
+/// the constants call PatchSums.
 struct PatchShare {
   PatchSums* sums;
   PatchRange owned;
-  PatchId patches;  ///< of the scene
+  PatchId patches;  ///< number of patches of the scene
 
   /// All patches.
   PatchShare(PatchId patch_count) : PatchShare(*sums_in_memory(), patch_count) {}
-  /// Those that `patch_sums` owns.
+  /// The patches that `patch_sums` owns.
   PatchShare(PatchSums& patch_sums, PatchId patch_count)
       : sums(&patch_sums), owned(patch_sums.owned(patch_count)), patches(patch_count) {}
 
@@ -48,7 +48,7 @@ struct PatchShare {
       sums->complete({reinterpret_cast<double*>(values.data()), doubles_in(values)}, patches);
     }
   }
-  /// As PatchSums::check_same()
+  /// Calls PatchSums::check_same().
   template <class Value>
   void check_same(const std::vector<Value>& values) const {
     sums->check_same({reinterpret_cast<const double*>(values.data()), doubles_in(values)});

@@ -50,7 +50,7 @@ class UpperRows {
  private:
   const ExchangeFinder& exchange_;
   const std::vector<LinearBasis>& bases_;
-  std::size_t exchanges_;  ///< of a pair, n²
+  std::size_t exchanges_;  ///< exchanges of a pair, n²
   const Cancellation& cancellation_;
   IntegratedPairs& integrated_;
 };

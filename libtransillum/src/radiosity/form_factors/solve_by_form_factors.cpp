@@ -25,7 +25,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Computes the form factors, with a linear basis those of all unknowns, and sets the figures that
+/// Computes the form factors, of all unknowns if the basis is linear, and sets the figures that
 /// differ between the engines.
 FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options,
                                  const Cancellation& cancellation,
@@ -134,7 +134,7 @@ FormFactors factors_of_means(const FormFactors& of_unknowns) {
   return means;
 }
 
-/// The iteration with `form_factors`, with a linear basis those of all unknowns; sets all but what
+/// The iteration with `form_factors`, of all unknowns if the basis is linear; sets all but what
 /// computing them took.
 Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
                  const SolveOptions& options, const Cancellation& cancellation) {

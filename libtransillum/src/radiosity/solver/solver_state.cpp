@@ -74,7 +74,7 @@ bool RadiositySolver::Impl::advance_passes(int last, const RadiositySolver& self
                                            const Observer& observer) {
   const auto start = Clock::now();
   const double seconds_before = iteration.seconds, adding_before = timing.seconds_iterate;
-  // Of the wall time, what all threads together did not spend on adding is the passes'.
+  // Wall time that all threads together did not spend on adding belongs to the passes.
   const int threads = std::min(input.threads, last - passes_done());
   const auto add_times = [&] {
     const double wall = seconds_since(start);

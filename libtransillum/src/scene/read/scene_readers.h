@@ -42,7 +42,7 @@ SceneReader read_off;
 
 /// The polygons of a Radiance scene description (.rad), which are groups by their names. plastic,
 /// metal and trans: rho = color (1 - specularity); light, glow, illum and spotlight: E = pi times
-/// their radiance. Other surfaces and lights are left out and noted; commands (`!`) are refused.
+/// their radiance. Other surfaces and lights are omitted and noted; commands (`!`) are refused.
 SceneReader read_radiance;
 
 /// The vertices and surfaces of a View3D file (.vs3, geometry 3). A surface with emissivity e has

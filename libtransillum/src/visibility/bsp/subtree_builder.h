@@ -21,7 +21,7 @@ namespace transillum {
 /// thread that constructed this reports, so that shares never decrease.
 class BuildProgress {
  public:
-  /// Of sorting `polygons`: n times log2 n.
+  /// The work of sorting `polygons`: n times log2 n.
   static std::int64_t work(std::size_t polygons) {
     return static_cast<std::int64_t>(polygons) * std::bit_width(polygons);
   }
@@ -51,7 +51,7 @@ class BuildProgress {
   double reported_ = 0;
 };
 
-/// What the builders of all subtrees share.
+/// Input that the builders of all subtrees share.
 struct TreeInput {
   const Scene& scene;
   const std::vector<BspTree::Plane>& planes;  ///< by PolygonSet::Polygon::plane

@@ -111,7 +111,7 @@ class ExactView {
     Real length;  ///< |dx| + |dy|
     Real slack;   ///< bound on the apparent distance from the line, by rounding, of a point on it
     LineId line;
-    PointId from, to;  ///< as of LineName
+    PointId from, to;  ///< LineName::from and to
   };
   /// Twice an index in edges_, plus 1 if the edge runs against its line.
   using EdgeRef = std::int32_t;

@@ -51,7 +51,7 @@ class RefinedCells {
 /// derivative jumps.
 /// @param small convex; the cells are convex and make it up.
 /// @param tolerance lines that reach no deeper into a cell do not cut it, m.
-/// @returns a few dozen cells at most: further lines, and those of many blockers, cut nothing.
+/// @returns a few dozen cells at most: further lines, and lines of many blockers, cut nothing.
 std::vector<Corners> smooth_cells(Outline small, Outline large,
                                   const std::vector<Corners>& blockers, double tolerance);
 
