@@ -122,6 +122,9 @@ void KeptExchanges::add(std::size_t r, ExchangeSums::Run run) {
   // Where one replica does not fit, the others are of no use.
   if (!available()) {
     drop();
+    if (share_.is_all()) {
+      check_available();
+    }
   }
 }
 

@@ -34,6 +34,7 @@ class KeptExchanges {
   /// The exchanges of a pass in the order that add() takes. Any thread may call it at any time.
   ExchangeSums::Run make_run(const Transfers& transfers) const;
   /// Adds a pass of replica r. Where it exceeds the limit, everything is dropped.
+  /// @throws MemoryLimitExceeded as check_available(), unless other processes have to know first
   void add(std::size_t r, ExchangeSums::Run run);
   /// Appends sums for one replica, which have the memory that the others leave. After finish().
   void add_replica();
