@@ -58,7 +58,7 @@ inline SceneDescription glossy_box_description() {
   });
 }
 
-std::shared_ptr<const Scene> glossy_box() {
+inline std::shared_ptr<const Scene> glossy_box() {
   return std::make_shared<const Scene>(glossy_box_description());
 }
 
