@@ -4,8 +4,8 @@
 #include <span>
 
 #include "visibility/pixels/patch_heights.h"
+#include "visibility/pixels/pixel_engines.h"
 #include "visibility/pixels/pixel_grid.h"
-#include "visibility/pixels/pixel_map.h"
 #include "visibility/pixels/processed_fragments.h"
 
 namespace transillum {

@@ -7,6 +7,12 @@
 
 namespace transillum {
 
+/// An engine that has_pixels().
+struct PixelEngine {
+  Engine engine;               ///< zbuffer, painter or rays
+  EngineOptions options = {};  ///< resolution 0 means PixelMap::default_resolution
+};
+
 /// Engine `zbuffer`: all patches over each pixel's center, sorted by height.
 TransferEngine zbuffer_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options);
 /// Engine `painter`: polygons painted into an item buffer, farthest toward omega first.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "transillum/visibility_map.h"
+#include "visibility/pixels/pixel_engines.h"
 
 namespace transillum {
 
@@ -29,12 +30,6 @@ struct PixelMap {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
            static_cast<std::size_t>(column);
   }
-};
-
-/// An engine that has_pixels().
-struct PixelEngine {
-  Engine engine;               ///< zbuffer, painter or rays
-  EngineOptions options = {};  ///< resolution 0 means PixelMap::default_resolution
 };
 
 /// Whether an engine samples the plane in pixels: zbuffer, painter and rays do.
