@@ -26,8 +26,7 @@ std::vector<LogChart::Level> levels_of(const SolverSnapshot& snapshot) {
   if (snapshot.options.iterations > 0) {
     return {};
   }
-  return {{ConvergenceView::tr("tolerance %1").arg(number_text(snapshot.options.tolerance)),
-           theme::warm, snapshot.options.tolerance}};
+  return {{ConvergenceView::tr("tolerance"), theme::warm, snapshot.options.tolerance}};
 }
 
 /// Adds the error of B after each iteration, estimated from the spread of replicas, between its
@@ -43,7 +42,7 @@ void add_error_band(const SolverSnapshot& snapshot, std::vector<LogChart::Line>&
     }
     lines.push_back({name, theme::ink, std::move(values), false, dashes});
   };
-  add(ConvergenceView::tr("error of B"), &ErrorBand::estimate, ChartDashes::solid);
+  add(ConvergenceView::tr("error"), &ErrorBand::estimate, ChartDashes::solid);
   add({}, &ErrorBand::limit, ChartDashes::fine_dots);
   add({}, &ErrorBand::lowest, ChartDashes::fine_dots);
 }
@@ -85,11 +84,11 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
 
   iteration_chart_->setObjectName("iteration_chart");
   iteration_chart_->setToolTip(symbol_tip(
-      tr("not propagated: bound of the light that further iterations add to all patches, or to the "
+      tr("remainder: bound of the light that further iterations add to all patches, or to the "
          "dimmest tenth of their area, relative to the reflected light\n"
          "eq. 25: the paper's rule, the largest change of B over the largest B, with E\n"
          "eq. 22: bound of that change: the first one, reduced by the contraction with eq. 21\n"
-         "error of B: estimate from the replicas, between its limits\n"
+         "error: estimate of the error of B from the replicas, between its limits\n"
          "Click to go to an iteration"),
       "6"));
   direction_chart_->setObjectName("direction_chart");
@@ -134,7 +133,7 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
     }
   }
   std::vector<LogChart::Line> lines{
-      {tr("not propagated"), theme::accent, std::move(remainders), true},
+      {tr("remainder"), theme::accent, std::move(remainders), true},
       {tr("eq. 25"), theme::good, std::move(changes)},
       averages ? LogChart::Line{tr("error of the mean"), theme::good, std::move(mean_errors)}
                : LogChart::Line{tr("eq. 22"), theme::good, predicted_changes(snapshot), false,
