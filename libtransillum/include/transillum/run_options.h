@@ -38,7 +38,7 @@ struct RefineChoice {
 
   /// Whether there are rounds.
   bool is_set() const { return by.has_value(); }
-  /// Requires set().
+  /// Requires is_set().
   RefineOptions options() const { return {*by, patches, until}; }
 
   /// Limits without a criterion change nothing.
