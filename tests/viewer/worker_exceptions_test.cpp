@@ -72,15 +72,15 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 // The linker replaces each call of the member functions, whose first argument is `this`, by one of
 // wrapped_…(), and calls them for original_…() (option --wrap).
-using transillum::ErrorEstimate, transillum::MapRecord, transillum::RadiositySolver;
+using transillum::MapRecord, transillum::RadiositySolver, transillum::Solution;
 
-ErrorEstimate original_error_estimate(const RadiositySolver* solver) asm(
-    "__real__ZNK10transillum15RadiositySolver14error_estimateEv");
-ErrorEstimate wrapped_error_estimate(const RadiositySolver* solver) asm(
-    "__wrap__ZNK10transillum15RadiositySolver14error_estimateEv");
-ErrorEstimate wrapped_error_estimate(const RadiositySolver* solver) {
+Solution original_solution(const RadiositySolver* solver) asm(
+    "__real__ZNK10transillum15RadiositySolver8solutionEv");
+Solution wrapped_solution(const RadiositySolver* solver) asm(
+    "__wrap__ZNK10transillum15RadiositySolver8solutionEv");
+Solution wrapped_solution(const RadiositySolver* solver) {
   on_snapshot();
-  return original_error_estimate(solver);
+  return original_solution(solver);
 }
 
 std::vector<std::int32_t> original_map_after(const MapRecord* record, std::int32_t k) asm(
