@@ -30,8 +30,8 @@ NAVIGATION = {
     "Understand": ["libtransillum/ALGORITHM", "libtransillum/GLOSSARY", "libtransillum/RESULTS",
                    "data/studies/README", "data/studies/plots"],
     "Program": ["library", "libtransillum/api", "python", "figure-5"],
-    "Develop": ["libtransillum/ARCHITECTURE", "libtransillum/decisions/README", "CONTRIBUTING",
-                "tests/README", "viewer/LESSON_FORMAT", "CHANGELOG"],
+    "Develop": ["libtransillum/ARCHITECTURE", "libtransillum/FOLDERS", "libtransillum/decisions/README",
+                "CONTRIBUTING", "tests/README", "viewer/LESSON_FORMAT", "CHANGELOG"],
 }
 WITH_SYMBOLS = ("libtransillum/", "data/studies/")
 

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Holds the includes of libtransillum and of the viewer to the tables of ARCHITECTURE.md: which
+// Holds the includes of libtransillum and of the viewer to the tables of FOLDERS.md: which
 // folder may include which, and which layer may use the public headers of which. A violation is
 // reported with file and line. Includes must also form no cycle between files.
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ struct Include {
   std::string path;  ///< path in the directive
 };
 
-/// The includes that the tables of ARCHITECTURE.md allow.
+/// The includes that the tables of FOLDERS.md allow.
 struct Rules {
   std::map<std::string, Names> may_include;         ///< folder → folders
   std::map<std::string, Names> may_use;             ///< layer → layers
@@ -85,7 +85,7 @@ std::vector<std::vector<std::string>> table_below(const fs::path& document,
 /// The paths of a table "folder, headers".
 Names read_headers_for_programs(const fs::path& document) {
   Names paths;
-  for (const auto& row : table_below(document, "### Headers of src for programs")) {
+  for (const auto& row : table_below(document, "## Headers of src for programs")) {
     for (const std::string& header : quoted_words(row.at(1))) {
       paths.insert(*quoted_words(row.at(0)).begin() + "/" + header);
     }
@@ -99,7 +99,7 @@ Rules read_rules(const fs::path& document, const std::string& folders) {
   for (const auto& row : table_below(document, folders)) {
     rules.may_include[*quoted_words(row.at(0)).begin()] = quoted_words(row.at(2));
   }
-  for (const auto& row : table_below(document, "### Public headers")) {
+  for (const auto& row : table_below(document, "## Public headers")) {
     const std::string layer = *quoted_words(row.at(0)).begin();
     for (const std::string& header : quoted_words(row.at(1))) {
       if (!rules.layer_of.try_emplace(header, layer).second) {
@@ -251,7 +251,7 @@ Names keys_of(const std::map<std::string, Names>& map) {
 }
 
 const fs::path repository = fs::path(TRANSILLUM_DATA_DIR).parent_path();
-const fs::path document = repository / "libtransillum/ARCHITECTURE.md";
+const fs::path document = repository / "libtransillum/FOLDERS.md";
 const fs::path sources = repository / "libtransillum/src";
 const fs::path headers = repository / "libtransillum/include";
 const fs::path viewer = repository / "viewer";
@@ -262,20 +262,20 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 TEST(Folders, OfTheLibraryIncludeOnlyWhatTheTableAllows) {
-  const Rules rules = read_rules(document, "### Folders of libtransillum/src");
+  const Rules rules = read_rules(document, "## Folders of libtransillum/src");
   EXPECT_EQ(keys_of(rules.may_include), folders_with_sources(sources));
   EXPECT_THAT(folder_violations(includes_below(sources), rules), IsEmpty());
 }
 
 TEST(Folders, OfTheViewerIncludeOnlyWhatTheTableAllows) {
-  Rules rules = read_rules(document, "### Folders of viewer");
+  Rules rules = read_rules(document, "## Folders of viewer");
   rules.for_programs = read_headers_for_programs(document);
   EXPECT_EQ(keys_of(rules.may_include), folders_with_sources(viewer));
   EXPECT_THAT(folder_violations(includes_below(viewer), rules), IsEmpty());
 }
 
 TEST(Folders, PublicHeadersAreUsedByTheLayersThatTheTableAllows) {
-  const Rules rules = read_rules(document, "### Folders of libtransillum/src");
+  const Rules rules = read_rules(document, "## Folders of libtransillum/src");
   EXPECT_THAT(rules.listed_twice, IsEmpty());
   Names listed, present;
   for (const auto& [header, layer] : rules.layer_of) {
@@ -346,13 +346,13 @@ class PlantedIncludes : public ::testing::Test {
   void SetUp() override {
     write(
         "rules.md",
-        "### Folders of libtransillum/src\n\n| folder | what it is | may include |\n|---|---|---|\n"
+        "## Folders of libtransillum/src\n\n| folder | what it is | may include |\n|---|---|---|\n"
         "| `low` | the base | |\n| `middle/part` | uses it | `low` |\n"
-        "### Public headers\n\n| layer | headers | may use |\n|---|---|---|\n"
+        "## Public headers\n\n| layer | headers | may use |\n|---|---|---|\n"
         "| `low` | `a.h` | |\n| `middle` | `b.h` | `low` |\n");
     write("src/low/base.h", "#pragma once\n#include \"transillum/a.h\"\n");
     write("src/middle/part/user.h", "#pragma once\n#include \"low/base.h\"\n");
-    rules_ = read_rules(folder_.path() / "rules.md", "### Folders of libtransillum/src");
+    rules_ = read_rules(folder_.path() / "rules.md", "## Folders of libtransillum/src");
   }
   void write(const std::string& name, const std::string& text) {
     const fs::path file = folder_.path() / name;

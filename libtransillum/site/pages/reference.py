@@ -41,9 +41,9 @@ def write_library(tree: Tree) -> None:
 
 
 def write_api(tree: Tree, api: Path) -> None:
-    """The public headers by layer, as the table in ARCHITECTURE has them, and what they declare."""
-    architecture = (tree.source / "libtransillum/ARCHITECTURE.md").read_text()
-    table = architecture[architecture.index("### Public headers"):].split("\n### ")[0]
+    """The public headers by layer, as the table in FOLDERS has them, and what they declare."""
+    architecture = (tree.source / "libtransillum/FOLDERS.md").read_text()
+    table = architecture[architecture.index("## Public headers"):].split("\n## ")[0]
     places = re.findall(r'class="el" href="(namespacetransillum\.html#\w+)">(\w+)</a>',
                         (api / "namespacetransillum.html").read_text())
     functions = {name: place for place, name in reversed(places)}
