@@ -87,11 +87,13 @@ class SolveSession {
   /// Continues the solve. After a pause or an exception the session is in the state after the last
   /// observed pass, from which the next call continues.
   /// @returns whether the solve is unfinished.
-  /// @throws Canceled; NotConvergent, MemoryLimitExceeded (solve_errors.h); as prepare()
+  /// @throws Canceled; NotConvergent, MemoryLimitExceeded (errors.h); as prepare()
   bool advance(Until until, const Observer& observer = {});
   /// Continues through all rounds, and then until passes_done() is `passes` or the stage has ended.
   /// @param passes to be made after the last round.
-  /// @param observer, returned value and exceptions: as for advance().
+  /// @param observer the same as for advance().
+  /// @returns whether the solve is unfinished.
+  /// @throws the exceptions of advance()
   bool advance_to(std::int64_t passes, const Observer& observer = {});
 
   /// Replaces the materials of a solve with lobes and starts to iterate again from the present
