@@ -21,8 +21,9 @@ class NothingToSave : public Canceled {
 
 /// From now on the first SIGINT, SIGTERM or SIGHUP (the terminal is closed) cancels the returned
 /// Cancellation, and the second ends the program immediately. A signal that the caller of the
-/// program ignores stays ignored. Of several processes SIGUSR1 does the same: mpirun passes it on
-/// and, unlike the others, ends nothing itself. Call it once, before threads start.
+/// program ignores stays ignored. SIGUSR1 cancels too, for runs of several processes: mpirun
+/// passes it on and, unlike the other signals, ends nothing itself. Call it once, before threads
+/// start.
 const Cancellation& cancel_on_signals();
 
 }  // namespace transillum::cli

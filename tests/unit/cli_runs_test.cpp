@@ -148,7 +148,7 @@ TEST(CliRuns, WrongCallsOfCheckpointsAreRefused) {
           "--checkpoint: not used with engine pairs");
   refused({"--checkpoint", folder / "no/a.tck"}, "there is no folder");
   refused({"--checkpoint", folder / "a.csv"}, "given twice");
-  // The number of patches is told before.
+  // The message about the number of patches comes first.
   const ProgramResult other =
       run_program(solve(folder / "a.csv", {"--checkpoint", folder / "there.tck", "--resume"}));
   EXPECT_EQ(other.status, 2);

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Runs the commands that COOKBOOK.md and README.md print, and compares the output that they show.
-// Commands of transillum-mpi are run by tests/mpi, those of the viewer by tests/viewer, Python by
-// tests/python.
+// tests/mpi runs the commands of transillum-mpi, tests/viewer the commands of the viewer, and
+// tests/python the Python code.
 #include <gmock/gmock.h>
 
 #include <memory>

@@ -33,8 +33,8 @@ class Checkpoint {
   const std::filesystem::path& file() const;
 
   /// Saves a solve.
-  /// @param session prepared, without lobes; an observer may call this. Of several processes all
-  /// must call it after the same pass; the first writes the file.
+  /// @param session prepared, without lobes; an observer may call this. Where several processes
+  /// solve, all must call it after the same pass; the first writes the file.
   /// @throws std::runtime_error if the file cannot be written; the one before is kept then.
   void save(const SolveSession& session);
   /// Saves a solve if `interval` has passed since this object was made or last saved, and enough
@@ -50,8 +50,8 @@ class Checkpoint {
   bool is_due(double interval) const;
 
   /// Sets a session to the solve in the file, which it then continues to the same bits.
-  /// @param session of the scene and options; has made no pass. Of several processes all must call
-  /// this; their number may be another than when the file was saved.
+  /// @param session of the scene and options; has made no pass. Where several processes solve,
+  /// all must call this; their number may differ from when the file was saved.
   /// @throws InputError naming the file and why it cannot be used: it is damaged, or which version,
   /// option or property of the scene is another; the session then begins at its beginning.
   /// Canceled; as SolveSession::prepare()

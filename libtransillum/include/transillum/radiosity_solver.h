@@ -95,8 +95,8 @@ class RadiositySolver {
   /// observed pass, from which the next call continues.
   /// @returns whether the solve is unfinished.
   /// @throws Canceled; NotConvergent, MemoryLimitExceeded (errors.h).
-  /// Of several processes, all pause after the same pass where an observer returns false in one; its
-  /// observers see the progress, but B only after complete_estimate().
+  /// Where several processes solve, all pause after the same pass if an observer returns false in
+  /// one; observers see the progress, but B only after complete_estimate().
   bool advance(Until until, const Observer& observer = {});
   /// Makes what the solver returns complete within an observer's call, as it is between calls of
   /// advance(). To be called in all processes after the same pass; one process alone need not.
@@ -142,15 +142,15 @@ class RadiositySolver {
   /// @throws std::logic_error unless the solve is finished, its scheme is fixed or
   /// conjugate_gradients, and it has at least 2 replicas.
   void add_replica();
-  /// Writes the state: all that passes and iterations have led to. An observer may call it. Of
-  /// several processes all must, after the same pass; the first writes the state of all, in the
-  /// format of one.
+  /// Writes the state: all that passes and iterations have led to. An observer may call it.
+  /// Where several processes solve, all must call it after the same pass; the first writes the
+  /// state of all, in the format of one.
   /// @param out binary; its errors are left to the caller.
   void save(std::ostream& out) const;
   /// Sets the state to one that save() wrote in the same version of the library, from a solver with
   /// the same scene and options; the number of threads may differ. The solve then continues to the
   /// same bits. To be called before advance().
-  /// Of several processes all must call it, each with the whole state, and then
+  /// Where several processes solve, all must call it, each with the whole state, and then
   /// complete_estimate().
   /// @param in binary.
   /// @param size length of the state, bytes.
@@ -160,8 +160,8 @@ class RadiositySolver {
   /// F_ij of all pairs, from the kept exchange sums of all passes; in the semi-iterative scheme, of
   /// all iterations. With Basis::linear, F_ij of constant functions, which alone do not give its B.
   /// @throws std::runtime_error where no iteration is finished or one is unfinished, or where they
-  /// were not kept or exceed the memory limit. Of several processes all must call it; it returns
-  /// them in the first, and empty rows in the others.
+  /// were not kept or exceed the memory limit. Where several processes solve, all must call it;
+  /// the first gets the form factors, the others empty rows.
   FormFactors form_factors() const;
   /// sum_j F_ij, one per patch, from the passes done so far; 1 within eps(M)/pi where i is
   /// enclosed.

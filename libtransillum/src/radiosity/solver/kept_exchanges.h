@@ -13,8 +13,8 @@
 namespace transillum {
 
 /// The exchanges of all passes, summed and kept within the memory limit, so that later iterations
-/// need no passes: one ExchangeSums per replica, or one. Their rows and sources are unknowns: with n
-/// per patch, an exchange of two patches has n² entries.
+/// need no passes: one ExchangeSums per replica, or one. Their rows and sources are unknowns: with
+/// n per patch, an exchange of two patches has n² entries.
 class KeptExchanges {
  public:
   /// @param renews whether each iteration has its own directions; exchanges are then kept only
@@ -59,7 +59,7 @@ class KeptExchanges {
   const VisibleAreaSums& renewed_areas() const { return renewed_areas_; }
 
   /// F_ij = entry (i,j) times the scale that `iterate` gives it. After finish().
-  /// Of several processes, the first has all and the others none.
+  /// Where several processes solve, the first gets all form factors, the others none.
   /// @param areas of the passes kept
   FormFactors form_factors(const RadiosityIterate& iterate, const VisibleAreaSums& areas) const;
 

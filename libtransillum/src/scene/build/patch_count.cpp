@@ -26,8 +26,8 @@ constexpr int bisections = 60;
 constexpr std::uint64_t bytes_per_patch = 1700, bytes_of_the_program = 40'000'000;
 /// Of a patch in each replica, for each of its unknowns: B, H and what is gathered.
 constexpr std::uint64_t bytes_per_replica = 200;
-/// Of each unknown more than one: the same of the whole, and moments of the passes under way. Of
-/// the same scenes, 1,475 to 1,820 on two threads.
+/// Memory for each further unknown of a patch, with the moments of the passes under way: 1,475 to
+/// 1,820 in the same scenes on two threads.
 constexpr std::uint64_t bytes_per_unknown = 1800;
 
 /// The triangles and quadrilaterals that a patch is divided into before grids are laid on them.
