@@ -89,14 +89,35 @@ std::string passes_text(const SolveStatistics& s) {
                                           s.directions, s.threads));
 }
 
+std::string dark_text(bool is_dark) {
+  return is_dark ? " of a thousandth of the brightest surface, as it is in the dark" : "";
+}
+
 std::string error_text(const ErrorEstimate& error) {
   const Rgb half = error.quantile * error.mean_standard_error;
+  std::string worst;
+  if (error.surfaces.worst >= 0) {
+    const SurfaceError& surface = at(error.surfaces.surfaces, error.surfaces.worst);
+    worst = report_row(
+        "worst surface",
+        fmt::format("{}: {:.2g} % RMS{}; no surface above {:.2g} % (95 % confidence)", surface.name,
+                    100 * surface.rms, dark_text(surface.is_dark), 100 * error.surfaces.limit));
+  }
   return report_row("error of B",
                     fmt::format("{:.2g} % RMS, at most {:.2g} % (95 % confidence), estimated from "
                                 "{} replicas",
                                 100 * error.rms, 100 * error.rms_limit, error.replicas)) +
+         worst +
          report_row("B mean, error",
                     fmt::format("+- {} W/m2 (95 % confidence)", radiosity_text(half)));
+}
+
+/// Which error a report is about.
+std::string error_name(const AccuracyReport& report) {
+  return report.surface.empty()
+             ? name_of_accuracy(report.goal) + " error"
+             : fmt::format("error{} of the worst surface, {},",
+                           report.goal.of == AccuracyOf::irradiance ? " of H" : "", report.surface);
 }
 
 std::string accuracy_text(const AccuracyReport& report) {
@@ -111,11 +132,10 @@ std::string accuracy_text(const AccuracyReport& report) {
                       fmt::format("{}, {}: estimated error {:.2g} %, {} points", asked, reached,
                                   100 * report.error, report.stages.back().directions));
   }
-  return report_row("accuracy",
-                    fmt::format("{}, {}: {} error at most {:.3g} %; {} passes in {} "
-                                "stages",
-                                asked, reached, name_of_accuracy(goal), 100 * report.error,
-                                report.passes_made, report.stages.size()));
+  return report_row(
+      "accuracy", fmt::format("{}, {}: {} at most {:.3g} %{}; {} passes in {} stages", asked,
+                              reached, error_name(report), 100 * report.error,
+                              dark_text(report.is_dark), report.passes_made, report.stages.size()));
 }
 
 std::string glossy_text(const GlossyFigures& figures) {

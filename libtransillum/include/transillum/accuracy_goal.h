@@ -14,22 +14,29 @@ namespace TRANSILLUM_API transillum {
 /// The error that an AccuracyGoal is about, relative to reflected light (reflected_light()). All
 /// are limits that are not exceeded in 95 % of all runs, by the spread of replicas.
 enum class AccuracyOf {
-  rms,    ///< RMS error of B over RMS of reflected light, over patches and channels
-  max,    ///< largest error over the largest reflected light
-  patch,  ///< error of one patch over its B - E, as lengths of RGB vectors
+  /// RMS error of B - E on the worst surface, over the RMS of B - E there (SurfaceErrors::limit).
+  /// Surfaces are groups; in a file without, materials; without both, connected components.
+  surfaces,
+  groups,      ///< the same, of the surfaces named alone
+  irradiance,  ///< the same as `surfaces`, of H instead of B - E
+  rms,         ///< RMS error of B over RMS of reflected light, over patches and channels
+  max,         ///< largest error over the largest reflected light
+  patch,       ///< error of one patch over its B - E, as lengths of RGB vectors
   mean,  ///< error of the area-weighted mean of B over the mean of B - E, as lengths of RGB vectors
 };
 
-/// The names of the errors (choice.h). The number of a patch follows the name `patch`.
+/// The names of the errors (choice.h). The number of a patch follows the name `patch`, names
+/// follow the name `groups`.
 template <>
 const Choices& choices_of<AccuracyOf>();
 
 /// When a solve is accurate enough.
 struct AccuracyGoal {
-  double accuracy = 0;              ///< relative error, [0,1); 0: as small as `seconds` allow
-  AccuracyOf of = AccuracyOf::rms;  ///< the error to limit
-  PatchId patch = 0;                ///< the patch, for AccuracyOf::patch
-  double seconds = 0;               ///< wall time of the solve, without loading; 0 sets no limit
+  double accuracy = 0;                   ///< relative error, [0,1); 0: as small as `seconds` allow
+  AccuracyOf of = AccuracyOf::surfaces;  ///< the error to limit
+  PatchId patch = 0;                     ///< the patch, for AccuracyOf::patch
+  std::vector<std::string> surfaces = {};  ///< names of the surfaces, for AccuracyOf::groups
+  double seconds = 0;  ///< wall time of the solve, without loading; 0 sets no limit
 
   /// Whether there is a goal.
   bool is_set() const { return accuracy > 0 || seconds > 0; }
@@ -42,8 +49,9 @@ struct AccuracyGoal {
 /// The relative accuracy in `text`: `1%`, or a number such as `0.01`.
 /// @throws InputError unless it is greater than 0 and less than 1 (100 %).
 double accuracy_from_text(const std::string& text);
-/// The error called `name`: `rms`, `max`, `mean`, or `patch:I` with a patch number.
-/// @returns a goal with only `of` and `patch` set.
+/// The error called `name`: `surfaces`, `irradiance`, `rms`, `max`, `mean`, `patch:I` with a patch
+/// number, or `groups:NAME,...` with names of surfaces.
+/// @returns a goal with only `of`, `patch` and `surfaces` set.
 /// @throws InputError listing the choices.
 AccuracyGoal accuracy_of_from_name(const std::string& name);
 /// The name that accuracy_of_from_name() reads.
@@ -61,6 +69,8 @@ struct AccuracyReport {
   AccuracyGoal goal;                  ///< the goal given
   std::vector<AccuracyStage> stages;  ///< in order; the last stage made the result
   double error = 0;                   ///< relative: the limit of AccuracyGoal::of, of the result
+  std::string surface;                ///< the worst surface, where the goal is about surfaces
+  bool is_dark = false;               ///< SurfaceError::is_dark of that surface
   bool reached = false;               ///< error <= goal.accuracy, and `trusted`
   bool trusted = false;  ///< light sources were met by at least least_light_directions per replica
   std::int64_t passes_made = 0;  ///< in all stages

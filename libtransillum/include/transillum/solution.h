@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "transillum/accuracy_goal.h"
@@ -54,6 +55,33 @@ struct RefinementRound {
   double seconds = 0;  ///< wall time of the round
 };
 
+/// The error of one surface: a group, a material or a connected component. Relative errors are
+/// relative to `unit`.
+struct SurfaceError {
+  std::string name;  ///< name of the surface; "others": those with less than 1 % of the area
+  std::int64_t patches = 0;  ///< number of patches that are measured
+  double area = 0;           ///< their area, m²
+  double level = 0;          ///< RMS of the quantity over patches and channels, W/m²
+  /// `level`, or 1/1000 of the level of the brightest surface where that is larger, W/m²
+  double unit = 0;
+  bool is_dark = false;  ///< `level` is below 1/1000 of the level of the brightest surface
+  double spread = 0;     ///< RMS error by the spread of replicas, relative
+  double bias = 0;       ///< RMS of what iterations and the first shot may leave, relative
+  double rms = 0;        ///< root of the sum of the squares of both
+  double limit = 0;  ///< relative RMS error that this surface does not exceed in 95 % of all runs
+  double independent_errors = 1;  ///< as ErrorEstimate::independent_errors
+};
+
+/// The errors of the surfaces of a scene. Patches that emit are omitted, unless all do.
+struct SurfaceErrors {
+  int replicas = 0;                    ///< 0 means no estimate: all other members are empty
+  std::vector<SurfaceError> surfaces;  ///< in the order of the scene
+  /// Relative RMS error that none of the surfaces exceeds in 95 % of all runs: at least the largest
+  /// SurfaceError::limit
+  double limit = 0;
+  int worst = -1;  ///< index of the surface with the largest limit; -1 if there is none
+};
+
 /// The error of B due to the finite number of directions, estimated from the spread of
 /// independently rotated replicas; no reference is needed. A random rotation makes each replica
 /// unbiased (eq. 47), so B ± quantile * standard error contains the B of infinitely many directions
@@ -74,9 +102,11 @@ struct ErrorEstimate {
   double rms_lowest = 0;  ///< limit exceeded in 95 % of all runs; with rms_limit a 90 % interval
   /// Number of independent errors that would vary as the errors of all patches do together, >= 1
   double independent_errors = 1;
-  Rgb mean_radiosity;       ///< area-weighted mean of B, W/m²
-  Rgb mean_standard_error;  ///< standard error of this mean, W/m²
-  Rgb mean_reflected;       ///< area-weighted mean of B - E, W/m²
+  Rgb mean_radiosity;        ///< area-weighted mean of B, W/m²
+  Rgb mean_standard_error;   ///< standard error of this mean, W/m²
+  Rgb mean_reflected;        ///< area-weighted mean of B - E, W/m²
+  SurfaceErrors surfaces;    ///< errors of B - E
+  SurfaceErrors irradiance;  ///< errors of H; only after a finished iteration
 };
 
 /// Figures of a solve in which lobes take part.

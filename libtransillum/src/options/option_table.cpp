@@ -314,9 +314,11 @@ void add_accuracy(Table& t) {
   Option& of =
       t.add("accuracy-of", "NAME", "a name",
             "error that the accuracy limits, relative to reflected light, B - E, without patches "
-            "that emit: rms, the RMS error over the RMS; max, the largest error over the largest "
+            "that emit: surfaces, the RMS error of each group (material, connected component) over "
+            "its own RMS, the worst of all; groups:NAME,..., the same of these groups; irradiance, "
+            "the same of H; rms, of all surfaces together; max, the largest error over the largest "
             "value; patch:I, the error of patch I; mean, the error of the mean");
-  of.choices = {"rms", "max", "patch:I", "mean"};
+  of.choices = {"surfaces", "groups:NAME,...", "irradiance", "rms", "max", "patch:I", "mean"};
   of.lists_choices = true;
   of.parse = [](RunOptions& o, const std::string& text) {
     AccuracyGoal named;
@@ -324,10 +326,13 @@ void add_accuracy(Table& t) {
       named = accuracy_of_from_name(text);
     } catch (const InputError&) {
       throw InputError(fmt::format(
-          "\"{}\" is not rms, max, mean or patch:I, where I is the number of a patch", text));
+          "\"{}\" is not surfaces, irradiance, rms, max, mean, patch:I, where I is the number of a "
+          "patch, or groups:NAME,...",
+          text));
     }
     o.solve.goal.of = named.of;
     o.solve.goal.patch = named.patch;
+    o.solve.goal.surfaces = named.surfaces;
   };
   of.print = [](const RunOptions& o) { return name_of_accuracy(o.solve.goal); };
   real(t.add("seconds", "S", "a number, or none",
@@ -427,8 +432,8 @@ void add_reading(Table& t) {
   Option& most = t.add("max-reflectance", "R", "a number, or auto",
                        "lower larger reflectances of a file to R");
   most.json = Option::Json::number;
-  most.default_text =
-      fmt::format("lower only reflectances of 1 and more, to {}", ReadOptions::default_max_reflectance);
+  most.default_text = fmt::format("lower only reflectances of 1 and more, to {}",
+                                  ReadOptions::default_max_reflectance);
   optional(
       most, read(&ReadOptions::max_reflectance), "auto",
       [](const std::string& text) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "radiosity/channel_sums.h"
 #include "transillum/scene.h"
 
 namespace transillum {
@@ -40,8 +41,7 @@ inline std::vector<Rgb> difference(const std::vector<Rgb>& a, const std::vector<
 inline double root_of_squares(const std::vector<Rgb>& values, double unit) {
   double squares = 0;
   for (const Rgb& value : values) {
-    const Rgb v = (1 / unit) * value;
-    squares += v.r * v.r + v.g * v.g + v.b * v.b;
+    squares += sum_of_squares((1 / unit) * value);
   }
   return std::sqrt(squares);
 }

@@ -45,6 +45,24 @@ constexpr double time_share = 0.85;
 /// Share of the goal from which on missing iterations are made, instead of more passes.
 constexpr double iteration_share = 0.25;
 
+/// The same levels and names, and errors of 0.
+ErrorEstimate without_errors(const ErrorEstimate& error) {
+  ErrorEstimate result;
+  result.replicas = error.replicas;
+  result.quantile = error.quantile;
+  result.standard_error.resize(error.standard_error.size());
+  result.mean_reflected = error.mean_reflected;
+  result.surfaces = error.surfaces;
+  result.irradiance = error.irradiance;
+  for (SurfaceErrors* errors : {&result.surfaces, &result.irradiance}) {
+    for (SurfaceError& surface : errors->surfaces) {
+      surface.spread = surface.bias = surface.rms = surface.limit = 0;
+    }
+    errors->limit = 0;
+  }
+  return result;
+}
+
 double length(const Rgb& v) { return std::hypot(v.r, v.g, v.b); }
 
 double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorEstimate& error) {
@@ -59,8 +77,9 @@ double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorE
 /// The part of error_for() that further iterations can take away: a bound of what they would
 /// change.
 /// @param error of `solver`
-double error_of_iteration(const AccuracyGoal& goal, const RadiositySolver& solver,
-                          const SolveStatistics& statistics, const ErrorEstimate& error) {
+double error_of_iteration(const AccuracyGoal& goal, const ErrorSurfaces& surfaces,
+                          const RadiositySolver& solver, const SolveStatistics& statistics,
+                          const ErrorEstimate& error) {
   const Scene& scene = solver.scene();
   const std::vector<Rgb>& b = solver.radiosity();
   if (error.replicas == 0 || statistics.iteration_records.empty()) {
@@ -73,12 +92,8 @@ double error_of_iteration(const AccuracyGoal& goal, const RadiositySolver& solve
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     at(left, i) = to_limit * scene.reflectance(i);
   }
-  ErrorEstimate missing;
-  missing.replicas = error.replicas;
-  missing.quantile = error.quantile;
-  missing.standard_error.resize(left.size());
-  missing.mean_reflected = error.mean_reflected;
-  include_bias(missing, scene, b, left);
+  ErrorEstimate missing = without_errors(error);
+  include_bias(missing, scene, surfaces, b, left);
   return error_for(goal, scene, b, missing);
 }
 
@@ -90,10 +105,19 @@ double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector
     throw InputError(fmt::format("accuracy: there is no patch {}; the scene has {}, from 0",
                                  goal.patch, scene.patch_count()));
   }
+  if (goal.of == AccuracyOf::groups) {
+    check_surfaces(scene, goal.surfaces);
+  }
   if (error.replicas == 0) {
     return std::numeric_limits<double>::infinity();
   }
   switch (goal.of) {
+    case AccuracyOf::surfaces:
+      return error.surfaces.limit;
+    case AccuracyOf::groups:
+      return limit_of_all(error.surfaces, goal.surfaces);
+    case AccuracyOf::irradiance:
+      return error.irradiance.limit;
     case AccuracyOf::max:
       return largest_error(scene, b, error);
     case AccuracyOf::patch:
@@ -108,7 +132,29 @@ double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector
   return error.rms_limit;
 }
 
-AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene) : stage_(options) {
+void name_worst_surface(const AccuracyGoal& goal, const ErrorEstimate& error,
+                        AccuracyReport& report) {
+  report.surface.clear();
+  report.is_dark = false;
+  const bool of_surfaces = goal.of == AccuracyOf::surfaces || goal.of == AccuracyOf::groups;
+  if (!of_surfaces && goal.of != AccuracyOf::irradiance) {
+    return;
+  }
+  double largest = -1;
+  for (const SurfaceError& surface : (of_surfaces ? error.surfaces : error.irradiance).surfaces) {
+    const bool counts =
+        goal.of != AccuracyOf::groups ||
+        std::find(goal.surfaces.begin(), goal.surfaces.end(), surface.name) != goal.surfaces.end();
+    if (counts && surface.limit > largest) {
+      largest = surface.limit;
+      report.surface = surface.name;
+      report.is_dark = surface.is_dark;
+    }
+  }
+}
+
+AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene)
+    : surfaces_(scene, options.goal.surfaces), stage_(options) {
   options.validate();
   report_.goal = options.goal;
   error_for(options.goal, scene, {}, {});  // checks the patch
@@ -133,6 +179,7 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   if (!std::isfinite(report_.error)) {  // replicas of few directions may diverge
     report_.error = std::numeric_limits<double>::infinity();
   }
+  name_worst_surface(goal, estimate, report_);
   report_.stages.push_back({solved.directions, solved.replicas, report_.error});
   light_directions_ = statistics.light_directions / solved.replicas;
   // Where no direction has met the light of a source, all replicas agree that there is none.
@@ -154,7 +201,8 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   }
   // No number of passes replaces iterations, which the goal may ask more of than the tolerance:
   // a patch, where it is dark.
-  const double missing_iterations = error_of_iteration(goal, solver, statistics, estimate);
+  const double missing_iterations =
+      error_of_iteration(goal, surfaces_, solver, statistics, estimate);
   if (goal.accuracy > 0 && missing_iterations > iteration_share * goal.accuracy &&
       std::isfinite(missing_iterations) && solved.directions * per_pass <= time_share * left) {
     const IterationRecord& last = statistics.iteration_records.back();
@@ -258,6 +306,11 @@ void AccuracyPlan::visit_state(Archive& archive, Self& self) {
   }
   for (auto& stage : report.stages) {
     archive(stage.directions, stage.replicas, stage.error);
+  }
+  std::vector<char> surface(report.surface.begin(), report.surface.end());
+  archive(surface, report.is_dark);
+  if constexpr (Archive::reading) {
+    report.surface.assign(surface.begin(), surface.end());
   }
   archive(report.error, report.reached, report.trusted, report.passes_made, self.stage_.directions,
           self.stage_.replicas, self.stage_.tolerance, self.light_directions_, self.seconds_,

@@ -8,6 +8,7 @@
 #include <iosfwd>
 #include <vector>
 
+#include "radiosity/error/error_estimate.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
@@ -22,6 +23,11 @@ namespace transillum {
 /// @throws InputError where the scene does not have the goal's patch.
 double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector<Rgb>& b,
                  const ErrorEstimate& error);
+
+/// Sets the worst surface of a report, where its goal is about surfaces.
+/// @param error of the result.
+void name_worst_surface(const AccuracyGoal& goal, const ErrorEstimate& error,
+                        AccuracyReport& report);
 
 /// Chooses the stages of a solve with SolveOptions::goal. The caller makes each: a new
 /// RadiositySolver with stage(), or RadiositySolver::add_replica() of the last.
@@ -74,6 +80,7 @@ class AccuracyPlan {
   double growth() const;
   bool is_stalled() const;
 
+  ErrorSurfaces surfaces_;
   AccuracyReport report_;
   SolveOptions stage_;
   double light_directions_ = 0;     ///< per replica, in the last stage

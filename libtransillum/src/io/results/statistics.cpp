@@ -24,6 +24,20 @@ Json list_of(const std::vector<Record>& steps, ValueOf value_of) {
   return list;
 }
 
+/// The errors by surface; null where they are not estimated.
+Json surfaces_json(const SurfaceErrors& errors) {
+  if (errors.surfaces.empty()) {
+    return {};
+  }
+  return {{"limit", errors.limit},
+          {"worst", errors.surfaces[static_cast<std::size_t>(errors.worst)].name},
+          {"surfaces", list_of(errors.surfaces, [](const SurfaceError& s) {
+             return Json{{"name", s.name},   {"patches", s.patches}, {"area", s.area},
+                         {"level", s.level}, {"dark", s.is_dark},    {"rms", s.rms},
+                         {"limit", s.limit}};
+           })}};
+}
+
 /// The error estimate; null without replicas.
 Json error_json(const Solution& solution) {
   const ErrorEstimate& error = solution.error;
@@ -39,7 +53,8 @@ Json error_json(const Solution& solution) {
           {"quantile", error.quantile},
           {"uncertain_patches", uncertain_patches(solution).size()},
           {"mean_B", list_of(error.mean_radiosity)},
-          {"mean_B_standard_error", list_of(error.mean_standard_error)}};
+          {"mean_B_standard_error", list_of(error.mean_standard_error)},
+          {"by_surface", surfaces_json(error.surfaces)}};
 }
 
 /// The report of a solve with a goal; null without one.
@@ -57,6 +72,8 @@ Json accuracy_json(const std::optional<AccuracyReport>& report) {
           {"of", name_of_accuracy(goal)},
           {"seconds", goal.seconds > 0 ? Json(goal.seconds) : Json()},
           {"error", report->error},
+          {"surface", report->surface.empty() ? Json() : Json(report->surface)},
+          {"dark", report->is_dark},
           {"confidence", 0.95},
           {"reached", report->reached},
           {"trusted", report->trusted},

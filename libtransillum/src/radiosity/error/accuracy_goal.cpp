@@ -2,7 +2,10 @@
 #include "transillum/accuracy_goal.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <boost/algorithm/string/split.hpp>
+#include <boost/algorithm/string/trim.hpp>
 #include <charconv>
 #include <cmath>
 
@@ -14,6 +17,9 @@ namespace transillum {
 namespace {
 
 constexpr std::array accuracies{
+    Choice{AccuracyOf::surfaces, "surfaces", "Worst surface"},
+    Choice{AccuracyOf::groups, "groups:NAME,...", "Surfaces named"},
+    Choice{AccuracyOf::irradiance, "irradiance", "Irradiance"},
     Choice{AccuracyOf::rms, "rms", "RMS"},
     Choice{AccuracyOf::max, "max", "Largest"},
     Choice{AccuracyOf::patch, "patch:I", "Patch"},
@@ -43,6 +49,9 @@ void AccuracyGoal::validate() const {
   if (!(seconds >= 0 && std::isfinite(seconds))) {
     throw InputError(fmt::format("seconds: {} is not a finite number of at least 0", seconds));
   }
+  if (of == AccuracyOf::groups && surfaces.empty()) {
+    throw InputError("accuracy: no group is named");
+  }
   if (patch < 0) {
     throw InputError(fmt::format("accuracy: patch {} does not exist", patch));
   }
@@ -70,7 +79,22 @@ AccuracyGoal accuracy_of_from_name(const std::string& name) {
     }
     return goal;
   }
+  if (name.starts_with("groups:")) {
+    goal.of = AccuracyOf::groups;
+    boost::split(goal.surfaces, name.substr(7), [](char c) { return c == ','; });
+    for (std::string& surface : goal.surfaces) {
+      boost::trim(surface);
+      if (surface.empty()) {
+        throw InputError(
+            fmt::format("accuracy of: \"{}\" has an empty name; write groups:floor,walls", name));
+      }
+    }
+    return goal;
+  }
   goal.of = from_name<AccuracyOf>(name);
+  if (goal.of == AccuracyOf::groups) {
+    throw InputError("accuracy of: groups:NAME,... needs names of groups, as in groups:floor");
+  }
   if (goal.of == AccuracyOf::patch) {
     throw InputError("accuracy of: patch:I needs the number of a patch, as in patch:0");
   }
@@ -78,7 +102,19 @@ AccuracyGoal accuracy_of_from_name(const std::string& name) {
 }
 
 std::string name_of_accuracy(const AccuracyGoal& goal) {
-  return goal.of == AccuracyOf::patch ? fmt::format("patch:{}", goal.patch) : name_of(goal.of);
+  switch (goal.of) {
+    case AccuracyOf::patch:
+      return fmt::format("patch:{}", goal.patch);
+    case AccuracyOf::groups:
+      return fmt::format("groups:{}", fmt::join(goal.surfaces, ","));
+    case AccuracyOf::surfaces:
+    case AccuracyOf::irradiance:
+    case AccuracyOf::rms:
+    case AccuracyOf::max:
+    case AccuracyOf::mean:
+      break;
+  }
+  return name_of(goal.of);
 }
 
 }  // namespace transillum

@@ -15,8 +15,6 @@
 namespace transillum {
 namespace {
 
-constexpr double confidence = 0.95;
-
 /// Standard error of the mean of independent values.
 /// @param scale brings the values near 1, so that their squares are in range
 template <class ValueOf>
@@ -36,8 +34,6 @@ Rgb standard_error_of(std::size_t count, double scale, ValueOf value_of) {
                            std::sqrt(share * squares.b)};
 }
 
-double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }
-
 /// Unknowns per patch in a list of their values.
 std::size_t unknowns_per_patch(const Scene& scene, const std::vector<Rgb>& b) {
   return b.size() / scene.patches().size();
@@ -54,14 +50,12 @@ Rgb mean_over_area(const Scene& scene, const std::vector<Rgb>& b) {
   return (1 / area) * power;
 }
 
-using Matrix = std::vector<std::vector<double>>;
-
 /// Scalar products of the deviations of replicas from `b`, over patches and channels.
 /// @param measured of ReflectedLight
-Matrix scalar_products(const std::vector<Rgb>& b, const std::vector<char>& measured, double scale,
-                       const std::vector<std::vector<Rgb>>& replicas) {
+DeviationProducts scalar_products(const std::vector<Rgb>& b, const std::vector<char>& measured,
+                                  double scale, const std::vector<std::vector<Rgb>>& replicas) {
   const std::size_t count = replicas.size();
-  Matrix products(count, std::vector<double>(count));
+  DeviationProducts products(count, std::vector<double>(count));
   std::vector<Rgb> off(count);
   for (std::size_t i = 0; i < b.size(); ++i) {
     for (std::size_t r = 0; measured[i] != 0 && r < count; ++r) {
@@ -80,41 +74,43 @@ Matrix scalar_products(const std::vector<Rgb>& b, const std::vector<char>& measu
   return products;
 }
 
-/// (trace C)² / trace C², where C is the covariance of the replicas over patches and channels: the
-/// number of equal independent errors whose sum of squares varies as that of all. Both traces are
-/// estimated without bias from differences of disjoint pairs of replicas; 1 for fewer than 4. The
-/// ratio of so few is uncertain, so it is taken rather too small (decisions/0052-accuracy.md).
-/// @param products of the replicas
-double independent_errors(const Matrix& products) {
-  const auto product = [&](auto a, auto b, auto c, auto d) {  // sum of (a - b) (c - d)
-    return products[a][c] - products[a][d] - products[b][c] + products[b][d];
-  };
-  const std::size_t n = products.size();
-  double norms = 0, squares = 0;
-  for (std::size_t a = 0; a < n; ++a) {
-    for (std::size_t c = a + 1; c < n; ++c) {
-      for (std::size_t b = a + 1; b < n; ++b) {
-        for (std::size_t d = c + 1; b != c && d < n; ++d) {
-          if (d != b) {
-            norms += product(a, b, a, b) * product(c, d, c, d);
-            squares += std::pow(product(a, b, c, d), 2);
-          }
-        }
+/// What H is off by where B is off by `bias`, W/m²; where nothing is reflected, as much as
+/// elsewhere on average.
+std::vector<Rgb> bias_of_irradiance(const Scene& scene, const std::vector<Rgb>& bias) {
+  const std::size_t per_patch = unknowns_per_patch(scene, bias);
+  std::vector<Rgb> result(bias.size());
+  for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+    double sum = 0, area = 0;
+    for (std::size_t u = 0; u < bias.size(); ++u) {
+      const auto i = static_cast<PatchId>(u / per_patch);
+      if (const double rho = scene.reflectance(i).*channel; rho > 0) {
+        result[u].*channel = bias[u].*channel / rho;
+        sum += scene.patch(i).area * result[u].*channel;
+        area += scene.patch(i).area;
+      }
+    }
+    for (std::size_t u = 0; u < bias.size() && area > 0; ++u) {
+      if (!(scene.reflectance(static_cast<PatchId>(u / per_patch)).*channel > 0)) {
+        result[u].*channel = sum / area;
       }
     }
   }
-  constexpr double caution = 1.3, most = 30;
-  return norms > 0 ? std::max(1.0, 1 / (caution * squares / norms + 1 / most)) : 1.0;
+  return result;
 }
 
 }  // namespace
 
-ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
+ErrorSurfaces::ErrorSurfaces(const Scene& scene, const std::vector<std::string>& kept)
+    : reflecting(find_surfaces(scene, Measured::reflecting, kept)),
+      receiving(find_surfaces(scene, Measured::receiving, kept)) {}
+
+ErrorEstimate estimate_error(const Scene& scene, const ErrorSurfaces& surfaces,
+                             const std::vector<Rgb>& b,
                              const std::vector<std::vector<Rgb>>& replicas) {
   ErrorEstimate error;
   error.replicas = static_cast<int>(replicas.size());
   const boost::math::students_t student(error.replicas - 1);
-  error.quantile = quantile(student, (1 + confidence) / 2);
+  error.quantile = quantile(student, (1 + error_confidence) / 2);
   error.standard_error.reserve(scene.patches().size());
   const std::size_t per_patch = unknowns_per_patch(scene, b);
   const ReflectedLight light(scene, per_patch);
@@ -137,8 +133,8 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
   // The sum of squared errors over its estimate, both as sums of so many squares.
   const boost::math::fisher_f fisher(error.independent_errors,
                                      (error.replicas - 1) * error.independent_errors);
-  error.rms_limit = error.rms * std::sqrt(quantile(fisher, confidence));
-  error.rms_lowest = error.rms * std::sqrt(quantile(fisher, 1 - confidence));
+  error.rms_limit = error.rms * std::sqrt(quantile(fisher, error_confidence));
+  error.rms_lowest = error.rms * std::sqrt(quantile(fisher, 1 - error_confidence));
   std::vector<Rgb> means;
   for (const auto& replica : replicas) {
     means.push_back(mean_over_area(scene, replica));
@@ -147,11 +143,12 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
   error.mean_reflected = mean_over_area(scene, difference(b, light.exitance()));
   error.mean_standard_error =
       standard_error_of(means.size(), scale, [&](std::size_t r) { return means[r]; });
+  error.surfaces = surface_errors(surfaces.reflecting, difference(b, light.exitance()), replicas);
   return error;
 }
 
-void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rgb>& b,
-                  const std::vector<Rgb>& bias) {
+void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces& surfaces,
+                  const std::vector<Rgb>& b, const std::vector<Rgb>& bias) {
   if (error.replicas == 0 || bias.empty()) {
     return;
   }
@@ -161,6 +158,8 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rg
   }
   error.mean_standard_error =
       root_of_squares(error.mean_standard_error, mean_over_area(scene, bias));
+  include_bias(error.surfaces, surfaces.reflecting, bias);
+  include_bias(error.irradiance, surfaces.receiving, bias_of_irradiance(scene, bias));
   const ReflectedLight light(scene, per_patch);
   const std::vector<Rgb> reflected = light.of(b);
   if (const double unit = max_norm(reflected); unit > 0) {

@@ -1,25 +1,40 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "radiosity/error/surface_errors.h"
+#include "radiosity/error/surfaces.h"
 #include "transillum/first_shot.h"
 #include "transillum/scene.h"
 #include "transillum/solution.h"
 
 namespace transillum {
 
+/// The surfaces of which errors are told.
+struct ErrorSurfaces {
+  Surfaces reflecting;  ///< for errors of B - E
+  Surfaces receiving;   ///< for errors of H
+
+  ErrorSurfaces() = default;
+  /// @param kept as in find_surfaces()
+  ErrorSurfaces(const Scene& scene, const std::vector<std::string>& kept);
+};
+
 /// The error of `b` from the spread of replicas. Lists are of unknowns: with a linear basis, the
-/// standard errors apply to the means of patches, and RMS errors to the functions.
+/// standard errors apply to the means of patches, and RMS errors to the functions. Errors of
+/// H are not estimated.
 /// @param replicas B of each, at least two
-ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
+ErrorEstimate estimate_error(const Scene& scene, const ErrorSurfaces& surfaces,
+                             const std::vector<Rgb>& b,
                              const std::vector<std::vector<Rgb>>& replicas);
 
 /// Adds to an estimate what else `b` may be off by, as the root of the sum of squares: intervals
 /// then contain the true value at least as often. Nothing without an estimate.
 /// @param bias bound of a bias of `b`, W/m², one per patch; empty if there is none
-void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rgb>& b,
-                  const std::vector<Rgb>& bias);
+void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces& surfaces,
+                  const std::vector<Rgb>& b, const std::vector<Rgb>& bias);
 
 /// Estimate of what B is off by because of the error of the first shot, W/m², one per patch; empty
 /// if there is none or it is unknown.

@@ -12,9 +12,11 @@
 
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
+#include "radiosity/error/surface_errors.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "radiosity/form_factors/pair_matrix.h"
 #include "radiosity/linear_solution.h"
+#include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/two_sided.h"
 #include "transillum/errors.h"
@@ -188,11 +190,18 @@ void refuse_directions(const SolveOptions& options, const std::string& who) {
   }
 }
 
-/// Relative RMS difference of B; with linear functions, of all coefficients.
-double difference(const Solution& a, const Solution& b) {
-  return radiosity_error(*a.scene, coefficients_of(a.radiosity, a.linear_parts),
-                         coefficients_of(b.radiosity, b.linear_parts))
-      .rms;
+/// Relative RMS difference of B, of the worst surface or of all together; with linear functions, of
+/// all coefficients.
+double difference(const Solution& a, const Solution& b, AccuracyOf of) {
+  const std::vector<Rgb> first = coefficients_of(a.radiosity, a.linear_parts);
+  const std::vector<Rgb> second = coefficients_of(b.radiosity, b.linear_parts);
+  if (of == AccuracyOf::rms) {
+    return radiosity_error(*a.scene, first, second).rms;
+  }
+  return surface_differences(find_surfaces(*a.scene, Measured::reflecting),
+                             reflected_light(*a.scene, first),
+                             ::transillum::difference(first, second))
+      .limit;
 }
 
 }  // namespace
@@ -220,11 +229,11 @@ void check_form_factor_options(const SolveOptions& options) {
   }
   refuse_directions(options, "engine " + name_of(options.engine) + " has");
   const AccuracyGoal& goal = options.goal;
-  if (goal.is_set() &&
-      (options.engine != Engine::pairs || goal.of != AccuracyOf::rms || goal.seconds > 0)) {
+  const bool of_pairs = goal.of == AccuracyOf::rms || goal.of == AccuracyOf::surfaces;
+  if (goal.is_set() && (options.engine != Engine::pairs || !of_pairs || goal.seconds > 0)) {
     throw InputError(
         "accuracy: engine hemicube has none to choose, and engine pairs estimates "
-        "only the RMS error, without a time limit");
+        "only the errors of surfaces and the RMS error, without a time limit");
   }
   if (options.engine == Engine::hemicube) {
     hemicube_options(options).validate();
@@ -294,7 +303,7 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
     points *= 2;
     result.solution.form_factors.reset();  // the memory limit allows one matrix
     Solution finer = solved();
-    result.error = difference(result.solution, finer);
+    result.error = difference(result.solution, finer, options.goal.of);
     result.solution = std::move(finer);
     result.points = points;
     result.reached = result.error <= accuracy;

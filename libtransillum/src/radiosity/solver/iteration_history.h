@@ -27,6 +27,7 @@ class IterationHistory {
   int size() const { return static_cast<int>(records_.size()); }
   const std::vector<IterationRecord>& records() const { return records_; }
   const std::vector<Rgb>& b() const { return b_; }  ///< values of all unknowns, W/m²
+  const std::vector<Rgb>& h() const { return h_; }  ///< irradiance of all unknowns, W/m²
   /// Values of patches: the means of a linear basis, W/m².
   const std::vector<Rgb>& patch_b() const { return unknowns_.per_patch == 1 ? b_ : mean_b_; }
   const std::vector<Rgb>& patch_h() const { return unknowns_.per_patch == 1 ? h_ : mean_h_; }

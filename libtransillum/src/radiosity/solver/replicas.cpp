@@ -3,14 +3,13 @@
 
 #include <algorithm>
 
-#include "radiosity/error/error_estimate.h"
-
 namespace transillum {
 
 Replicas::Replicas(const SolverInput& input) {
   if (input.options.replicas < 2) {
     return;
   }
+  surfaces_ = ErrorSurfaces(*input.scene, input.options.goal.surfaces);
   for (int r = 0; r < input.options.replicas; ++r) {
     iterates_.emplace_back(*input.unknowns, input.options, input.share());
   }
@@ -42,7 +41,7 @@ void Replicas::add_to_means() {
 }
 
 ErrorEstimate Replicas::error_estimate(const Scene& scene, const std::vector<Rgb>& b,
-                                       Radiosity kind) const {
+                                       const std::vector<Rgb>& h, Radiosity kind) const {
   const bool incomplete = kind == Radiosity::running_estimate &&
                           std::any_of(iterates_.begin(), iterates_.end(),
                                       [](const auto& iterate) { return iterate.passes() == 0; });
@@ -53,7 +52,14 @@ ErrorEstimate Replicas::error_estimate(const Scene& scene, const std::vector<Rgb
   for (std::size_t r = 0; r < iterates_.size(); ++r) {
     radiosities.push_back(radiosity(r, kind));
   }
-  return estimate_error(scene, b, radiosities);
+  ErrorEstimate error = estimate_error(scene, surfaces_, b, radiosities);
+  if (kind == Radiosity::finished_iteration) {
+    for (std::size_t r = 0; r < iterates_.size(); ++r) {
+      radiosities[r] = iterates_[r].h();
+    }
+    error.irradiance = surface_errors(surfaces_.receiving, h, radiosities);
+  }
+  return error;
 }
 
 std::vector<Rgb> Replicas::radiosity(std::size_t r, Radiosity kind) const {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "radiosity/error/error_estimate.h"
 #include "radiosity/solver/radiosity_iterate.h"
 #include "radiosity/solver/running_mean.h"
 #include "radiosity/solver/solver_input.h"
@@ -37,7 +38,10 @@ class Replicas {
   enum class Radiosity { finished_iteration, running_estimate, mean };
   /// The error of `b`, the value of the given kind; no estimate without replicas, or before every
   /// replica has a pass.
-  ErrorEstimate error_estimate(const Scene& scene, const std::vector<Rgb>& b, Radiosity kind) const;
+  /// @param h irradiance that belongs to `b`, for Radiosity::finished_iteration
+  ErrorEstimate error_estimate(const Scene& scene, const std::vector<Rgb>& b,
+                               const std::vector<Rgb>& h, Radiosity kind) const;
+  const ErrorSurfaces& surfaces() const { return surfaces_; }
 
   /// For StateOutput and StateInput; the number of replicas must be the same.
   template <class Archive, class Self>
@@ -51,6 +55,7 @@ class Replicas {
  private:
   std::vector<Rgb> radiosity(std::size_t r, Radiosity kind) const;
 
+  ErrorSurfaces surfaces_;
   std::vector<RadiosityIterate> iterates_;
   std::vector<RunningMean> means_;
 };

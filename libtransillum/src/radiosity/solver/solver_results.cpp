@@ -116,9 +116,10 @@ ErrorEstimate RadiositySolver::Impl::error_estimate() const {
                          : iteration.begun  ? Radiosity::running_estimate
                                             : Radiosity::finished_iteration;
   const auto& b = kind == Radiosity::running_estimate ? iteration.estimate : history.b();
-  ErrorEstimate error = replicas.error_estimate(*input.scene, b, kind);
-  include_bias(error, *input.scene, b, history.left());
-  include_bias(error, *input.scene, b, bias_of_shot(*input.scene, *input.shot));
+  ErrorEstimate error = replicas.error_estimate(*input.scene, b, history.h(), kind);
+  const ErrorSurfaces& surfaces = replicas.surfaces();
+  include_bias(error, *input.scene, surfaces, b, history.left());
+  include_bias(error, *input.scene, surfaces, b, bias_of_shot(*input.scene, *input.shot));
   return error;
 }
 
