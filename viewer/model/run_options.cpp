@@ -58,8 +58,11 @@ bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked) {
 
 RunOptions run_options_from_json(const json& value, const std::string& where) {
   RunOptions options;
+  // What a file does not say is as it was before there was an option for it.
+  options.solve.first_shot.reset();
   JsonObject object(value, where);
-  const std::set<std::string> given = read_options(object, value, options);
+  std::set<std::string> given = read_options(object, value, options);
+  given.insert("accuracy");
   if (const json* read = object.find("read")) {
     JsonObject input(*read, object.where("read"));
     read_options(input, *read, options);

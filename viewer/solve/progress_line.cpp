@@ -23,19 +23,26 @@ QString iterations_text(int count) {
 
 QString percent(double share) { return ProgressLine::tr("%1 %").arg(number_text(100 * share)); }
 
+// "error of floor": the worst surface where the goal is about surfaces.
+QString error_name(const AccuracyReport& report) {
+  return report.surface.empty() ? ProgressLine::tr("error")
+                                : ProgressLine::tr("error of the worst surface, %1,")
+                                      .arg(QString::fromStdString(report.surface));
+}
+
 // The text on a finished solve with a goal.
 QString accuracy_text(const AccuracyReport& report) {
-  const QString passes = count_text(report.passes_made);
+  const QString passes = count_text(report.passes_made), error = error_name(report);
   if (report.goal.accuracy == 0) {
-    return ProgressLine::tr("Time is up: error at most %1 after %2 passes")
-        .arg(percent(report.error), passes);
+    return ProgressLine::tr("Time is up: %1 at most %2 after %3 passes")
+        .arg(error, percent(report.error), passes);
   }
   if (!report.reached) {
-    return ProgressLine::tr("Not reached: error at most %1 (limit %2), %3 passes")
-        .arg(percent(report.error), percent(report.goal.accuracy), passes);
+    return ProgressLine::tr("Not reached: %1 at most %2 (limit %3), %4 passes")
+        .arg(error, percent(report.error), percent(report.goal.accuracy), passes);
   }
-  return ProgressLine::tr("Good enough: error at most %1 (limit %2), %3 passes")
-      .arg(percent(report.error), percent(report.goal.accuracy), passes);
+  return ProgressLine::tr("Good enough: %1 at most %2 (limit %3), %4 passes")
+      .arg(error, percent(report.error), percent(report.goal.accuracy), passes);
 }
 
 // The name of the scene; for a result file, the names of the file and of its scene.

@@ -124,8 +124,14 @@ void SettingsPanel::add_accuracy_row(QFormLayout& form) {
   accuracy_->setMinimumWidth(60);
   accuracy_->setToolTip(tip("accuracy"));
   accuracy_of_ = named("accuracy_of", new QComboBox);
-  // In the order of AccuracyOf.
-  accuracy_of_->addItems({tr("% RMS"), tr("% largest"), tr("% patch"), tr("% mean")});
+  for (const auto& [of, text] : {std::pair{AccuracyOf::surfaces, tr("% worst surface")},
+                                 {AccuracyOf::irradiance, tr("% irradiance")},
+                                 {AccuracyOf::rms, tr("% RMS")},
+                                 {AccuracyOf::max, tr("% largest")},
+                                 {AccuracyOf::patch, tr("% patch")},
+                                 {AccuracyOf::mean, tr("% mean")}}) {
+    accuracy_of_->addItem(text, static_cast<int>(of));
+  }
   accuracy_of_->setToolTip(tip("accuracy-of"));
   accuracy_of_->setMinimumWidth(60);
   auto* row = make_row({}, 6);
@@ -393,7 +399,7 @@ AccuracyGoal SettingsPanel::goal() const {
   if (accuracy_->text() != exact_text(100 * goal.accuracy)) {
     goal.accuracy = QLocale::c().toDouble(accuracy_->text()) / 100;
   }
-  goal.of = static_cast<AccuracyOf>(accuracy_of_->currentIndex());
+  goal.of = static_cast<AccuracyOf>(accuracy_of_->currentData().toInt());
   return goal;
 }
 
@@ -402,9 +408,6 @@ SolveOptions SettingsPanel::solve_options() const {
   options.goal = goal();
   options.basis = static_cast<Basis>(basis_->currentIndex());
   options.glossy = glossy_->isChecked();
-  if (options.basis == Basis::linear || options.glossy) {
-    options.first_shot.reset();  // is not available, and has no control here
-  }
   options.directions = directions_->value();
   bool number = false;
   if (const qulonglong seed = seed_->text().toULongLong(&number); number) {
@@ -425,8 +428,7 @@ SolveOptions SettingsPanel::solve_options() const {
   }
   options.sky = sky();
   RunOptions run{.solve = options};
-  set_dependent_defaults(
-      run, options.first_shot ? std::set<std::string>{"first-shot"} : std::set<std::string>());
+  set_dependent_defaults(run, {"accuracy"});
   return run.solve;
 }
 
@@ -439,9 +441,14 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   base_ = solve;
   directions_->setValue(solve.directions);
   accuracy_->setText(solve.goal.accuracy > 0 ? exact_text(100 * solve.goal.accuracy) : QString());
-  accuracy_of_->setItemText(static_cast<int>(AccuracyOf::patch),
-                            tr("% patch %1").arg(solve.goal.patch));
-  accuracy_of_->setCurrentIndex(static_cast<int>(solve.goal.of));
+  const auto item_of = [this](AccuracyOf of) {
+    return accuracy_of_->findData(static_cast<int>(of));
+  };
+  accuracy_of_->setItemText(item_of(AccuracyOf::patch), tr("% patch %1").arg(solve.goal.patch));
+  if (solve.goal.of == AccuracyOf::groups && item_of(AccuracyOf::groups) < 0) {
+    accuracy_of_->addItem(tr("% groups named"), static_cast<int>(AccuracyOf::groups));
+  }
+  accuracy_of_->setCurrentIndex(item_of(solve.goal.of));
   seed_->setText(QString::number(solve.seed));
   choose_engine(*engine_, solve.engine);
   resolution_->setValue(solve.engine_options.resolution);

@@ -2,6 +2,7 @@
 #include "solve/solve_summary.h"
 
 #include "support/number_text.h"
+#include "transillum/at.h"
 #include "transillum/glossy.h"
 #include "widgets/build.h"
 #include "widgets/value_grid.h"
@@ -118,8 +119,15 @@ void SolveSummary::show_error(const SolverSnapshot& snapshot) {
     error_->setText(tr("no replicas"));
     return;
   }
-  const QString limit = tr("%1 %, at most %2 %")
-                            .arg(number_text(100 * error.rms), number_text(100 * error.rms_limit));
+  const SurfaceErrors& surfaces = error.surfaces;
+  if (surfaces.worst < 0) {
+    error_->setText(tr("no light"));
+    return;
+  }
+  const SurfaceError& worst = at(surfaces.surfaces, surfaces.worst);
+  const QString limit = tr("%1: %2 %; no surface above %3 %")
+                            .arg(QString::fromStdString(worst.name), number_text(100 * worst.rms),
+                                 number_text(100 * surfaces.limit));
   const double met = snapshot.statistics.light_directions / error.replicas;
   const std::int64_t uncertain = snapshot.uncertain_patches;
   error_->setText(met > 0 && met < least_light_directions ? tr("%1;\ncannot be trusted").arg(limit)

@@ -53,6 +53,7 @@ void add(CLI::App& command, GivenOptions& options, const Option& option) {
   if (!option.common) {
     added->group(option.group);
   }
+  options.offered.insert(option.name);
 }
 
 /// Two options that set the same, of which only one may be given.
@@ -91,7 +92,11 @@ void add_groups(CLI::App& command, GivenOptions& options,
 }
 
 void complete(GivenOptions& options) {
-  set_dependent_defaults(options.run, options.given);
+  std::set<std::string> given = options.given;
+  if (options.offered.count("accuracy") == 0) {
+    given.insert("accuracy");
+  }
+  set_dependent_defaults(options.run, given);
   if (!options.run.refine.is_set()) {
     options.run.refine = {};
   }

@@ -16,7 +16,8 @@ namespace transillum::cli {
 /// The options of a run, and which of them a command line has.
 struct GivenOptions {
   RunOptions run;
-  std::set<std::string> given;  ///< names
+  std::set<std::string> given;    ///< names
+  std::set<std::string> offered;  ///< names of the options that it may have
 };
 
 /// Adds the options with these names. Their errors are InputError with the option's name.

@@ -193,6 +193,9 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
 void complete(SolveCall& call) {
   check_glossy(call);
   check_stored_factors(call);
+  if (!call.factors.empty() || call.share || !call.shards.empty()) {
+    call.scene.offered.erase("accuracy");
+  }
   complete(static_cast<GivenOptions&>(call.scene));
   check_color_outputs(*call.scene.command, call.colors, call.out, call.options());
 }

@@ -59,6 +59,7 @@ FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scen
                        const Cancellation& cancellation, ProgressDisplay& display) {
   const auto tree = build_tree(*scene, cancellation, display, call.passes().threads);
   SolveOptions options = call.passes();
+  options.first_shot.reset();
   options.iterations = 1;
   RadiositySolver solver(scene, options, {.tree = tree}, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {

@@ -183,6 +183,7 @@ BackShare print_rays(const Scene& scene, int threads, const Cancellation& cancel
 void print_directions(const std::shared_ptr<const Scene>& scene, const InfoCall& call,
                       const Cancellation& cancellation) {
   SolveOptions options;
+  options.first_shot.reset();
   options.directions = call.directions;
   options.iterations = 1;
   options.threads = call.scene.run.solve.threads;

@@ -124,7 +124,9 @@ std::string accuracy_text(const AccuracyReport& report) {
   const AccuracyGoal& goal = report.goal;
   const std::string asked = goal.accuracy > 0 ? fmt::format("{:.3g} % asked", 100 * goal.accuracy)
                                               : "within the time given";
-  const std::string reached = report.reached      ? "reached"
+  const std::string reached = report.reached ? "reached"
+                              : report.out_of_passes
+                                  ? fmt::format("not reached with at most {} passes", goal.passes)
                               : goal.accuracy > 0 ? "not reached"
                                                   : "time is up";
   if (report.passes_made == 0) {  // engine pairs

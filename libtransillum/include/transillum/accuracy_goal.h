@@ -36,7 +36,8 @@ struct AccuracyGoal {
   AccuracyOf of = AccuracyOf::surfaces;  ///< the error to limit
   PatchId patch = 0;                     ///< the patch, for AccuracyOf::patch
   std::vector<std::string> surfaces = {};  ///< names of the surfaces, for AccuracyOf::groups
-  double seconds = 0;  ///< wall time of the solve, without loading; 0 sets no limit
+  double seconds = 0;       ///< wall time of the solve, without loading; 0 sets no limit
+  std::int64_t passes = 0;  ///< most passes, in all stages; 0 sets no limit
 
   /// Whether there is a goal.
   bool is_set() const { return accuracy > 0 || seconds > 0; }
@@ -72,6 +73,8 @@ struct AccuracyReport {
   std::string surface;                ///< the worst surface, where the goal is about surfaces
   bool is_dark = false;               ///< SurfaceError::is_dark of that surface
   bool reached = false;               ///< error <= goal.accuracy, and `trusted`
+  /// Whether the solve ended because AccuracyGoal::passes allows no further stage.
+  bool out_of_passes = false;
   bool trusted = false;  ///< light sources were met by at least least_light_directions per replica
   std::int64_t passes_made = 0;  ///< in all stages
 };

@@ -11,6 +11,7 @@
 #include "transillum/directions.h"
 #include "transillum/engine.h"
 #include "transillum/export.h"
+#include "transillum/first_shot.h"
 #include "transillum/sky.h"
 
 namespace TRANSILLUM_API transillum {
@@ -75,9 +76,10 @@ struct SolveOptions {
   Normalization normalize = Normalization::none;  ///< normalization of the form factors
   Scheme scheme = Scheme::fixed;                  ///< scheme of the iteration
   Basis basis = Basis::constant;                  ///< basis of the radiosity on a patch
-  /// R²/A from which sources are small and, if bright, are shot before the first iteration, or
-  /// first_shot_where_it_pays (first_shot_sources()); nothing: no first shot.
-  std::optional<double> first_shot = {};
+  /// R²/A from which sources are small and, if bright, are shot before the first iteration;
+  /// first_shot_where_it_pays: those for which it saves time (first_shot_sources()), and none where
+  /// another option excludes a first shot; nothing: no first shot.
+  std::optional<double> first_shot = first_shot_where_it_pays;
   /// semi_iterative: iterations omitted from the mean; unset: until what is left of the start is
   /// below a quarter of the RMS change per iteration, or a tenth of the tolerance; at most half of
   /// `iterations`
@@ -102,6 +104,8 @@ struct SolveOptions {
   /// first shot, no goal. A RadiositySolver ignores lobes.
   bool glossy = false;
 
+  /// `first_shot`; nothing where it is first_shot_where_it_pays and another option excludes it.
+  std::optional<double> used_first_shot() const;
   /// `sampling`, or default_sampling(two_way).
   Sampling used_sampling() const { return sampling.value_or(default_sampling(two_way)); }
   /// @throws InputError naming the option and its range.

@@ -15,9 +15,13 @@ void bind_scene(pybind11::module_& module);
 void bind_solve(pybind11::module_& module);
 void bind_visibility(pybind11::module_& module);
 
+/// What options without directions and an accuracy mean.
+enum class Goal { none, by_default };
+
 /// Options of a solve from keywords: the names in the table of options, with underscores.
 /// @throws InputError for a name or value that does not exist, or that would have no effect
-SolveOptions options_from(const pybind11::dict& keywords);
+/// @param goal whether there is a default accuracy
+SolveOptions options_from(const pybind11::dict& keywords, Goal goal = Goal::by_default);
 
 /// @throws InputError where a keyword is one of `names`, or, unless `listed`, where it is none
 void refuse(const pybind11::dict& keywords, const std::vector<std::string>& names, bool listed,

@@ -67,7 +67,7 @@ void set(RunOptions& options, const Option& option, const std::string& keyword,
 
 }  // namespace
 
-SolveOptions options_from(const py::dict& keywords) {
+SolveOptions options_from(const py::dict& keywords, Goal goal) {
   RunOptions options;
   std::set<std::string> given;
   for (const auto& [key, value] : keywords) {
@@ -91,7 +91,11 @@ SolveOptions options_from(const py::dict& keywords) {
     set(options, *found, keyword, value);
     given.insert(name);
   }
-  set_dependent_defaults(options, given);
+  std::set<std::string> decided = given;
+  if (goal == Goal::none) {
+    decided.insert("accuracy");
+  }
+  set_dependent_defaults(options, decided);
   options.validate();
   for (const std::string& name : given) {
     if (const std::string why = why_unused(name, {options}); !why.empty()) {

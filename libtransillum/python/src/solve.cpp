@@ -119,7 +119,8 @@ py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
          {"accuracy", "accuracy_of", "seconds", "iterations", "tolerance", "scheme", "burn_in",
           "first_shot", "basis", "glossy", "sky", "sky_model", "up"},
          true, "form_factors()");
-  SolveOptions options = options_from(keywords);
+  SolveOptions options = options_from(keywords, Goal::none);
+  options.first_shot.reset();
   ProgressRelay relay(progress);
   const FormFactors result = run_cancelably(
       [&](const Cancellation& cancellation) -> FormFactors {

@@ -16,7 +16,7 @@ using ScenePtr = std::shared_ptr<Scene>;
 
 py::dict transfers(const ScenePtr& scene, const py::handle& direction, const py::dict& keywords) {
   refuse(keywords, {"engine", "resolution", "order", "seed"}, false, "transfers()");
-  const SolveOptions options = options_from(keywords);
+  const SolveOptions options = options_from(keywords, Goal::none);
   const Vec3 omega = to_direction(direction, "direction");
   const Transfers found = run_cancelably([&](const Cancellation& cancellation) {
     const auto tree = std::make_shared<const BspTree>(*scene, cancellation);

@@ -3,6 +3,9 @@
 // Which options exclude each other, and the range of each.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "options/option_table.h"
 #include "transillum/errors.h"
 
@@ -21,7 +24,8 @@ bool is_not_fixed(const RunOptions& r) { return r.solve.scheme != Scheme::fixed;
 bool chooses_directions(const RunOptions& r) { return is_not_fixed(r) && !is_conjugate(r); }
 bool has_goal(const RunOptions& r) { return r.solve.goal.is_set(); }
 bool has_iterations(const RunOptions& r) { return r.solve.iterations > 0; }
-bool has_shot(const RunOptions& r) { return r.solve.first_shot.has_value(); }
+/// A first shot where it pays excludes nothing: where it cannot be, there is none.
+bool has_shot(const RunOptions& r) { return r.solve.first_shot.value_or(-1) >= 0; }
 bool has_replicas(const RunOptions& r) { return r.solve.replicas > 1; }
 bool has_rounds(const RunOptions& r) { return r.refine.is_set(); }
 bool has_no_limit_of_patches(const RunOptions& r) { return r.refine.patches == 0; }
@@ -137,6 +141,25 @@ void SolveOptions::validate() const {
   check_conflicts({.solve = *this});
   sky.validate();
   goal.validate();
+}
+
+std::optional<double> SolveOptions::used_first_shot() const {
+  if (!first_shot || *first_shot >= 0) {
+    return first_shot;
+  }
+  RunOptions run{.solve = *this};
+  run.solve.first_shot = 0;
+  const bool excluded =
+      !takes_directions(engine) ||
+      std::any_of(std::begin(conflicts), std::end(conflicts), [&](const auto& c) {
+        return (c.one == has_shot || c.other == has_shot) && c.one(run) && c.other(run);
+      });
+  return excluded ? std::nullopt : first_shot;
+}
+
+bool combine(const RunOptions& options) {
+  return std::none_of(std::begin(conflicts), std::end(conflicts),
+                      [&](const Conflict& c) { return c.one(options) && c.other(options); });
 }
 
 void RunOptions::validate() const {

@@ -268,8 +268,7 @@ void add_equations(Table& t) {
       t.add("first-shot", "RATIO", "none, auto or a number",
             "treat small bright sources separately before the iteration: those with R2/A of at "
             "least this ratio, R the scene's diagonal and A the source's area; auto: those for "
-            "which it takes less time than the passes it saves; with an accuracy, auto is the "
-            "default");
+            "which it takes less time than the passes it saves");
   shot.json = Option::Json::number;
   shot.choices = {"none", "auto"};
   shot.unset = "none";
@@ -309,7 +308,7 @@ void add_accuracy(Table& t) {
   const auto goal = [](auto m) { return solve(&SolveOptions::goal, m); };
   percentage(t.common("accuracy", "P%|X", "a percentage or a number, or none",
                       "choose M and the replicas so that the error of B is at most this, with 95 % "
-                      "confidence"),
+                      "confidence; 1 % where no directions are given"),
              goal(&AccuracyGoal::accuracy));
   Option& of =
       t.add("accuracy-of", "NAME", "a name",
@@ -338,6 +337,14 @@ void add_accuracy(Table& t) {
   real(t.add("seconds", "S", "a number, or none",
              "time limit in s, loading excluded: the most accurate result that it allows"),
        goal(&AccuracyGoal::seconds), is_positive, "greater than 0", "none");
+  whole(t.add("most-passes", "N", "a number, or none",
+              "an accuracy ends after this many passes in all; 16384 for the default accuracy"),
+        goal(&AccuracyGoal::passes), 1, std::int64_t{1} << 40, "none");
+  Option& paper = t.add("paper", "", "yes or no",
+                        "what is not given is as in the paper: 1024 one-way Hammersley directions, "
+                        "constant functions, no first shot, no accuracy");
+  flag(paper, member(&RunOptions::paper), true);
+  paper.in_files = false;
   Option& replicas = t.add("replicas", "R", "a number",
                            "split M into this many rotated sets; their spread gives error bars");
   whole(replicas, solve(&SolveOptions::replicas), 1, 64);
@@ -569,11 +576,43 @@ std::string Option::help_text() const {
   return tells ? fmt::format("{} (default {})", text, value) : text;
 }
 
+/// The choices of the paper.
+constexpr std::pair<const char*, const char*> paper_choices[] = {
+    {"directions", "1024"}, {"sampling", "hammersley"}, {"one-way", "yes"},
+    {"basis", "constant"},  {"first-shot", "none"},     {"accuracy", "none"}};
+
+/// The accuracy where nothing else is given, and the most passes that it takes.
+constexpr double default_accuracy = 0.01;
+constexpr std::int64_t default_most_passes = 16384;
+
+void set_default_accuracy(RunOptions& options, const std::set<std::string>& given) {
+  for (const char* excluding : {"accuracy", "seconds", "directions", "replicas", "iterations"}) {
+    if (given.count(excluding) > 0) {
+      return;
+    }
+  }
+  RunOptions accurate = options;
+  accurate.solve.goal.accuracy = default_accuracy;
+  if (given.count("most-passes") == 0) {
+    accurate.solve.goal.passes = default_most_passes;
+  }
+  if (takes_directions(options.solve.engine) && combine(accurate)) {
+    options = accurate;
+  }
+}
+
 void set_dependent_defaults(RunOptions& options, const std::set<std::string>& given) {
   SolveOptions& solve = options.solve;
-  if (solve.goal.is_set() && given.count("first-shot") == 0 && takes_directions(solve.engine) &&
-      solve.basis == Basis::constant && !solve.glossy) {
-    solve.first_shot = first_shot_where_it_pays;
+  if (options.paper) {
+    for (const auto& [name, value] : paper_choices) {
+      const bool is_other = given.count(name) > 0 ||
+                            (given.count("accuracy") > 0 && name == std::string("directions"));
+      if (!is_other) {
+        option(name).parse(options, value);
+      }
+    }
+  } else {
+    set_default_accuracy(options, given);
   }
   // Its error decreases as 1 / sqrt(iterations): the default tolerance would take days.
   const bool stops = solve.iterations > 0 || solve.tolerance != SolveOptions{}.tolerance;
@@ -593,7 +632,17 @@ std::vector<std::pair<std::string, std::string>> differences_from_default(const 
     options.refine = {};
   }
   std::vector<std::pair<std::string, std::string>> differences;
-  RunOptions made;
+  const auto make = [&] {
+    RunOptions made;
+    std::set<std::string> given;
+    for (const auto& [name, text] : differences) {
+      option(name).parse(made, text);
+      given.insert(name);
+    }
+    set_dependent_defaults(made, given);
+    return made;
+  };
+  RunOptions made = make();
   std::set<std::string> given;
   // An option that is given may change the default of another.
   for (bool added = true; added;) {
@@ -607,11 +656,20 @@ std::vector<std::pair<std::string, std::string>> differences_from_default(const 
         added = true;
       }
     }
-    made = {};
-    for (const auto& [name, text] : differences) {
-      option(name).parse(made, text);
+    made = make();
+  }
+  // What others imply is not needed.
+  const auto is_asked = [&] {
+    const RunOptions again = make();
+    return std::all_of(transillum::options().begin(), transillum::options().end(),
+                       [&](const Option& o) { return o.print(again) == o.print(made); });
+  };
+  for (std::size_t k = differences.size(); k-- > 0;) {
+    const auto difference = differences[k];
+    differences.erase(differences.begin() + static_cast<std::ptrdiff_t>(k));
+    if (!is_asked()) {
+      differences.insert(differences.begin() + static_cast<std::ptrdiff_t>(k), difference);
     }
-    set_dependent_defaults(made, given);
   }
   return differences;
 }

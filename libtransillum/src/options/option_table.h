@@ -76,8 +76,12 @@ std::string why_unused(const std::string& name, const std::vector<RunOptions>& r
 /// The reason why an option cannot be combined with another one in `options`, such as "lobes are
 /// not available with a linear basis"; empty if all can be combined with it.
 std::string conflict_of(const std::string& name, const RunOptions& options);
-/// The defaults that depend on other options: of the first shot and the iterations in the mean.
-/// @param given names of the options that were given
+/// Whether no two of them exclude each other.
+bool combine(const RunOptions& options);
+/// The defaults that depend on other options: the choices of the paper; an accuracy of 1 % where
+/// neither directions nor an accuracy are given, and nothing excludes it; the iterations in the
+/// mean.
+/// @param given names of the options that were given. With "accuracy" there is no default accuracy.
 void set_dependent_defaults(RunOptions& options, const std::set<std::string>& given);
 /// The name and the value, as text, of each option that must be given to get `options` from the
 /// defaults, by parse() and then set_dependent_defaults(). Options without effect are omitted.

@@ -54,6 +54,7 @@ constexpr Use uses[] = {
     {"directions", has_no_goal, chosen_by_goal},
     {"replicas", has_no_goal, chosen_by_goal},
     {"accuracy-of", has_goal, "used only with an accuracy or a time limit"},
+    {"most-passes", has_goal, "used only with an accuracy or a time limit"},
     {"sampling", has_directions, without_directions},
     {"rotate", has_directions, without_directions},
     {"one-way", has_directions, without_directions},

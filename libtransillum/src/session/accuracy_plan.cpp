@@ -220,7 +220,7 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   const double more = std::ceil(replicas * (missing * missing - 1));
   const bool replica_suffices = report_.trusted && goal.accuracy > 0 && missing <= most_missing &&
                                 replicas + more <= most_replicas;
-  if (replica_suffices && per_replica * per_pass <= left) {
+  if (replica_suffices && per_replica * per_pass <= left && per_replica <= passes_left()) {
     return Next::replica;
   }
   return grow(growth(), per_pass, left);
@@ -263,14 +263,24 @@ double AccuracyPlan::growth() const {
 AccuracyPlan::Next AccuracyPlan::grow(double factor, double seconds_per_pass, double seconds_left) {
   const double before = stage_.directions, per_replica = before / stage_.replicas;
   const double fits = time_share * seconds_left / seconds_per_pass;
-  const double wanted = std::min({factor * before, fits, double(max_directions)});
+  const double allowed = passes_left();
+  const double wanted = std::min({factor * before, fits, double(max_directions), allowed});
   if (wanted < 1.1 * before) {
+    report_.out_of_passes = allowed < 1.1 * before;
     return Next::done;
   }
-  const double count = std::ceil(per_replica * wanted / before);
+  // A stage has at most as many passes as are left.
+  const double count =
+      std::max(per_replica, std::ceil(per_replica * wanted / before) - (wanted == allowed ? 1 : 0));
   stage_.directions = stage_.replicas * static_cast<int>(count);
   passes_before_ = 0;
   return Next::stage;
+}
+
+double AccuracyPlan::passes_left() const {
+  const std::int64_t most = report_.goal.passes;
+  return most > 0 ? static_cast<double>(std::max<std::int64_t>(0, most - report_.passes_made))
+                  : std::numeric_limits<double>::infinity();
 }
 
 /// Whether something else than the number of directions bounds the error, as that of the first
@@ -308,7 +318,7 @@ void AccuracyPlan::visit_state(Archive& archive, Self& self) {
     archive(stage.directions, stage.replicas, stage.error);
   }
   std::vector<char> surface(report.surface.begin(), report.surface.end());
-  archive(surface, report.is_dark);
+  archive(surface, report.is_dark, report.out_of_passes);
   if constexpr (Archive::reading) {
     report.surface.assign(surface.begin(), surface.end());
   }

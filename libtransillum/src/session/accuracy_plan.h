@@ -79,6 +79,8 @@ class AccuracyPlan {
   Next grow(double factor, double seconds_per_pass, double seconds_left);
   double growth() const;
   bool is_stalled() const;
+  /// Passes that the goal still allows.
+  double passes_left() const;
 
   ErrorSurfaces surfaces_;
   AccuracyReport report_;

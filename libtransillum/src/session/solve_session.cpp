@@ -78,7 +78,8 @@ void SolveSession::Impl::build_tree() {
 
 void SolveSession::Impl::shoot_first() {
   const SolveOptions& options = request.options;
-  if (shot || !options.first_shot) {
+  const std::optional<double> threshold = options.used_first_shot();
+  if (shot || !threshold) {
     return;
   }
   const auto start = Clock::now();
@@ -88,8 +89,7 @@ void SolveSession::Impl::shoot_first() {
     report(0);
   }
   shot = std::make_shared<const DirectLight>(shoot(
-      *scene,
-      first_shot_sources(*scene, *options.first_shot, expected_directions(options), cancellation),
+      *scene, first_shot_sources(*scene, *threshold, expected_directions(options), cancellation),
       options.threads, cancellation, report));
   seconds_first_shot = seconds_since(start);
 }

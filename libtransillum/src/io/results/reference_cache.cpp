@@ -45,7 +45,7 @@ void add_options(ContentHash& hash, const SolveOptions& options) {
   hash.add(options.replicas);
   hash.add(options.iterations);
   constexpr double no_shot = -2;  // no value that the option can have
-  hash.add(options.first_shot.value_or(no_shot));
+  hash.add(options.used_first_shot().value_or(no_shot));
   hash.add(options.tolerance);
   if (options.basis != Basis::constant) {
     hash.add(name_of(options.basis));

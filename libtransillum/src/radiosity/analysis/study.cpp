@@ -394,6 +394,7 @@ SolveOptions StudyOptions::reference(int passes) const {
     passes = most > max_directions / 4 ? max_directions : 4 * most;
   }
   SolveOptions options = reference_options(passes);
+  options.first_shot.reset();
   options.memory = solve.memory;
   options.threads = solve.threads;
   if (of_functions()) {

@@ -49,6 +49,9 @@ void AccuracyGoal::validate() const {
   if (!(seconds >= 0 && std::isfinite(seconds))) {
     throw InputError(fmt::format("seconds: {} is not a finite number of at least 0", seconds));
   }
+  if (passes < 0) {
+    throw InputError(fmt::format("accuracy: {} passes are less than 0", passes));
+  }
   if (of == AccuracyOf::groups && surfaces.empty()) {
     throw InputError("accuracy: no group is named");
   }

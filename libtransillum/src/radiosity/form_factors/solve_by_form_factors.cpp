@@ -180,7 +180,7 @@ Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
 /// @throws InputError where an option needs the directions of passes; `who` has none.
 void refuse_directions(const SolveOptions& options, const std::string& who) {
   if (options.scheme != Scheme::fixed || options.normalize != Normalization::none ||
-      options.replicas > 1 || options.first_shot) {
+      options.replicas > 1 || options.first_shot.value_or(-1) >= 0) {
     throw InputError(who +
                      " no directions, and therefore no schemes, normalizations, replicas or "
                      "first shot");

@@ -56,9 +56,9 @@ void SolverInput::prepare() {
   if (!shot) {
     const auto start = Clock::now();
     std::vector<PatchId> sources;
-    if (options.first_shot) {
+    if (const auto threshold = options.used_first_shot()) {
       sources =
-          first_shot_sources(*scene, *options.first_shot, expected_directions(options), requested);
+          first_shot_sources(*scene, *threshold, expected_directions(options), requested);
     }
     shot = std::make_shared<const DirectLight>(shoot(*scene, sources, options.threads, requested));
     seconds_first_shot = seconds_since(start);
