@@ -42,7 +42,7 @@ constexpr double pi = std::numbers::pi;
 
 TEST(GlossyDiffuseLimit, ScenesWithoutLobesHaveTheSameBits) {
   const auto scene = box_in_cube(3, 2).scene();
-  SolveOptions options{.directions = 64};
+  SolveOptions options{.directions = 64, .first_shot = {}};
   const Solution without = solve(scene, options);
   options.glossy = true;
   const Solution with = solve(scene, options);

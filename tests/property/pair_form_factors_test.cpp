@@ -233,7 +233,8 @@ TEST(PairSolve, AgreesWithPassesWithinTheirError) {
     const RadiosityError error = radiosity_error(*scene, pairs.radiosity, passes.radiosity);
     EXPECT_LT(error.rms, passes.error.quantile * passes.error.rms);
     // A single set is more evenly spread than replicas.
-    const Solution one_set = solve(scene, {.directions = 12288, .tolerance = 1e-8});
+    const Solution one_set =
+        solve(scene, {.directions = 12288, .first_shot = {}, .tolerance = 1e-8});
     EXPECT_LT(radiosity_error(*scene, pairs.radiosity, one_set.radiosity).rms, 1e-4);
   }
 }

@@ -33,8 +33,8 @@ double error_of(const Solution& solution, const Solution& reference) {
 
 TEST(FirstShot, RemovesTheErrorOfStars) {
   const auto scene = load_scene("stars");
-  const Solution reference = solve(scene, {.directions = 8192});
-  const Solution plain = solve(scene, {.directions = 512});
+  const Solution reference = solve(scene, {.directions = 8192, .first_shot = {}});
+  const Solution plain = solve(scene, {.directions = 512, .first_shot = {}});
   const Solution shot = solve(scene, {.directions = 256, .first_shot = small_source_ratio});
   EXPECT_EQ(shot.statistics.shot_sources, 96);
   EXPECT_DOUBLE_EQ(shot.statistics.shot_power_share, 1);

@@ -23,7 +23,8 @@ struct Solved {
 };
 
 Solved solved(const std::shared_ptr<const Scene>& scene, Normalization normalize) {
-  RadiositySolver solver(scene, {.directions = 64, .normalize = normalize, .tolerance = 1e-13});
+  RadiositySolver solver(
+      scene, {.directions = 64, .normalize = normalize, .first_shot = {}, .tolerance = 1e-13});
   solver.advance(RadiositySolver::Until::finished);
   return {solver.solution(), solver.form_factors()};
 }

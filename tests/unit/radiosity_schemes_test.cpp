@@ -226,8 +226,10 @@ TEST(Schemes, ReportTheDirectionOfAnyPass) {
 }
 
 TEST(Normalize, SymmetricKeepsReciprocityAndClosesRows) {
-  RadiositySolver solver(
-      box(), {.directions = 24, .normalize = Normalization::symmetric, .tolerance = 1e-13});
+  RadiositySolver solver(box(), {.directions = 24,
+                                 .normalize = Normalization::symmetric,
+                                 .first_shot = {},
+                                 .tolerance = 1e-13});
   solver.advance(Until::finished);
   const FormFactors f = solver.form_factors();
   const Scene& scene = solver.scene();
@@ -306,6 +308,7 @@ Coverage coverage_of(int runs, int directions_a_replica, double tolerance = 1e-6
                            {.directions = 8 * directions_a_replica,
                             .seed = static_cast<std::uint64_t>(1000 * run),
                             .scheme = scheme,
+                            .first_shot = {},
                             .replicas = 8,
                             .tolerance = tolerance},
                            {.tree = tree});

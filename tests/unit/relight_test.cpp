@@ -74,6 +74,7 @@ TEST(Relight, KeepsTheLightOfASky) {
   changed.materials = other(description.materials);
   const SolveOptions options{
       .directions = 100,
+      .first_shot = {},
       .tolerance = tight,
       .sky = {.exitance = {1, 2, 3}, .model = SkyModel::cie_overcast, .up = {0, 0, -1}}};
   const auto solution_of = [&](const SceneDescription& of) {
@@ -132,7 +133,8 @@ TEST(Relight, EqualsASolveWithTheOtherMaterials) {
   changed.materials = other(description.materials);
   for (const Normalization normalize :
        {Normalization::none, Normalization::rows, Normalization::symmetric}) {
-    const SolveOptions options{.directions = 200, .normalize = normalize, .tolerance = tight};
+    const SolveOptions options{
+        .directions = 200, .normalize = normalize, .first_shot = {}, .tolerance = tight};
     const Solved before = solved(description, options), after = solved(changed, options);
     const RelightResult relit =
         relight(*before.scene, before.form_factors, changed.materials, {.tolerance = tight});
@@ -155,7 +157,8 @@ TEST(Relight, EqualsASolveWithTheOtherMaterialsAfterAFirstShot) {
     SceneDescription changed = description;
     changed.materials = other(description.materials);
     for (const Normalization normalize : {Normalization::none, Normalization::rows}) {
-      SolveOptions options{.directions = 100, .normalize = normalize, .tolerance = tight};
+      SolveOptions options{
+          .directions = 100, .normalize = normalize, .first_shot = {}, .tolerance = tight};
       options.first_shot = ratio;
       const Solved before = solved(description, options), after = solved(changed, options);
       ASSERT_FALSE(before.shot->sources.empty());
@@ -185,7 +188,7 @@ TEST(Relight, EqualsASolveWithOtherMaterialsOfSomeFaces) {
   change_materials(changed, std::vector<MaterialChange>{{"face:3", {}, Rgb{4, 5, 6}},
                                                         {"face:7", Rgb{0.1, 0.8, 0.3}}});
   ASSERT_GT(changed.materials.size(), description.materials.size());
-  const SolveOptions options{.directions = 200, .tolerance = tight};
+  const SolveOptions options{.directions = 200, .first_shot = {}, .tolerance = tight};
   const Solved before = solved(description, options), after = solved(changed, options);
   const auto of_patch = patch_materials(*before.scene, changed);
   const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials,

@@ -120,6 +120,7 @@ TEST(Study, PointsEqualPlainSolves) {
                                      .sampling = Sampling::hammersley,
                                      .two_way = false,
                                      .normalize = Normalization::rows,
+                                     .first_shot = {},
                                      .tolerance = 1e-8});
   EXPECT_EQ(study.points[0].rms_error, rows.rms);
   EXPECT_EQ(study.points[0].max_error, rows.max);
@@ -127,6 +128,7 @@ TEST(Study, PointsEqualPlainSolves) {
   const RadiosityError mean = error({.directions = 24,
                                      .sampling = Sampling::random,
                                      .scheme = Scheme::semi_iterative,
+                                     .first_shot = {},
                                      .burn_in = 2,
                                      .iterations = 18});
   EXPECT_EQ(study.points[1].rms_error, mean.rms);

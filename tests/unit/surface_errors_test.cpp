@@ -71,7 +71,7 @@ TEST(Surfaces, AreGroupsAndSmallOnesCountTogether) {
             (std::vector<std::int32_t>{0, Surfaces::none, 1, 3, 2, Surfaces::none}));
   EXPECT_EQ(surfaces.surfaces[1].patches, 1);
   EXPECT_DOUBLE_EQ(surfaces.surfaces[1].area, 4);
-  // What reflects nothing receives; a surface that is asked for counts alone.
+  // Black patches receive; a surface that is asked for counts alone.
   const Surfaces receiving = find_surfaces(scene, Measured::receiving, {"chip"});
   EXPECT_EQ(names_of(receiving), (Names{"floor", "wall", "chip", "no group"}));
   EXPECT_EQ(receiving.surfaces[1].patches, 2);

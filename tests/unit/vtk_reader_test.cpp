@@ -152,7 +152,7 @@ TEST_F(VtkReader, ResultsAreScenes) {
   description.face_group.assign(description.face_count(), 0);
   description.face_group.back() = 1;
   for (const bool two_sided : {false, true}) {
-    const SolveOptions options{.directions = 32};
+    const SolveOptions options{.directions = 32, .first_shot = {}};
     const Solution solution = solve(
         std::make_shared<const Scene>(description, SceneOptions{.two_sided = two_sided}), options);
     write_result(path("r.vtp"), solution);

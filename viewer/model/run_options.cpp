@@ -58,7 +58,7 @@ bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked) {
 
 RunOptions run_options_from_json(const json& value, const std::string& where) {
   RunOptions options;
-  // What a file does not say is as it was before there was an option for it.
+  // An option that a file lacks is as it was before there was one.
   options.solve.first_shot.reset();
   JsonObject object(value, where);
   std::set<std::string> given = read_options(object, value, options);

@@ -53,7 +53,7 @@ struct RunOptions {
   SceneOptions scene = {};   ///< how faces become patches
   SceneInput input = {};     ///< how the scene is read and changed
   RefineChoice refine = {};  ///< rounds of refinement
-  bool paper = false;        ///< options that are not given are those of the paper
+  bool paper = false;        ///< options that are not given are as in the paper
 
   /// @throws InputError naming the option and its range, or two options that exclude each other
   void validate() const;

@@ -69,7 +69,7 @@ struct SurfaceError {
   double bias = 0;       ///< RMS of what iterations and the first shot may leave, relative
   double rms = 0;        ///< root of the sum of the squares of both
   double limit = 0;  ///< relative RMS error that this surface does not exceed in 95 % of all runs
-  double independent_errors = 1;  ///< as ErrorEstimate::independent_errors
+  double independent_errors = 1;  ///< see ErrorEstimate::independent_errors
 };
 
 /// The errors of the surfaces of a scene. Patches that emit are omitted, unless all do.

@@ -157,11 +157,6 @@ std::optional<double> SolveOptions::used_first_shot() const {
   return excluded ? std::nullopt : first_shot;
 }
 
-bool combine(const RunOptions& options) {
-  return std::none_of(std::begin(conflicts), std::end(conflicts),
-                      [&](const Conflict& c) { return c.one(options) && c.other(options); });
-}
-
 void RunOptions::validate() const {
   solve.validate();
   check_ranges(*this);
@@ -170,6 +165,15 @@ void RunOptions::validate() const {
   if (refine.is_set()) {
     refine.options().validate();
   }
+}
+
+std::string first_conflict(const RunOptions& options) {
+  for (const Conflict& conflict : conflicts) {
+    if (conflict.one(options) && conflict.other(options)) {
+      return text_of(conflict, options.solve);
+    }
+  }
+  return {};
 }
 
 std::string conflict_of(const std::string& name, const RunOptions& options) {

@@ -340,9 +340,10 @@ void add_accuracy(Table& t) {
   whole(t.add("most-passes", "N", "a number, or none",
               "an accuracy ends after this many passes in all; 16384 for the default accuracy"),
         goal(&AccuracyGoal::passes), 1, std::int64_t{1} << 40, "none");
-  Option& paper = t.add("paper", "", "yes or no",
-                        "what is not given is as in the paper: 1024 one-way Hammersley directions, "
-                        "constant functions, no first shot, no accuracy");
+  Option& paper =
+      t.add("paper", "", "yes or no",
+            "the paper's choices for all that is not given: 1024 one-way Hammersley directions, "
+            "constant functions, no first shot, no accuracy");
   flag(paper, member(&RunOptions::paper), true);
   paper.in_files = false;
   Option& replicas = t.add("replicas", "R", "a number",
@@ -596,7 +597,7 @@ void set_default_accuracy(RunOptions& options, const std::set<std::string>& give
   if (given.count("most-passes") == 0) {
     accurate.solve.goal.passes = default_most_passes;
   }
-  if (takes_directions(options.solve.engine) && combine(accurate)) {
+  if (takes_directions(options.solve.engine) && first_conflict(accurate).empty()) {
     options = accurate;
   }
 }
@@ -658,7 +659,7 @@ std::vector<std::pair<std::string, std::string>> differences_from_default(const 
     }
     made = make();
   }
-  // What others imply is not needed.
+  // Options that others imply are not needed.
   const auto is_asked = [&] {
     const RunOptions again = make();
     return std::all_of(transillum::options().begin(), transillum::options().end(),

@@ -76,8 +76,8 @@ std::string why_unused(const std::string& name, const std::vector<RunOptions>& r
 /// The reason why an option cannot be combined with another one in `options`, such as "lobes are
 /// not available with a linear basis"; empty if all can be combined with it.
 std::string conflict_of(const std::string& name, const RunOptions& options);
-/// Whether no two of them exclude each other.
-bool combine(const RunOptions& options);
+/// The reason why two of them exclude each other; empty if all can be combined.
+std::string first_conflict(const RunOptions& options);
 /// The defaults that depend on other options: the choices of the paper; an accuracy of 1 % where
 /// neither directions nor an accuracy are given, and nothing excludes it; the iterations in the
 /// mean.

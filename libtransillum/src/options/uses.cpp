@@ -70,9 +70,25 @@ constexpr Use uses[] = {
     {"refine-until", has_rounds, "used only with --refine-by"},
 };
 
+/// Why a first shot where it pays is not taken in any of these runs.
+std::string why_no_first_shot(const std::vector<RunOptions>& runs) {
+  std::string why;
+  for (RunOptions run : runs) {
+    if (!run.solve.first_shot || run.solve.used_first_shot()) {
+      return {};
+    }
+    run.solve.first_shot = 0;
+    why = takes_directions(run.solve.engine) ? first_conflict(run) : without_directions;
+  }
+  return why;
+}
+
 }  // namespace
 
 std::string why_unused(const std::string& name, const std::vector<RunOptions>& runs) {
+  if (name == "first-shot") {
+    return why_no_first_shot(runs);
+  }
   for (const Use& use : uses) {
     if (use.option == name && std::none_of(runs.begin(), runs.end(), use.used)) {
       return use.why_not;
