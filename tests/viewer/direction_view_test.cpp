@@ -56,7 +56,8 @@ class DirectionViewTest : public QObject {
   /// Eq. 11: what a patch receives is the sum over directions.
   void contributions_sum_to_the_irradiance() {
     Shown shown("cornell-box");
-    const Solution solution = solve(load_scene("cornell-box"), {.directions = 32});
+    const Solution solution =
+        solve(load_scene("cornell-box"), {.directions = 32, .first_shot = {}});
     for (const PatchId patch : {0, 3, 7}) {
       shown.select(patch);
       const auto received = shown.view->received();
@@ -142,6 +143,7 @@ class DirectionViewTest : public QObject {
     SolveOptions options;
     options.directions = 64;
     options.scheme = Scheme::growing;
+    options.first_shot.reset();
     window.set_options(options, {});
     window.show();
     window.open("cornell-box");

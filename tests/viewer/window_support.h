@@ -190,7 +190,7 @@ inline std::unique_ptr<TestWindow> make_window(const SolveOptions& options) {
 }
 /// A window with small settings, so that a test takes little time.
 inline std::unique_ptr<TestWindow> make_window(int directions = 32) {
-  return make_window(SolveOptions{.directions = directions});
+  return make_window(SolveOptions{.directions = directions, .first_shot = {}});
 }
 
 /// Saves a picture for inspection, in the folder named by TRANSILLUM_PICTURES, if it is set.

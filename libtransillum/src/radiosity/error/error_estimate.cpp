@@ -74,8 +74,8 @@ DeviationProducts scalar_products(const std::vector<Rgb>& b, const std::vector<c
   return products;
 }
 
-/// What H is off by where B is off by `bias`, W/m²; where nothing is reflected, as much as
-/// elsewhere on average.
+/// The bias of H where the bias of B is `bias`, W/m²; where nothing is reflected, the mean over the
+/// other patches.
 std::vector<Rgb> bias_of_irradiance(const Scene& scene, const std::vector<Rgb>& bias) {
   const std::size_t per_patch = unknowns_per_patch(scene, bias);
   std::vector<Rgb> result(bias.size());
