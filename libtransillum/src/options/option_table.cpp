@@ -192,6 +192,12 @@ class Table {
     o.common = true;
     return o;
   }
+  /// Gives all options from number `first` on this property.
+  void mark(std::size_t first, bool Option::*property) {
+    for (std::size_t k = first; k < list.size(); ++k) {
+      list[k].*property = true;
+    }
+  }
 };
 
 void add_directions(Table& t) {
@@ -292,15 +298,19 @@ void add_equations(Table& t) {
         return static_cast<int>(whole_number_from_text(text, 0, largest_count));
       },
       [](int value) { return fmt::to_string(value); });
-  whole(t.add("iterations", "K", "a number, or none", "stop after this many iterations"),
-        solve(&SolveOptions::iterations), 1, largest_count, "none");
-  real(
+  Option& iterations =
+      t.add("iterations", "K", "a number, or none", "stop after this many iterations");
+  whole(iterations, solve(&SolveOptions::iterations), 1, largest_count, "none");
+  iterations.reads_factors = true;
+  Option& tolerance =
       t.common("tolerance", "T", "a number",
                "stop when the light not yet propagated is at most this fraction of the reflected "
                "light, of all patches and of the dimmest tenth of their area; semi-iterative: "
-               "when the estimated error of the mean, 95 % confidence, is at most that"),
-      solve(&SolveOptions::tolerance), [](double x) { return x > 0 && x < 1; },
+               "when the estimated error of the mean, 95 % confidence, is at most that");
+  real(
+      tolerance, solve(&SolveOptions::tolerance), [](double x) { return x > 0 && x < 1; },
       "greater than 0 and less than 1");
+  tolerance.reads_factors = true;
 }
 
 void add_accuracy(Table& t) {
@@ -376,6 +386,7 @@ void add_sky(Table& t) {
   model.lists_choices = true;
   Option& up = t.add("up", "X,Y,Z", "a direction x,y,z", "the zenith of the sky cie-overcast");
   up.json = Option::Json::numbers;
+  up.reads_factors = true;  // it also says what is up in result files
   up.parse = [](RunOptions& o, const std::string& text) {
     const Vec3 direction = direction_from_text(text), given = point_from_text(text);
     // A unit vector keeps its bits.
@@ -389,6 +400,7 @@ void add_sky(Table& t) {
 
 void add_patches(Table& t) {
   t.group = "Patches";
+  const std::size_t first = t.list.size();
   flag(t.common("two-sided", "", "yes or no",
                 "every face emits and receives on both sides: two opposite patches per face"),
        member(&RunOptions::scene, &SceneOptions::two_sided));
@@ -414,6 +426,7 @@ void add_patches(Table& t) {
     const std::int64_t number = by_area ? o.input.patches : o.refine.patches;
     return number == 0 ? "none" : fmt::to_string(number);
   };
+  t.mark(first, &Option::reads_factors);
   t.group = "Refinement";
   Option& by = t.add("refine-by", "NAME", "a name, or none",
                      "divide faces in rounds, worst patches first, until there are as many patches "
@@ -506,13 +519,13 @@ void add_reading(Table& t) {
                "it reflects (or R,G,B,N) and the exponent N of Phong's cosine; may be given "
                "several times"),
          lobe_change);
-  for (std::size_t k = first; k < t.list.size(); ++k) {
-    t.list[k].reads_scene = true;
-  }
+  t.mark(first, &Option::reads_scene);
+  t.mark(first, &Option::reads_factors);
 }
 
 void add_machine(Table& t) {
   t.group = "Machine";
+  const std::size_t first = t.list.size();
   Option& memory =
       t.add("memory", "SIZE", "a size such as 2G or 800M",
             "memory for stored form factors; beyond it they are recomputed in each iteration, "
@@ -532,6 +545,8 @@ void add_machine(Table& t) {
       t.common("threads", "N", "a number", "number of threads; results do not depend on it");
   whole(threads, solve(&SolveOptions::threads), 1, 4096, "all");
   threads.default_text = "all cores";
+  threads.reads_factors = true;
+  t.mark(first, &Option::of_machine);
 }
 
 std::vector<Option> all_options() {

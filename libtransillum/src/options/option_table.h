@@ -40,6 +40,8 @@ struct Option {
   bool common = false;                    ///< among those that most people need
   bool in_files = true;                   ///< sessions and statistics have it
   bool reads_scene = false;               ///< says how a file is read: not for results
+  bool of_machine = false;                ///< concerns time and memory only, not the result
+  bool reads_factors = false;             ///< a solve with given form factors reads it
   bool repeats = false;                   ///< may be given several times
   char letter = 0;                        ///< the m of -m; 0: the option has no short name
   /// Sets it from text. @throws InputError
