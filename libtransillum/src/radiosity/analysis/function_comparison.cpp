@@ -10,8 +10,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
 #include <vector>
 
+#include "radiosity/analysis/result_comparison.h"
 #include "radiosity/channel_sums.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -147,6 +149,13 @@ FunctionDifference compare_functions(const Solution& reference, const Solution& 
         if (near == no_patch) {
           throw InputError(fmt::format(
               "the results are of different scenes: face {} has patches in one only", patch.face));
+        }
+        const std::string material =
+            other_is_finer ? material_difference(*coarse.scene, near, *fine.scene, piece.patch)
+                           : material_difference(*fine.scene, piece.patch, *coarse.scene, near);
+        if (!material.empty()) {
+          throw InputError(fmt::format("the results are of different scenes: face {} has {}",
+                                       patch.face, material));
         }
         const Rgb one = of_fine.at_point(piece.patch, point), two = of_coarse.at_point(near, point);
         const double difference = weight * sum_of_squares(one - two);
