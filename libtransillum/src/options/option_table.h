@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,6 +79,8 @@ std::string why_unused(const std::string& name, const std::vector<RunOptions>& r
 /// The reason why an option cannot be combined with another one in `options`, such as "lobes are
 /// not available with a linear basis"; empty if all can be combined with it.
 std::string conflict_of(const std::string& name, const RunOptions& options);
+/// The names of two options that set the same, of which only one may be given.
+std::span<const std::pair<const char*, const char*>> alternatives();
 /// The reason why two of them exclude each other; empty if all can be combined.
 std::string first_conflict(const RunOptions& options);
 /// The defaults that depend on other options: the choices of the paper; an accuracy of 1 % where
