@@ -200,5 +200,15 @@ TEST(CliInfo, ReportsOverlappingCoplanarFaces) {
                            "[01], 1 m2"));
 }
 
+/// A ceiling whose B was the mean over the part that its lamp covers, too.
+TEST(CliInfo, SolvesWarnOfFacesThatOthersCoverInPart) {
+  const std::string scene = TRANSILLUM_DATA_DIR "/scenes/lamp-in-ceiling.obj";
+  const ProgramResult partly = expect_success({"solve", scene, "-m", "8"});
+  EXPECT_THAT(partly.err, HasSubstr("warning: face 1 (white) loses 7.6 % of its light, because "
+                                    "face 6 (lamp) in the same plane covers parts of its patches"));
+  // 0.5 m divides the sides of the ceiling and of the lamp.
+  EXPECT_EQ(expect_success({"solve", scene, "-m", "8", "-q", "--max-patch-area", "0.25"}).err, "");
+}
+
 }  // namespace
 }  // namespace transillum::testing

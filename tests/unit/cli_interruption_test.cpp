@@ -12,6 +12,7 @@
 namespace transillum::testing {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -52,6 +53,8 @@ TEST_F(CliInterruption, SavesResultsSoFarAndExitsWith130) {
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.status, 130) << result.err;
     EXPECT_THAT(result.err, HasSubstr("interrupted; the results so far are saved"));
+    EXPECT_THAT(result.err, ContainsRegex("warning: interrupted in the first iteration, after "
+                                          "[0-9]+ passes: B lacks light that is reflected"));
     EXPECT_THAT(folder.names(), ElementsAre("a.csv", "a.json"));
     const auto json = read_json(folder / "a.json");
     EXPECT_FALSE(json.at("complete"));

@@ -394,8 +394,11 @@ TEST_F(CliFactorFiles, LeavesOutTinyOnesAndNamesWhatIsWrong) {
   run({"factors", "furnace", "-m", "8", "--out", "f.npz"});
   refused({"solve", "cornell-box", "--factors", "f.npz"},
           "f.npz: the form factors are of 12 patches");
-  refused({"solve", "furnace", "--factors", "f.npz", "-m", "8"}, "not used with --factors");
-  refused({"solve", "furnace", "--factors", "f.npz", "--sky", "1"}, "not used with --factors");
+  for (const Arguments& options : {Arguments{"-m", "8"}, {"--sky", "1"}, {"--memory", "1G"}}) {
+    refused(Arguments{"solve", "furnace", "--factors", "f.npz"} + options,
+            "not used with --factors");
+  }
+  run({"solve", "furnace", "--factors", "f.npz", "-q", "--threads", "1", "--iterations", "2"});
 }
 
 }  // namespace

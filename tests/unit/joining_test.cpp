@@ -99,7 +99,7 @@ class Mesh {
 };
 
 SceneDescription joined(const SceneDescription& d) { return join_faces(d, {}).description; }
-double area_of(const SceneDescription& d) { return test::total_area(Scene(d)); }
+double area_of(const SceneDescription& d) { return total_area(Scene(d)); }
 
 /// The largest number of faces that an edge has in one direction, and whether each edge has as many
 /// in the other.

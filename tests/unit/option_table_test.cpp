@@ -12,6 +12,7 @@
 #include "support/scenes.h"
 #include "transillum/errors.h"
 #include "transillum/solve_session.h"
+#include "visibility/pixels/pixel_map.h"
 
 namespace transillum::option_table_test {
 namespace {
@@ -176,6 +177,14 @@ TEST(EngineTraits, SayWhatMakeEngineDoes) {
       continue;
     }
     EXPECT_NO_THROW(make_engine(traits.value, scene, tree)) << traits.name;
+    const auto sample = [&, &engine = traits.value] {
+      pixel_map({engine, {.resolution = 8}}, *scene, *tree, {0, 0, 1});
+    };
+    if (has_pixels(traits.value)) {
+      EXPECT_NO_THROW(sample()) << traits.name;
+    } else {
+      EXPECT_THROW(sample(), InputError) << traits.name;
+    }
     if (traits.has_moments) {
       EXPECT_NO_THROW(make_engine(traits.value, scene, tree, {.moments = true})) << traits.name;
     } else {

@@ -33,10 +33,10 @@ SceneDescription squares() {
 }
 
 /// @param reflected B - E
-Solution result(const std::vector<Rgb>& reflected,
-                const SceneDescription& description = squares()) {
+Solution result(const std::vector<Rgb>& reflected, const SceneDescription& description = squares(),
+                const SceneOptions& options = {}) {
   Solution solution;
-  solution.scene = std::make_shared<const Scene>(description);
+  solution.scene = std::make_shared<const Scene>(description, options);
   for (const Rgb& light : reflected) {
     const auto i = static_cast<PatchId>(solution.radiosity.size());
     solution.radiosity.push_back(light + solution.scene->exitance(i));
@@ -185,6 +185,18 @@ TEST_F(CliCompare, RefusesWhatCannotBeCompared) {
   write_result(folder_ / "c.vtp", result({{}, {}, {}}, other));
   expect_refused({"a.vtp", "c.vtp"},
                  "a.vtp and c.vtp: the results are of different scenes: patch 0 has rho");
+  expect_refused({"a.vtp", "c.vtp", "--functions"},
+                 "a.vtp and c.vtp: the results are of different scenes: face 0 has rho 0.5 0.5 0.5 "
+                 "in one and 0 0 0 in the other");
+  write_result(folder_ / "halves.vtp",
+               result(std::vector<Rgb>(6), squares(), {.max_patch_area = 0.5}));
+  expect_refused({"a.vtp", "halves.vtp"},
+                 "one has 3 patches and the other 6; --functions compares results whose patches "
+                 "alone differ\n");
+  EXPECT_EQ(run({"a.vtp", "halves.vtp", "--functions"}).status, 0);
+  write_result(folder_ / "black-halves.vtp",
+               result(std::vector<Rgb>(6), other, {.max_patch_area = 0.5}));
+  expect_refused({"a.vtp", "black-halves.vtp"}, "one has 3 patches and the other 6\n");
   expect_refused({"a.vtp", "missing.vtp"}, "missing.vtp");
   expect_refused({"a.csv", "b.vtp"}, "a.csv: only results in .vtp files");
   expect_refused({"a.vtp", "b.vtp", "--tolerance", "-1"}, "is less than 0");

@@ -318,6 +318,9 @@ TEST(ReferenceCache, FindsWhatItStoredAndNothingElse) {
   other.rotation.reset();
   EXPECT_FALSE(cache.find(scene, other));
   EXPECT_FALSE(cache.find(scene, reference_options(4097)));
+  other = options;
+  other.engine_options.points = 8;
+  EXPECT_FALSE(cache.find(scene, other));
   SceneDescription moved = describe_scene("cornell-box");
   moved.points[0].x += 1e-9;
   EXPECT_FALSE(cache.find(Scene(moved), options));

@@ -206,6 +206,8 @@ Figure figure_from_json(const json& value, const std::string& where, const json&
   return figure;
 }
 
+bool is_of_direction(FigureKind kind) { return (keys_of(kind) & has_direction) != 0; }
+
 bool is_per_patch(const Figure& figure) {
   const unsigned keys = keys_of(figure.kind);
   return ((keys & has_patch) && figure.patch == no_patch) ||

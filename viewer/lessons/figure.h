@@ -78,6 +78,8 @@ Figure figure_from_json(const nlohmann::json& value, const std::string& where,
 /// @throws InputError
 SolveOptions run_from_json(JsonObject& object, const nlohmann::json& page_options,
                            const ViewState& page);
+/// Whether it is measured along one direction.
+bool is_of_direction(FigureKind kind);
 /// Whether the figure has one value for each patch, not one for the scene: the file omits the
 /// patch.
 bool is_per_patch(const Figure& figure);

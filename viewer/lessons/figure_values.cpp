@@ -367,15 +367,8 @@ double FigureValues::value(const Figure& figure) {
     case FigureKind::largest_error:
     case FigureKind::light_directions:
       return of_run(figure);
-    case FigureKind::steps:
-    case FigureKind::polygons:
-    case FigureKind::projected_area:
-    case FigureKind::visible_area:
-    case FigureKind::seen:
-    case FigureKind::above:
-      return of_direction(figure);
     default:
-      return of_patch(figure);
+      return is_of_direction(figure.kind) ? of_direction(figure) : of_patch(figure);
   }
 }
 

@@ -17,19 +17,9 @@ namespace {
 
 constexpr double same = 1e-9;  // relative: values of equal patches differ by rounding
 
-bool is_of_direction(const Figure& figure) {
-  switch (figure.kind) {
-    case FigureKind::steps:
-    case FigureKind::polygons:
-    case FigureKind::projected_area:
-    case FigureKind::visible_area:
-    case FigureKind::seen:
-    case FigureKind::above:
-      return true;
-    default:
-      return std::any_of(figure.parts.begin(), figure.parts.end(),
-                         [](const Figure& part) { return is_of_direction(part); });
-  }
+bool uses_direction(const Figure& figure) {
+  return is_of_direction(figure.kind) ||
+         std::any_of(figure.parts.begin(), figure.parts.end(), uses_direction);
 }
 
 double value_or_nan(const std::optional<Figure>& figure, FigureValues& figures) {
@@ -74,10 +64,10 @@ bool operator==(const GivenAnswer& a, const GivenAnswer& b) {
 }
 
 bool is_of_direction(const Question& question) {
-  return question.kind == Question::Kind::area || is_of_direction(question.figure) ||
+  return question.kind == Question::Kind::area || uses_direction(question.figure) ||
          std::any_of(question.choices.begin(), question.choices.end(),
                      [](const Question::Choice& choice) {
-                       return choice.value && is_of_direction(*choice.value);
+                       return choice.value && uses_direction(*choice.value);
                      });
 }
 

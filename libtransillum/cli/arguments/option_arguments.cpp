@@ -56,13 +56,10 @@ void add(CLI::App& command, GivenOptions& options, const Option& option) {
   options.offered.insert(option.name);
 }
 
-/// Two options that set the same, of which only one may be given.
 void exclude_alternatives(CLI::App& command) {
-  for (const auto& [one, other] : {std::pair{"--max-patch-area", "--patches"},
-                                   {"--units", "--scale"},
-                                   {"--iterations", "--tolerance"}}) {
-    CLI::Option* first = command.get_option_no_throw(one);
-    CLI::Option* second = command.get_option_no_throw(other);
+  for (const auto& [one, other] : alternatives()) {
+    CLI::Option* first = command.get_option_no_throw(std::string("--") + one);
+    CLI::Option* second = command.get_option_no_throw(std::string("--") + other);
     if (first != nullptr && second != nullptr && first->get_excludes().count(second) == 0) {
       first->excludes(second);
     }

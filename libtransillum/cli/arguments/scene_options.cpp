@@ -6,14 +6,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "cli/arguments/option_values.h"
 #include "cli/messages.h"
 #include "cli/progress_display.h"
 #include "cli/reports/report_text.h"
 #include "scene/build/patch_count.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "visibility/bsp/coplanar_overlap.h"
 
 namespace transillum::cli {
 namespace {
@@ -80,6 +84,58 @@ std::string sky_advice(const RunInput& input, const Scene& scene, const BackShar
       "the sky lights no face: no ray from a lit side leaves the scene, and backs of faces absorb "
       "its light (try --two-sided{})",
       input.run.input.orient ? ", or --orient keep" : " or --orient auto");
+}
+
+/// "face 3 (lamp)", by group if the scene has groups, else by material.
+std::string face_text(const Scene& scene, PatchId patch) {
+  const std::int32_t group = scene.patch(patch).group;
+  return fmt::format("face {} ({})", scene.patch(patch).face,
+                     group == no_group ? scene.material(patch).name : at(scene.groups(), group));
+}
+
+/// Largest number of overlaps to search for.
+constexpr std::size_t max_overlaps = 10000;
+/// Losses of a smaller share of a face's light are not mentioned.
+constexpr double least_loss = 1e-3;
+
+/// One line about faces of which others of their plane cover parts of patches; else empty. A patch
+/// receives only where it is not covered, but its B is the mean over all of it. Patches that are
+/// covered as a whole lose nothing.
+std::string overlap_advice(const Scene& scene, const Cancellation& cancellation) {
+  const auto overlaps = coplanar_overlaps(scene, max_overlaps, cancellation);
+  std::map<PatchId, double> covered;
+  for (const CoplanarOverlap& overlap : overlaps) {
+    covered[overlap.lower] += overlap.area;
+  }
+  std::map<std::int32_t, double> areas;
+  for (const Patch& patch : scene.patches()) {
+    areas[patch.face] += patch.area;
+  }
+  struct Loss {
+    PatchId upper, lower;
+    double share = 0;  // lost share of the light of the lower face
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, Loss> losses;
+  for (const auto& [upper, lower, area] : overlaps) {
+    const Patch& patch = scene.patch(lower);
+    const double visible = std::max(0.0, 1 - covered[lower] / patch.area);
+    losses.try_emplace({scene.patch(upper).face, patch.face}, Loss{upper, lower})
+        .first->second.share += area * visible / areas[patch.face];
+  }
+  std::erase_if(losses, [](const auto& loss) { return loss.second.share < least_loss; });
+  if (losses.empty()) {
+    return {};
+  }
+  const Loss& worst = std::max_element(losses.begin(), losses.end(), [](const auto& a, auto& b) {
+                        return a.second.share < b.second.share;
+                      })->second;
+  return fmt::format(
+      "{} loses {} of its light, because {} in the same plane covers parts of its patches{}: cut "
+      "the covered part out, move one of them, or make smaller patches",
+      face_text(scene, worst.lower), share_text(worst.share), face_text(scene, worst.upper),
+      losses.size() == 1
+          ? ""
+          : fmt::format(" ({} more such pairs, listed by `info`)", losses.size() - 1));
 }
 
 /// The options of the scene with the limit of patch areas that --patches asks for. Prints what the
@@ -187,6 +243,11 @@ std::shared_ptr<const Scene> load_input_scene(const RunInput& input,
         "{}: nothing emits light, so B would be 0 everywhere; give a material, a group or a face "
         "an exitance in W/m2, such as --emission '{}=10'",
         scene->name(), suggested_light(description)));
+  }
+  if (light != Light::optional) {
+    if (const std::string advice = overlap_advice(*scene, cancellation); !advice.empty()) {
+      print_message("warning: " + advice);
+    }
   }
   if (light == Light::sky || (light == Light::required && !input.run.input.orient)) {
     const BackShare backs = back_share(*scene, input.run.solve.threads, cancellation);

@@ -42,11 +42,10 @@ void check_stored_factors(const SolveCall& call) {
   if (call.factors.empty()) {
     return;
   }
-  for (const char* option :
-       {"--directions", "--sampling", "--seed", "--rotate", "--engine", "--resolution", "--points",
-        "--order", "--one-way", "--normalize", "--scheme", "--first-shot", "--burn-in",
-        "--replicas", "--accuracy", "--seconds", "--sky", "--basis", "--memory"}) {
-    refuse_unless(false, *call.scene.command, option, "not used with --factors");
+  for (const std::string& name : call.scene.given) {
+    if (!option(name).reads_factors) {
+      throw InputError(fmt::format("--{}: not used with --factors", name));
+    }
   }
 }
 
@@ -132,9 +131,7 @@ void check_refinement(const SolveCall& call) {
   if (!call.scene.run.refine.is_set()) {
     return;
   }
-  for (const char* option : {"--shard", "--factors"}) {
-    refuse_unless(false, *call.scene.command, option, "not used with --refine-by");
-  }
+  refuse_unless(!call.share, *call.scene.command, "--shard", "not used with --refine-by");
   refuse_unless(!processes().sums, *call.scene.command, "--refine-by",
                 "not available with several processes");
 }

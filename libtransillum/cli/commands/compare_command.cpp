@@ -46,12 +46,14 @@ std::string place_text(const Scene& scene, const RadiosityDifference& difference
                      patch.group == no_group ? "" : ", group " + at(scene.groups(), patch.group));
 }
 
+std::string sky_text(const std::string& difference) {
+  return difference.empty() ? "" : report_row("skies differ", difference);
+}
+
 std::string comparison_text(const Scene& scene, const ResultComparison& comparison) {
   const RadiosityDifference& whole = comparison.whole;
-  std::string text = report_row("patches", fmt::format("{}", scene.patch_count()));
-  if (!comparison.sky_difference.empty()) {
-    text += report_row("skies differ", comparison.sky_difference);
-  }
+  std::string text = report_row("patches", fmt::format("{}", scene.patch_count())) +
+                     sky_text(comparison.sky_difference);
   text += report_row("RMS", fmt::format("{:.4g} of the RMS of reflected light", whole.rms));
   text +=
       report_row("largest", fmt::format("{:.4g} of the largest reflected light", whole.largest));
@@ -92,6 +94,19 @@ int exit_status(double worst, const CompareCall& call) {
   return success;
 }
 
+/// A hint at --functions where two results differ in their patches only; else empty.
+std::string hint(const Solution& first, const Solution& second) {
+  try {
+    if (first.scene->patch_count() != second.scene->patch_count()) {
+      compare_functions(first, second);
+      return "; --functions compares results whose patches alone differ";
+    }
+  } catch (const InputError&) {
+    // --functions refuses them, too.
+  }
+  return {};
+}
+
 int run(const CompareCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
   const Solution first = read(call.first, cancellation), second = read(call.second, cancellation);
@@ -103,12 +118,13 @@ int run(const CompareCall& call) {
     }
     difference = compare_functions(first, second);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{} and {}: {}", call.first, call.second, error.what()));
+    throw InputError(fmt::format("{} and {}: {}{}", call.first, call.second, error.what(),
+                                 call.functions ? "" : hint(first, second)));
   }
   if (call.functions) {
     print_results(report_row("patches", fmt::format("{} and {}", first.scene->patch_count(),
                                                     second.scene->patch_count())) +
-                  function_text(difference));
+                  sky_text(sky_difference(first, second)) + function_text(difference));
     return exit_status(difference.l2, call);
   }
   print_results(comparison_text(*first.scene, comparison) + function_text(difference));

@@ -21,6 +21,8 @@
 namespace transillum::cli {
 namespace {
 
+using Factors = EngineTraits::Factors;
+
 struct FactorsCall {
   RunInput scene;
   GatherOptions rays;
@@ -71,26 +73,27 @@ FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scen
 
 FormFactors compute_form_factors(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
                                  const Cancellation& cancellation, ProgressDisplay& display) {
-  switch (call.passes().engine) {
-    case Engine::rays:
-      return gather_by_rays(call, *scene, cancellation, display);
-    case Engine::hemicube:
-      return draw_hemicubes(call, *scene, cancellation, display);
-    case Engine::pairs:
-      return compute_pairs(call, *scene, cancellation, display);
-    default:
+  switch (traits_of(call.passes().engine).factors) {
+    case Factors::passes:
       return sum_passes(call, scene, cancellation, display);
+    case Factors::rays:
+      return gather_by_rays(call, *scene, cancellation, display);
+    case Factors::hemicubes:
+      return draw_hemicubes(call, *scene, cancellation, display);
+    case Factors::pairs:
+      return compute_pairs(call, *scene, cancellation, display);
   }
+  return {};
 }
 
 void check_options(const FactorsCall& call) {
-  const Engine engine = call.passes().engine;
-  refuse_unless(engine == Engine::rays, *call.scene.command, "--rays",
+  const Factors factors = traits_of(call.passes().engine).factors;
+  refuse_unless(factors == Factors::rays, *call.scene.command, "--rays",
                 "used only with engine rays");
-  if (engine == Engine::hemicube) {
+  if (factors == Factors::hemicubes) {
     hemicube_options(call.passes()).validate();
   }
-  if (engine != Engine::rays) {
+  if (factors != Factors::rays) {
     refuse_unused(call.scene, {call.scene.run});
     return;
   }

@@ -272,10 +272,10 @@ Solution solve_with_stored(const std::string& file, const SolveJob& job) {
 
 Solution solve_without_directions(const SolveJob& job) {
   const SolveOptions& options = job.options;
-  if (options.goal.is_set() && options.engine == Engine::pairs) {
+  const bool hemicubes = traits_of(options.engine).factors == EngineTraits::Factors::hemicubes;
+  if (options.goal.is_set() && !hemicubes) {
     return solve_by_pairs_to(options.goal, job);
   }
-  const bool hemicubes = options.engine == Engine::hemicube;
   const char* task = hemicubes ? "drawing hemicubes" : "computing pairs";
   const double patches = job.scene->patch_count();
   double done = 0;

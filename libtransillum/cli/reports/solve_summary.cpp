@@ -233,7 +233,18 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
   const SolveStatistics& s = solution.statistics;
   std::vector<std::string> warnings;
   if (s.iteration_records.empty()) {
+    if (!solution.complete) {
+      warnings.push_back(fmt::format(
+          "interrupted in the first iteration, after {} passes: B lacks light that is reflected "
+          "more than once",
+          s.passes_made));
+    }
     return warnings;
+  }
+  if (!solution.complete && !s.iteration_records.back().error) {
+    warnings.push_back(
+        fmt::format("interrupted after {} iterations: B lacks the light not yet propagated, {}",
+                    s.iterations, remainder_text(s.iteration_records.back())));
   }
   const auto is_dark = [](const Rgb& value) { return max_abs(value) == 0; };
   const bool emits = std::any_of(solution.radiosity.begin(), solution.radiosity.end(),

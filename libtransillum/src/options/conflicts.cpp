@@ -95,6 +95,11 @@ constexpr Conflict conflicts[] = {
      "rounds of refinement are not available with engine {engine}, which has no directions"},
 };
 
+constexpr std::pair<const char*, const char*> all_alternatives[] = {
+    {"max-patch-area", "patches"},
+    {"units", "scale"},
+};
+
 std::string text_of(const Conflict& conflict, const SolveOptions& solve) {
   return fmt::format(fmt::runtime(conflict.reason), fmt::arg("engine", name_of(solve.engine)),
                      fmt::arg("scheme", name_of(solve.scheme)));
@@ -156,6 +161,8 @@ std::optional<double> SolveOptions::used_first_shot() const {
       });
   return excluded ? std::nullopt : first_shot;
 }
+
+std::span<const std::pair<const char*, const char*>> alternatives() { return all_alternatives; }
 
 void RunOptions::validate() const {
   solve.validate();

@@ -2,7 +2,7 @@
 //
 // Options that only some runs read.
 #include <algorithm>
-#include <string_view>
+#include <iterator>
 
 #include "options/option_table.h"
 
@@ -40,7 +40,7 @@ bool has_rounds(const RunOptions& run) { return run.refine.is_set(); }
 
 /// An option that only some runs read; all runs read the others.
 struct Use {
-  std::string_view option;
+  const char* option;
   bool (*used)(const RunOptions&);
   const char* why_not;
 };
@@ -89,8 +89,12 @@ std::string why_unused(const std::string& name, const std::vector<RunOptions>& r
   if (name == "first-shot") {
     return why_no_first_shot(runs);
   }
+  // option() throws for a misspelled name, which would never be found.
+  static const bool all_exist = std::all_of(std::begin(uses), std::end(uses), [](const Use& use) {
+    return option(use.option).name == use.option;
+  });
   for (const Use& use : uses) {
-    if (use.option == name && std::none_of(runs.begin(), runs.end(), use.used)) {
+    if (all_exist && use.option == name && std::none_of(runs.begin(), runs.end(), use.used)) {
       return use.why_not;
     }
   }

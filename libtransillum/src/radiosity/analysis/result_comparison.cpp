@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,11 +23,6 @@ namespace {
 
 std::string text_of(const Rgb& c) { return fmt::format("{} {} {}", c.r, c.g, c.b); }
 
-std::string two_values(PatchId i, const std::string& what, const std::string& one,
-                       const std::string& other) {
-  return fmt::format("patch {} has {} {} in one and {} in the other", i, what, one, other);
-}
-
 std::string outline_difference(const Scene& one, const Scene& other, PatchId i) {
   const auto a = one.outline(i), b = other.outline(i);
   if (a.size() != b.size()) {
@@ -35,8 +31,8 @@ std::string outline_difference(const Scene& one, const Scene& other, PatchId i) 
   for (std::size_t k = 0; k < a.size(); ++k) {
     const Vec3 &p = one.point(a[k]), &q = other.point(b[k]);
     if (p != q) {
-      return two_values(i, fmt::format("corner {} at", k), fmt::format("{} {} {}", p.x, p.y, p.z),
-                        fmt::format("{} {} {}", q.x, q.y, q.z));
+      return fmt::format("patch {} has corner {} at {} {} {} in one and {} {} {} in the other", i,
+                         k, p.x, p.y, p.z, q.x, q.y, q.z);
     }
   }
   return {};
@@ -90,6 +86,16 @@ class DifferenceSums {
 
 }  // namespace
 
+std::string material_difference(const Scene& one, PatchId i, const Scene& other, PatchId j) {
+  for (const auto& [name, a, b] : {std::tuple{"E", one.exitance(i), other.exitance(j)},
+                                   {"rho", one.reflectance(i), other.reflectance(j)}}) {
+    if (a != b) {
+      return fmt::format("{} {} in one and {} in the other", name, text_of(a), text_of(b));
+    }
+  }
+  return {};
+}
+
 std::string scene_difference(const Scene& one, const Scene& other) {
   if (one.patch_count() != other.patch_count()) {
     return fmt::format("one has {} patches and the other {}", one.patch_count(),
@@ -99,11 +105,8 @@ std::string scene_difference(const Scene& one, const Scene& other) {
     if (std::string outline = outline_difference(one, other, i); !outline.empty()) {
       return outline;
     }
-    if (one.exitance(i) != other.exitance(i)) {
-      return two_values(i, "E", text_of(one.exitance(i)), text_of(other.exitance(i)));
-    }
-    if (one.reflectance(i) != other.reflectance(i)) {
-      return two_values(i, "rho", text_of(one.reflectance(i)), text_of(other.reflectance(i)));
+    if (std::string material = material_difference(one, i, other, i); !material.empty()) {
+      return fmt::format("patch {} has {}", i, material);
     }
   }
   return {};

@@ -43,6 +43,10 @@ struct ResultComparison {
 /// bit. Names, materials and groups may differ.
 std::string scene_difference(const Scene& one, const Scene& other);
 
+/// The difference of patch i of one scene and patch j of another in E or rho, as "E 1 1 1 in one
+/// and 2 2 2 in the other"; empty where both are the same.
+std::string material_difference(const Scene& one, PatchId i, const Scene& other, PatchId j);
+
 /// How the skies of two solves differ, as "one has a sky of 1 1 1 W/m2, uniform, and the other has
 /// none"; empty where they are the same. A result of unknown sky (from a file of an older version)
 /// is the same as any other.

@@ -260,10 +260,7 @@ RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
                               const std::vector<Rgb>& reference) {
   const std::size_t patches = scene.patches().size(), per_patch = b.size() / patches;
   constexpr std::size_t functions = 3;
-  double area = 0;
-  for (const Patch& patch : scene.patches()) {
-    area += patch.area;
-  }
+  const double area = total_area(scene);
   const ReflectedLight light(scene, functions);
   std::vector<Rgb> values(reference.size());
   for (std::size_t u = 0; u < values.size(); ++u) {

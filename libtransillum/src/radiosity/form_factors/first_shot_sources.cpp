@@ -11,6 +11,7 @@
 
 #include "base/bit_mixing.h"
 #include "radiosity/light_sources.h"
+#include "radiosity/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/first_shot.h"
@@ -52,9 +53,7 @@ class ShotBalance {
         cancellation_(cancellation),
         directions_(directions),
         power_(total_power(sources)) {
-    for (const Patch& patch : scene.patches()) {
-      area_ += patch.area;
-    }
+    area_ = total_area(scene);
   }
 
   bool pays(const LightSource& source) {

@@ -27,6 +27,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+bool is_by_hemicubes(const SolveOptions& options) {
+  return traits_of(options.engine).factors == EngineTraits::Factors::hemicubes;
+}
+
 /// Computes the form factors, of all unknowns if the basis is linear, and sets the figures that
 /// differ between the engines.
 FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options,
@@ -34,7 +38,7 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
                                  const std::function<void(double)>& progress,
                                  SolveStatistics& statistics) {
   const std::int64_t patches = scene.patch_count();
-  if (options.engine == Engine::hemicube) {
+  if (is_by_hemicubes(options)) {
     const HemicubeOptions hemicubes = hemicube_options(options);
     statistics.hemicubes = patches;
     statistics.directions = 3 * hemicubes.resolution * hemicubes.resolution;
@@ -230,12 +234,12 @@ void check_form_factor_options(const SolveOptions& options) {
   refuse_directions(options, "engine " + name_of(options.engine) + " has");
   const AccuracyGoal& goal = options.goal;
   const bool of_pairs = goal.of == AccuracyOf::rms || goal.of == AccuracyOf::surfaces;
-  if (goal.is_set() && (options.engine != Engine::pairs || !of_pairs || goal.seconds > 0)) {
+  if (goal.is_set() && (is_by_hemicubes(options) || !of_pairs || goal.seconds > 0)) {
     throw InputError(
         "accuracy: engine hemicube has none to choose, and engine pairs estimates "
         "only the errors of surfaces and the RMS error, without a time limit");
   }
-  if (options.engine == Engine::hemicube) {
+  if (is_by_hemicubes(options)) {
     hemicube_options(options).validate();
   } else {
     pair_options(options).validate();

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/for_each_index.h"
+#include "radiosity/norms.h"
 #include "radiosity/orientation/surface_rays.h"
 #include "transillum/at.h"
 
@@ -34,9 +35,7 @@ class ExposureMeter {
         patches_(patches_by_part()),
         points_(scene, embree, patches_),
         has_light_(scene.has_light()) {
-    for (const Patch& patch : scene.patches()) {
-      area_ += patch.area;
-    }
+    area_ = total_area(scene);
     const std::size_t each = std::clamp(spread_walks / std::max<std::size_t>(1, parts.parts.size()),
                                         least_walks, most_walks);
     first_walk_.push_back(0);
