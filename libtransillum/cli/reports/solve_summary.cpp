@@ -89,10 +89,6 @@ std::string passes_text(const SolveStatistics& s) {
                                           s.directions, s.threads));
 }
 
-std::string dark_text(bool is_dark) {
-  return is_dark ? " of a thousandth of the brightest surface, as it is in the dark" : "";
-}
-
 std::string error_text(const ErrorEstimate& error) {
   const Rgb half = error.quantile * error.mean_standard_error;
   std::string worst;
