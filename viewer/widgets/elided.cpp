@@ -8,6 +8,12 @@
 
 namespace transillum::viewer {
 
+QString elided_name(const QString& name, int longest) {
+  return name.size() > longest
+             ? name.left(longest / 2) + QStringLiteral("…") + name.right((longest - 1) / 2)
+             : name;
+}
+
 void ElidedComboBox::paintEvent(QPaintEvent*) {
   QStyleOptionComboBox option;
   initStyleOption(&option);

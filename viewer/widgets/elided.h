@@ -7,6 +7,9 @@
 
 namespace transillum::viewer {
 
+/// A name of at most `longest` characters; the middle of a longer one is replaced by "…".
+QString elided_name(const QString& name, int longest);
+
 /// A combo box that elides the selected text ("…") if it does not fit.
 class ElidedComboBox : public QComboBox {
  public:
