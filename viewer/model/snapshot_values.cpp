@@ -47,6 +47,18 @@ Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point) {
              : value_at(mean, at(snapshot.linear_parts, i), at(*snapshot.bases, i), point);
 }
 
+bool has_light(const SolverSnapshot& snapshot) {
+  if (snapshot.options.sky.is_set()) {
+    return true;
+  }
+  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
+    if (max_abs(material_of(snapshot, i).exitance) > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::optional<double> escaped_share(const SolverSnapshot& snapshot) {
   if (snapshot.statistics.iterations == 0 || snapshot.sky_shares.empty()) {
     return std::nullopt;

@@ -19,6 +19,20 @@ class ElidedComboBox : public QComboBox {
   void paintEvent(QPaintEvent* event) override;
 };
 
+/// One line that is elided in its middle where it does not fit; the tool tip then has all of it.
+class ElidedLabel : public QLabel {
+ public:
+  using QLabel::QLabel;
+
+  QSize minimumSizeHint() const override;
+  /// The text as shown.
+  QString shown_text() const;
+
+ protected:
+  bool event(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+};
+
 /// A line of clauses, the most important first. It shows as many as fit, then "…"; the tool tip has
 /// all.
 class ClauseLabel : public QLabel {
