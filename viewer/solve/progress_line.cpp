@@ -50,6 +50,16 @@ QString accuracy_text(const AccuracyReport& report, int longest_name) {
       .arg(error, percent(report.error), percent(report.goal.accuracy), passes);
 }
 
+// The same without shortening.
+QString accuracy_tip(const AccuracyReport& report) {
+  const QString text = accuracy_text(report, INT_MAX);
+  return report.is_dark ? ProgressLine::tr(
+                              "%1.\nThe error is relative to a thousandth of the brightest "
+                              "surface, as the surface is in the dark")
+                              .arg(text)
+                        : text;
+}
+
 // The name of the scene; for a result file, the names of the file and of its scene.
 QString name_of(const LoadedScene& loaded) {
   const auto short_name = [](const std::string& path) {
@@ -168,7 +178,7 @@ void ProgressLine::show_solve() {
                                     count_text(progress.direction), count_text(progress.passes))
                          : tr("%1 done").arg(iterations_text(progress.iteration));
   const auto& accuracy = snapshot_->accuracy;
-  phase_->setToolTip(finished && accuracy ? accuracy_text(*accuracy, INT_MAX) : QString());
+  phase_->setToolTip(finished && accuracy ? accuracy_tip(*accuracy) : QString());
   if (finished && !has_light(*snapshot_)) {
     phase_->setToolTip({});
     phase_->setText(tr("No light: B is 0 everywhere"));
