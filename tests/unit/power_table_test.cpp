@@ -107,6 +107,18 @@ TEST(PowerTable, TheFurnaceAbsorbsWhatItEmits) {
   EXPECT_NEAR(table.total.escaped.r, 0, 1e-9 * table.total.area);
 }
 
+/// What escapes from a box without a front is neither absorbed nor lost.
+TEST(PowerTable, TheShareThatEscapesIsWhatIsNotAbsorbed) {
+  const Solved s = solved(grouped("cornell-box:open=1"), Normalization::symmetric);
+  const PartPower total = power_table(s.solution, PartsBy::group).total;
+  const double escaped = escaped_share(total);
+  EXPECT_GT(escaped, 0.01);
+  EXPECT_NEAR(escaped, 1 - sum(total.absorbed) / sum(total.emitted), 0.02);
+  EXPECT_TRUE(is_open(s.solution.statistics));
+  EXPECT_EQ(escaped_share({}), 0);
+  EXPECT_FALSE(is_open(solved(grouped("cornell-box"), Normalization::none).solution.statistics));
+}
+
 /// A part emits the exitance of its changed material; `index` finds the part in the scene.
 TEST(PowerTable, TakesChangedMaterials) {
   const Solved s = solved(grouped("cornell-box"), Normalization::none);

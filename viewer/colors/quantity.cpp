@@ -4,10 +4,13 @@
 #include "colors/quantity.h"
 
 #include <QCoreApplication>
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
+#include "model/run_comparison.h"
 #include "model/snapshot_values.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
@@ -77,9 +80,19 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
   if (!other) {
     return {{}, tr("Keep a run of this scene first (K): it becomes A.")};
   }
+  // Percent of the surface's level; not a number where the patch is omitted.
+  const ResultComparison comparison = compare_runs(*other, snapshot);
+  const std::vector<double>& units = comparison.units;
+  if (std::all_of(units.begin(), units.end(), [](double unit) { return unit == 0; })) {
+    return {{}, tr("A reflects no light, which differences would be relative to.")};
+  }
+  std::vector<double> percent;
+  for (const double unit : units) {
+    percent.push_back(unit > 0 ? 100 / unit : std::numeric_limits<double>::quiet_NaN());
+  }
   PatchValues result;
   for (std::size_t i = 0; i < snapshot.radiosity.size(); ++i) {
-    result.values.push_back(snapshot.radiosity[i] - other->radiosity[i]);
+    result.values.push_back(percent[i] * (snapshot.radiosity[i] - other->radiosity[i]));
   }
   result.bases = snapshot.bases ? snapshot.bases : other->bases;
   if (result.bases) {
@@ -88,7 +101,8 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
     };
     for (std::size_t i = 0; i < snapshot.radiosity.size(); ++i) {
       const LinearPart b = part_of(snapshot, i), a = part_of(*other, i);
-      result.linear_parts.push_back({b.first - a.first, b.second - a.second});
+      result.linear_parts.push_back(
+          {percent[i] * (b.first - a.first), percent[i] * (b.second - a.second)});
     }
   }
   return result;
@@ -246,11 +260,12 @@ constexpr QuantityTraits all_traits[] = {
     {.quantity = Quantity::difference,
      .name = QT_TRANSLATE_NOOP("Quantity", "Difference from A"),
      .symbol = "B − A",
-     .unit = "W/m²",
-     .meaning =
-         QT_TRANSLATE_NOOP("Quantity",
-                           "B of the current run, or of the run chosen in Kept runs, minus B of "
-                           "the kept run A"),
+     .unit = "% of level",
+     .meaning = QT_TRANSLATE_NOOP(
+         "Quantity",
+         "B of the current run, or of the run chosen in Kept runs, minus B of the kept run A, "
+         "relative to the level of its surface: the RMS of its reflected light in A, or a "
+         "thousandth of the brightest surface's where that is more. Patches that emit are omitted"),
      .has_channels = true,
      .is_signed = true},
 };

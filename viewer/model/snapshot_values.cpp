@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "radiosity/analysis/power_table.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -44,6 +45,34 @@ Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point) {
   return snapshot.linear_parts.empty()
              ? mean
              : value_at(mean, at(snapshot.linear_parts, i), at(*snapshot.bases, i), point);
+}
+
+bool has_light(const SolverSnapshot& snapshot) {
+  if (snapshot.options.sky.is_set()) {
+    return true;
+  }
+  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
+    if (max_abs(material_of(snapshot, i).exitance) > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<double> escaped_share(const SolverSnapshot& snapshot) {
+  if (snapshot.statistics.iterations == 0 || snapshot.sky_shares.empty()) {
+    return std::nullopt;
+  }
+  PartPower total;
+  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
+    const double area = snapshot.loaded->scene->patch(i).area;
+    total.emitted += area * material_of(snapshot, i).exitance;
+    total.escaped += (area * at(snapshot.sky_shares, i)) * at(snapshot.radiosity, i);
+    if (!snapshot.sky_irradiance.empty()) {
+      total.from_sky += area * at(snapshot.sky_irradiance, i);
+    }
+  }
+  return transillum::escaped_share(total);
 }
 
 std::int64_t count_negative_corners(const SolverSnapshot& snapshot) {

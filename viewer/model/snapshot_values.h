@@ -27,6 +27,13 @@ Rgb value_at(const Rgb& mean, const LinearPart& part, const LinearBasis& basis, 
 /// on patches.
 Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point);
 
+/// Whether any patch emits, with the materials of the snapshot, or a sky does.
+bool has_light(const SolverSnapshot& snapshot);
+
+/// The share of the light that escapes, with the materials of the snapshot, as escaped_share();
+/// none before the first iteration, or where the share of sky is not known.
+std::optional<double> escaped_share(const SolverSnapshot& snapshot);
+
 /// SolveStatistics::negative_corners of the snapshot.
 std::int64_t count_negative_corners(const SolverSnapshot& snapshot);
 

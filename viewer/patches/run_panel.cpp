@@ -14,8 +14,10 @@
 #include <QTableWidget>
 #include <QToolButton>
 #include <algorithm>
+#include <cmath>
 
 #include "model/command_text.h"
+#include "model/run_comparison.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
@@ -56,6 +58,30 @@ void set_choosable(const QComboBox& box, int index, const QString& reason) {
   QStandardItem* item = qobject_cast<QStandardItemModel*>(box.model())->item(index);
   item->setEnabled(reason.isEmpty());
   item->setToolTip(reason);
+}
+
+QString dark_text(bool is_dark) {
+  return is_dark ? RunPanel::tr(" of a thousandth of the brightest surface, as it is in the dark")
+                 : QString();
+}
+
+/// All surfaces, the worst first, as far as a tool tip has room.
+QString tip_of(const ResultComparison& comparison) {
+  constexpr int most = 20;
+  constexpr int longest_name = 40;
+  QStringList lines{
+      RunPanel::tr("RMS of B − A by surface, relative to the RMS of its reflected "
+                   "light in A;\npatches that emit are omitted")};
+  for (const SurfaceDifference& surface : comparison.surfaces) {
+    if (lines.size() > most) {
+      lines << QStringLiteral("…");
+      break;
+    }
+    lines << RunPanel::tr("%1: %2 %%3")
+                 .arg(elided_name(QString::fromStdString(surface.name), longest_name),
+                      number_text(100 * surface.rms), dark_text(surface.is_dark));
+  }
+  return lines.join(QLatin1Char('\n'));
 }
 
 QComboBox* make_choice(const char* name, const QString& tip) {
@@ -136,14 +162,12 @@ QLayout* RunPanel::make_choices() {
 }
 
 QLayout* RunPanel::make_figures() {
-  figures_ =
-      named("run_difference", new QLabel,
-            tr("RMS of the difference of B over RMS of the reflected light of A, without patches "
-               "that\nemit; and the largest magnitude of the difference in a color"));
+  figures_ = named("run_difference", new QLabel);
   figures_->setWordWrap(true);
   figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   go_ = named("go_to_difference", new QToolButton,
-              tr("Select the patch with the largest difference, and turn the scene to it"));
+              tr("Select the patch with the largest difference on the worst surface, and turn the "
+                 "scene to it"));
   go_->setText(tr("Go to the patch"));
   connect(go_, &QToolButton::clicked, this, &RunPanel::go_to_worst);
   auto* row = make_row({10, 0, 8, 4});
@@ -209,18 +233,38 @@ void RunPanel::show_choices() {
 void RunPanel::show_difference() {
   const auto a = colors_.run_a(), b = colors_.run_b();
   worst_ = no_patch;
-  if (!a || !b) {
-    figures_->clear();
-  } else {
-    const RunDifference difference = difference_of(*a->loaded->scene, b->radiosity, a->radiosity);
-    worst_ = difference.worst;
-    figures_->setText(worst_ == no_patch ? tr("No difference: both have the same B.")
-                                         : tr("RMS %1 %, largest %2 W/m² at patch %3")
-                                               .arg(number_text(100 * difference.rms),
-                                                    number_text(difference.largest))
-                                               .arg(worst_));
+  figures_->clear();
+  figures_->setToolTip({});
+  // Comparing takes a moment where there are many patches, and each snapshot needs it again.
+  if (a && b && isVisible()) {
+    show_comparison(compare_runs(*a, *b));
   }
   go_->setEnabled(worst_ != no_patch);
+}
+
+void RunPanel::show_comparison(const ResultComparison& comparison) {
+  const SurfaceDifference& worst = comparison.surfaces.front();
+  worst_ = worst.worst;
+  if (worst_ == no_patch) {
+    figures_->setText(tr("No difference: both have the same B."));
+    return;
+  }
+  if (!std::isfinite(worst.rms)) {
+    figures_->setText(tr("A reflects no light, which differences would be relative to."));
+    return;
+  }
+  constexpr int longest_name = 24;
+  figures_->setText(tr("%1: RMS %2 %%3, largest %4 % at patch %5. RMS over all surfaces: %6 %")
+                        .arg(elided_name(QString::fromStdString(worst.name), longest_name),
+                             number_text(100 * worst.rms), dark_text(worst.is_dark),
+                             number_text(100 * worst.largest), QString::number(worst_),
+                             number_text(100 * comparison.rms)));
+  figures_->setToolTip(tip_of(comparison));
+}
+
+void RunPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  show_difference();
 }
 
 void RunPanel::rename(const QTableWidgetItem& item) {

@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include "colors/color_choice.h"
+#include "radiosity/analysis/result_comparison.h"
 #include "state/selection.h"
 
 class QAction;
@@ -38,10 +39,12 @@ class RunPanel : public QWidget {
   void show_list();
   void show_choices();
   void show_difference();
+  void show_comparison(const ResultComparison& comparison);
   void show_hint();
   void rename(const QTableWidgetItem& item);
   void remove_current();
   void go_to_worst();
+  void showEvent(QShowEvent* event) override;
 
   ColorChoice& colors_;
   KeptRuns& runs_;

@@ -30,6 +30,7 @@
 #include "support/number_text.h"
 #include "widgets/build.h"
 #include "widgets/engine_text.h"
+#include "widgets/scrolling.h"
 
 namespace transillum::viewer {
 
@@ -319,6 +320,14 @@ void SettingsPanel::show_escape(std::optional<double> share) {
   constexpr double rounding = 1e-9;
   closed_ = share && *share < rounding;
   show_sky_state();
+}
+
+bool SettingsPanel::may_have_sky() const { return sky_value_->isEnabledTo(this); }
+
+void SettingsPanel::ask_for_sky() {
+  scroll_to(sky_value_);
+  sky_value_->setFocus();
+  sky_value_->selectAll();
 }
 
 void SettingsPanel::show_sky_state() {

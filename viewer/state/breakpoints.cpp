@@ -95,7 +95,7 @@ QString text_of(const Condition& b) {
     case Kind::small_fragment:
       return Breakpoints::tr("A polygon of V is smaller than %1 m²").arg(number_text(b.value));
     case Kind::open_receiver:
-      return Breakpoints::tr("A receiver's closure defect is above %1").arg(number_text(b.value));
+      return Breakpoints::tr("A receiver's open part is above %1").arg(number_text(b.value));
     case Kind::large_map:
       return Breakpoints::tr("V grows beyond %1 polygons").arg(number_text(b.value));
   }

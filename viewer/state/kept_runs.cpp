@@ -5,7 +5,6 @@
 #include "state/kept_runs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -13,7 +12,6 @@
 #include "support/list_change.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
-#include "transillum/study.h"
 
 namespace transillum::viewer {
 
@@ -126,21 +124,6 @@ QString why_not_comparable(const Scene& kept, const Scene* open) {
 }
 
 }  // namespace
-
-RunDifference difference_of(const Scene& scene, const std::vector<Rgb>& b,
-                            const std::vector<Rgb>& a) {
-  RunDifference result;
-  result.rms = radiosity_error(scene, b, a).rms;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    const Rgb d = b[i] - a[i];
-    const double magnitude = std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)});
-    if (magnitude > result.largest) {
-      result.largest = magnitude;
-      result.worst = static_cast<PatchId>(i);
-    }
-  }
-  return result;
-}
 
 bool KeptRuns::keep(const SolverSnapshot& snapshot, std::int64_t bytes) {
   auto runs = runs_;

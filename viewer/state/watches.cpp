@@ -59,7 +59,7 @@ QString text_of(const Watch& watch) {
     case Watch::Kind::patch_area:
       return Watches::tr("Area of patch %1 in V, m²").arg(watch.patch);
     case Watch::Kind::closure_defect:
-      return Watches::tr("Closure defect");
+      return Watches::tr("Open part");
     case Watch::Kind::map_size:
       return Watches::tr("Polygons of V");
   }

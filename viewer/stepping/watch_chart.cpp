@@ -47,7 +47,7 @@ WatchChart::WatchChart(Focus& focus, Selection& selection, Watches& watches,
       menu_(std::make_unique<QMenu>()) {
   setToolTip(
       tr("Watched values over the steps of the direction, each on its own scale from 0 to "
-         "its largest value (closure defects: logarithmic, from 10⁻¹⁷ to 1). Click or drag "
+         "its largest value (open parts: logarithmic, from 10⁻¹⁷ to 1). Click or drag "
          "to go to a step."));
   make_menu();
   connect(&watches_, &Watches::changed, this, &WatchChart::show_list);
@@ -74,7 +74,7 @@ void WatchChart::make_menu() {
     choices_.push_back(action);
   };
   add("watch_area", tr("Area of the selected patch in V"), Watch::Kind::patch_area);
-  add("watch_defect", tr("Closure defect of the receiver"), Watch::Kind::closure_defect);
+  add("watch_defect", tr("Open part of the receiver"), Watch::Kind::closure_defect);
   add("watch_size", tr("Number of polygons of V"), Watch::Kind::map_size);
   const auto show_state = [this] {
     const bool room = watches_.list().size() < Watches::most;

@@ -31,6 +31,10 @@ std::string share_text(double share) {
   return percent > 9 ? fmt::format("{:.1f} %", percent) : fmt::format("{:.2g} %", percent);
 }
 
+std::string dark_text(bool is_dark) {
+  return is_dark ? " of a thousandth of the brightest surface, as it is in the dark" : "";
+}
+
 std::string time_text(double seconds) {
   if (!std::isfinite(seconds)) {
     return "?";

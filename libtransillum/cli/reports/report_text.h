@@ -17,6 +17,9 @@ std::string rgb_text(const Rgb& color, int digits);
 /// below 1e-9, which is rounding, "0 %".
 std::string share_text(double share);
 
+/// What the error of a surface is relative to, after the number; empty for its own level.
+std::string dark_text(bool is_dark);
+
 /// 75 s -> "1:15 min".
 std::string time_text(double seconds);
 

@@ -10,6 +10,7 @@
 #include "cli/arguments/scene_options.h"
 #include "cli/messages.h"
 #include "cli/reports/report_text.h"
+#include "radiosity/analysis/power_table.h"
 #include "transillum/at.h"
 
 namespace transillum::cli {
@@ -89,10 +90,6 @@ std::string passes_text(const SolveStatistics& s) {
                                           s.directions, s.threads));
 }
 
-std::string dark_text(bool is_dark) {
-  return is_dark ? " of a thousandth of the brightest surface, as it is in the dark" : "";
-}
-
 std::string error_text(const ErrorEstimate& error) {
   const Rgb half = error.quantile * error.mean_standard_error;
   std::string worst;
@@ -163,15 +160,18 @@ std::int64_t patches_below_zero(const Solution& solution) {
 }
 
 /// Where a scene is open, the largest defect belongs to the patch that is most open, and says
-/// nothing about errors.
-std::string closure_text(const Scene& scene, const SolveStatistics& s) {
-  // Form factors without directions have errors, which row sums show too.
-  const double rounding = s.pairs > 0 || s.hemicubes > 0 ? 1e-3 : 1e-9;
+/// nothing about errors: there the row says what escapes.
+std::string closure_text(const Solution& solution) {
+  const SolveStatistics& s = solution.statistics;
   const std::string open = share_text(s.escaped) + " of the projected area sees no patch";
-  if (s.escaped > rounding) {
+  if (is_open(s) && (s.iterations == 0 || solution.sky_shares.empty())) {
     return report_row("open", open + ": light escapes there");
   }
-  if (has_two_sided_faces(scene)) {
+  if (is_open(s)) {
+    const double share = escaped_share(power_table(solution, PartsBy::group).total);
+    return report_row("open", fmt::format("{} of the light escapes; {}", share_text(share), open));
+  }
+  if (has_two_sided_faces(*solution.scene)) {
     return report_row("closed", open + ", outer sides of two-sided faces omitted");
   }
   return report_row("closure defect", fmt::format("{:.1e}; {}", s.closure_defect_max, open));
@@ -208,7 +208,7 @@ std::string solve_summary(const Solution& solution) {
         report_row("unlit", fmt::format("{} of the area: below 1e-6 of the largest reflected light",
                                         share_text(s.iteration_records.back().unlit_area)));
   }
-  text += closure_text(*solution.scene, s);
+  text += closure_text(solution);
   if (!s.iteration_records.empty()) {
     text += report_row("energy defect", fmt::format("{:.1e}", s.energy_defect));
   }

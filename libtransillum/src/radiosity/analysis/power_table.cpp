@@ -5,6 +5,7 @@
 #include "radiosity/analysis/power_table.h"
 
 #include "base/choice.h"
+#include "radiosity/ratio.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/glossy.h"
@@ -108,6 +109,16 @@ constexpr std::array kinds_of_parts{
 template <>
 const Choices& choices_of<PartsBy>() {
   return texts_of<kinds_of_parts>("kind of parts");
+}
+
+double escaped_share(const PartPower& total) {
+  const Rgb all = total.emitted + total.from_sky;
+  return ratio_or_zero(total.escaped.r + total.escaped.g + total.escaped.b, all.r + all.g + all.b);
+}
+
+bool is_open(const SolveStatistics& statistics) {
+  const bool by_directions = statistics.pairs == 0 && statistics.hemicubes == 0;
+  return statistics.escaped > (by_directions ? 1e-9 : 1e-3);
 }
 
 PowerTable power_table(const Solution& solution, PartsBy by, const FormFactors* form_factors,

@@ -34,6 +34,15 @@ struct PartPower {
   Rgb escaped = {};          ///< sum A_i B_i times the share that meets no patch; 0 if not known
 };
 
+/// Share of the light that escapes: the escaped power over the emitted and that from the sky, all
+/// channels together; 0 without light.
+/// @param total over all patches
+double escaped_share(const PartPower& total);
+
+/// Whether light escapes from the scene: more than rounding, or the errors of form factors without
+/// directions, explains.
+bool is_open(const SolveStatistics& statistics);
+
 /// Powers by group or by material.
 ///
 /// Up to the tolerance of the solve, and the error of row sums (eq. 17) where they are not
