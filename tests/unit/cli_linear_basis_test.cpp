@@ -35,7 +35,6 @@ TEST(CliLinearBasis, IsRefusedInOneLineWhereItIsNotAvailable) {
           {{"--engine", "hemicube"}, "engine hemicube does not have"},
           {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
           {{"--scheme", "semi-iterative"}, "not available with the semi-iterative scheme"},
-          {{"--first-shot", "auto"}, "not available with a first shot"},
           {{"--factors", "f.npz"}, "not used with --factors"},
       });
   expect_refused({"solve", "furnace", "--basis", "quadratic"}, "choose one of constant, linear");
@@ -47,7 +46,8 @@ TEST(CliLinearBasis, WorksWithTheOtherOptions) {
                                {"--replicas", "4"},     {"--memory", "1M", "--iterations", "3"},
                                {"--sky", "1"},          {"--two-sided"},
                                {"--engine", "local"},   {"--by", "material"},
-                               {"--engine", "exact"}};
+                               {"--engine", "exact"},   {"--first-shot", "0"},
+                               {"--first-shot", "auto"}};
   for (const Arguments& option : options) {
     SCOPED_TRACE(::testing::PrintToString(option));
     expect_success(linear_box + Arguments{"-m", "16"} + option);

@@ -36,6 +36,23 @@ void add_scene_figures(const Scene& scene, const std::vector<Rgb>& h,
       contraction_bound(statistics.rho_max, quadrature_error_bound(statistics.directions));
 }
 
+/// bias_of_shot(), with linear functions one value per unknown: of a linear part, what its own
+/// error makes wrong. What other patches reflect of errors is treated as uniform.
+std::vector<Rgb> shot_bias(const Scene& scene, const DirectLight& shot) {
+  std::vector<Rgb> of_means = bias_of_shot(scene, shot);
+  if (shot.linear_part_errors.empty()) {
+    return of_means;
+  }
+  of_means.resize(scene.patches().size());
+  std::vector<Rgb> bias;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const LinearPart& error = at(shot.linear_part_errors, i);
+    const Rgb& rho = scene.reflectance(i);
+    bias.insert(bias.end(), {at(of_means, i), rho * error.first, rho * error.second});
+  }
+  return bias;
+}
+
 }  // namespace
 
 SolveProgress RadiositySolver::Impl::progress() const {
@@ -118,7 +135,7 @@ ErrorEstimate RadiositySolver::Impl::error_estimate() const {
   const auto& b = kind == Radiosity::running_estimate ? iteration.estimate : history.b();
   ErrorEstimate error = replicas.error_estimate(*input.scene, b, kind);
   include_bias(error, *input.scene, b, history.left());
-  include_bias(error, *input.scene, b, bias_of_shot(*input.scene, *input.shot));
+  include_bias(error, *input.scene, b, shot_bias(*input.scene, *input.shot));
   return error;
 }
 
