@@ -15,6 +15,7 @@
 #include "radiosity/channel_sums.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/form_factors/pair_matrix.h"
+#include "radiosity/linear_solution.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pairs/patch_exchange.h"

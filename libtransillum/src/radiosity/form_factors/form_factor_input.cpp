@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "radiosity/linear_solution.h"
 #include "scene/build/description_check.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -32,6 +33,16 @@ void check_form_factor_input(const Scene& scene, const FormFactors& form_factors
   for (const Material& material : materials) {
     check_material(material, "");
   }
+}
+
+std::size_t unknowns_of_patch(const FormFactors& form_factors, Basis basis) {
+  if (basis == Basis::constant) {
+    return 1;
+  }
+  if (form_factors.moments.size() != form_factors.size()) {
+    throw InputError("the form factors have no moments for linear functions");
+  }
+  return linear_unknowns;
 }
 
 void check_receiver(const Scene& scene, PatchId patch) {

@@ -184,6 +184,18 @@ std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
 
 std::vector<Rgb> RadiositySolver::sky_irradiance() const { return impl_->sky_irradiance(); }
 
+std::vector<LinearPart> RadiositySolver::sky_linear_parts() const {
+  std::vector<LinearPart> parts;
+  if (options().sky.is_set() && options().basis == Basis::linear) {
+    for (PatchId i = 0; i < impl_->input.scene->patch_count(); ++i) {
+      const std::size_t mean = impl_->input.unknowns->mean_of(i);
+      parts.push_back(
+          {impl_->whole.sky_irradiance(mean + 1), impl_->whole.sky_irradiance(mean + 2)});
+    }
+  }
+  return parts;
+}
+
 std::vector<double> RadiositySolver::back_seen_shares() const {
   return impl_->statistics.back_seen_shares();
 }
@@ -228,6 +240,7 @@ Solution RadiositySolver::solution() const {
     solution.form_factor_sums = form_factor_sums();
     solution.sky_shares = sky_shares();
     solution.sky_irradiance = sky_irradiance();
+    solution.sky_linear_parts = sky_linear_parts();
   }
   solution.error = error_estimate();
   solution.statistics = statistics();
