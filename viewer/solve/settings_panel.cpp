@@ -402,7 +402,7 @@ SolveOptions SettingsPanel::solve_options() const {
   options.goal = goal();
   options.basis = static_cast<Basis>(basis_->currentIndex());
   options.glossy = glossy_->isChecked();
-  if (options.basis == Basis::linear || options.glossy) {
+  if (options.glossy) {
     options.first_shot.reset();  // is not available, and has no control here
   }
   options.directions = directions_->value();

@@ -45,7 +45,7 @@ void check_stored_factors(const SolveCall& call) {
   for (const char* option :
        {"--directions", "--sampling", "--seed", "--rotate", "--engine", "--resolution", "--points",
         "--order", "--one-way", "--normalize", "--scheme", "--first-shot", "--burn-in",
-        "--replicas", "--accuracy", "--seconds", "--sky", "--basis", "--memory"}) {
+        "--replicas", "--accuracy", "--seconds", "--sky", "--memory"}) {
     refuse_unless(false, *call.scene.command, option, "not used with --factors");
   }
 }

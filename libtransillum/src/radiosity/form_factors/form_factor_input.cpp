@@ -17,6 +17,10 @@ void check_form_factor_input(const Scene& scene, const FormFactors& form_factors
   if (form_factors.row_begin.size() != patches + 1) {
     throw InputError("the form factors belong to another scene: the number of patches differs");
   }
+  if (!form_factors.moments.empty() && form_factors.moments.size() != form_factors.size()) {
+    throw InputError(fmt::format("{} moments for {} form factors", form_factors.moments.size(),
+                                 form_factors.size()));
+  }
   if (patch_materials.empty() && materials.size() != scene.materials().size()) {
     throw InputError("the materials belong to another scene: their number differs");
   }

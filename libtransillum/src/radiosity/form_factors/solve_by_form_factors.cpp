@@ -42,8 +42,7 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
   statistics.pairs = patches * (patches - 1) / 2;
   statistics.directions = pairs.points;
   IntegratedPairs integrated{0};
-  FormFactors form_factors =
-      pair_matrix(scene, pairs, cancellation, progress, integrated);
+  FormFactors form_factors = pair_matrix(scene, pairs, cancellation, progress, integrated);
   statistics.integrated_pairs = integrated;
   return form_factors;
 }
@@ -169,8 +168,7 @@ HemicubeOptions hemicube_options(const SolveOptions& options) {
 }
 
 PairOptions pair_options(const SolveOptions& options) {
-  PairOptions pairs{
-      .memory = options.memory, .threads = options.threads, .basis = options.basis};
+  PairOptions pairs{.memory = options.memory, .threads = options.threads, .basis = options.basis};
   if (options.engine_options.points > 0) {
     pairs.points = options.engine_options.points;
   }
