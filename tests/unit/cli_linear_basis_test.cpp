@@ -33,19 +33,25 @@ TEST(CliLinearBasis, IsRefusedInOneLineWhereItIsNotAvailable) {
           {{"--engine", "rays"}, "engine rays does not have"},
           {{"--engine", "corrected"}, "engine corrected does not have"},
           {{"--engine", "hemicube"}, "engine hemicube does not have"},
-          {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
           {{"--scheme", "semi-iterative"}, "not available with the semi-iterative scheme"},
       });
   expect_refused({"solve", "furnace", "--basis", "quadratic"}, "choose one of constant, linear");
 }
 
 TEST(CliLinearBasis, WorksWithTheOtherOptions) {
-  const Arguments options[] = {{"--one-way"},           {"--normalize", "rows"},
-                               {"--scheme", "growing"}, {"--scheme", "conjugate-gradients"},
-                               {"--replicas", "4"},     {"--memory", "1M", "--iterations", "3"},
-                               {"--sky", "1"},          {"--two-sided"},
-                               {"--engine", "local"},   {"--by", "material"},
-                               {"--engine", "exact"},   {"--first-shot", "0"},
+  const Arguments options[] = {{"--one-way"},
+                               {"--normalize", "rows"},
+                               {"--normalize", "symmetric"},
+                               {"--scheme", "growing"},
+                               {"--scheme", "conjugate-gradients"},
+                               {"--replicas", "4"},
+                               {"--memory", "1M", "--iterations", "3"},
+                               {"--sky", "1"},
+                               {"--two-sided"},
+                               {"--engine", "local"},
+                               {"--by", "material"},
+                               {"--engine", "exact"},
+                               {"--first-shot", "0"},
                                {"--first-shot", "auto"}};
   for (const Arguments& option : options) {
     SCOPED_TRACE(::testing::PrintToString(option));

@@ -450,9 +450,8 @@ class LinearTest : public QObject {
     QVERIFY(max_abs(changed->linear_parts[3].first - before[3].first) > 1e-4);
     QVERIFY(shown.part<QLabel>("material_account")->isHidden());
     shown.window->undo.undo();
-    QVERIFY(wait_for([&] {
-      return shown.window->snapshot()->linear_parts[3].first == before[3].first;
-    }));
+    QVERIFY(wait_for(
+        [&] { return shown.window->snapshot()->linear_parts[3].first == before[3].first; }));
   }
 
   void a_kept_constant_run_is_compared_as_a_function() {

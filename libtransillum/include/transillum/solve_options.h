@@ -57,7 +57,7 @@ enum class Basis {
   constant,  ///< one value per patch
   linear,    ///< a linear function on each patch (section 3; ALGORITHM.md 6.12), not continuous
              ///< across edges. Requires an engine that has_moments(), or pairs; not with
-             ///< Normalization::symmetric or Scheme::semi_iterative
+             ///< Scheme::semi_iterative
 };
 /// Their names (choice.h).
 template <>

@@ -51,9 +51,6 @@ constexpr Conflict conflicts[] = {
     {"basis", is_linear, has_no_moments,
      "linear requires the moments of exchanges, which engine {engine} does not have; choose fast, "
      "local, exact or pairs"},
-    {"basis", is_linear, is_symmetric,
-     "linear is not available with symmetric normalization, whose one factor per patch cannot "
-     "correct its moments"},
     {"basis", is_linear, is_semi_iterative,
      "linear is not available with the semi-iterative scheme, whose error bounds require form "
      "factors of at least 0"},

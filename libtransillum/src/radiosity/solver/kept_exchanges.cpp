@@ -245,6 +245,16 @@ void KeptExchanges::add_moments(const ExchangeSums& sums, const RadiosityIterate
       put(v, u, entry);
     }
   });
+  if (!iterate.has_scaled_moments()) {
+    return;
+  }
+  for (PatchId i = 0; i < patches_; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    for (std::size_t k = result.row_begin[row]; k < result.row_begin[row + 1]; ++k) {
+      iterate.scale_moments(i, result.source[k], result.moments[k]);
+      result.value[k] = result.moments[k].of(0, 0);
+    }
+  }
 }
 
 }  // namespace transillum
