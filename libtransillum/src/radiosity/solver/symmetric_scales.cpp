@@ -73,9 +73,10 @@ double improve_scales(std::span<double> scales, std::span<const double> wanted,
     worst = std::max(worst, std::abs(wanted[a + 1] - row) / w);
     slopes[a] = (scales[a + 1] / d + (wanted[a + 1] / number - image[a + 1]) / z) / 2;
   }
-  d = std::sqrt(d * number);
   const double steepness = std::hypot(slopes[0], slopes[1]);
   const double shrink = steepness > steepest ? steepest / steepness : 1.0;
+  const double seen = z + shrink * (slopes[0] * image[1] + slopes[1] * image[2]);
+  d = std::sqrt(d * w / seen);
   for (std::size_t a = 0; a < 2; ++a) {
     scales[a + 1] = shrink * d * slopes[a];
   }
