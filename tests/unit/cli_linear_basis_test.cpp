@@ -33,30 +33,35 @@ TEST(CliLinearBasis, IsRefusedInOneLineWhereItIsNotAvailable) {
           {{"--engine", "rays"}, "engine rays does not have"},
           {{"--engine", "corrected"}, "engine corrected does not have"},
           {{"--engine", "hemicube"}, "engine hemicube does not have"},
-          {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
           {{"--scheme", "semi-iterative"}, "not available with the semi-iterative scheme"},
-          {{"--first-shot", "auto"}, "not available with a first shot"},
-          {{"--factors", "f.npz"}, "not used with --factors"},
       });
   expect_refused({"solve", "furnace", "--basis", "quadratic"}, "choose one of constant, linear");
 }
 
 TEST(CliLinearBasis, WorksWithTheOtherOptions) {
-  const Arguments options[] = {{"--one-way"},           {"--normalize", "rows"},
-                               {"--scheme", "growing"}, {"--scheme", "conjugate-gradients"},
-                               {"--replicas", "4"},     {"--memory", "1M", "--iterations", "3"},
-                               {"--sky", "1"},          {"--two-sided"},
-                               {"--engine", "local"},   {"--by", "material"},
-                               {"--engine", "exact"}};
+  const Arguments options[] = {{"--one-way"},
+                               {"--normalize", "rows"},
+                               {"--normalize", "symmetric"},
+                               {"--scheme", "growing"},
+                               {"--scheme", "conjugate-gradients"},
+                               {"--replicas", "4"},
+                               {"--memory", "1M", "--iterations", "3"},
+                               {"--sky", "1"},
+                               {"--two-sided"},
+                               {"--engine", "local"},
+                               {"--by", "material"},
+                               {"--engine", "exact"},
+                               {"--first-shot", "0"},
+                               {"--first-shot", "auto"}};
   for (const Arguments& option : options) {
     SCOPED_TRACE(::testing::PrintToString(option));
     expect_success(linear_box + Arguments{"-m", "16"} + option);
   }
-  // Exchanges by form factors of constant functions would differ.
-  const ProgramResult table = run_program(linear_box + Arguments{"-m", "16", "--by", "material"});
-  EXPECT_THAT(table.out, HasSubstr("absorbed, W"));
-  EXPECT_THAT(table.out, Not(HasSubstr("power, W")));
-  EXPECT_THAT(table.err, HasSubstr("exchanges between groups are not available"));
+  for (const Arguments& option : {Arguments{"-m", "16"}, Arguments{"--engine", "pairs"}}) {
+    const ProgramResult table = expect_success(linear_box + option + Arguments{"--by", "material"});
+    EXPECT_THAT(table.out, HasSubstr("absorbed, W"));
+    EXPECT_THAT(table.out, HasSubstr("power, W"));
+  }
   expect_success(linear_box + Arguments{"--accuracy", "10%"});
 }
 
@@ -85,11 +90,48 @@ TEST(CliLinearBasis, PairsHaveFunctionsToo) {
   EXPECT_THAT(study.out, HasSubstr("pairs/linear"));
 }
 
-TEST(CliLinearBasis, GivenFormFactorsAreRefused) {
+/// What passes and pairs give, by way of a file.
+TEST(CliLinearBasis, StoredFormFactorsHaveMoments) {
+  const TemporaryFolder folder;
+  for (const Arguments& method : {Arguments{"-m", "64"}, Arguments{"--engine", "pairs"}}) {
+    expect_success(linear_box + method +
+                   Arguments{"--tolerance", "1e-12", "--out", folder / "direct.vtp"});
+    const Solution direct = read_result(folder / "direct.vtp");
+    for (const char* name : {"f.npz", "f.mtx"}) {
+      expect_success(
+          Arguments{"factors", "cornell-box", "--basis", "linear", "--out", folder / name} +
+          method);
+      expect_success(linear_box + Arguments{"--factors", folder / name, "--tolerance", "1e-12",
+                                            "--out", folder / "stored.vtp"});
+      const Solution stored = read_result(folder / "stored.vtp");
+      ASSERT_EQ(stored.linear_parts.size(), direct.linear_parts.size());
+      for (std::size_t i = 0; i < direct.linear_parts.size(); ++i) {
+        EXPECT_NEAR(max_abs(stored.radiosity[i] - direct.radiosity[i]), 0, 1e-10) << name;
+        EXPECT_NEAR(max_abs(stored.linear_parts[i].first - direct.linear_parts[i].first), 0, 1e-10);
+        EXPECT_NEAR(max_abs(stored.linear_parts[i].second - direct.linear_parts[i].second), 0,
+                    1e-10);
+      }
+      // Constant functions do not read the moments.
+      expect_success({"solve", "cornell-box", "-q", "--factors", folder / name});
+    }
+  }
+  expect_success({"factors", "cornell-box", "-m", "8", "--out", folder / "constant.npz"});
+  expect_refused(linear_box + Arguments{"--factors", folder / "constant.npz"},
+                 "no moments for linear functions");
+  const Arguments factors{"factors", "cornell-box", "--basis", "linear", "-m", "8", "--out"};
+  expect_refused(factors + Arguments{folder / "f.vf"}, "a .vf file cannot hold");
+  expect_refused(factors + Arguments{folder / "g.npz", "--engine", "zbuffer"},
+                 "engine zbuffer does not have");
+  expect_success(factors + Arguments{folder / "f.csv", "--drop", "1e-3"});
+  EXPECT_THAT(read_file(folder / "f.csv"), HasSubstr("i,j,F,F01,F02,F10,F11,F12,F20,F21,F22\n"));
+}
+
+TEST(CliLinearBasis, GivenFormFactorsWithoutMomentsAreRefused) {
+  const auto scene = load_scene("furnace");
   SolveOptions options;
   options.basis = Basis::linear;
   EXPECT_THAT(test::refusal([&] {
-                (void)solve_with_form_factors(load_scene("furnace"), FormFactors(), options);
+                (void)solve_with_form_factors(scene, pair_form_factors(*scene, {}), options);
               }),
               HasSubstr("no moments for linear functions"));
 }

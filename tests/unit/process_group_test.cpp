@@ -48,6 +48,9 @@ Outcome outcome_of(const Solution& solution) {
   append(outcome.values, solution.irradiance);
   append(outcome.values, solution.error.standard_error);
   append(outcome.values, solution.sky_irradiance);
+  for (const LinearPart& part : solution.linear_parts) {
+    append(outcome.values, {part.first, part.second});
+  }
   for (const auto* list : {&solution.form_factor_sums, &solution.sky_shares}) {
     outcome.values.insert(outcome.values.end(), list->begin(), list->end());
   }
@@ -140,6 +143,11 @@ TEST(ProcessGroup, HasTheBitsOfOneSolverWithReplicasAndNormalizations) {
   SolveOptions sky{.directions = 64};
   sky.sky.exitance = {1, 2, 3};
   expect_bits_of_one(sky);
+}
+
+TEST(ProcessGroup, HasTheBitsOfOneSolverWithLinearFunctions) {
+  expect_bits_of_one({.directions = 32, .basis = Basis::linear, .first_shot = 0, .replicas = 2});
+  expect_bits_of_one({.directions = 32, .normalize = Normalization::rows, .basis = Basis::linear});
 }
 
 TEST(ProcessGroup, HasTheBitsOfOneSolverInEveryScheme) {

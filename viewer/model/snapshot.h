@@ -101,9 +101,10 @@ struct SolverSnapshot {
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
   /// The linear parts of B(n) likewise; empty where B is constant on patches.
   std::vector<std::shared_ptr<const std::vector<LinearPart>>> kept_linear_parts;
-  std::vector<double> form_factor_sums;  ///< one per patch; 0 before the first pass
-  std::vector<double> sky_shares;        ///< Solution::sky_shares; 0 before the first pass
-  std::vector<Rgb> sky_irradiance;       ///< Solution::sky_irradiance; empty without a sky
+  std::vector<double> form_factor_sums;      ///< one per patch; 0 before the first pass
+  std::vector<double> sky_shares;            ///< Solution::sky_shares; 0 before the first pass
+  std::vector<Rgb> sky_irradiance;           ///< Solution::sky_irradiance; empty without a sky
+  std::vector<LinearPart> sky_linear_parts;  ///< Solution::sky_linear_parts
   std::vector<double>
       estimate_changes;  ///< changes in the newest iteration with passes, one per pass
   std::vector<double> quadrature_errors;  ///< epsilon after each pass

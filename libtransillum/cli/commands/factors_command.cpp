@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <ostream>
 
@@ -90,6 +91,11 @@ void check_options(const FactorsCall& call) {
   const Factors factors = traits_of(call.passes().engine).factors;
   refuse_unless(factors == Factors::rays, *call.scene.command, "--rays",
                 "used only with engine rays");
+  const std::string conflict = conflict_of("basis", call.scene.run);
+  refuse_unless(conflict.empty(), *call.scene.command, "--basis", conflict.c_str());
+  const bool has_no_moments = std::filesystem::path(call.out).extension() == ".vf";
+  refuse_unless(!has_no_moments || call.passes().basis == Basis::constant, *call.scene.command,
+                "--basis", "linear has moments, which a .vf file cannot hold; write .npz or .mtx");
   if (factors == Factors::hemicubes) {
     hemicube_options(call.passes()).validate();
   }
@@ -197,7 +203,7 @@ void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
       .add_option("-o,--out", call->out,
                   "by its ending .csv: i,j,F for every F > 0, sorted by i, then j; .npz: sparse "
                   "matrix of SciPy; .mtx: Matrix Market; .vf: View3D (default: CSV on standard "
-                  "output)")
+                  "output); with --basis linear all but .vf also have the moments")
       ->type_name("FILE");
   add_parsed_option(command, "--drop", "F",
                     "omit form factors below F, such as 1e-6, and scale the others so that "
@@ -218,7 +224,7 @@ Run add_factors_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
   add_scene_argument(command, call->scene);
-  add_options(command, call->scene, {"directions", "sampling", "seed", "rotate"});
+  add_options(command, call->scene, {"directions", "sampling", "seed", "rotate", "basis"});
   add_methods(command, call);
   add_scene_options(command, call->scene);
   add_groups(command, call->scene, {"Machine"});

@@ -187,8 +187,7 @@ int run_solve(SolveCall& call) {
       .cancellation = cancellation,
       .display = display,
       .quiet = call.quiet,
-      // Form factors between constant functions are not what linear functions exchange.
-      .form_factors = call.by.has_value() && options.basis == Basis::constant,
+      .form_factors = call.by.has_value(),
       .has_series = !call.colors.series.empty(),
       .series = prepared.series ? &*prepared.series : nullptr,
       .series_every = call.colors.series_every,
@@ -204,9 +203,6 @@ int run_solve(SolveCall& call) {
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
   solution.eye = call.eye;
-  if (call.by && options.basis != Basis::constant) {
-    print_message("exchanges between groups are not available with --basis linear");
-  }
   for (const std::string& warning : solve_warnings(solution)) {
     print_message("warning: " + warning);
   }

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -10,17 +11,15 @@
 
 #include "transillum/cancellation.h"
 #include "transillum/export.h"
+#include "transillum/linear_basis.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 
 namespace TRANSILLUM_API transillum {
 
 /// Default threshold of R²/A from which a source is treated as small: of 2,048 directions, fewer
 /// than one on average meets it from a point half a scene away.
 inline constexpr double small_source_ratio = 1000;
-
-/// In place of a threshold: each source whose shot is expected to take less time than the passes
-/// that would be needed to reach its accuracy.
-inline constexpr double first_shot_where_it_pays = -1;
 
 /// The threshold called `name`: `auto` (first_shot_where_it_pays), a number >= 0, or `none`.
 /// @returns nothing for `none`.
@@ -54,6 +53,8 @@ struct DirectLight {
   struct Part {
     int material = 0;                ///< index into Scene::materials()
     std::vector<double> irradiance;  ///< H for an exitance of 1, one per patch
+    /// Coefficients of phi_1 and phi_2 of H for an exitance of 1; empty with Basis::constant.
+    std::vector<std::array<double, 2>> linear_parts = {};
   };
 
   std::vector<Rgb> irradiance;   ///< H, W/m², one per patch
@@ -65,6 +66,11 @@ struct DirectLight {
   /// are computed by points. Empty if unknown (with_materials()).
   std::vector<Rgb> irradiance_error = {};
   std::int64_t integrated_pairs = 0;  ///< SolveStatistics::integrated_pairs
+  /// Linear parts of `irradiance`, W/m², one per patch; empty with Basis::constant.
+  std::vector<LinearPart> linear_parts = {};
+  /// Estimated errors of `linear_parts`, of points even where nothing stands between. Empty if
+  /// unknown, and with Basis::constant.
+  std::vector<LinearPart> linear_part_errors = {};
 };
 
 /// Distributes the emission of `sources` to all patches by exact form factors: of whole polygons
@@ -76,10 +82,13 @@ struct DirectLight {
 /// @param cancellation checked during computation.
 /// @param progress if set, called at intervals with the share of pairs done, in [0,1], on this
 /// thread; also while one pair takes long.
+/// @param basis linear: the linear parts of H are computed too, by points of the smaller polygon;
+/// the means have the same bits as with constant functions.
 /// @throws Canceled
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0,
                   const Cancellation& cancellation = {},
-                  const std::function<void(double)>& progress = {});
+                  const std::function<void(double)>& progress = {},
+                  Basis basis = Basis::constant);
 
 /// The direct light of the same sources after a change of materials, from the parts of `light`. The
 /// result has no parts.

@@ -9,6 +9,7 @@
 #include "transillum/cancellation.h"
 #include "transillum/export.h"
 #include "transillum/scene.h"
+#include "transillum/transfers.h"
 
 namespace TRANSILLUM_API transillum {
 
@@ -18,6 +19,9 @@ struct FormFactors {
   std::vector<std::size_t> row_begin;  ///< first index of row i in the lists below; patches + 1
   std::vector<PatchId> source;         ///< j, ascending within a row
   std::vector<double> value;           ///< F_ij, > 0
+  /// T^ab(i,j) / A_i over all directions, beside `value`, which T^00 / A_i is; empty unless they
+  /// come from a solve with Basis::linear.
+  std::vector<TransferMoments> moments = {};
 
   /// Number of nonzero entries.
   std::size_t size() const { return value.size(); }

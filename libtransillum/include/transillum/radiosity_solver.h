@@ -173,6 +173,8 @@ class RadiositySolver {
   /// Per patch: what it receives from SolveOptions::sky, W/m², from the passes done so far; empty
   /// without a sky. In the semi-iterative scheme, for the last set of directions.
   std::vector<Rgb> sky_irradiance() const;
+  /// Linear parts of sky_irradiance(), W/m²; empty without a sky, and with Basis::constant.
+  std::vector<LinearPart> sky_linear_parts() const;
   /// Per patch: share of its visible area of which receivers see the back side, over all passes so
   /// far.
   std::vector<double> back_seen_shares() const;

@@ -207,6 +207,8 @@ struct Solution {
   std::vector<double> sky_shares = {};
   /// RadiositySolver::sky_irradiance(); part of `irradiance`; empty without a sky
   std::vector<Rgb> sky_irradiance = {};
+  /// RadiositySolver::sky_linear_parts(); empty without a sky, and with Basis::constant
+  std::vector<LinearPart> sky_linear_parts = {};
   Sky sky = {};  ///< SolveOptions::sky
   /// The form factors given to the solve; if null, RadiositySolver::form_factors() may have them.
   std::shared_ptr<const FormFactors> form_factors = nullptr;

@@ -55,14 +55,9 @@ constexpr Conflict conflicts[] = {
     {"basis", is_linear, has_no_moments,
      "linear requires the moments of exchanges, which engine {engine} does not have; choose fast, "
      "local, exact or pairs"},
-    {"basis", is_linear, is_symmetric,
-     "linear is not available with symmetric normalization, whose one factor per patch cannot "
-     "correct its moments"},
     {"basis", is_linear, is_semi_iterative,
      "linear is not available with the semi-iterative scheme, whose error bounds require form "
      "factors of at least 0"},
-    {"basis", is_linear, has_shot,
-     "linear is not available with a first shot, which has no moments of its exchanges"},
     {"glossy", is_glossy, has_no_directions,
      "lobes are not available with engine hemicube or pairs, which have no directions"},
     {"glossy", is_glossy, is_one_way,

@@ -132,7 +132,9 @@ void add_equations(Table& t) {
   choice(t.add("normalize", "NAME", "a name", meanings<Normalization>()),
          solve(&SolveOptions::normalize));
   choice(t.add("scheme", "NAME", "a name", meanings<Scheme>()), solve(&SolveOptions::scheme));
-  choice(t.common("basis", "NAME", "a name", meanings<Basis>()), solve(&SolveOptions::basis));
+  Option& basis = t.common("basis", "NAME", "a name", meanings<Basis>());
+  choice(basis, solve(&SolveOptions::basis));
+  basis.reads_factors = true;
   flag(t.add("glossy", "", "yes or no",
              "lobes of materials (MTL: Ks with Ns or Pr; glTF: metallic and rough) reflect too"),
        solve(&SolveOptions::glossy));

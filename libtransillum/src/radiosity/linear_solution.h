@@ -33,4 +33,28 @@ inline std::vector<Rgb> coefficients_of(const std::vector<Rgb>& radiosity,
   return coefficients;
 }
 
+/// Number of unknowns of a patch with linear functions; unknown 3 i + a has the function phi_a.
+constexpr std::size_t linear_unknowns = 3;
+
+/// The values of phi_0 among the values of all unknowns.
+template <class Value>
+std::vector<Value> means_of(std::vector<Value> values, std::size_t per_patch) {
+  if (per_patch > 1) {
+    for (std::size_t i = 0; per_patch * i < values.size(); ++i) {
+      values[i] = values[per_patch * i];
+    }
+    values.resize(values.size() / per_patch);
+  }
+  return values;
+}
+
+/// The values of phi_1 and phi_2 among the coefficients of linear functions.
+inline std::vector<LinearPart> linear_parts_of(const std::vector<Rgb>& coefficients) {
+  std::vector<LinearPart> parts;
+  for (std::size_t u = 0; u < coefficients.size(); u += linear_unknowns) {
+    parts.push_back({coefficients[u + 1], coefficients[u + 2]});
+  }
+  return parts;
+}
+
 }  // namespace transillum

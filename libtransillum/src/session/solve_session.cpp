@@ -90,7 +90,7 @@ void SolveSession::Impl::shoot_first() {
   }
   shot = std::make_shared<const DirectLight>(shoot(
       *scene, first_shot_sources(*scene, *threshold, expected_directions(options), cancellation),
-      options.threads, cancellation, report));
+      options.threads, cancellation, report, options.basis));
   seconds_first_shot = seconds_since(start);
 }
 

@@ -32,6 +32,7 @@ SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const Lo
   snapshot.form_factor_sums = std::move(solution.form_factor_sums);
   snapshot.sky_shares = std::move(solution.sky_shares);
   snapshot.sky_irradiance = std::move(solution.sky_irradiance);
+  snapshot.sky_linear_parts = std::move(solution.sky_linear_parts);
   // Empty before the first pass.
   snapshot.form_factor_sums.resize(snapshot.radiosity.size());
   if (!snapshot.of_file) {
@@ -57,6 +58,18 @@ constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
 template <class Value>
 std::shared_ptr<const std::vector<Value>> shared(std::vector<Value> values) {
   return std::make_shared<const std::vector<Value>>(std::move(values));
+}
+
+/// The linear parts of B(0): what the first shot brings. E has none.
+std::vector<LinearPart> parts_of_start(const SolveSession& session) {
+  const Scene& scene = *session.scene();
+  std::vector<LinearPart> parts(scene.patches().size());
+  const std::vector<LinearPart>& shot = session.diffuse()->direct_light()->linear_parts;
+  for (std::size_t i = 0; i < shot.size(); ++i) {
+    const Rgb& rho = scene.reflectance(static_cast<PatchId>(i));
+    parts[i] = {rho * shot[i].first, rho * shot[i].second};
+  }
+  return parts;
 }
 
 }  // namespace
@@ -99,8 +112,8 @@ void SolveHistory::store_radiosity(const SolveSession& session) {
   }
   linear_parts_.resize(iteration + 1);
   if (iteration == 0) {
-    // B(0) is E; the solver's parts may already belong to the estimate.
-    linear_parts_[0] = shared(std::vector<LinearPart>(patches));
+    // The solver's parts may already belong to the estimate.
+    linear_parts_[0] = shared(parts_of_start(session));
   } else if (progress.direction == 0) {
     linear_parts_[iteration] = shared(session.linear_parts());
   }

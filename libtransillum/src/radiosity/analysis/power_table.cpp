@@ -84,13 +84,23 @@ void add_exchanges(const Solution& solution, const Division& division,
   if (form_factors.row_begin.size() != patches + 1) {
     throw InputError("the form factors belong to another scene: the number of patches differs");
   }
+  const bool linear = !solution.linear_parts.empty();
+  if (linear && form_factors.moments.size() != form_factors.size()) {
+    throw InputError("the form factors have no moments for the linear functions of the solution");
+  }
   exchanged.assign(division.names.size(), std::vector<Rgb>(division.names.size()));
   for (std::size_t i = 0; i < patches; ++i) {
     const double area = solution.scene->patches()[i].area;
     std::vector<Rgb>& row = exchanged[division.of_patch[i]];
     for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
       const PatchId j = form_factors.source[k];
-      row[at(division.of_patch, j)] += (area * form_factors.value[k]) * at(solution.radiosity, j);
+      Rgb& power = row[at(division.of_patch, j)];
+      power += (area * form_factors.value[k]) * at(solution.radiosity, j);
+      if (linear) {
+        const TransferMoments& moments = form_factors.moments[k];
+        const LinearPart& part = at(solution.linear_parts, j);
+        power += area * (moments.of(0, 1) * part.first + moments.of(0, 2) * part.second);
+      }
     }
   }
 }

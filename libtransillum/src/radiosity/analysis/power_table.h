@@ -53,7 +53,7 @@ struct PowerTable {
   PartPower total;               ///< over all patches; its name is "total"
   bool escape_known = false;     ///< Solution::sky_shares is known
   /// Entry [i][j]: power that leaves part j and arrives directly at part i, sum A_k F_kl B_l over
-  /// their patches, W; empty without form factors.
+  /// their patches, with linear functions sum_b T^0b(k,l) b_lb, W; empty without form factors.
   std::vector<std::vector<Rgb>> exchanged;
 };
 
@@ -64,7 +64,8 @@ struct PowerTable {
 /// @param materials E and rho that the solution has, where they differ from the scene's
 /// (relight()); if empty, the scene's apply.
 /// @param patch_materials index into `materials` for each patch; read with `materials` only.
-/// @throws InputError where the form factors are of another number of patches.
+/// @throws InputError where the form factors are of another number of patches, or have no moments
+/// for a solution with linear functions.
 PowerTable power_table(const Solution& solution, PartsBy by,
                        const FormFactors* form_factors = nullptr,
                        std::span<const Material> materials = {},

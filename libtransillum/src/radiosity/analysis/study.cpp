@@ -396,7 +396,6 @@ SolveOptions StudyOptions::reference(int passes) const {
   options.threads = solve.threads;
   if (of_functions()) {
     options.basis = Basis::linear;
-    return options;  // a linear basis has no first shot
   }
   for (const StudySeries& one : series) {
     if (!one.first_shot) {

@@ -5,6 +5,7 @@
 #include "transillum/first_shot.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <set>
@@ -14,6 +15,7 @@
 #include "radiosity/channel_sums.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/form_factors/pair_matrix.h"
+#include "radiosity/linear_solution.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pairs/patch_exchange.h"
@@ -22,8 +24,8 @@ namespace transillum {
 namespace {
 
 /// One part of zeros per material of the sources; none where they would take too much memory.
-std::vector<DirectLight::Part> empty_parts(const Scene& scene,
-                                           const std::vector<PatchId>& sources) {
+std::vector<DirectLight::Part> empty_parts(const Scene& scene, const std::vector<PatchId>& sources,
+                                           Basis basis) {
   constexpr std::size_t max_bytes = std::size_t{256} << 20;
   std::set<int> materials;
   for (const PatchId j : sources) {
@@ -31,11 +33,13 @@ std::vector<DirectLight::Part> empty_parts(const Scene& scene,
   }
   const auto patches = scene.patches().size();
   std::vector<DirectLight::Part> parts;
-  if (materials.size() * patches * sizeof(double) > max_bytes) {
+  const bool linear = basis == Basis::linear;
+  if (materials.size() * patches * sizeof(double) * (linear ? linear_unknowns : 1) > max_bytes) {
     return parts;
   }
   for (const int m : materials) {
-    parts.push_back({m, std::vector<double>(patches)});
+    parts.push_back({m, std::vector<double>(patches),
+                     std::vector<std::array<double, 2>>(linear ? patches : 0)});
   }
   return parts;
 }
@@ -93,20 +97,42 @@ class ErrorSum {
   Rgb sum_, root_;
 };
 
+/// Computes the linear part of the irradiance of a patch.
+class LinearPartSum {
+ public:
+  /// @param weight exitance of the source, over the area of the patch
+  void add(const PatchExchange& exchange, const Rgb& weight) {
+    for (std::size_t a = 0; a < 2; ++a) {
+      sums_[a] += exchange.moments[a] * weight;
+      errors_[a].add(exchange.moment_errors[a] * weight);
+    }
+  }
+  LinearPart sum() const { return {sums_[0], sums_[1]}; }
+  LinearPart error() const { return {errors_[0].largest(), errors_[1].largest()}; }
+
+ private:
+  std::array<Rgb, 2> sums_;
+  std::array<ErrorSum, 2> errors_;
+};
+
 /// Computes the irradiance of patch i from all sources.
 void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, ShotProgress& progress,
              IntegratedPairs& integrated, DirectLight& light) {
   const auto row = static_cast<std::size_t>(i);
   const double unit = 1 / scene.patch(i).area;
+  const bool linear = !light.linear_parts.empty();
+  const LinearBasis basis = linear ? linear_basis(scene, i) : LinearBasis();
   Rgb power;
   ErrorSum errors;
+  LinearPartSum linear_part;
   for (const PatchId j : light.sources) {
     progress.check();
     progress.add_pair();
     if (j == i) {
       continue;
     }
-    const PatchExchange found = exchange(i, j, [&] { progress.check(); });
+    const PatchExchange found = exchange(
+        i, j, [&] { progress.check(); }, linear ? &basis : nullptr);
     const double area = found.area;
     power += area * scene.exitance(j);
     integrated += found.integrated ? 1 : 0;
@@ -114,10 +140,20 @@ void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, Shot
     const auto part = part_of(light.parts, scene.patch(j).material);
     if (part != light.parts.end()) {
       part->irradiance[row] += unit * area;
+      for (std::size_t a = 0; linear && a < 2; ++a) {
+        part->linear_parts[row][a] += unit * found.moments[a];
+      }
+    }
+    if (linear) {
+      linear_part.add(found, unit * scene.exitance(j));
     }
   }
   light.irradiance[row] = unit * power;
   light.irradiance_error[row] = errors.largest();
+  if (linear) {
+    light.linear_parts[row] = linear_part.sum();
+    light.linear_part_errors[row] = linear_part.error();
+  }
 }
 
 /// Sets the exitance of the sources and their share of all emitted power.
@@ -157,10 +193,18 @@ Rgb exitance_of_part(const DirectLight::Part& part, const std::vector<PatchId>& 
 }  // namespace
 
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads,
-                  const Cancellation& cancellation, const std::function<void(double)>& progress) {
+                  const Cancellation& cancellation, const std::function<void(double)>& progress,
+                  Basis basis) {
   const auto patches = scene.patches().size();
-  DirectLight light{std::vector<Rgb>(patches),   std::vector<Rgb>(patches), sources, 0,
-                    empty_parts(scene, sources), std::vector<Rgb>(patches)};
+  DirectLight light{.irradiance = std::vector<Rgb>(patches),
+                    .exitance = std::vector<Rgb>(patches),
+                    .sources = sources,
+                    .parts = empty_parts(scene, sources, basis),
+                    .irradiance_error = std::vector<Rgb>(patches)};
+  if (basis == Basis::linear) {
+    light.linear_parts.resize(patches);
+    light.linear_part_errors.resize(patches);
+  }
   if (sources.empty()) {
     return light;
   }
@@ -193,7 +237,11 @@ DirectLight with_materials(const DirectLight& light, const Scene& scene,
   if (light.parts.empty() && !light.sources.empty()) {
     throw InputError("the first shot is not stored per material: that would take too much memory");
   }
-  DirectLight other{std::vector<Rgb>(patches), std::vector<Rgb>(patches), light.sources, 0, {}};
+  DirectLight other{.irradiance = std::vector<Rgb>(patches),
+                    .exitance = std::vector<Rgb>(patches),
+                    .sources = light.sources,
+                    .parts = {},
+                    .linear_parts = std::vector<LinearPart>(light.linear_parts.size())};
   const auto exitance_of = [&](PatchId i) {
     return at(materials, patch_materials.empty() ? scene.patch(i).material : at(patch_materials, i))
         .exitance;
@@ -202,6 +250,10 @@ DirectLight with_materials(const DirectLight& light, const Scene& scene,
     const Rgb exitance = exitance_of_part(part, light.sources, scene, exitance_of);
     for (std::size_t i = 0; i < patches; ++i) {
       other.irradiance[i] += part.irradiance[i] * exitance;
+    }
+    for (std::size_t i = 0; i < other.linear_parts.size(); ++i) {
+      other.linear_parts[i].first += part.linear_parts[i][0] * exitance;
+      other.linear_parts[i].second += part.linear_parts[i][1] * exitance;
     }
   }
   count_power(scene, exitance_of, other);

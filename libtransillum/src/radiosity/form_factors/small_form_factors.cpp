@@ -172,6 +172,13 @@ class Balance {
         const double scale = scales_[i] * (symmetric_ ? at(scales_, f_.source[k]) : 1.0);
         result.form_factors.source.push_back(f_.source[k]);
         result.form_factors.value.push_back(scale * f_.value[k]);
+        if (!f_.moments.empty()) {
+          TransferMoments moments = f_.moments[k];
+          for (double& value : moments.value) {
+            value *= scale;
+          }
+          result.form_factors.moments.push_back(moments);
+        }
       }
       result.form_factors.row_begin.push_back(result.form_factors.size());
     }

@@ -31,7 +31,7 @@ bool is_by_hemicubes(const SolveOptions& options) {
   return traits_of(options.engine).factors == EngineTraits::Factors::hemicubes;
 }
 
-/// Computes the form factors, of all unknowns if the basis is linear, and sets the figures that
+/// Computes the form factors, with their moments if the basis is linear, and sets the figures that
 /// differ between the engines.
 FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options,
                                  const Cancellation& cancellation,
@@ -48,8 +48,7 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
   statistics.pairs = patches * (patches - 1) / 2;
   statistics.directions = pairs.points;
   IntegratedPairs integrated{0};
-  FormFactors form_factors =
-      pair_matrix(scene, pairs, options.basis, cancellation, progress, integrated);
+  FormFactors form_factors = pair_matrix(scene, pairs, cancellation, progress, integrated);
   statistics.integrated_pairs = integrated;
   return form_factors;
 }
@@ -59,26 +58,15 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
 std::vector<double> row_sums(const FormFactors& form_factors, std::size_t per_patch) {
   std::vector<double> sums;
   for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
-    double sum = 0;
-    for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1];
-         k += per_patch) {
-      sum += form_factors.value[k];
+    for (std::size_t a = 0; a < per_patch; ++a) {
+      double sum = 0;
+      for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
+        sum += a == 0 ? form_factors.value[k] : form_factors.moments[k].of(a, 0);
+      }
+      sums.push_back(sum);
     }
-    sums.push_back(sum);
   }
   return sums;
-}
-
-/// The values of phi_0 among the values of all unknowns.
-template <class Value>
-std::vector<Value> means_of(std::vector<Value> values, std::size_t per_patch) {
-  if (per_patch > 1) {
-    for (std::size_t i = 0; per_patch * i < values.size(); ++i) {
-      values[i] = values[per_patch * i];
-    }
-    values.resize(values.size() / per_patch);
-  }
-  return values;
 }
 
 /// Sets the figures that are sums over rows of F: closure, escaped, energy and rho_max.
@@ -117,35 +105,10 @@ void add_power(const Scene& scene, const std::vector<double>& sums,
       ratio_or_zero(absorbed.r + absorbed.g + absorbed.b, emitted.r + emitted.g + emitted.b);
 }
 
-std::vector<LinearPart> linear_parts_of(const std::vector<Rgb>& coefficients) {
-  std::vector<LinearPart> parts;
-  for (std::size_t u = 0; u < coefficients.size(); u += linear_unknowns) {
-    parts.push_back({coefficients[u + 1], coefficients[u + 2]});
-  }
-  return parts;
-}
-
-/// The form factors of constant functions, T^00 / A_i.
-FormFactors factors_of_means(const FormFactors& of_unknowns) {
-  FormFactors means;
-  means.row_begin.push_back(0);
-  for (std::size_t u = 0; u + 1 < of_unknowns.row_begin.size(); u += linear_unknowns) {
-    for (std::size_t k = of_unknowns.row_begin[u]; k < of_unknowns.row_begin[u + 1];
-         k += linear_unknowns) {
-      means.source.push_back(of_unknowns.source[k] / static_cast<PatchId>(linear_unknowns));
-      means.value.push_back(of_unknowns.value[k]);
-    }
-    means.row_begin.push_back(means.source.size());
-  }
-  return means;
-}
-
-/// The iteration with `form_factors`, of all unknowns if the basis is linear; sets all but what
-/// computing them took.
+/// The iteration with `form_factors`; sets all but what computing them took.
 Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
                  const SolveOptions& options, const Cancellation& cancellation) {
-  const bool linear = options.basis == Basis::linear;
-  const std::size_t per_patch = linear ? linear_unknowns : 1;
+  const std::size_t per_patch = unknowns_of_patch(form_factors, options.basis);
   Solution solution;
   SolveStatistics& statistics = solution.statistics;
   const auto start = Clock::now();
@@ -160,9 +123,8 @@ Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
     solution.sky_shares.push_back(std::max(0.0, 1 - sum));
   }
   add_power(*scene, sums, iteration, statistics);
-  if (linear) {
+  if (per_patch > 1) {
     solution.linear_parts = linear_parts_of(iteration.b);
-    form_factors = factors_of_means(form_factors);
   }
   statistics.patches = statistics.fragments = scene->patch_count();
   statistics.iterations = static_cast<int>(iteration.records.size());
@@ -219,7 +181,7 @@ HemicubeOptions hemicube_options(const SolveOptions& options) {
 }
 
 PairOptions pair_options(const SolveOptions& options) {
-  PairOptions pairs{.memory = options.memory, .threads = options.threads};
+  PairOptions pairs{.memory = options.memory, .threads = options.threads, .basis = options.basis};
   if (options.engine_options.points > 0) {
     pairs.points = options.engine_options.points;
   }
@@ -271,9 +233,6 @@ Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors
                                  const SolveOptions& options, const Cancellation& cancellation) {
   options.validate();
   refuse_directions(options, "given form factors have");
-  if (options.basis != Basis::constant) {
-    throw InputError("given form factors have no moments for linear functions");
-  }
   if (options.goal.is_set()) {
     throw InputError("accuracy: given form factors have none to choose");
   }

@@ -218,7 +218,43 @@ FormFactors KeptExchanges::form_factors(const RadiosityIterate& iterate,
                       [&](PatchId i, PatchId j, double area) { put(j, i, area); });
   }
   for_each_constant(sums, per_patch_, put);
+  if (per_patch_ > 1) {
+    add_moments(sums, iterate, areas, result);
+  }
   return result;
+}
+
+void KeptExchanges::add_moments(const ExchangeSums& sums, const RadiosityIterate& iterate,
+                                const VisibleAreaSums& areas, FormFactors& result) const {
+  result.moments.resize(result.size());
+  const auto n = static_cast<PatchId>(per_patch_);
+  const auto put = [&](PatchId u, PatchId v, double entry) {
+    const PatchId i = u / n, j = v / n;
+    const auto row = static_cast<std::size_t>(i);
+    const auto begin = result.source.begin();
+    const auto first = begin + static_cast<std::ptrdiff_t>(result.row_begin[row]);
+    const auto last = begin + static_cast<std::ptrdiff_t>(result.row_begin[row + 1]);
+    const auto found = static_cast<std::size_t>(std::lower_bound(first, last, j) - begin);
+    result.moments[found].of(static_cast<std::size_t>(u % n), static_cast<std::size_t>(v % n)) =
+        entry * iterate.form_factor_scale(static_cast<std::size_t>(u), static_cast<std::size_t>(v),
+                                          at(areas.projected, i), areas.passes);
+  };
+  sums.for_each([&](PatchId u, PatchId v, double entry) {
+    put(u, v, entry);
+    if (two_way_) {
+      put(v, u, entry);
+    }
+  });
+  if (!iterate.has_scaled_moments()) {
+    return;
+  }
+  for (PatchId i = 0; i < patches_; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    for (std::size_t k = result.row_begin[row]; k < result.row_begin[row + 1]; ++k) {
+      iterate.scale_moments(i, result.source[k], result.moments[k]);
+      result.value[k] = result.moments[k].of(0, 0);
+    }
+  }
 }
 
 }  // namespace transillum

@@ -78,6 +78,9 @@ class KeptExchanges {
   std::size_t own_size() const;
   /// Computes what size() counts besides own_size().
   void count();
+  /// Sets FormFactors::moments from the entries of unknowns.
+  void add_moments(const ExchangeSums& sums, const RadiosityIterate& iterate,
+                   const VisibleAreaSums& areas, FormFactors& result) const;
   /// The sum over all replicas; in a group, on member 0, over all members.
   ExchangeSums joined() const;
 

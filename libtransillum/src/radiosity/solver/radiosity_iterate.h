@@ -56,9 +56,14 @@ class RadiosityIterate {
 
   /// B of the iteration under way, estimated from the passes so far, W/m².
   Rgb estimate(std::size_t u) const;
-  /// The factor from entry (u, v) of kept sums to F.
+  /// The factor from entry (u, v) of kept sums to F, before scale_moments().
   /// @param projected, passes of the kept sums, as in VisibleAreaSums
   double form_factor_scale(std::size_t u, std::size_t v, double projected, int passes) const;
+  /// Scales the moments of a pair, T^ab times form_factor_scale(), if the normalization is
+  /// symmetric.
+  void scale_moments(PatchId i, PatchId j, TransferMoments& moments) const;
+  /// Whether scale_moments() changes them.
+  bool has_scaled_moments() const { return !scales_.empty() && unknowns_.per_patch > 1; }
   /// sum_j F_ij.
   /// @param row_areas, projected, passes of the kept sums, as in VisibleAreaSums
   double form_factor_sum(std::size_t u, double row_areas, double projected, int passes) const;
@@ -126,7 +131,7 @@ class RadiosityIterate {
   int passes_ = 0;
   std::vector<double> kept_projected_, kept_sky_areas_;
   int kept_passes_ = 0;
-  std::vector<double> scales_;    ///< scales of rows and columns, if symmetric; else empty
+  std::vector<double> scales_;    ///< of rows and columns (symmetric_scales.h), if symmetric
   std::vector<double> row_sums_;  ///< row sums of the kept sums, scaled; if symmetric
 };
 

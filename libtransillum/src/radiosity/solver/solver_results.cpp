@@ -36,6 +36,23 @@ void add_scene_figures(const Scene& scene, const std::vector<Rgb>& h,
       contraction_bound(statistics.rho_max, quadrature_error_bound(statistics.directions));
 }
 
+/// bias_of_shot(), with linear functions one value per unknown: of a linear part, what its own
+/// error makes wrong. What other patches reflect of errors is treated as uniform.
+std::vector<Rgb> shot_bias(const Scene& scene, const DirectLight& shot) {
+  std::vector<Rgb> of_means = bias_of_shot(scene, shot);
+  if (shot.linear_part_errors.empty()) {
+    return of_means;
+  }
+  of_means.resize(scene.patches().size());
+  std::vector<Rgb> bias;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const LinearPart& error = at(shot.linear_part_errors, i);
+    const Rgb& rho = scene.reflectance(i);
+    bias.insert(bias.end(), {at(of_means, i), rho * error.first, rho * error.second});
+  }
+  return bias;
+}
+
 }  // namespace
 
 SolveProgress RadiositySolver::Impl::progress() const {
@@ -119,7 +136,7 @@ ErrorEstimate RadiositySolver::Impl::error_estimate() const {
   ErrorEstimate error = replicas.error_estimate(*input.scene, b, history.h(), kind);
   const ErrorSurfaces& surfaces = replicas.surfaces();
   include_bias(error, *input.scene, surfaces, b, history.left());
-  include_bias(error, *input.scene, surfaces, b, bias_of_shot(*input.scene, *input.shot));
+  include_bias(error, *input.scene, surfaces, b, shot_bias(*input.scene, *input.shot));
   return error;
 }
 
@@ -168,6 +185,18 @@ std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
 
 std::vector<Rgb> RadiositySolver::sky_irradiance() const { return impl_->sky_irradiance(); }
 
+std::vector<LinearPart> RadiositySolver::sky_linear_parts() const {
+  std::vector<LinearPart> parts;
+  if (options().sky.is_set() && options().basis == Basis::linear) {
+    for (PatchId i = 0; i < impl_->input.scene->patch_count(); ++i) {
+      const std::size_t mean = impl_->input.unknowns->mean_of(i);
+      parts.push_back(
+          {impl_->whole.sky_irradiance(mean + 1), impl_->whole.sky_irradiance(mean + 2)});
+    }
+  }
+  return parts;
+}
+
 std::vector<double> RadiositySolver::back_seen_shares() const {
   return impl_->statistics.back_seen_shares();
 }
@@ -212,6 +241,7 @@ Solution RadiositySolver::solution() const {
     solution.form_factor_sums = form_factor_sums();
     solution.sky_shares = sky_shares();
     solution.sky_irradiance = sky_irradiance();
+    solution.sky_linear_parts = sky_linear_parts();
   }
   solution.error = error_estimate();
   solution.statistics = statistics();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -22,6 +23,8 @@ struct PatchExchange {
   bool whole = true;        ///< nothing blocks any part of it: exact up to rounding
   double error = 0;         ///< estimate of the exact area less `area`, m²
   bool integrated = false;  ///< a whole part was integrated numerically (polygon_exchange())
+  /// T^10 and T^20 of receiver i, and estimates of their errors, m²; 0 unless they are requested.
+  std::array<double, 2> moments{}, moment_errors{};
 };
 
 /// Form factors of single pairs of patches, with blockers between them.
@@ -51,7 +54,10 @@ class ExchangeFinder {
 
   /// Past thousands of blockers, one pair takes minutes.
   /// @param tick if set, called often, on this thread; may throw to abandon the query.
-  PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {}) const;
+  /// @param receiver basis of i, whose moments are then computed too, by points of the smaller
+  /// patch, also where nothing blocks; null: no moments
+  PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {},
+                           const LinearBasis* receiver = nullptr) const;
   /// Calls visit(j, exchange, moments) for the patches j > i with which i exchanges light, in
   /// order. Faster than pair by pair: blockers are first found for all patches of a face, and no
   /// error is estimated. The moments are T^ab(i,j) over all directions, T^00 being the area. The
@@ -91,6 +97,12 @@ class ExchangeFinder {
   };
   /// Blockers, by number.
   using Numbers = std::vector<std::int32_t>;
+  /// What is to be found of a pair.
+  struct Query {
+    bool estimate;                      ///< whether errors are estimated
+    const std::function<void()>& tick;  ///< may be empty
+    const LinearBasis* receiver;        ///< basis of the first patch; null: no moments
+  };
 
   double bend_beyond_rounding(double bend) const { return bend > tolerance_ ? bend : 0; }
   double bend_of(Outline corners) const;
@@ -103,8 +115,9 @@ class ExchangeFinder {
                         Numbers& blockers) const;
   bool is_any_hiding(const FacingPolygons& facing, const Numbers& blockers) const;
   bool is_hidden(const FacingPolygons& facing, const Corners& blocker) const;
-  void add_partial(const FacingPolygons& facing, const Numbers& blockers, bool estimate,
-                   const std::function<void()>& tick, PatchExchange& exchange) const;
+  void add_partial(const FacingPolygons& facing, const Numbers& blockers, const Query& query,
+                   PatchExchange& exchange) const;
+  void add_whole(const FacingPolygons& facing, const Query& query, PatchExchange& exchange) const;
   void collect_blockers(const Vec3& x, Outline polygon, const Part& part, PatchId patch,
                         Numbers& blockers) const;
   TransferMoments moments_between(PatchId i, PatchId j, const std::vector<LinearBasis>& bases,
@@ -113,6 +126,7 @@ class ExchangeFinder {
                    const LinearBasis& of_q, const std::function<void()>& tick,
                    TransferMoments& sum) const;
   struct Sampled;
+  class PointQuadrature;
   template <class Visit>
   void for_each_cell(const Sampled& sampled, const std::vector<Corners>& blockers,
                      Visit visit) const;
@@ -123,8 +137,7 @@ class ExchangeFinder {
   /// Calls visit(facing, blockers) for the parts of i and j that face each other.
   template <class Visit>
   void for_each_facing(PatchId i, PatchId j, const Numbers* among, Visit visit) const;
-  PatchExchange between(PatchId i, PatchId j, const Numbers* among, bool estimate,
-                        const std::function<void()>& tick) const;
+  PatchExchange between(PatchId i, PatchId j, const Numbers* among, const Query& query) const;
   std::span<const Part> parts_of(PatchId i) const {
     const auto k = static_cast<std::size_t>(i);
     return {parts_.data() + part_begin_[k], part_begin_[k + 1] - part_begin_[k]};
