@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The first shot with linear functions (ALGORITHM.md 6.5, 6.12): linear parts of its irradiance
+// The first shot with linear functions (ALGORITHM.md 6.5, 6.12): linear terms of its irradiance
 // against a quadrature over points of the receiver, and solves against passes without a shot.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,8 +32,8 @@ DirectLight linear_shot(const Scene& scene, const std::vector<PatchId>& sources,
 
 double larger(const Rgb& a, const Rgb& b) { return std::max(max_abs(a), max_abs(b)); }
 
-/// The largest difference of two lists of linear parts.
-double difference(const std::vector<LinearPart>& a, const std::vector<LinearPart>& b) {
+/// The largest difference of two lists of linear terms.
+double difference(const std::vector<LinearTerm>& a, const std::vector<LinearTerm>& b) {
   double largest = a.size() == b.size() ? 0 : HUGE_VAL;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     largest = std::max(largest, larger(a[i].first - b[i].first, a[i].second - b[i].second));
@@ -41,8 +41,8 @@ double difference(const std::vector<LinearPart>& a, const std::vector<LinearPart
   return largest;
 }
 
-double largest(const std::vector<LinearPart>& parts) {
-  return difference(parts, std::vector<LinearPart>(parts.size()));
+double largest(const std::vector<LinearTerm>& contributions) {
+  return difference(contributions, std::vector<LinearTerm>(contributions.size()));
 }
 
 /// RMS over patches that do not emit of the difference of two functions, over the RMS of `known`.
@@ -58,7 +58,7 @@ double error_of(const Solution& solution, const Solution& known) {
       continue;
     }
     const double area = scene.patch(i).area;
-    const LinearPart &a = at(solution.linear_parts, i), &b = at(known.linear_parts, i);
+    const LinearTerm &a = at(solution.linear_terms, i), &b = at(known.linear_terms, i);
     add(area, at(solution.radiosity, i), at(known.radiosity, i));
     add(area, a.first, b.first);
     add(area, a.second, b.second);
@@ -111,7 +111,7 @@ TEST(LinearFirstShot, LinearPartsAreThoseOfAQuadratureOverTheReceiver) {
       const auto scene = floor_and_lamp(size, board).scene();
       const DirectLight light = linear_shot(*scene, {1});
       const std::array<double, 2> expected = by_points(*scene, 0, {1}, 150);
-      const LinearPart &part = light.linear_parts[0], &error = light.linear_part_errors[0];
+      const LinearTerm &part = light.linear_terms[0], &error = light.linear_part_errors[0];
       SCOPED_TRACE(::testing::Message() << board << " " << size);
       const double h = light.irradiance[0].g;
       EXPECT_GT(std::abs(expected[0]), 0.1 * h);
@@ -120,7 +120,7 @@ TEST(LinearFirstShot, LinearPartsAreThoseOfAQuadratureOverTheReceiver) {
       EXPECT_NEAR(part.first.g, expected[0], error.first.g + steps);
       EXPECT_NEAR(part.second.g, expected[1], error.second.g + steps);
       EXPECT_LT(larger(error.first, error.second), (board ? 5e-3 : 1e-3) * h);
-      EXPECT_EQ(light.linear_parts[1].first.g, 0);
+      EXPECT_EQ(light.linear_terms[1].first.g, 0);
     }
   }
 }
@@ -134,9 +134,9 @@ TEST(LinearFirstShot, ASmallReceiverBelowALargeLamp) {
   const auto scene = sketch.scene();
   const DirectLight light = linear_shot(*scene, {1});
   const std::array<double, 2> expected = by_points(*scene, 0, {1}, 100);
-  EXPECT_NEAR(light.linear_parts[0].first.g, expected[0], 2e-5);
-  EXPECT_NEAR(light.linear_parts[0].second.g, expected[1], 2e-5);
-  EXPECT_LE(std::abs(light.linear_parts[0].second.g - expected[1]),
+  EXPECT_NEAR(light.linear_terms[0].first.g, expected[0], 2e-5);
+  EXPECT_NEAR(light.linear_terms[0].second.g, expected[1], 2e-5);
+  EXPECT_LE(std::abs(light.linear_terms[0].second.g - expected[1]),
             light.linear_part_errors[0].second.g + 1e-6);
 }
 
@@ -148,8 +148,8 @@ TEST(LinearFirstShot, MeansAreTheBitsOfConstantFunctions) {
     EXPECT_EQ(linear.irradiance, constant.irradiance) << spec;
     EXPECT_EQ(linear.irradiance_error, constant.irradiance_error) << spec;
     EXPECT_EQ(linear.integrated_pairs, constant.integrated_pairs) << spec;
-    EXPECT_TRUE(constant.linear_parts.empty()) << spec;
-    EXPECT_EQ(linear.linear_parts.size(), scene->patches().size()) << spec;
+    EXPECT_TRUE(constant.linear_terms.empty()) << spec;
+    EXPECT_EQ(linear.linear_terms.size(), scene->patches().size()) << spec;
   }
 }
 
@@ -166,8 +166,8 @@ TEST(LinearFirstShot, LinearPartsAreBoundedByTheMean) {
         most = {std::max(most[0], std::abs(phi[0])), std::max(most[1], std::abs(phi[1]))};
       }
       const double h = at(light.irradiance, i).g * (1 + 1e-9);
-      EXPECT_LE(std::abs(at(light.linear_parts, i).first.g), most[0] * h) << spec << i;
-      EXPECT_LE(std::abs(at(light.linear_parts, i).second.g), most[1] * h) << spec << i;
+      EXPECT_LE(std::abs(at(light.linear_terms, i).first.g), most[0] * h) << spec << i;
+      EXPECT_LE(std::abs(at(light.linear_terms, i).second.g), most[1] * h) << spec << i;
     }
   }
 }
@@ -179,7 +179,7 @@ TEST(LinearFirstShot, IsTheLimitOfPassesWithoutIt) {
     return solve(scene, {.directions = directions, .basis = Basis::linear, .first_shot = shot});
   };
   const Solution known = solved(2048, 0);
-  EXPECT_DOUBLE_EQ(known.statistics.shot_power_share, 1);
+  EXPECT_DOUBLE_EQ(known.statistics.shot_power_fraction, 1);
   EXPECT_LE(known.statistics.energy_defect, 1e-12);
   EXPECT_LE(known.statistics.shot_disagreement, 1);
   EXPECT_LT(error_of(solved(128, 0), known), 5e-3);
@@ -218,7 +218,7 @@ TEST(LinearFirstShot, AgreesWithPassesOnImperfectMeshes) {
   }
 }
 
-/// Oracle 3: uniform light has linear parts of 0, but for the points.
+/// Oracle 3: uniform light has linear terms of 0, but for the points.
 TEST(LinearFirstShot, LeavesTheFurnaceConstant) {
   const Solution solution = solve(load_scene("furnace"), {.directions = 64,
                                                           .normalize = Normalization::rows,
@@ -227,7 +227,7 @@ TEST(LinearFirstShot, LeavesTheFurnaceConstant) {
   for (const Rgb& b : solution.radiosity) {
     EXPECT_NEAR(b.g, 2, 1e-3);
   }
-  EXPECT_LT(largest(solution.linear_parts), 3e-3);
+  EXPECT_LT(largest(solution.linear_terms), 3e-3);
 }
 
 /// The error of the shot's points is in no replica's spread.
@@ -249,7 +249,7 @@ TEST(LinearFirstShot, ItsErrorIsIncludedInTheErrorFromReplicas) {
                                                           .tolerance = 1e-10});
   double squares = 0, all = 0;
   for (std::size_t i = 0; i < solution.radiosity.size(); ++i) {
-    const LinearPart& part = solution.linear_parts[i];
+    const LinearTerm& part = solution.linear_terms[i];
     squares += std::pow(solution.radiosity[i].g - 2, 2) + std::pow(part.first.g, 2) +
                std::pow(part.second.g, 2);
     all += 1;  // B - E
@@ -271,8 +271,8 @@ TEST(LinearFirstShot, IsInvariantUnderMotionAndScale) {
     return linear_shot(scene, find_small_sources(scene, 0));
   };
   const DirectLight a = shot_of(still), b = shot_of(other);
-  EXPECT_GT(largest(a.linear_parts), 0.01);
-  EXPECT_LT(difference(a.linear_parts, b.linear_parts), 1e-9);
+  EXPECT_GT(largest(a.linear_terms), 0.01);
+  EXPECT_LT(difference(a.linear_terms, b.linear_terms), 1e-9);
   EXPECT_LT(difference(a.linear_part_errors, b.linear_part_errors), 1e-9);
 }
 
@@ -283,8 +283,8 @@ SolveOptions options_of(int directions) {
 TEST(LinearFirstShot, IsTheSameBitsForAnyNumberOfThreads) {
   const auto scene = load_scene("rooms");
   const std::vector<PatchId> sources = find_small_sources(*scene, 0);
-  EXPECT_EQ(difference(linear_shot(*scene, sources, 1).linear_parts,
-                       linear_shot(*scene, sources, 3).linear_parts),
+  EXPECT_EQ(difference(linear_shot(*scene, sources, 1).linear_terms,
+                       linear_shot(*scene, sources, 3).linear_terms),
             0);
   SolveOptions options = options_of(24);
   options.replicas = 2;
@@ -293,7 +293,7 @@ TEST(LinearFirstShot, IsTheSameBitsForAnyNumberOfThreads) {
   options.threads = 3;
   const Solution three = solve(scene, options);
   EXPECT_EQ(one.radiosity, three.radiosity);
-  EXPECT_EQ(difference(one.linear_parts, three.linear_parts), 0);
+  EXPECT_EQ(difference(one.linear_terms, three.linear_terms), 0);
 }
 
 TEST(LinearFirstShot, IsTheSameBitsAfterACheckpoint) {
@@ -310,7 +310,7 @@ TEST(LinearFirstShot, IsTheSameBitsAfterACheckpoint) {
   solver.advance(RadiositySolver::Until::finished);
   restored.advance(RadiositySolver::Until::finished);
   EXPECT_EQ(solver.radiosity(), restored.radiosity());
-  EXPECT_EQ(difference(solver.linear_parts(), restored.linear_parts()), 0);
+  EXPECT_EQ(difference(solver.linear_terms(), restored.linear_terms()), 0);
 }
 
 TEST(LinearFirstShot, SchemesLeadToTheSameFunction) {
@@ -333,10 +333,10 @@ TEST(LinearFirstShot, OtherMaterialsHaveTheLightOfAnotherShot) {
   }
   const DirectLight light = linear_shot(*scene, sources);
   const DirectLight other = with_materials(light, *scene, materials);
-  ASSERT_EQ(other.linear_parts.size(), light.linear_parts.size());
-  for (std::size_t i = 0; i < other.linear_parts.size(); ++i) {
-    EXPECT_NEAR(other.linear_parts[i].first.r, 3 * light.linear_parts[i].first.r, 1e-14);
-    EXPECT_NEAR(other.linear_parts[i].second.g, 0.5 * light.linear_parts[i].second.g, 1e-14);
+  ASSERT_EQ(other.linear_terms.size(), light.linear_terms.size());
+  for (std::size_t i = 0; i < other.linear_terms.size(); ++i) {
+    EXPECT_NEAR(other.linear_terms[i].first.r, 3 * light.linear_terms[i].first.r, 1e-14);
+    EXPECT_NEAR(other.linear_terms[i].second.g, 0.5 * light.linear_terms[i].second.g, 1e-14);
   }
 }
 

@@ -46,19 +46,19 @@ Solution solved(const std::shared_ptr<const Scene>& scene, const SolveOptions& o
 }
 
 /// The largest difference of B as a function, in coefficients.
-double difference(const std::vector<Rgb>& radiosity, const std::vector<LinearPart>& parts,
+double difference(const std::vector<Rgb>& radiosity, const std::vector<LinearTerm>& parts,
                   const Solution& other) {
-  double largest = parts.size() == other.linear_parts.size() ? 0 : HUGE_VAL;
-  for (std::size_t i = 0; i < std::min(parts.size(), other.linear_parts.size()); ++i) {
+  double largest = parts.size() == other.linear_terms.size() ? 0 : HUGE_VAL;
+  for (std::size_t i = 0; i < std::min(parts.size(), other.linear_terms.size()); ++i) {
     largest = std::max({largest, max_abs(radiosity[i] - other.radiosity[i]),
-                        max_abs(parts[i].first - other.linear_parts[i].first),
-                        max_abs(parts[i].second - other.linear_parts[i].second)});
+                        max_abs(parts[i].first - other.linear_terms[i].first),
+                        max_abs(parts[i].second - other.linear_terms[i].second)});
   }
   return largest;
 }
 
 double difference(const Solution& a, const Solution& b) {
-  return difference(a.radiosity, a.linear_parts, b);
+  return difference(a.radiosity, a.linear_terms, b);
 }
 
 /// The index of entry (i, j).
@@ -167,13 +167,13 @@ TEST(LinearFormFactors, RelitTheyGiveASolveWithTheOtherMaterials) {
       ASSERT_EQ(before.sky_linear_parts.size(), scene->patches().size());
       RelightOptions relit{.tolerance = 1e-12,
                            .start = before.radiosity,
-                           .start_linear_parts = before.linear_parts,
+                           .start_linear_parts = before.linear_terms,
                            .shot = shot.get(),
                            .sky_irradiance = before.sky_irradiance,
                            .sky_linear_parts = before.sky_linear_parts,
                            .basis = Basis::linear};
       const RelightResult result = relight(*scene, *before.form_factors, changed.materials, relit);
-      EXPECT_LT(difference(result.radiosity, result.linear_parts, after), 1e-9)
+      EXPECT_LT(difference(result.radiosity, result.linear_terms, after), 1e-9)
           << name_of(normalize) << shot_first;
       EXPECT_GT(difference(before, after), 0.1);
       relit.threads = 3;
@@ -195,7 +195,7 @@ TEST(LinearFormFactors, WithoutMomentsAreRefusedForLinearFunctions) {
               HasSubstr("1 moments for"));
   Solution solution = solved(scene, options_of(8));
   f.moments.clear();
-  EXPECT_THAT(test::refusal([&] { power_table(solution, PartsBy::material, &f); }),
+  EXPECT_THAT(test::refusal([&] { power_table(solution, SurfaceKind::material, &f); }),
               HasSubstr("no moments"));
 }
 
@@ -250,7 +250,8 @@ TEST(LinearFormFactors, ExchangesOfPartsSumToWhatIsReceived) {
   SolveOptions by_pairs{.engine = Engine::pairs, .basis = Basis::linear, .tolerance = 1e-12};
   by_pairs.engine_options.points = 4;
   for (const Solution& solution : {passes, solve_by_form_factors(scene, by_pairs)}) {
-    const PowerTable table = power_table(solution, PartsBy::material, solution.form_factors.get());
+    const PowerTable table =
+        power_table(solution, SurfaceKind::material, solution.form_factors.get());
     ASSERT_EQ(table.exchanged.size(), table.parts.size());
     for (std::size_t p = 0; p < table.parts.size(); ++p) {
       Rgb sum;
@@ -283,8 +284,8 @@ TEST(LinearSymmetric, LeavesTheFurnaceConstant) {
                                    options_of(24, Normalization::symmetric));
   for (std::size_t i = 0; i < solution.radiosity.size(); ++i) {
     EXPECT_NEAR(solution.radiosity[i].g, 2, 1e-8);
-    EXPECT_NEAR(solution.linear_parts[i].first.g, 0, 1e-8);
-    EXPECT_NEAR(solution.linear_parts[i].second.g, 0, 1e-8);
+    EXPECT_NEAR(solution.linear_terms[i].first.g, 0, 1e-8);
+    EXPECT_NEAR(solution.linear_terms[i].second.g, 0, 1e-8);
   }
 }
 
@@ -320,7 +321,7 @@ TEST(LinearSymmetric, ASkyIsLikeAnEnclosure) {
   for (std::size_t i = 0; i < open.radiosity.size(); ++i) {
     EXPECT_NEAR(open.radiosity[i].r, 0.8, 1e-8);
     EXPECT_NEAR(enclosed.radiosity[i].r, 0.8, 1e-7);
-    EXPECT_NEAR(open.linear_parts[i].first.r, 0, 1e-8);
+    EXPECT_NEAR(open.linear_terms[i].first.r, 0, 1e-8);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 
 namespace transillum::testing {
 namespace {
@@ -50,10 +50,10 @@ TEST(CliInfo, ReportsASealedRoomWithTwoSidedFacesAsClosed) {
   EXPECT_THAT(run_program({"solve", "cornell-box", "--two-sided", "-m", "8"}).out,
               HasSubstr("0 % of the projected area sees no patch, outer sides of two-sided faces"));
   EXPECT_THAT(run_program({"solve", "cornell-box:open=1", "-m", "8"}).out,
-              ::testing::AllOf(::testing::Not(HasSubstr("closure defect")),
-                               ::testing::ContainsRegex(
-                                   "open +[0-9.]+ % of the light escapes; [0-9.]+ % of the "
-                                   "projected area sees no patch\n")));
+              ::testing::AllOf(
+                  ::testing::Not(HasSubstr("closure defect")),
+                  ::testing::ContainsRegex("open +[0-9.]+ % of the light escapes; [0-9.]+ % of the "
+                                           "projected area sees no patch\n")));
 }
 
 /// The six faces of a cube with a lamp as its ceiling; the text of the faces to turn is reversed.

@@ -38,9 +38,9 @@ Outcome by_command_line(const Words& words) {
   std::string scene;
   app.add_option("SCENE", scene);
   cli::GivenOptions options;
-  cli::add_groups(app, options,
-                  {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
-                   "Refinement", "Sky", "Machine"});
+  cli::add_sections(app, options,
+                    {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
+                     "Refinement", "Sky", "Machine"});
   try {
     Words reversed(words.rbegin(), words.rend());
     app.parse(std::move(reversed));
@@ -231,7 +231,7 @@ class OptionsAgreeTest : public QObject {
     std::ifstream stream(file);
     const nlohmann::json json = nlohmann::json::parse(stream).at("options");
     for (const Option& option : transillum::options()) {
-      if (!option.in_files || option.reads_scene || option.group == "Patches") {
+      if (!option.in_files || option.reads_scene || option.section == "Patches") {
         continue;
       }
       RunOptions read;

@@ -20,9 +20,10 @@ QString closure_text(const SolverSnapshot& snapshot) {
   if (!is_open(s)) {
     return SolveSummary::tr("closed, defect %1").arg(number_text(s.closure_defect_max));
   }
-  const auto share = escaped_share(snapshot);
-  return share ? SolveSummary::tr("open: %1 % of the light escapes").arg(number_text(100 * *share))
-               : SolveSummary::tr("open: light escapes");
+  const auto fraction = escaped_share(snapshot);
+  return fraction
+             ? SolveSummary::tr("open: %1 % of the light escapes").arg(number_text(100 * *fraction))
+             : SolveSummary::tr("open: light escapes");
 }
 
 }  // namespace
@@ -101,9 +102,9 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   escaped_->setText(!any_pass    ? none
                     : is_open(s) ? tr("%1 %").arg(number_text(100 * s.escaped))
                                  : tr("0, the scene is closed"));
-  negative_->setText(snapshot.linear_parts.empty() ? tr("constant B")
+  negative_->setText(snapshot.linear_terms.empty() ? tr("constant B")
                                                    : count_text(s.negative_corners));
-  const GlossyFigures& g = s.glossy;
+  const GlossyStatistics& g = s.glossy;
   const auto bytes = g.radiance_bytes + g.lobe_bytes + g.transfer_bytes;
   const QString lobes =
       tr("%1 patches, %2 MB")

@@ -45,7 +45,7 @@ std::string sky_text(const std::string& difference) {
   return difference.empty() ? "" : report_row("skies differ", difference);
 }
 
-std::string percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
+std::string percent(double fraction) { return fmt::format("{:.4g} %", 100 * fraction); }
 
 std::string worst_text(const Scene& scene, const SurfaceDifference& worst) {
   if (worst.worst == no_patch) {
@@ -161,7 +161,7 @@ int run(const CompareCall& call) {
 
 }  // namespace
 
-Run add_compare_command(CLI::App& program) {
+Command add_compare_command(CLI::App& program) {
   auto call = std::make_shared<CompareCall>();
   CLI::App& command =
       *program.add_subcommand("compare", "Compares the radiosity of two results of a scene");

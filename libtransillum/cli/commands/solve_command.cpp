@@ -180,21 +180,20 @@ int run_solve(SolveCall& call) {
   const double seconds_load = seconds_since(start);
   std::optional<Checkpoint> checkpoint;
   const RefineChoice& refine = call.scene.run.refine;
-  const SolveJob job{
-      .scene = prepared.scene,
-      .options = options,
-      .refine = refine.is_set() ? std::optional(refine.options()) : std::nullopt,
-      .cancellation = cancellation,
-      .display = display,
-      .quiet = call.quiet,
-      .form_factors = call.by.has_value(),
-      .has_series = !call.colors.series.empty(),
-      .series = prepared.series ? &*prepared.series : nullptr,
-      .series_every = call.colors.series_every,
-      .checkpoint = call.checkpoint,
-      .checkpoint_every = call.checkpoint_every,
-      .shards = call.shards,
-      .sums = shared ? processes().sums : nullptr};
+  const SolveJob job{.scene = prepared.scene,
+                     .options = options,
+                     .refine = refine.is_set() ? std::optional(refine.options()) : std::nullopt,
+                     .cancellation = cancellation,
+                     .display = display,
+                     .quiet = call.quiet,
+                     .form_factors = call.by.has_value(),
+                     .has_series = !call.colors.series.empty(),
+                     .series = prepared.series ? &*prepared.series : nullptr,
+                     .series_every = call.colors.series_every,
+                     .checkpoint = call.checkpoint,
+                     .checkpoint_every = call.checkpoint_every,
+                     .shards = call.shards,
+                     .sums = shared ? processes().sums : nullptr};
   say_of_lobes(call, options, *prepared.scene);
   Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
                       : takes_directions(options.engine) ? solve_by_passes(job, checkpoint)
@@ -207,7 +206,7 @@ int run_solve(SolveCall& call) {
     print_message("warning: " + warning);
   }
   if (shared && !call.quiet) {
-    print_message(processes().figures());
+    print_message(processes().traffic());
   }
   if (is_first_process()) {
     write_outputs(call, options, solution);
@@ -261,7 +260,7 @@ int run_shard(SolveCall& call) {
   return success;
 }
 
-Run add_solve_command(CLI::App& program) {
+Command add_solve_command(CLI::App& program) {
   auto call = std::make_shared<SolveCall>();
   CLI::App& command = *program.add_subcommand("solve", "Computes the radiosity of every patch");
   add_solve_options(command, *call);

@@ -50,27 +50,28 @@ std::string name_of_first_shot(const std::optional<double>& threshold);
 /// The direct light from some sources to all patches.
 struct DirectLight {
   /// The contribution of the sources of one material.
-  struct Part {
+  struct Contribution {
     int material = 0;                ///< index into Scene::materials()
     std::vector<double> irradiance;  ///< H for an exitance of 1, one per patch
     /// Coefficients of phi_1 and phi_2 of H for an exitance of 1; empty with Basis::constant.
-    std::vector<std::array<double, 2>> linear_parts = {};
+    std::vector<std::array<double, 2>> linear_terms = {};
   };
 
   std::vector<Rgb> irradiance;   ///< H, W/m², one per patch
   std::vector<Rgb> exitance;     ///< E of the sources, which has been shot; 0 for other patches
   std::vector<PatchId> sources;  ///< ascending
-  double power_share = 0;        ///< power of the sources over all power emitted
-  std::vector<Part> parts;       ///< sorted by material; empty if they would exceed 256 MiB
+  double power_fraction = 0;     ///< power of the sources over all power emitted
+  std::vector<Contribution>
+      contributions;  ///< sorted by material; empty if they would exceed 256 MiB
   /// Estimated error of `irradiance`, W/m², one per patch: the error of partly hidden pairs, which
   /// are computed by points. Empty if unknown (with_materials()).
   std::vector<Rgb> irradiance_error = {};
   std::int64_t integrated_pairs = 0;  ///< SolveStatistics::integrated_pairs
   /// Linear parts of `irradiance`, W/m², one per patch; empty with Basis::constant.
-  std::vector<LinearPart> linear_parts = {};
-  /// Estimated errors of `linear_parts`, of points even where nothing stands between. Empty if
+  std::vector<LinearTerm> linear_terms = {};
+  /// Estimated errors of `linear_terms`, of points even where nothing stands between. Empty if
   /// unknown, and with Basis::constant.
-  std::vector<LinearPart> linear_part_errors = {};
+  std::vector<LinearTerm> linear_part_errors = {};
 };
 
 /// Distributes the emission of `sources` to all patches by exact form factors: of whole polygons
@@ -80,15 +81,14 @@ struct DirectLight {
 /// @param sources find_small_sources(), or any emitting patches, ascending.
 /// @param threads 0: all cores; the result does not depend on it.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share of pairs done, in [0,1], on this
+/// @param progress if set, called at intervals with the fraction of pairs done, in [0,1], on this
 /// thread; also while one pair takes long.
-/// @param basis linear: the linear parts of H are computed too, by points of the smaller polygon;
+/// @param basis linear: the linear terms of H are computed too, by points of the smaller polygon;
 /// the means have the same bits as with constant functions.
 /// @throws Canceled
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0,
                   const Cancellation& cancellation = {},
-                  const std::function<void(double)>& progress = {},
-                  Basis basis = Basis::constant);
+                  const std::function<void(double)>& progress = {}, Basis basis = Basis::constant);
 
 /// The direct light of the same sources after a change of materials, from the parts of `light`. The
 /// result has no parts.

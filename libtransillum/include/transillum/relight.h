@@ -19,7 +19,7 @@ struct RelightOptions {
   /// Initial B, W/m², one per patch; E if empty. The closer to the result, the fewer iterations.
   std::span<const Rgb> start = {};
   /// Linear parts of `start`; 0 if empty.
-  std::span<const LinearPart> start_linear_parts = {};
+  std::span<const LinearTerm> start_linear_parts = {};
   /// The first shot of the solve run that the form factors come from
   /// (RadiositySolver::direct_light()), if it made one: the same sources are shot again.
   const DirectLight* shot = nullptr;
@@ -30,7 +30,7 @@ struct RelightOptions {
   /// depends on the geometry only. Empty if there is no sky.
   std::span<const Rgb> sky_irradiance = {};
   /// Solution::sky_linear_parts, with Basis::linear.
-  std::span<const LinearPart> sky_linear_parts = {};
+  std::span<const LinearTerm> sky_linear_parts = {};
   /// linear: functions on patches, from FormFactors::moments.
   Basis basis = Basis::constant;
   int threads = 0;  ///< 0 uses all cores; the result does not depend on it
@@ -42,7 +42,7 @@ struct RelightResult {
   std::vector<Rgb> irradiance;  ///< H, W/m², one per patch
   int iterations = 0;           ///< iterations of eq. 11
   /// Linear parts of B, W/m², one per patch; empty with Basis::constant.
-  std::vector<LinearPart> linear_parts = {};
+  std::vector<LinearTerm> linear_terms = {};
 };
 
 /// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11) with E and rho of other materials. Form factors

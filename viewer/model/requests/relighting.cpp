@@ -54,7 +54,8 @@ QString Relighting::reason_unavailable() const {
   if (!snapshot_) {
     return tr("Open a scene to change its light.");
   }
-  if (snapshot_->shot && !snapshot_->shot->sources.empty() && snapshot_->shot->parts.empty()) {
+  if (snapshot_->shot && !snapshot_->shot->sources.empty() &&
+      snapshot_->shot->contributions.empty()) {
     return tr(
         "The first shot, stored per material, exceeds the memory limit: solve without it to change "
         "the light.");
@@ -117,7 +118,7 @@ void Relighting::request_light() {
                       .shot = snapshot_->shot,
                       .materials = edits_.materials(),
                       .start = light_ ? light_->radiosity : snapshot_->radiosity,
-                      .start_linear_parts = light_ ? light_->linear_parts : snapshot_->linear_parts,
+                      .start_linear_parts = light_ ? light_->linear_terms : snapshot_->linear_terms,
                       .sky = snapshot_->sky_irradiance,
                       .sky_linear_parts = snapshot_->sky_linear_parts,
                       .basis = snapshot_->options.basis,
@@ -143,7 +144,7 @@ std::shared_ptr<const SolverSnapshot> Relighting::lit(
   }
   auto lit = std::make_shared<SolverSnapshot>(*snapshot_);
   lit->radiosity = light_->radiosity;
-  lit->linear_parts = light_->linear_parts;
+  lit->linear_terms = light_->linear_terms;
   lit->irradiance = light_->irradiance;
   lit->materials = materials_;
   return lit;

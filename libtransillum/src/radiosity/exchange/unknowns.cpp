@@ -9,7 +9,7 @@ namespace transillum {
 Unknowns::Unknowns(const Scene& scene, Basis basis, const DirectLight& shot)
     : per_patch(basis == Basis::linear ? 3 : 1) {
   const bool is_shot = !shot.sources.empty();
-  if (per_patch > 1 && is_shot && shot.linear_parts.empty()) {
+  if (per_patch > 1 && is_shot && shot.linear_terms.empty()) {
     throw InputError("the first shot was made for constant functions: it has no linear parts");
   }
   const std::size_t all = per_patch * scene.patches().size();
@@ -27,7 +27,7 @@ Unknowns::Unknowns(const Scene& scene, Basis basis, const DirectLight& shot)
     }
     shot_irradiance.push_back(at(shot.irradiance, i));
     if (per_patch > 1) {
-      const LinearPart part = is_shot ? at(shot.linear_parts, i) : LinearPart();
+      const LinearTerm part = is_shot ? at(shot.linear_terms, i) : LinearTerm();
       shot_irradiance.insert(shot_irradiance.end(), {part.first, part.second});
     }
   }

@@ -25,7 +25,7 @@ struct Unknowns {
   std::vector<Rgb> reflectance;                     ///< reflectance of its patch
   std::vector<Rgb> shot_exitance, shot_irradiance;  ///< DirectLight's
 
-  /// @throws InputError where functions are linear and `shot` has no linear parts
+  /// @throws InputError where functions are linear and `shot` has no linear terms
   Unknowns(const Scene& scene, Basis basis, const DirectLight& shot);
 
   std::size_t count() const { return area.size(); }

@@ -32,15 +32,15 @@ void check_start(const Scene& scene, const RelightOptions& options) {
   }
 }
 
-/// The unknowns of means and linear parts.
+/// The unknowns of means and linear terms.
 /// @param parts empty: 0
-std::vector<Rgb> unknowns_of(std::span<const Rgb> means, std::span<const LinearPart> parts,
+std::vector<Rgb> unknowns_of(std::span<const Rgb> means, std::span<const LinearTerm> parts,
                              std::size_t per_patch) {
   std::vector<Rgb> unknowns;
   for (std::size_t i = 0; i < means.size(); ++i) {
     unknowns.push_back(means[i]);
     if (per_patch > 1) {
-      const LinearPart part = parts.empty() ? LinearPart() : parts[i];
+      const LinearTerm part = parts.empty() ? LinearTerm() : parts[i];
       unknowns.insert(unknowns.end(), {part.first, part.second});
     }
   }
@@ -102,10 +102,10 @@ Rgb JacobiIteration::gather(std::size_t unknown, const std::vector<Rgb>& values)
 }
 
 void JacobiIteration::shoot_first(const DirectLight& shot, const Cancellation& cancellation) {
-  if (per_patch_ > 1 && shot.linear_parts.empty()) {
+  if (per_patch_ > 1 && shot.linear_terms.empty()) {
     throw InputError("the first shot was made for constant functions: it has no linear parts");
   }
-  const std::vector<Rgb> received = unknowns_of(shot.irradiance, shot.linear_parts, per_patch_);
+  const std::vector<Rgb> received = unknowns_of(shot.irradiance, shot.linear_terms, per_patch_);
   const std::vector<Rgb> sent = unknowns_of(shot.exitance, {}, per_patch_);
   correction_.resize(b.size());
   for_each_row(cancellation,
@@ -113,12 +113,12 @@ void JacobiIteration::shoot_first(const DirectLight& shot, const Cancellation& c
 }
 
 void JacobiIteration::add_sky(std::span<const Rgb> irradiance,
-                              std::span<const LinearPart> linear_parts) {
+                              std::span<const LinearTerm> linear_terms) {
   if (irradiance.empty()) {
     return;
   }
   const std::size_t patches = scene_.patches().size();
-  if (irradiance.size() != patches || (per_patch_ > 1 && linear_parts.size() != patches)) {
+  if (irradiance.size() != patches || (per_patch_ > 1 && linear_terms.size() != patches)) {
     throw InputError(
         "the light of the sky belongs to another scene: the number of patches differs");
   }
@@ -131,7 +131,7 @@ void JacobiIteration::add_sky(std::span<const Rgb> irradiance,
                       light.r, light.g, light.b));
     }
   }
-  const std::vector<Rgb> received = unknowns_of(irradiance, linear_parts, per_patch_);
+  const std::vector<Rgb> received = unknowns_of(irradiance, linear_terms, per_patch_);
   for (std::size_t u = 0; u < received.size(); ++u) {
     correction_[u] += received[u];
   }
@@ -219,12 +219,12 @@ RelightResult relight(const Scene& scene, const FormFactors& form_factors,
     iteration.b = unknowns_of(options.start, options.start_linear_parts, per_patch);
   }
   iteration.run_to(options.tolerance, cancellation);
-  std::vector<LinearPart> linear_parts;
+  std::vector<LinearTerm> linear_terms;
   if (per_patch > 1) {
-    linear_parts = linear_parts_of(iteration.b);
+    linear_terms = linear_terms_of(iteration.b);
   }
   return {means_of(std::move(iteration.b), per_patch), means_of(std::move(iteration.h), per_patch),
-          static_cast<int>(iteration.records.size()), std::move(linear_parts)};
+          static_cast<int>(iteration.records.size()), std::move(linear_terms)};
 }
 
 }  // namespace transillum

@@ -59,9 +59,9 @@ struct JacobiIteration {
   /// @throws Canceled
   void shoot_first(const DirectLight& shot, const Cancellation& cancellation);
   /// From now on adds to H what each patch receives from a sky; nothing if empty.
-  /// @param linear_parts of `irradiance`, one per patch with linear functions
+  /// @param linear_terms of `irradiance`, one per patch with linear functions
   /// @throws InputError where there is not one mean >= 0 per patch
-  void add_sky(std::span<const Rgb> irradiance, std::span<const LinearPart> linear_parts = {});
+  void add_sky(std::span<const Rgb> irradiance, std::span<const LinearTerm> linear_terms = {});
   /// Iterates up to `limit` iterations in total, or until the light not yet propagated is at most
   /// `tolerance` of the reflected light (IterationRecord::remainder, remainder_dimmest).
   /// @throws Canceled; NotConvergent where B exceeds the range of numbers
