@@ -51,6 +51,6 @@ inline int passes_per_thread(std::uint64_t bytes_of_a_pass) {
 }
 
 /// Rounds that may be begun before the first of them is added.
-inline constexpr int rounds_ahead = 3;
+inline constexpr int message_rounds_ahead = 3;
 
 }  // namespace transillum::mpi

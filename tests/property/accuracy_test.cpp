@@ -70,9 +70,9 @@ double error_of(const Scene& scene, const std::vector<Rgb>& b, const std::vector
 
 /// The fraction of this number of runs that is exceeded in 99 % of all cases, if each run holds in
 /// 95 %.
-double least_share(int runs) { return 0.95 - 2.33 * std::sqrt(0.95 * 0.05 / runs); }
+double least_fraction(int runs) { return 0.95 - 2.33 * std::sqrt(0.95 * 0.05 / runs); }
 
-/// Shares of runs and of values.
+/// Fractions of runs and of values.
 struct Coverage {
   double limit = 0;      ///< runs whose RMS error is at most its limit
   double intervals = 0;  ///< values of B in their 95 % interval
@@ -114,7 +114,7 @@ class CoverageCount {
       coverage.limit += (error <= solution.error.rms_limit) / double(runs);
       coverage.above +=
           (goal.is_set() && solution.accuracy->trusted && error > goal.accuracy) / double(runs);
-      coverage.intervals += share_within(solution) / runs;
+      coverage.intervals += fraction_within(solution) / runs;
       coverage.passes +=
           double(goal.is_set() ? solution.accuracy->passes_made : options.directions) / runs;
     }
@@ -134,7 +134,7 @@ class CoverageCount {
   }
 
   /// Sources, whose B is E, have no error and do not count.
-  double share_within(const Solution& solution) const {
+  double fraction_within(const Solution& solution) const {
     double within = 0, all = 0;
     const auto count = [&](double value, double truth, double standard_error) {
       if (standard_error > 1e-12 * std::abs(truth)) {
@@ -240,7 +240,7 @@ TEST(Accuracy, NamesPatchesWhoseErrorsCannotBeTrusted) {
   const Solution shot = solve(scene, options);
   EXPECT_TRUE(uncertain_patches(shot).empty());
   const std::vector<PatchId> uncertain = uncertain_patches(solution);
-  // Shares of the patches, named or not, whose B is outside of its interval.
+  // Fractions of the patches, named or not, whose B is outside of its interval.
   double outside[2] = {}, count[2] = {};
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
     const double error = max_abs(at(solution.radiosity, i) - at(shot.radiosity, i));
@@ -273,7 +273,7 @@ TEST(Accuracy, OfStarsHoldsWhereItIsTrusted) {
     held += solution.accuracy->trusted && error <= solution.error.rms_limit ? 1 : 0;
   }
   EXPECT_GE(trusted, runs / 2);
-  EXPECT_GE(held, least_share(trusted) * trusted);
+  EXPECT_GE(held, least_fraction(trusted) * trusted);
 }
 
 /// A time limit ends a solve that could continue; a solve that has reached its accuracy ends
@@ -408,14 +408,14 @@ TEST(Accuracy, LimitsHoldAsOftenAsStated) {
   constexpr int runs = 60;
   CoverageCount count(box_in_a_room(), {.directions = 96, .replicas = 4}, 8192, 1e-3);
   const Coverage fixed = count.of(runs, {});
-  EXPECT_GE(fixed.limit, least_share(runs));
+  EXPECT_GE(fixed.limit, least_fraction(runs));
   EXPECT_GE(fixed.intervals, 0.91);  // decision 30: 92 % with 24 directions per replica
   EXPECT_LE(fixed.intervals, 0.98);
   // Stopping when the error looks small must not make it look smaller than it is.
   const Coverage stopped = count.of(runs, {.accuracy = 0.01});
-  EXPECT_GE(stopped.limit, least_share(runs));
+  EXPECT_GE(stopped.limit, least_fraction(runs));
   EXPECT_GE(stopped.intervals, 0.91);
-  EXPECT_LE(stopped.above, 1 - least_share(runs));
+  EXPECT_LE(stopped.above, 1 - least_fraction(runs));
 }
 
 struct CoverageCase {
@@ -447,7 +447,7 @@ TEST_P(NightlyAccuracy, Coverage) {
       100 * stopped.limit, 100 * fixed.limit, 100 * stopped.intervals, 100 * fixed.intervals);
   EXPECT_GE(stopped.intervals, 0.91);
   EXPECT_GE(fixed.intervals, 0.91);
-  EXPECT_GE(stopped.limit, least_share(60));
+  EXPECT_GE(stopped.limit, least_fraction(60));
 }
 INSTANTIATE_TEST_SUITE_P(EightScenes, NightlyAccuracy,
                          ::testing::Values(CoverageCase{"rooms", 0, 0.01, false},

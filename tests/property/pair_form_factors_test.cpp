@@ -207,9 +207,9 @@ TEST(PairFormFactors, AreCanceledWithinARow) {
   const Cancellation cancellation;
   double last = 0;
   EXPECT_THROW(pair_form_factors(*scene, {.threads = 1}, cancellation,
-                                 [&](double share) {
-                                   EXPECT_GE(share, last);
-                                   last = share;
+                                 [&](double fraction) {
+                                   EXPECT_GE(fraction, last);
+                                   last = fraction;
                                    cancellation.cancel();
                                  }),
                Canceled);
@@ -238,7 +238,7 @@ TEST(PairSolve, AgreesWithPassesWithinTheirError) {
   }
 }
 
-TEST(PairSolve, ReportsItsFigures) {
+TEST(PairSolve, ReportsItsStatistics) {
   const auto scene = box_in_cube(4, 2).scene();
   const Solution solution = solved_by_pairs(scene, 32);
   const SolveStatistics& s = solution.statistics;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 
 namespace transillum::testing {
 namespace {

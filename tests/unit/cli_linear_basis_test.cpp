@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_solve.h"
@@ -68,7 +68,7 @@ TEST(CliLinearBasis, PairsHaveFunctionsToo) {
         Arguments{"--iterations", "3"}, Arguments{"--threads", "2"}}) {
     SCOPED_TRACE(::testing::PrintToString(option));
     expect_success(pairs + option + Arguments{"--out", folder / "r.vtp"});
-    EXPECT_EQ(read_result(folder / "r.vtp").linear_parts.size(), 27U);
+    EXPECT_EQ(read_result(folder / "r.vtp").linear_terms.size(), 27U);
   }
   for (const Arguments& option : {Arguments{"--normalize", "rows"}, Arguments{"--replicas", "4"},
                                   Arguments{"--scheme", "growing"}, Arguments{"--sky", "1"}}) {
@@ -119,11 +119,11 @@ TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
   }
   expect_success(call);
   const Solution solution = read_result(folder / "r.vtp");
-  ASSERT_EQ(solution.linear_parts.size(), solution.radiosity.size());
+  ASSERT_EQ(solution.linear_terms.size(), solution.radiosity.size());
   const std::string csv = read_file(folder / "r.csv");
   EXPECT_EQ(column(csv, "B_r"), solution.radiosity[0].r);
-  EXPECT_EQ(column(csv, "B1_r"), solution.linear_parts[0].first.r);
-  EXPECT_EQ(column(csv, "B2_b"), solution.linear_parts[0].second.b);
+  EXPECT_EQ(column(csv, "B1_r"), solution.linear_terms[0].first.r);
+  EXPECT_EQ(column(csv, "B2_b"), solution.linear_terms[0].second.b);
   const LinearBasis basis = linear_basis(*solution.scene, 0);
   EXPECT_EQ(column(csv, "c_x"), basis.center.x);
   EXPECT_EQ(column(csv, "g2_z"), basis.gradient[1].z);

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "options/option_table.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 

@@ -58,7 +58,7 @@ TEST(Shoot, ConservesPower) {
        {std::pair{"stars", 1e-5}, {"cornell-box", 1e-4}, {"furnace", 1e-4}}) {
     const auto scene = load_scene(spec);
     const DirectLight light = shoot(*scene, find_small_sources(*scene, 0));
-    EXPECT_DOUBLE_EQ(light.power_share, 1);
+    EXPECT_DOUBLE_EQ(light.power_fraction, 1);
     EXPECT_GT(power_sent(*scene, light), 0);
     EXPECT_NEAR(power_received(*scene, light) / power_sent(*scene, light), 1, accuracy) << spec;
   }
@@ -105,7 +105,7 @@ TEST(Shoot, MatchesTheFormulaForIrradiance) {
   EXPECT_NEAR(shot.irradiance[2].g, 7 * 0.2000437761, 1e-9);
   EXPECT_EQ(shot.exitance[1], (Rgb{7, 7, 7}));
   EXPECT_EQ(shot.exitance[2], Rgb{}) << "not shot";
-  EXPECT_DOUBLE_EQ(shot.power_share, 0.5);
+  EXPECT_DOUBLE_EQ(shot.power_fraction, 0.5);
 }
 
 TEST(Shoot, IsTheSameForAnyNumberOfThreads) {
@@ -134,11 +134,11 @@ TEST(Shoot, ReportsProgressAndIsCanceledWithinAPair) {
   const auto scene = cluttered();
   int reports = 0, reports_of_pairs = 0;
   double last = 0;
-  shoot(*scene, {0}, 1, {}, [&](double share) {
-    EXPECT_GE(share, last);
-    EXPECT_LE(share, 1);
-    reports_of_pairs += share > last ? 1 : 0;
-    last = share;
+  shoot(*scene, {0}, 1, {}, [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    reports_of_pairs += fraction > last ? 1 : 0;
+    last = fraction;
     ++reports;
   });
   EXPECT_EQ(last, 1);
@@ -177,7 +177,7 @@ TEST(Shoot, CanBeCanceledAndReportsProgress) {
   Cancellation cancellation;
   std::vector<double> heard;
   shoot(*scene, find_small_sources(*scene), 1, cancellation,
-        [&](double share) { heard.push_back(share); });
+        [&](double fraction) { heard.push_back(fraction); });
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_EQ(heard.back(), 1);
   cancellation.cancel();

@@ -18,7 +18,7 @@
 #include "io/factors/zip_archive.h"
 #include "radiosity/form_factors/small_form_factors.h"
 #include "support/form_factor_rows.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
@@ -276,7 +276,7 @@ void expect_balanced(const Scene& scene, const FormFactors& all, const FormFacto
 
 /// The sum of A_i F_ij over pairs of which both form factors are below the threshold, divided by
 /// the sum over all pairs.
-double share_below(const Scene& scene, const FormFactors& all, double threshold) {
+double fraction_below(const Scene& scene, const FormFactors& all, double threshold) {
   std::map<std::pair<PatchId, PatchId>, double> by_pair;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     for (std::size_t k = at(all.row_begin, i); k < at(all.row_begin, i + 1); ++k) {
@@ -301,8 +301,8 @@ TEST_F(FormFactorFiles, DroppingKeepsRowSumsAndReciprocity) {
   EXPECT_GT(rest.dropped, all.size() / 20);
   EXPECT_EQ(rest.form_factors.size(), all.size() - rest.dropped);
   EXPECT_EQ(rest.kept, 0U);
-  EXPECT_GT(rest.share, 0);
-  EXPECT_NEAR(rest.share, share_below(*scene, all, threshold), 1e-12);
+  EXPECT_GT(rest.fraction, 0);
+  EXPECT_NEAR(rest.fraction, fraction_below(*scene, all, threshold), 1e-12);
   expect_balanced(*scene, all, rest.form_factors);
 }
 

@@ -48,7 +48,7 @@ Outcome outcome_of(const Solution& solution) {
   append(outcome.values, solution.irradiance);
   append(outcome.values, solution.error.standard_error);
   append(outcome.values, solution.sky_irradiance);
-  for (const auto* list : {&solution.form_factor_sums, &solution.sky_shares}) {
+  for (const auto* list : {&solution.form_factor_sums, &solution.sky_fractions}) {
     outcome.values.insert(outcome.values.end(), list->begin(), list->end());
   }
   const SolveStatistics& s = solution.statistics;
@@ -85,7 +85,7 @@ Outcome solved(const SolveOptions& options, const std::shared_ptr<PatchSums>& gr
   }
   outcome.values.insert(outcome.values.end(), solver.quadrature_errors().begin(),
                         solver.quadrature_errors().end());
-  const auto backs = solver.back_seen_shares();
+  const auto backs = solver.back_seen_fractions();
   outcome.values.insert(outcome.values.end(), backs.begin(), backs.end());
   if (outcome.statistics.kept_form_factors && options.scheme != Scheme::semi_iterative) {
     outcome.factors = solver.form_factors();
@@ -170,7 +170,7 @@ TEST(ProcessGroup, DropsFormFactorsOnAllMembers) {
   EXPECT_EQ(errors, std::vector<std::exception_ptr>(3));
 }
 
-TEST(ProcessGroup, KeepsAShareOfTheFormFactors) {
+TEST(ProcessGroup, KeepsAFractionOfTheFormFactors) {
   const SolveOptions options{.directions = 256, .iterations = 1};
   RadiositySolver alone(box(), options);
   alone.advance(Until::finished);

@@ -282,7 +282,7 @@ TEST(Schemes, ThatRequireKeptFormFactorsReportTheMemoryLimit) {
 
 /// How often error intervals contain the true value, over runs of 8 replicas each.
 struct Coverage {
-  double patches = 0;  ///< share of the patches' intervals, red channel
+  double patches = 0;  ///< fraction of the patches' intervals, red channel
   int means = 0;       ///< number of runs whose interval of the mean B contains it
   double rms = 0;      ///< estimated RMS error over the actual one
 };

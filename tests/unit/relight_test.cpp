@@ -159,7 +159,7 @@ TEST(Relight, EqualsASolveWithTheOtherMaterialsAfterAFirstShot) {
       options.first_shot = ratio;
       const Solved before = solved(description, options), after = solved(changed, options);
       ASSERT_FALSE(before.shot->sources.empty());
-      several += before.shot->parts.size() > 1;
+      several += before.shot->contributions.size() > 1;
       ASSERT_EQ(before.shot->sources, after.shot->sources);
       const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials,
                                           {.tolerance = tight, .shot = before.shot.get()});
@@ -241,7 +241,7 @@ TEST(Relight, ShootsNothingIfNothingEmits) {
     material.exitance = {};
   }
   const DirectLight none = with_materials(light, scene, dark);
-  EXPECT_EQ(none.power_share, 0);
+  EXPECT_EQ(none.power_fraction, 0);
   for (const Rgb& h : none.irradiance) {
     EXPECT_EQ(max_abs(h), 0);
   }
@@ -261,7 +261,7 @@ TEST(Relight, KeepsTheSourcesOfTheShot) {
   options.first_shot = 0;
   const Solved before = solved(description, options);
   const Solved after = solved(changed, options, &before.shot->sources);
-  EXPECT_EQ(after.shot->power_share, 0);
+  EXPECT_EQ(after.shot->power_fraction, 0);
   const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials,
                                       {.tolerance = tight, .shot = before.shot.get()});
   expect_same(relit.radiosity, after.radiosity, 1e-10);
@@ -272,7 +272,7 @@ TEST(Relight, RejectsAShotWithoutPartsOrOfAnotherScene) {
   options.first_shot = 0;
   const Solved s = solved(describe_scene("cornell-box"), options);
   DirectLight light = *s.shot;
-  light.parts.clear();
+  light.contributions.clear();
   EXPECT_THROW(relight(*s.scene, s.form_factors, s.scene->materials(), {.shot = &light}),
                InputError);
   light = *s.shot;

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/files.h"

@@ -129,8 +129,8 @@ TEST(SolveSession, MayBePreparedAgain) {
   SolveRequest request{.scene = box(), .options = {.directions = 24}};
   int begun = 0;
   bool fails = true;
-  request.preparing = [&](Preparation preparation, double share) {
-    begun += preparation == Preparation::tree && share == 0 ? 1 : 0;
+  request.preparing = [&](Preparation preparation, double fraction) {
+    begun += preparation == Preparation::tree && fraction == 0 ? 1 : 0;
     if (fails) {
       throw std::runtime_error("no");
     }

@@ -15,7 +15,7 @@
 #include "io/drawing/study_chart.h"
 #include "io/results/reference_cache.h"
 #include "support/canceled.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/scenes.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
@@ -248,13 +248,13 @@ TEST(Study, KeepsFinishedPointsWhenCanceled) {
   options.series = {{Sampling::random}, {Sampling::fibonacci}};
   options.directions = {64, 16};
   const Cancellation cancellation;
-  double last_share = 0;
+  double last_fraction = 0;
   const Study study = box().study(
       options,
       [&](const StudyProgress& now) {
-        EXPECT_GE(now.share, last_share);
-        EXPECT_LE(now.share, 1);
-        last_share = now.share;
+        EXPECT_GE(now.fraction, last_fraction);
+        EXPECT_LE(now.fraction, 1);
+        last_fraction = now.fraction;
         // The callback is called within a point, and after it.
         const std::size_t before = (now.directions == 64 ? 2 : 0) + now.series;
         EXPECT_THAT(now.points, AnyOf(SizeIs(before), SizeIs(before + 1)));
@@ -267,7 +267,7 @@ TEST(Study, KeepsFinishedPointsWhenCanceled) {
   ASSERT_THAT(study.points, SizeIs(3));
   EXPECT_EQ(study.points[1].passes, 64);  // by series, then M
   EXPECT_EQ(study.points[2].series, 1U);
-  EXPECT_GT(last_share, 0.5);
+  EXPECT_GT(last_fraction, 0.5);
 }
 
 TEST(Study, RejectsInvalidOptions) {
@@ -282,7 +282,7 @@ TEST(Study, RejectsInvalidOptions) {
   EXPECT_THROW(run_study(box().scene, box().tree, options, {dark}), InputError);
 }
 
-/// The error of a constant on a patch where the reference is linear is the norm of its linear part.
+/// The error of a constant on a patch where the reference is linear is the norm of its linear term.
 TEST(FunctionError, IsTheL2NormOfFunctions) {
   const Scene& scene = *box().scene;
   const std::size_t patches = scene.patches().size();

@@ -20,7 +20,7 @@
 #include <random>
 
 #include "scene_test_support.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "transillum/files.h"
 #include "transillum/solution.h"

@@ -298,14 +298,14 @@ class ColorChoiceTest : public QObject {
     values[1] = {5, 0, 0};  // beyond the range
     ColorScale scale;
     scale.mode = ColorMode::red;
-    const std::vector<double> shares = histogram(scale, scene, values, 10);
+    const std::vector<double> fractions = histogram(scale, scene, values, 10);
     double rest = 0;
     for (PatchId i = 2; i < scene.patch_count(); ++i) {
       rest += scene.patch(i).area;
     }
-    QCOMPARE(shares[9], 1.0);
-    QVERIFY(std::abs(shares[1] - scene.patch(0).area / rest) < 1e-12);
-    QCOMPARE(shares[5], 0.0);
+    QCOMPARE(fractions[9], 1.0);
+    QVERIFY(std::abs(fractions[1] - scene.patch(0).area / rest) < 1e-12);
+    QCOMPARE(fractions[5], 0.0);
   }
 };
 

@@ -146,7 +146,7 @@ class DirectionViewTest : public QObject {
     window.show();
     window.open("cornell-box");
     QVERIFY(wait_for([&] { return window.settled() && window.snapshot()->progress.finished; }));
-    window.parts().docks.bring_to_front("received");
+    window.views().docks.bring_to_front("received");
     auto* view = window.findChild<QTableView*>("received_light");
     auto* table = qobject_cast<ReceivedTable*>(view->model());
     const auto snapshot = window.snapshot();

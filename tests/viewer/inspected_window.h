@@ -30,8 +30,8 @@ struct Inspected : SolvedWindow {
   bool has_form_factors() const {
     return wait_for([this] { return window->snapshot()->form_factors != nullptr; });
   }
-  double share_in_own_color() const {
-    return test::share_in_own_color(*scene_view, window->colors);
+  double fraction_in_own_color() const {
+    return test::fraction_in_own_color(*scene_view, window->colors);
   }
 };
 

@@ -81,7 +81,7 @@ const StudyPoint& after_passes(const std::vector<StudyPoint>& points, int passes
                        [passes](const StudyPoint& point) { return point.passes == passes; });
 }
 
-QString percent(double share) { return two_digits(100 * share) + " %"; }
+QString percent(double fraction) { return two_digits(100 * fraction) + " %"; }
 
 /// Part of a page's text, with its numbers recomputed.
 struct Statement {
@@ -313,7 +313,7 @@ void add_glossy_lesson(std::vector<Statement>& all) {
   const MaterialChange wide = Shown(11, 3).page.question->reveal->materials.front();
   all.push_back({11, 3, QString("(*n* = %1)").arg(wide.lobe->exponent)});
   all.push_back({11, 5, QString("The floor has *n* = %1.").arg(n)});
-  for (const Figure& value : Shown(11, 5).page.question->figure.parts) {
+  for (const LessonValue& value : Shown(11, 5).page.question->wanted.parts) {
     all.push_back({11, 5, QString("*M* = %1").arg(value.solve.directions)});
   }
 }

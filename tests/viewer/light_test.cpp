@@ -83,8 +83,8 @@ struct Opened {
   }
   const Scene& scene() const { return *window->snapshot()->loaded->scene; }
   MaterialEdits& edits() const { return window->relighting.edits(); }
-  QString light_bar() const { return window->parts().page.light_bar()->text(); }
-  QString orientation_bar() const { return window->parts().page.orientation_bar()->text(); }
+  QString light_bar() const { return window->views().page.light_bar()->text(); }
+  QString orientation_bar() const { return window->views().page.orientation_bar()->text(); }
   template <class Part>
   Part* part(const char* name) const {
     return window->findChild<Part*>(name);
@@ -165,7 +165,7 @@ class LightTest : public QObject {
   void a_closed_bar_stays_closed_until_another_scene() {
     const Opened opened;
     QVERIFY(opened.ready);
-    emit opened.window->parts().page.light_bar()->closed();
+    emit opened.window->views().page.light_bar()->closed();
     opened.window->selection.select(3);
     QVERIFY(opened.light_bar().isEmpty());
     opened.window->open("furnace");
@@ -305,8 +305,8 @@ class LightTest : public QObject {
   void a_scene_in_order_has_no_bars() {
     const SolvedWindow solved("cornell-box");
     QVERIFY(solved.ready);
-    QVERIFY(solved.window->parts().page.light_bar()->text().isEmpty());
-    QVERIFY(solved.window->parts().page.orientation_bar()->text().isEmpty());
+    QVERIFY(solved.window->views().page.light_bar()->text().isEmpty());
+    QVERIFY(solved.window->views().page.orientation_bar()->text().isEmpty());
   }
 };
 

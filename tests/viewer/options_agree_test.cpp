@@ -38,9 +38,9 @@ Outcome by_command_line(const Words& words) {
   std::string scene;
   app.add_option("SCENE", scene);
   cli::GivenOptions options;
-  cli::add_groups(app, options,
-                  {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
-                   "Refinement", "Sky", "Machine"});
+  cli::add_sections(app, options,
+                    {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
+                     "Refinement", "Sky", "Machine"});
   try {
     Words reversed(words.rbegin(), words.rend());
     app.parse(std::move(reversed));
@@ -91,14 +91,14 @@ class Draw {
     if (option.json == Option::Json::numbers) {
       return fmt(number(0, 2)) + "," + fmt(number(0, 2)) + "," + fmt(number(0.1, 2));
     }
-    const bool share = option.name == "tolerance" || option.name == "accuracy" ||
-                       option.name == "refine-until" ||
-                       option.name.find("reflectance") != std::string::npos;
+    const bool fraction = option.name == "tolerance" || option.name == "accuracy" ||
+                          option.name == "refine-until" ||
+                          option.name.find("reflectance") != std::string::npos;
     const bool real = option.name == "scale" || option.name == "seconds" ||
                       option.name == "max-patch-area" || option.name == "first-shot";
-    return share  ? fmt(number(1e-9, 1))
-           : real ? fmt(number(0.001, 1000))
-                  : std::to_string(1 + below(option.name == "replicas" ? 64 : 200));
+    return fraction ? fmt(number(1e-9, 1))
+           : real   ? fmt(number(0.001, 1000))
+                    : std::to_string(1 + below(option.name == "replicas" ? 64 : 200));
   }
   /// Some options with values.
   Words set() {

@@ -246,7 +246,7 @@ class WorkerExceptionsTest : public QObject {
     QCOMPARE(w.failure, QString());
   }
 
-  // Beginning with each allocation after the snapshot's figures, some fail: first allocations of
+  // Beginning with each allocation after the snapshot's values, some fail: first allocations of
   // the snapshot, then of its message, of the state, and of the message on the failure.
   void any_allocation_may_fail() {
     for (const int failing : {1, 4, 30}) {

@@ -232,8 +232,8 @@ std::vector<double> histogram(const ColorScale& scale, const Scene& scene,
   }
   const double most = area.empty() ? 0 : *std::max_element(area.begin(), area.end());
   if (most > 0) {
-    for (double& share : area) {
-      share /= most;
+    for (double& fraction : area) {
+      fraction /= most;
     }
   }
   return area;

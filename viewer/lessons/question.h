@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "lessons/figure.h"
+#include "lessons/lesson_value.h"
 #include "lessons/view_state.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum::viewer {
 
-class FigureValues;
+class ComputedValues;
 class JsonObject;
 
-/// A question on a page of a lesson. What is right is computed from figures of the page's scene and
+/// A question on a page of a lesson. What is right is computed from values of the page's scene and
 /// run, never stated by the file.
 struct Question {
   enum class Kind {
@@ -32,15 +32,15 @@ struct Question {
     value      ///< `figure` itself
   };
   struct Choice {
-    std::string text;             ///< the value is shown if it is empty
-    std::optional<Figure> value;  ///< if it is not set, the choice is right where no other is
+    std::string text;                  ///< the value is shown if it is empty
+    std::optional<LessonValue> value;  ///< if it is not set, the choice is right where no other is
   };
 
   Kind kind = Kind::choice;
   std::string ask;  ///< Markdown
   std::vector<Choice> choices;
   Rule rule = Rule::value;
-  Figure figure;
+  LessonValue wanted;
   /// How close an answer has to be: for a number, the largest relative difference; for an area, the
   /// least overlap (the common part over the union).
   double within = 0;
@@ -88,8 +88,8 @@ Question question_from_json(const nlohmann::json& value, const std::string& wher
 bool is_of_direction(const Question& question);
 /// Whether the answer is complete: a choice, a patch, a number, or at least three corners.
 bool is_given(const Question& question, const GivenAnswer& answer);
-/// Computes what is right. @throws as FigureValues
-Solved solve_question(const Question& question, FigureValues& figures);
+/// Computes what is right. @throws as ComputedValues
+Solved solve_question(const Question& question, ComputedValues& computed);
 /// Whether a complete answer is right.
 bool is_right(const Question& question, const Solved& solved, const GivenAnswer& answer);
 /// The common part of a region and a polygon over their union, 0 to 1, sampled on a grid to about

@@ -21,7 +21,7 @@ Solution solution_of(const SolverSnapshot& snapshot, bool complete = true);
 
 /// The value at a point of a linear function on a patch.
 /// @param mean  over the patch
-Rgb value_at(const Rgb& mean, const LinearPart& part, const LinearBasis& basis, const Vec3& point);
+Rgb value_at(const Rgb& mean, const LinearTerm& term, const LinearBasis& basis, const Vec3& point);
 
 /// B at a point of patch i, W/m², which may be below 0; the mean of the patch where B is constant
 /// on patches.

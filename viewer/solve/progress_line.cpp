@@ -21,7 +21,9 @@ QString iterations_text(int count) {
                     : ProgressLine::tr("%1 iterations").arg(count_text(count));
 }
 
-QString percent(double share) { return ProgressLine::tr("%1 %").arg(number_text(100 * share)); }
+QString percent(double fraction) {
+  return ProgressLine::tr("%1 %").arg(number_text(100 * fraction));
+}
 
 // The text on a finished solve with a goal.
 QString accuracy_text(const AccuracyReport& report) {
@@ -99,14 +101,14 @@ void ProgressLine::show_scene(const LoadedScene& loaded) {
                QString::number(loaded.seconds_bsp, 'f', 2)));
 }
 
-void ProgressLine::show_loading(const QString& phase, double share) {
+void ProgressLine::show_loading(const QString& phase, double fraction) {
   if (state_ != RunState::loading) {
     return;
   }
   phase_->setText(phase + QStringLiteral("…"));
   bar_->setVisible(true);
-  bar_->setRange(0, share < 0 ? 0 : 1000);
-  bar_->setValue(static_cast<int>(1000 * share));
+  bar_->setRange(0, fraction < 0 ? 0 : 1000);
+  bar_->setValue(static_cast<int>(1000 * fraction));
   rate_->clear();
   time_->clear();
 }
@@ -180,7 +182,7 @@ void ProgressLine::show_solve() {
 /// With lobes, passes are the smaller part of an iteration.
 void ProgressLine::show_stage_of_lobes(const SolveProgress& progress) {
   bar_->setRange(0, 1000);
-  bar_->setValue(static_cast<int>(1000 * progress.stage_share));
+  bar_->setValue(static_cast<int>(1000 * progress.stage_fraction));
   phase_->setText(progress.stage == SolveProgress::Stage::scaling_lobes
                       ? tr("Scaling lobes")
                       : tr("Iteration %1, reflecting").arg(count_text(progress.iteration + 1)));

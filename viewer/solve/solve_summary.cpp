@@ -89,9 +89,9 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   escaped_->setText(!any_pass              ? none
                     : s.escaped < rounding ? tr("0, the scene is closed")
                                            : tr("%1 %").arg(number_text(100 * s.escaped)));
-  negative_->setText(snapshot.linear_parts.empty() ? tr("constant B")
+  negative_->setText(snapshot.linear_terms.empty() ? tr("constant B")
                                                    : count_text(s.negative_corners));
-  const GlossyFigures& g = s.glossy;
+  const GlossyStatistics& g = s.glossy;
   const auto bytes = g.radiance_bytes + g.lobe_bytes + g.transfer_bytes;
   const QString lobes =
       tr("%1 patches, %2 MB")

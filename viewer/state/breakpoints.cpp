@@ -64,7 +64,7 @@ bool holds(const Condition& condition, const MapHistory& history, std::int32_t k
     case Kind::small_fragment:
       return step.row != MapRecord::no_row && step.smallest < condition.value;
     case Kind::open_receiver:
-      return step.front_facing && step.open_share() > condition.value;
+      return step.front_facing && step.open_fraction() > condition.value;
     case Kind::large_map: {
       const double before = k > 0 ? history.step(k - 1).map_size : 0;
       return before <= condition.value && step.map_size > condition.value;

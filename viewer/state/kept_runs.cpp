@@ -28,14 +28,14 @@ std::shared_ptr<const SolverSnapshot> part_to_keep(const SolverSnapshot& snapsho
   kept->progress = snapshot.progress;
   kept->statistics = snapshot.statistics;
   kept->radiosity = snapshot.radiosity;
-  kept->linear_parts = snapshot.linear_parts;
+  kept->linear_terms = snapshot.linear_terms;
   kept->bases = snapshot.bases;
   kept->irradiance = snapshot.irradiance;
   kept->glossy = snapshot.glossy;
   kept->materials = snapshot.materials;
   kept->of_file = snapshot.of_file;
   kept->form_factor_sums = snapshot.form_factor_sums;
-  kept->sky_shares = snapshot.sky_shares;
+  kept->sky_fractions = snapshot.sky_fractions;
   kept->sky_irradiance = snapshot.sky_irradiance;
   kept->error = snapshot.error;
   // The last change of B needs the newest two iterations.
@@ -63,9 +63,9 @@ std::int64_t bytes_of(const Scene& scene) {
 
 std::int64_t bytes_of(const SolverSnapshot& snapshot) {
   std::int64_t bytes = bytes_of(snapshot.radiosity) + bytes_of(snapshot.irradiance) +
-                       bytes_of(snapshot.linear_parts) +
+                       bytes_of(snapshot.linear_terms) +
                        (snapshot.bases ? bytes_of(*snapshot.bases) : 0) +
-                       bytes_of(snapshot.form_factor_sums) + bytes_of(snapshot.sky_shares) +
+                       bytes_of(snapshot.form_factor_sums) + bytes_of(snapshot.sky_fractions) +
                        bytes_of(snapshot.sky_irradiance) + bytes_of(snapshot.error.standard_error);
   for (const auto& radiosity : snapshot.kept_radiosity) {
     bytes += radiosity ? bytes_of(*radiosity) : 0;

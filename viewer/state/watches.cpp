@@ -48,7 +48,7 @@ std::vector<double> values_of(const Watch& watch, const MapHistory& history) {
     if (watch.kind == Watch::Kind::map_size) {
       values.push_back(step.map_size);
     } else {
-      values.push_back(step.front_facing ? step.open_share() : none);
+      values.push_back(step.front_facing ? step.open_fraction() : none);
     }
   }
   return values;

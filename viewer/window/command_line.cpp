@@ -124,9 +124,9 @@ struct Definitions {
     app.add_option("SCENE", line.scene,
                    "a scene file or a built-in scene, solved at once (default: sphere-flake); or a "
                    "result (.vtp), a session or a lesson (.json)");
-    cli::add_groups(app, options,
-                    {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
-                     "Refinement", "Sky", "Machine"});
+    cli::add_sections(app, options,
+                      {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
+                       "Refinement", "Sky", "Machine"});
     add_window_options(app, line);
   }
 };

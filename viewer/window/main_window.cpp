@@ -112,7 +112,7 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
 
 MainWindow::~MainWindow() = default;
 
-WindowViews MainWindow::parts() {
+WindowViews MainWindow::views() {
   return {*page_, docks_, *map_view_, *algorithm_, *settings_, *lesson_panel_, *notes_};
 }
 
@@ -202,7 +202,7 @@ void MainWindow::make_docks() {
   docks_.add(tr("Notes"), "notes_dock", notes_, {{teach, left, 700, true}});
   docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 495}});
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 305}});
-  docks_.add(tr("Figures"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
+  docks_.add(tr("Summary"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
   inspection_->add_materials_to(docks_);
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
                          {{teach, right, 400}, {inspect, right, 450}, {debug, right, 480}});

@@ -41,9 +41,9 @@ LoadingNotice::LoadingNotice(const WindowFrame& frame) : QObject(&frame.window),
   connect(&delay_, &QTimer::timeout, this, &LoadingNotice::show);
   connect(&frame_.state.runner, &SolveRunner::state_changed, this, &LoadingNotice::show_state);
   connect(&frame_.state.runner, &SolveRunner::load_progressed, this,
-          [this](const QString& phase, double share) {
+          [this](const QString& phase, double fraction) {
             phase_ = phase;
-            share_ = share;
+            share_ = fraction;
             if (!title_before_.isEmpty()) {
               show();
             }
@@ -251,12 +251,12 @@ void OrientationOffer::offer() {
   const auto loaded = frame_.state.scene.loaded();
   // Built-in scenes are as they are meant to be.
   const bool from_file = loaded->description && !loaded->description->files.empty();
-  if (!from_file || loaded->back_share <= BackShare::worth_a_warning) {
+  if (!from_file || loaded->back_fraction <= BackFraction::worth_a_warning) {
     state_ = State::none;
     frame_.page.orientation_bar()->dismiss();
     return;
   }
-  const QString percent = QString::number(std::lround(100 * loaded->back_share));
+  const QString percent = QString::number(std::lround(100 * loaded->back_fraction));
   if (frame_.state.scene.input().orient) {
     show(State::nothing_to_turn,
          tr("%1 % of the surface that light meets is the back of faces, even after turning faces. "

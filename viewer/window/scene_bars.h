@@ -9,7 +9,7 @@
 
 #include "support/newest_result.h"
 #include "transillum/orientation.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 class QMenu;
 class QPushButton;

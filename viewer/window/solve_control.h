@@ -6,7 +6,7 @@
 #include "model/requests/patch_forecast.h"
 #include "model/snapshot.h"
 #include "support/newest_result.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 namespace transillum::viewer {
 

@@ -51,7 +51,7 @@ void add(CLI::App& command, GivenOptions& options, const Option& option) {
   CLI::Option* added =
       option.is_flag() ? add_flag(command, options, option) : add_value(command, options, option);
   if (!option.common) {
-    added->group(option.group);
+    added->group(option.section);
   }
 }
 
@@ -78,11 +78,11 @@ void add_options(CLI::App& command, GivenOptions& options,
   exclude_alternatives(command);
 }
 
-void add_groups(CLI::App& command, GivenOptions& options,
-                std::initializer_list<std::string_view> groups) {
-  for (const std::string_view group : groups) {
+void add_sections(CLI::App& command, GivenOptions& options,
+                  std::initializer_list<std::string_view> sections) {
+  for (const std::string_view section : sections) {
     for (const Option& option : transillum::options()) {
-      if (option.group == group) {
+      if (option.section == section) {
         add(command, options, option);
       }
     }

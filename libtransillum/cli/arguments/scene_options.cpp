@@ -35,22 +35,22 @@ bool is_quiet(const CLI::App& command) {
 }
 
 /// The group or material that most of the backs are of, for a message.
-std::string most_backs(const BackShare& backs) {
+std::string most_backs(const BackFraction& backs) {
   const bool by_group = !backs.groups.empty();
   const std::vector<BackCount>& counts = by_group ? backs.groups : backs.materials;
   return counts.empty() ? std::string()
-                        : fmt::format(" ({} of {} \"{}\")", share_text(counts.front().of_all),
+                        : fmt::format(" ({} of {} \"{}\")", fraction_text(counts.front().of_all),
                                       by_group ? "group" : "material", counts.front().name);
 }
 
 /// Turns parts of the scene and prints what was done, and what is still seen from behind.
-void orient_input(const RunInput& input, SceneDescription& description,
+void orient_input(const SceneInput& input, SceneDescription& description,
                   const Cancellation& cancellation) {
   ProgressDisplay display(is_quiet(*input.command));
   display.begin("turning faces");
   const OrientationReport report =
       orient(description, input.run.solve.threads, cancellation,
-             [&](double share) { display.show("turning faces", share); });
+             [&](double fraction) { display.show("turning faces", fraction); });
   display.clear();
   if (!is_quiet(*input.command)) {
     for (const std::string& sentence : report.sentences) {
@@ -60,18 +60,18 @@ void orient_input(const RunInput& input, SceneDescription& description,
   if (input.run.scene.two_sided) {
     return;
   }
-  const BackShare backs =
-      back_share(Scene(description, {}, cancellation), input.run.solve.threads, cancellation);
-  if (backs.share > BackShare::worth_a_warning) {
+  const BackFraction backs =
+      back_fraction(Scene(description, {}, cancellation), input.run.solve.threads, cancellation);
+  if (backs.fraction > BackFraction::worth_a_warning) {
     print_message(
         fmt::format("warning: {} of what light meets are backs of faces, which absorb it, also "
                     "after turning faces{} (try --two-sided)",
-                    share_text(backs.share), most_backs(backs)));
+                    fraction_text(backs.fraction), most_backs(backs)));
   }
 }
 
 /// One line that says that a sky lights nothing where all lit sides are shut in; else empty.
-std::string sky_advice(const RunInput& input, const Scene& scene, const BackShare& backs) {
+std::string sky_advice(const SceneInput& input, const Scene& scene, const BackFraction& backs) {
   // A room of two-sided faces is closed, but the sky lights it outside.
   if (backs.open > 0 || has_two_sided_faces(scene)) {
     return {};
@@ -84,7 +84,7 @@ std::string sky_advice(const RunInput& input, const Scene& scene, const BackShar
 
 /// The options of the scene with the limit of patch areas that --patches asks for. Prints what the
 /// division will make.
-SceneOptions division(const RunInput& input, const SceneDescription& description,
+SceneOptions division(const SceneInput& input, const SceneDescription& description,
                       const Cancellation& cancellation) {
   SceneOptions options = input.run.scene;
   if (input.run.refine.is_set() || (input.run.input.patches == 0 && options.max_patch_area == 0)) {
@@ -120,7 +120,7 @@ std::string scene_endings() {
 
 }  // namespace
 
-void add_scene_argument(CLI::App& command, RunInput& input) {
+void add_scene_argument(CLI::App& command, SceneInput& input) {
   input.command = &command;
   command
       .add_option("SCENE", input.spec,
@@ -132,16 +132,16 @@ void add_scene_argument(CLI::App& command, RunInput& input) {
       ->type_name("");
 }
 
-void add_scene_options(CLI::App& command, RunInput& input) {
-  add_groups(command, input, {"Scene", "Patches"});
+void add_scene_options(CLI::App& command, SceneInput& input) {
+  add_sections(command, input, {"Scene", "Patches"});
 }
 
-void check_seed(const RunInput& input) {
+void check_seed(const SceneInput& input) {
   refuse_unless(is_seeded(input.run.solve.used_sampling()), *input.command, "--seed",
                 "used only with sampling random, sobol or scrambled-hammersley");
 }
 
-SceneDescription describe_input(const RunInput& input, const Cancellation& cancellation) {
+SceneDescription describe_input(const SceneInput& input, const Cancellation& cancellation) {
   SceneDescription description = describe_scene(input.spec, input.run.input.read, cancellation);
   change_materials(description, input.run.input.changes);
   if (input.run.input.orient) {
@@ -150,7 +150,7 @@ SceneDescription describe_input(const RunInput& input, const Cancellation& cance
   return description;
 }
 
-std::shared_ptr<const Scene> make_input_scene(const RunInput& input,
+std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                               const SceneDescription& description,
                                               const Cancellation& cancellation) {
   return std::make_shared<const Scene>(description, division(input, description, cancellation),
@@ -164,17 +164,17 @@ bool has_two_sided_faces(const Scene& scene) {
          }) != patches.end();
 }
 
-std::string orientation_advice(const RunInput& input, const BackShare& backs) {
-  if (backs.share <= BackShare::worth_a_warning || input.run.input.orient) {
+std::string orientation_advice(const SceneInput& input, const BackFraction& backs) {
+  if (backs.fraction <= BackFraction::worth_a_warning || input.run.input.orient) {
     return {};
   }
   return fmt::format(
       "{} of what light meets are backs of faces, which absorb it (try --orient "
       "auto)",
-      share_text(backs.share));
+      fraction_text(backs.fraction));
 }
 
-std::shared_ptr<const Scene> load_input_scene(const RunInput& input,
+std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
                                               const std::vector<std::string>& outputs,
                                               const Cancellation& cancellation, Light light) {
   const SceneDescription description = describe_input(input, cancellation);
@@ -189,7 +189,7 @@ std::shared_ptr<const Scene> load_input_scene(const RunInput& input,
         scene->name(), suggested_light(description)));
   }
   if (light == Light::sky || (light == Light::required && !input.run.input.orient)) {
-    const BackShare backs = back_share(*scene, input.run.solve.threads, cancellation);
+    const BackFraction backs = back_fraction(*scene, input.run.solve.threads, cancellation);
     const std::string advice = light == Light::required ? orientation_advice(input, backs)
                                                         : sky_advice(input, *scene, backs);
     if (!advice.empty()) {

@@ -68,8 +68,8 @@ void add_outputs(CLI::App& command, SolveCall& call) {
   add_parsed_option(command, "--by", "NAME",
                     fmt::format("print area and power emitted, received, absorbed, escaped and "
                                 "exchanged, by {}",
-                                fmt::join(names_of<PartsBy>(), " or ")),
-                    [&call](const std::string& text) { call.by = from_name<PartsBy>(text); });
+                                fmt::join(names_of<SurfaceKind>(), " or ")),
+                    [&call](const std::string& text) { call.by = from_name<SurfaceKind>(text); });
   command.add_flag("-q,--quiet", call.quiet, "no progress and no summary on standard error");
   for (const char* option :
        {"--exposure", "--target", "--light-map", "--series", "--series-every", "--by"}) {
@@ -198,13 +198,13 @@ void complete(SolveCall& call) {
 }
 
 void add_output_options(CLI::App& command, SolveCall& call) {
-  add_groups(command, call.scene, {"Machine"});
+  add_sections(command, call.scene, {"Machine"});
   add_outputs(command, call);
 }
 
 void add_solve_options(CLI::App& command, SolveCall& call) {
   add_scene_argument(command, call.scene);
-  add_groups(
+  add_sections(
       command, call.scene,
       {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches", "Refinement", "Sky"});
   command.get_option("--up")->description(

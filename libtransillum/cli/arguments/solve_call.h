@@ -17,12 +17,12 @@
 namespace transillum::cli {
 
 struct SolveCall {
-  RunInput scene;
+  SceneInput scene;
   std::optional<Vec3> eye;  ///< --eye
   std::vector<std::string> out;
   std::string stats;
-  std::optional<PartsBy> by;  ///< --by
-  std::string factors;        ///< --factors
+  std::optional<SurfaceKind> by;  ///< --by
+  std::string factors;            ///< --factors
   ColorOutputs colors;
   CheckpointCall checkpoint;
   double checkpoint_every = 60;     ///< --checkpoint-every, s

@@ -117,7 +117,7 @@ int run(const CompareCall& call) {
 
 }  // namespace
 
-Run add_compare_command(CLI::App& program) {
+Command add_compare_command(CLI::App& program) {
   auto call = std::make_shared<CompareCall>();
   CLI::App& command =
       *program.add_subcommand("compare", "Compares the radiosity of two results of a scene");

@@ -22,7 +22,7 @@ namespace transillum::cli {
 namespace {
 
 struct FactorsCall {
-  RunInput scene;
+  SceneInput scene;
   GatherOptions rays;
   SensorCall sensors;
   double drop = 0;  ///< form factors below it are omitted; 0 writes all
@@ -37,21 +37,22 @@ FormFactors gather_by_rays(const FactorsCall& call, const Scene& scene,
   options.seed = call.passes().seed;
   options.threads = call.passes().threads;
   return gather_form_factors(scene, options, cancellation,
-                             [&](double share) { display.show("tracing rays", share); });
+                             [&](double fraction) { display.show("tracing rays", fraction); });
 }
 
 FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
                            const Cancellation& cancellation, ProgressDisplay& display) {
-  return hemicube_form_factors(scene, hemicube_options(call.passes()), cancellation,
-                               [&](double share) { display.show("drawing hemicubes", share); });
+  return hemicube_form_factors(
+      scene, hemicube_options(call.passes()), cancellation,
+      [&](double fraction) { display.show("drawing hemicubes", fraction); });
 }
 
 FormFactors compute_pairs(const FactorsCall& call, const Scene& scene,
                           const Cancellation& cancellation, ProgressDisplay& display) {
   display.begin("computing pairs");
-  return pair_form_factors(scene, pair_options(call.passes()), cancellation, [&](double share) {
+  return pair_form_factors(scene, pair_options(call.passes()), cancellation, [&](double fraction) {
     const double patches = scene.patch_count();
-    display.show_rate("computing pairs", share, patches * (patches - 1) / 2, "pairs");
+    display.show_rate("computing pairs", fraction, patches * (patches - 1) / 2, "pairs");
   });
 }
 
@@ -109,7 +110,7 @@ FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactor
   DroppedFormFactors rest = drop_small_form_factors(scene, form_factors, call.drop, cancellation);
   std::string text =
       fmt::format("{} of {} form factors omitted, {:.2g} of all light; the others are rebalanced",
-                  rest.dropped, form_factors.size(), rest.share);
+                  rest.dropped, form_factors.size(), rest.fraction);
   if (rest.kept > 0) {
     text += fmt::format("; {} below {} are kept, without which their rows cannot be rebalanced",
                         rest.kept, call.drop);
@@ -209,7 +210,7 @@ void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
 
 }  // namespace
 
-Run add_factors_command(CLI::App& program) {
+Command add_factors_command(CLI::App& program) {
   auto call = std::make_shared<FactorsCall>();
   CLI::App& command =
       *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
@@ -217,7 +218,7 @@ Run add_factors_command(CLI::App& program) {
   add_options(command, call->scene, {"directions", "sampling", "seed", "rotate"});
   add_methods(command, call);
   add_scene_options(command, call->scene);
-  add_groups(command, call->scene, {"Machine"});
+  add_sections(command, call->scene, {"Machine"});
   command.get_option("--memory")
       ->description("largest memory for form factors (default: a quarter of the machine's)");
   add_outputs(command, call);

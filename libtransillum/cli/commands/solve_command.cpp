@@ -211,7 +211,7 @@ int run_solve(SolveCall& call) {
     print_message("warning: " + warning);
   }
   if (shared && !call.quiet) {
-    print_message(processes().figures());
+    print_message(processes().traffic());
   }
   if (is_first_process()) {
     write_outputs(call, options, solution);
@@ -265,7 +265,7 @@ int run_shard(SolveCall& call) {
   return success;
 }
 
-Run add_solve_command(CLI::App& program) {
+Command add_solve_command(CLI::App& program) {
   auto call = std::make_shared<SolveCall>();
   CLI::App& command = *program.add_subcommand("solve", "Computes the radiosity of every patch");
   add_solve_options(command, *call);

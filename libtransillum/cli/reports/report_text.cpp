@@ -16,11 +16,11 @@ std::string rgb_text(const Rgb& color, int digits) {
   return fmt::format("{:.{}g} {:.{}g} {:.{}g}", color.r, digits, color.g, digits, color.b, digits);
 }
 
-std::string share_text(double share) {
-  if (share < 1e-9) {
+std::string fraction_text(double fraction) {
+  if (fraction < 1e-9) {
     return "0 %";  // rounding
   }
-  const double percent = 100 * share;
+  const double percent = 100 * fraction;
   if (percent < 0.001) {
     return "less than 0.001 %";
   }

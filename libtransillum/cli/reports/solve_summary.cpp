@@ -118,23 +118,23 @@ std::string accuracy_text(const AccuracyReport& report) {
                                 report.passes_made, report.stages.size()));
 }
 
-std::string glossy_text(const GlossyFigures& figures) {
+std::string glossy_text(const GlossyStatistics& counted) {
   constexpr double mebibyte = 1 << 20;
   return report_row(
       "lobes",
       fmt::format("on {} patches, {} orientations; sums over directions off by {:.1e} "
                   "before scaling, {:.0e} after; {:.3g} MiB by direction, {:.3g} MiB of "
                   "transfers kept",
-                  figures.patches, figures.lobes, figures.sum_error, figures.sum_defect,
-                  static_cast<double>(figures.radiance_bytes + figures.lobe_bytes) / mebibyte,
-                  static_cast<double>(figures.transfer_bytes) / mebibyte));
+                  counted.patches, counted.lobes, counted.sum_error, counted.sum_defect,
+                  static_cast<double>(counted.radiance_bytes + counted.lobe_bytes) / mebibyte,
+                  static_cast<double>(counted.transfer_bytes) / mebibyte));
 }
 
 /// Patches on which the mean of B or H is below 0, as only linear functions can make it.
 std::int64_t patches_below_zero(const Solution& solution) {
   const auto is_below = [](const Rgb& value) { return std::min({value.r, value.g, value.b}) < 0; };
   std::int64_t count = 0;
-  for (std::size_t i = 0; i < solution.linear_parts.size(); ++i) {
+  for (std::size_t i = 0; i < solution.linear_terms.size(); ++i) {
     count += is_below(solution.radiosity[i]) || is_below(solution.irradiance[i]) ? 1 : 0;
   }
   return count;
@@ -145,7 +145,7 @@ std::int64_t patches_below_zero(const Solution& solution) {
 std::string closure_text(const Scene& scene, const SolveStatistics& s) {
   // Form factors without directions have errors, which row sums show too.
   const double rounding = s.pairs > 0 || s.hemicubes > 0 ? 1e-3 : 1e-9;
-  const std::string open = share_text(s.escaped) + " of the projected area sees no patch";
+  const std::string open = fraction_text(s.escaped) + " of the projected area sees no patch";
   if (s.escaped > rounding) {
     return report_row("open", open + ": light escapes there");
   }
@@ -173,9 +173,10 @@ std::string solve_summary(const Solution& solution) {
                                    s.passes_made));
   }
   if (s.shot_sources > 0) {
-    text += report_row(
-        "first shot", fmt::format("{} patches, {} of the emitted power, {}", s.shot_sources,
-                                  share_text(s.shot_power_share), time_text(s.seconds_first_shot)));
+    text +=
+        report_row("first shot", fmt::format("{} patches, {} of the emitted power, {}",
+                                             s.shot_sources, fraction_text(s.shot_power_fraction),
+                                             time_text(s.seconds_first_shot)));
   }
   if (s.glossy.patches > 0) {
     text += glossy_text(s.glossy);
@@ -184,7 +185,7 @@ std::string solve_summary(const Solution& solution) {
   if (!s.iteration_records.empty() && s.iteration_records.back().unlit_area > 0) {
     text +=
         report_row("unlit", fmt::format("{} of the area: below 1e-6 of the largest reflected light",
-                                        share_text(s.iteration_records.back().unlit_area)));
+                                        fraction_text(s.iteration_records.back().unlit_area)));
   }
   text += closure_text(*solution.scene, s);
   if (!s.iteration_records.empty()) {
@@ -255,7 +256,7 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
         fmt::format("the error estimate cannot be trusted: in a replica, a patch is lit directly "
                     "along only {:.2g} directions, as an average by light; {} are needed. {}",
                     met, least_light_directions,
-                    solution.linear_parts.empty()
+                    solution.linear_terms.empty()
                         ? "--first-shot 0 treats the sources separately; or give more --directions"
                         : "Give more --directions"));
   } else if (const std::size_t count = uncertain_patches(solution).size(); count > 0) {

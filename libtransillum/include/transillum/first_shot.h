@@ -51,7 +51,7 @@ std::string name_of_first_shot(const std::optional<double>& threshold);
 /// The direct light from some sources to all patches.
 struct DirectLight {
   /// The contribution of the sources of one material.
-  struct Part {
+  struct Contribution {
     int material = 0;                ///< index into Scene::materials()
     std::vector<double> irradiance;  ///< H for an exitance of 1, one per patch
   };
@@ -59,8 +59,9 @@ struct DirectLight {
   std::vector<Rgb> irradiance;   ///< H, W/m², one per patch
   std::vector<Rgb> exitance;     ///< E of the sources, which has been shot; 0 for other patches
   std::vector<PatchId> sources;  ///< ascending
-  double power_share = 0;        ///< power of the sources over all power emitted
-  std::vector<Part> parts;       ///< sorted by material; empty if they would exceed 256 MiB
+  double power_fraction = 0;     ///< power of the sources over all power emitted
+  std::vector<Contribution>
+      contributions;  ///< sorted by material; empty if they would exceed 256 MiB
   /// Estimated error of `irradiance`, W/m², one per patch: the error of partly hidden pairs, which
   /// are computed by points. Empty if unknown (with_materials()).
   std::vector<Rgb> irradiance_error = {};
@@ -74,7 +75,7 @@ struct DirectLight {
 /// @param sources find_small_sources(), or any emitting patches, ascending.
 /// @param threads 0: all cores; the result does not depend on it.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share of pairs done, in [0,1], on this
+/// @param progress if set, called at intervals with the fraction of pairs done, in [0,1], on this
 /// thread; also while one pair takes long.
 /// @throws Canceled
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0,

@@ -12,7 +12,7 @@
 
 namespace TRANSILLUM_API transillum {
 
-/// The matrix of form factors as a sparse matrix by rows: F_ij is the share of the light leaving
+/// The matrix of form factors as a sparse matrix by rows: F_ij is the fraction of the light leaving
 /// patch i that arrives directly at the front side of patch j.
 struct FormFactors {
   std::vector<std::size_t> row_begin;  ///< first index of row i in the lists below; patches + 1
@@ -42,7 +42,7 @@ struct GatherOptions {
 /// @param scene the scene.
 /// @param options rays, seed and threads.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws InputError, Canceled
 FormFactors gather_form_factors(const Scene& scene, const GatherOptions& options,
                                 const Cancellation& cancellation = {},

@@ -37,7 +37,7 @@ struct PairOptions {
 /// @param scene the scene.
 /// @param options points, memory and threads.
 /// @param cancellation checked during computation, also within a pair.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws InputError, Canceled, MemoryLimitExceeded
 FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
                               const Cancellation& cancellation = {},
@@ -52,7 +52,7 @@ FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
 /// @param scene the scene.
 /// @param i the patch.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws Canceled
 std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
                                        const Cancellation& cancellation = {},

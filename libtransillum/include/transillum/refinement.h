@@ -41,7 +41,7 @@ const Choices& choices_of<RefineBy>();
 std::vector<double> radiosity_jumps(const Solution& solution,
                                     const Cancellation& cancellation = {});
 /// The same with other reflectances than the scene's materials have.
-/// @param reflectance by patch; with the share of its lobe, if lobes take part.
+/// @param reflectance by patch; with the fraction of its lobe, if lobes take part.
 /// @throws Canceled
 std::vector<double> radiosity_jumps(const Solution& solution, std::span<const Rgb> reflectance,
                                     const Cancellation& cancellation = {});

@@ -176,12 +176,12 @@ bool is_positive(double value) { return value > 0; }
 class Table {
  public:
   std::vector<Option> list;
-  std::string group;
+  std::string section;
 
   Option& add(const char* name, const char* argument, const char* values, std::string help) {
     Option& o = list.emplace_back();
     o.name = name;
-    o.group = group;
+    o.section = section;
     o.argument = argument;
     o.values = values;
     o.help = std::move(help);
@@ -195,7 +195,7 @@ class Table {
 };
 
 void add_directions(Table& t) {
-  t.group = "Directions";
+  t.section = "Directions";
   Option& directions =
       t.common("directions", "M", "a number", "number of directions per iteration (one pass each)");
   whole(directions, solve(&SolveOptions::directions), 1, 1 << 24);
@@ -228,7 +228,7 @@ void add_directions(Table& t) {
 }
 
 void add_engine(Table& t) {
-  t.group = "Engine";
+  t.section = "Engine";
   const auto engine = [](auto m) { return solve(&SolveOptions::engine_options, m); };
   Option& name =
       t.common("engine", "NAME", "a name", "algorithm that computes visibility along a direction");
@@ -256,7 +256,7 @@ void add_engine(Table& t) {
 }
 
 void add_equations(Table& t) {
-  t.group = "Iteration";
+  t.section = "Iteration";
   choice(t.add("normalize", "NAME", "a name", meanings<Normalization>()),
          solve(&SolveOptions::normalize));
   choice(t.add("scheme", "NAME", "a name", meanings<Scheme>()), solve(&SolveOptions::scheme));
@@ -305,7 +305,7 @@ void add_equations(Table& t) {
 }
 
 void add_accuracy(Table& t) {
-  t.group = "Accuracy";
+  t.section = "Accuracy";
   const auto goal = [](auto m) { return solve(&SolveOptions::goal, m); };
   percentage(t.common("accuracy", "P%|X", "a percentage or a number, or none",
                       "choose M and the replicas so that the error of B is at most this, with 95 % "
@@ -340,7 +340,7 @@ void add_accuracy(Table& t) {
 }
 
 void add_sky(Table& t) {
-  t.group = "Sky";
+  t.section = "Sky";
   Option& sky =
       t.common("sky", "E[,E,E]", "one number or three, W/m2, or none",
                "light that leaves an open scene meets a sky: irradiance of an unobstructed "
@@ -375,7 +375,7 @@ void add_sky(Table& t) {
 }
 
 void add_patches(Table& t) {
-  t.group = "Patches";
+  t.section = "Patches";
   flag(t.common("two-sided", "", "yes or no",
                 "every face emits and receives on both sides: two opposite patches per face"),
        member(&RunOptions::scene, &SceneOptions::two_sided));
@@ -401,7 +401,7 @@ void add_patches(Table& t) {
     const std::int64_t number = by_area ? o.input.patches : o.refine.patches;
     return number == 0 ? "none" : fmt::to_string(number);
   };
-  t.group = "Refinement";
+  t.section = "Refinement";
   Option& by = t.add("refine-by", "NAME", "a name, or none",
                      "divide faces in rounds, worst patches first, until there are as many patches "
                      "as asked for; jump: where B jumps across edges; error: where a solve with "
@@ -417,7 +417,7 @@ void add_patches(Table& t) {
 
 /// Marks those that only a scene's file has.
 void add_reading(Table& t) {
-  t.group = "Scene";
+  t.section = "Scene";
   const std::size_t first = t.list.size();
   const auto read = [](auto m) { return member(&RunOptions::input, &SceneInput::read, m); };
   real(t.add("default-reflectance", "R", "a number",
@@ -427,8 +427,8 @@ void add_reading(Table& t) {
   Option& most = t.add("max-reflectance", "R", "a number, or auto",
                        "lower larger reflectances of a file to R");
   most.json = Option::Json::number;
-  most.default_text =
-      fmt::format("lower only reflectances of 1 and more, to {}", ReadOptions::default_max_reflectance);
+  most.default_text = fmt::format("lower only reflectances of 1 and more, to {}",
+                                  ReadOptions::default_max_reflectance);
   optional(
       most, read(&ReadOptions::max_reflectance), "auto",
       [](const std::string& text) {
@@ -499,7 +499,7 @@ void add_reading(Table& t) {
 }
 
 void add_machine(Table& t) {
-  t.group = "Machine";
+  t.section = "Machine";
   Option& memory =
       t.add("memory", "SIZE", "a size such as 2G or 800M",
             "memory for stored form factors; beyond it they are recomputed in each iteration, "

@@ -40,10 +40,10 @@ constexpr double expected_exponent = 1;
 constexpr double usual_growth = 8, largest_growth = 12;
 /// Directions of a stage from which on a solve that diverges is not tried with more.
 constexpr int enough_to_converge = 1 << 14;
-/// Share of the time left that a stage is made for.
-constexpr double time_share = 0.85;
-/// Share of the goal from which on missing iterations are made, instead of more passes.
-constexpr double iteration_share = 0.25;
+/// Fraction of the time left that a stage is made for.
+constexpr double time_fraction = 0.85;
+/// Fraction of the goal from which on missing iterations are made, instead of more passes.
+constexpr double iteration_fraction = 0.25;
 
 double length(const Rgb& v) { return std::hypot(v.r, v.g, v.b); }
 
@@ -155,12 +155,12 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   // No number of passes replaces iterations, which the goal may ask more of than the tolerance:
   // a patch, where it is dark.
   const double missing_iterations = error_of_iteration(goal, solver, statistics, estimate);
-  if (goal.accuracy > 0 && missing_iterations > iteration_share * goal.accuracy &&
-      std::isfinite(missing_iterations) && solved.directions * per_pass <= time_share * left) {
+  if (goal.accuracy > 0 && missing_iterations > iteration_fraction * goal.accuracy &&
+      std::isfinite(missing_iterations) && solved.directions * per_pass <= time_fraction * left) {
     const IterationRecord& last = statistics.iteration_records.back();
     const double reached = std::max(last.remainder, last.remainder_dimmest);
     if (!is_rounding(last) && reached > 0) {
-      stage_.tolerance = 0.5 * iteration_share * goal.accuracy / missing_iterations *
+      stage_.tolerance = 0.5 * iteration_fraction * goal.accuracy / missing_iterations *
                          std::min(stage_.tolerance, reached);
       passes_before_ = 0;
       return Next::stage;
@@ -214,7 +214,7 @@ double AccuracyPlan::growth() const {
 
 AccuracyPlan::Next AccuracyPlan::grow(double factor, double seconds_per_pass, double seconds_left) {
   const double before = stage_.directions, per_replica = before / stage_.replicas;
-  const double fits = time_share * seconds_left / seconds_per_pass;
+  const double fits = time_fraction * seconds_left / seconds_per_pass;
   const double wanted = std::min({factor * before, fits, double(max_directions)});
   if (wanted < 1.1 * before) {
     return Next::done;

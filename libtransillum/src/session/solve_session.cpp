@@ -69,7 +69,7 @@ void SolveSession::Impl::build_tree() {
   const auto start = Clock::now();
   std::function<void(double)> report;
   if (request.preparing) {
-    report = [this](double share) { request.preparing(Preparation::tree, share); };
+    report = [this](double fraction) { request.preparing(Preparation::tree, fraction); };
     report(0);
   }
   tree = std::make_shared<const BspTree>(*scene, cancellation, report, request.options.threads);
@@ -84,7 +84,7 @@ void SolveSession::Impl::shoot_first() {
   const auto start = Clock::now();
   std::function<void(double)> report;
   if (request.preparing) {
-    report = [this](double share) { request.preparing(Preparation::first_shot, share); };
+    report = [this](double fraction) { request.preparing(Preparation::first_shot, fraction); };
     report(0);
   }
   shot = std::make_shared<const DirectLight>(shoot(
@@ -310,8 +310,8 @@ std::vector<Rgb> SolveSession::radiosity() const { return impl_->solver->radiosi
 std::vector<Rgb> SolveSession::running_estimate() const {
   return diffuse() != nullptr ? diffuse()->running_estimate() : radiosity();
 }
-std::vector<LinearPart> SolveSession::linear_parts() const {
-  return diffuse() != nullptr ? diffuse()->linear_parts() : std::vector<LinearPart>();
+std::vector<LinearTerm> SolveSession::linear_terms() const {
+  return diffuse() != nullptr ? diffuse()->linear_terms() : std::vector<LinearTerm>();
 }
 std::vector<double> SolveSession::estimate_changes() const {
   return diffuse() != nullptr ? diffuse()->estimate_changes() : std::vector<double>();

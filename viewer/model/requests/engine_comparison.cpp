@@ -143,7 +143,7 @@ Transfers run_engine(const EngineRequest& request, EngineComparison::Side& side,
       covered += coverage.covered;
     }
   }
-  side.covered_share = projected > 0 ? covered / projected : 0;
+  side.covered_fraction = projected > 0 ? covered / projected : 0;
   return transfers;
 }
 

@@ -51,7 +51,8 @@ QString Relighting::reason_unavailable() const {
   if (!snapshot_) {
     return tr("Open a scene to change its light.");
   }
-  if (snapshot_->shot && !snapshot_->shot->sources.empty() && snapshot_->shot->parts.empty()) {
+  if (snapshot_->shot && !snapshot_->shot->sources.empty() &&
+      snapshot_->shot->contributions.empty()) {
     return tr(
         "The first shot, stored per material, exceeds the memory limit: solve without it to change "
         "the light.");
@@ -142,9 +143,9 @@ std::shared_ptr<const SolverSnapshot> Relighting::lit(
   }
   auto lit = std::make_shared<SolverSnapshot>(*snapshot_);
   lit->radiosity = light_->radiosity;
-  lit->linear_parts.clear();  // the form factors belong to constant functions
+  lit->linear_terms.clear();  // the form factors belong to constant functions
   lit->bases = nullptr;
-  lit->kept_linear_parts.clear();
+  lit->kept_linear_terms.clear();
   lit->irradiance = light_->irradiance;
   lit->materials = materials_;
   return lit;

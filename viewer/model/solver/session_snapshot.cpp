@@ -26,16 +26,16 @@ SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const Lo
   }
   snapshot.statistics = std::move(solution.statistics);
   snapshot.radiosity = std::move(solution.radiosity);
-  snapshot.linear_parts = std::move(solution.linear_parts);
+  snapshot.linear_terms = std::move(solution.linear_terms);
   snapshot.irradiance = std::move(solution.irradiance);
   snapshot.error = std::move(solution.error);
   snapshot.form_factor_sums = std::move(solution.form_factor_sums);
-  snapshot.sky_shares = std::move(solution.sky_shares);
+  snapshot.sky_fractions = std::move(solution.sky_fractions);
   snapshot.sky_irradiance = std::move(solution.sky_irradiance);
   // Empty before the first pass.
   snapshot.form_factor_sums.resize(snapshot.radiosity.size());
   if (!snapshot.of_file) {
-    snapshot.sky_shares.resize(snapshot.radiosity.size());
+    snapshot.sky_fractions.resize(snapshot.radiosity.size());
   }
   if (diffuse != nullptr) {
     snapshot.shot = diffuse->direct_light();
@@ -97,12 +97,12 @@ void SolveHistory::store_radiosity(const SolveSession& session) {
   if (!linear) {
     return;
   }
-  linear_parts_.resize(iteration + 1);
+  linear_terms_.resize(iteration + 1);
   if (iteration == 0) {
     // B(0) is E; the solver's parts may already belong to the estimate.
-    linear_parts_[0] = shared(std::vector<LinearPart>(patches));
+    linear_terms_[0] = shared(std::vector<LinearTerm>(patches));
   } else if (progress.direction == 0) {
-    linear_parts_[iteration] = shared(session.linear_parts());
+    linear_terms_[iteration] = shared(session.linear_terms());
   }
 }
 
@@ -144,14 +144,14 @@ void SolveHistory::write_to(SolverSnapshot& snapshot) {
   snapshot.directions = directions_.back();
   snapshot.kept_passes = passes_;
   snapshot.kept_radiosity = radiosity_;
-  snapshot.kept_linear_parts = linear_parts_;
+  snapshot.kept_linear_terms = linear_terms_;
   snapshot.errors = errors_;
   snapshot.estimate_iteration = snapshot.progress.iteration;
   if (snapshot.estimate_changes.empty() && snapshot.progress.iteration > 0) {
     snapshot.estimate_changes = changes_;
     snapshot.estimate_iteration = changes_iteration_;
   }
-  if (!snapshot.linear_parts.empty()) {
+  if (!snapshot.linear_terms.empty()) {
     if (!bases_) {
       bases_ = shared(linear_bases(*snapshot.loaded->scene));
     }

@@ -9,8 +9,8 @@
 namespace transillum {
 namespace {
 
-/// A remainder below this share of the projected area is rounding (ALGORITHM.md, oracle 1).
-constexpr double rounding_share = 1e-12;
+/// A remainder below this fraction of the projected area is rounding (ALGORITHM.md, oracle 1).
+constexpr double rounding_fraction = 1e-12;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void write_transfers_csv(std::ostream& out, const Transfers& transfers) {
     }
     const double projected = transfers.forward[i].projected;
     const double rest = projected - received;
-    if (rest > rounding_share * projected) {
+    if (rest > rounding_fraction * projected) {
       fmt::print(out, "{},-1,{}\n", receiver, rest);
     }
     for (auto t = first; t != next; ++t) {

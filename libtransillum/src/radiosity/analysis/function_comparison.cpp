@@ -27,7 +27,7 @@ class RadiosityFunction {
     for (std::size_t k = 0; k < scene_.pieces().size(); ++k) {
       pieces_of_[scene_.patch(scene_.pieces()[k].patch).face].push_back(k);
     }
-    if (!solution.linear_parts.empty()) {
+    if (!solution.linear_terms.empty()) {
       bases_ = linear_bases(scene_);
     }
   }
@@ -36,8 +36,8 @@ class RadiosityFunction {
     Rgb b = at(solution_.radiosity, i);
     if (!bases_.empty()) {
       const auto [first, second] = at(bases_, i).at(point);
-      const LinearPart& part = at(solution_.linear_parts, i);
-      b += first * part.first + second * part.second;
+      const LinearTerm& term = at(solution_.linear_terms, i);
+      b += first * term.first + second * term.second;
     }
     return b;
   }

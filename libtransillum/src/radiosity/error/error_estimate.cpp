@@ -31,9 +31,9 @@ Rgb standard_error_of(std::size_t count, double scale, ValueOf value_of) {
     const Rgb off = scale * (value_of(r) - mean);
     squares += off * off;
   }
-  const double share = 1 / (n * (n - 1));
-  return (1 / scale) * Rgb{std::sqrt(share * squares.r), std::sqrt(share * squares.g),
-                           std::sqrt(share * squares.b)};
+  const double fraction = 1 / (n * (n - 1));
+  return (1 / scale) * Rgb{std::sqrt(fraction * squares.r), std::sqrt(fraction * squares.g),
+                           std::sqrt(fraction * squares.b)};
 }
 
 double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }

@@ -22,27 +22,29 @@ namespace transillum {
 namespace {
 
 /// One part of zeros per material of the sources; none where they would take too much memory.
-std::vector<DirectLight::Part> empty_parts(const Scene& scene,
-                                           const std::vector<PatchId>& sources) {
+std::vector<DirectLight::Contribution> empty_contributions(const Scene& scene,
+                                                           const std::vector<PatchId>& sources) {
   constexpr std::size_t max_bytes = std::size_t{256} << 20;
   std::set<int> materials;
   for (const PatchId j : sources) {
     materials.insert(scene.patch(j).material);
   }
   const auto patches = scene.patches().size();
-  std::vector<DirectLight::Part> parts;
+  std::vector<DirectLight::Contribution> contributions;
   if (materials.size() * patches * sizeof(double) > max_bytes) {
-    return parts;
+    return contributions;
   }
   for (const int m : materials) {
-    parts.push_back({m, std::vector<double>(patches)});
+    contributions.push_back({m, std::vector<double>(patches)});
   }
-  return parts;
+  return contributions;
 }
 
-auto part_of(std::vector<DirectLight::Part>& parts, int material) {
-  return std::lower_bound(parts.begin(), parts.end(), material,
-                          [](const DirectLight::Part& part, int m) { return part.material < m; });
+auto contribution_of(std::vector<DirectLight::Contribution>& contributions, int material) {
+  return std::lower_bound(contributions.begin(), contributions.end(), material,
+                          [](const DirectLight::Contribution& contribution, int m) {
+                            return contribution.material < m;
+                          });
 }
 
 /// Counts pairs of patches, checks the cancellation and reports progress, also within a pair: one
@@ -111,16 +113,16 @@ void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, Shot
     power += area * scene.exitance(j);
     integrated += found.integrated ? 1 : 0;
     errors.add(unit * found.error * scene.exitance(j));
-    const auto part = part_of(light.parts, scene.patch(j).material);
-    if (part != light.parts.end()) {
-      part->irradiance[row] += unit * area;
+    const auto contribution = contribution_of(light.contributions, scene.patch(j).material);
+    if (contribution != light.contributions.end()) {
+      contribution->irradiance[row] += unit * area;
     }
   }
   light.irradiance[row] = unit * power;
   light.irradiance_error[row] = errors.largest();
 }
 
-/// Sets the exitance of the sources and their share of all emitted power.
+/// Sets the exitance of the sources and their fraction of all emitted power.
 /// @param exitance of a patch
 template <class Exitance>
 void count_power(const Scene& scene, Exitance exitance, DirectLight& light) {
@@ -132,16 +134,17 @@ void count_power(const Scene& scene, Exitance exitance, DirectLight& light) {
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     total += scene.patch(i).area * sum(exitance(i));
   }
-  light.power_share = total > 0 ? shot / total : 0;
+  light.power_fraction = total > 0 ? shot / total : 0;
 }
 
 /// E of the sources of a part, which has one irradiance for all of them.
 template <class Exitance>
-Rgb exitance_of_part(const DirectLight::Part& part, const std::vector<PatchId>& sources,
-                     const Scene& scene, Exitance exitance) {
+Rgb exitance_of_contribution(const DirectLight::Contribution& contribution,
+                             const std::vector<PatchId>& sources, const Scene& scene,
+                             Exitance exitance) {
   std::optional<Rgb> common;
   for (const PatchId i : sources) {
-    if (scene.patch(i).material != part.material) {
+    if (scene.patch(i).material != contribution.material) {
       continue;
     }
     if (common && !(*common == exitance(i))) {
@@ -159,8 +162,8 @@ Rgb exitance_of_part(const DirectLight::Part& part, const std::vector<PatchId>& 
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads,
                   const Cancellation& cancellation, const std::function<void(double)>& progress) {
   const auto patches = scene.patches().size();
-  DirectLight light{std::vector<Rgb>(patches),   std::vector<Rgb>(patches), sources, 0,
-                    empty_parts(scene, sources), std::vector<Rgb>(patches)};
+  DirectLight light{std::vector<Rgb>(patches),           std::vector<Rgb>(patches), sources, 0,
+                    empty_contributions(scene, sources), std::vector<Rgb>(patches)};
   if (sources.empty()) {
     return light;
   }
@@ -190,7 +193,7 @@ DirectLight with_materials(const DirectLight& light, const Scene& scene,
   if (patch_materials.empty() && materials.size() != scene.materials().size()) {
     throw InputError("the materials belong to another scene: their number differs");
   }
-  if (light.parts.empty() && !light.sources.empty()) {
+  if (light.contributions.empty() && !light.sources.empty()) {
     throw InputError("the first shot is not stored per material: that would take too much memory");
   }
   DirectLight other{std::vector<Rgb>(patches), std::vector<Rgb>(patches), light.sources, 0, {}};
@@ -198,10 +201,10 @@ DirectLight with_materials(const DirectLight& light, const Scene& scene,
     return at(materials, patch_materials.empty() ? scene.patch(i).material : at(patch_materials, i))
         .exitance;
   };
-  for (const DirectLight::Part& part : light.parts) {
-    const Rgb exitance = exitance_of_part(part, light.sources, scene, exitance_of);
+  for (const DirectLight::Contribution& contribution : light.contributions) {
+    const Rgb exitance = exitance_of_contribution(contribution, light.sources, scene, exitance_of);
     for (std::size_t i = 0; i < patches; ++i) {
-      other.irradiance[i] += part.irradiance[i] * exitance;
+      other.irradiance[i] += contribution.irradiance[i] * exitance;
     }
   }
   count_power(scene, exitance_of, other);

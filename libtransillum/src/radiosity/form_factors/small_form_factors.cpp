@@ -175,7 +175,7 @@ class Balance {
       }
       result.form_factors.row_begin.push_back(result.form_factors.size());
     }
-    result.share = all > 0 ? moved / all : 0;
+    result.fraction = all > 0 ? moved / all : 0;
     result.kept = tiny_ - result.dropped;
     for (const double error : errors_) {
       result.row_error = std::max(result.row_error, std::abs(error));

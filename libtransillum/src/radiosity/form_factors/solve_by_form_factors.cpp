@@ -25,7 +25,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Computes the form factors, of all unknowns if the basis is linear, and sets the figures that
+/// Computes the form factors, of all unknowns if the basis is linear, and sets the values that
 /// differ between the engines.
 FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options,
                                  const Cancellation& cancellation,
@@ -48,8 +48,8 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
   return form_factors;
 }
 
-/// Sums of the rows over the sources' phi_0: for phi_0 the share of what leaves a patch that meets
-/// others, for phi_1 and phi_2 what closure makes 0.
+/// Sums of the rows over the sources' phi_0: for phi_0 the fraction of what leaves a patch that
+/// meets others, for phi_1 and phi_2 what closure makes 0.
 std::vector<double> row_sums(const FormFactors& form_factors, std::size_t per_patch) {
   std::vector<double> sums;
   for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
@@ -75,7 +75,7 @@ std::vector<Value> means_of(std::vector<Value> values, std::size_t per_patch) {
   return values;
 }
 
-/// Sets the figures that are sums over rows of F: closure, escaped, energy and rho_max.
+/// Sets the values that are sums over rows of F: closure, escaped, energy and rho_max.
 /// @param sums of row_sums()
 void add_power(const Scene& scene, const std::vector<double>& sums,
                const JacobiIteration& iteration, SolveStatistics& statistics) {
@@ -111,12 +111,12 @@ void add_power(const Scene& scene, const std::vector<double>& sums,
       ratio_or_zero(absorbed.r + absorbed.g + absorbed.b, emitted.r + emitted.g + emitted.b);
 }
 
-std::vector<LinearPart> linear_parts_of(const std::vector<Rgb>& coefficients) {
-  std::vector<LinearPart> parts;
+std::vector<LinearTerm> linear_terms_of(const std::vector<Rgb>& coefficients) {
+  std::vector<LinearTerm> terms;
   for (std::size_t u = 0; u < coefficients.size(); u += linear_unknowns) {
-    parts.push_back({coefficients[u + 1], coefficients[u + 2]});
+    terms.push_back({coefficients[u + 1], coefficients[u + 2]});
   }
-  return parts;
+  return terms;
 }
 
 /// The form factors of constant functions, T^00 / A_i.
@@ -151,11 +151,11 @@ Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
   const std::vector<double> sums = row_sums(form_factors, per_patch);
   solution.form_factor_sums = means_of(sums, per_patch);
   for (const double sum : solution.form_factor_sums) {
-    solution.sky_shares.push_back(std::max(0.0, 1 - sum));
+    solution.sky_fractions.push_back(std::max(0.0, 1 - sum));
   }
   add_power(*scene, sums, iteration, statistics);
   if (linear) {
-    solution.linear_parts = linear_parts_of(iteration.b);
+    solution.linear_terms = linear_terms_of(iteration.b);
     form_factors = factors_of_means(form_factors);
   }
   statistics.patches = statistics.fragments = scene->patch_count();
@@ -190,8 +190,8 @@ void refuse_directions(const SolveOptions& options, const std::string& who) {
 
 /// Relative RMS difference of B; with linear functions, of all coefficients.
 double difference(const Solution& a, const Solution& b) {
-  return radiosity_error(*a.scene, coefficients_of(a.radiosity, a.linear_parts),
-                         coefficients_of(b.radiosity, b.linear_parts))
+  return radiosity_error(*a.scene, coefficients_of(a.radiosity, a.linear_terms),
+                         coefficients_of(b.radiosity, b.linear_terms))
       .rms;
 }
 
@@ -238,15 +238,15 @@ Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOp
                                const std::function<void(double)>& progress) {
   check_form_factor_options(options);
   const auto start = Clock::now();
-  SolveStatistics figures;
-  FormFactors form_factors = compute_form_factors(*scene, options, cancellation, progress, figures);
+  SolveStatistics counted;
+  FormFactors form_factors = compute_form_factors(*scene, options, cancellation, progress, counted);
   const double seconds_transfers = seconds_since(start);
   Solution solution = iterate(std::move(scene), std::move(form_factors), options, cancellation);
   SolveStatistics& statistics = solution.statistics;
-  statistics.hemicubes = figures.hemicubes;
-  statistics.pairs = figures.pairs;
-  statistics.integrated_pairs = figures.integrated_pairs;
-  statistics.directions = figures.directions;
+  statistics.hemicubes = counted.hemicubes;
+  statistics.pairs = counted.pairs;
+  statistics.integrated_pairs = counted.integrated_pairs;
+  statistics.directions = counted.directions;
   statistics.passes = static_cast<int>(statistics.patches);
   statistics.passes_made = statistics.patches;
   statistics.seconds_transfers = seconds_transfers;
@@ -273,7 +273,7 @@ Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors
 
 PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                             double accuracy, const Cancellation& cancellation,
-                            const std::function<void(int points, double share)>& progress) {
+                            const std::function<void(int points, double fraction)>& progress) {
   if (!(accuracy > 0 && accuracy < 1)) {
     throw InputError(fmt::format("accuracy: {} is not between 0 and 1", accuracy));
   }
@@ -283,9 +283,9 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
   int& points = step.engine_options.points;
   points = points > 0 ? points : EngineOptions::default_points / 8;
   const auto solved = [&] {
-    return solve_by_form_factors(scene, step, cancellation, [&](double share) {
+    return solve_by_form_factors(scene, step, cancellation, [&](double fraction) {
       if (progress) {
-        progress(points, share);
+        progress(points, fraction);
       }
     });
   };

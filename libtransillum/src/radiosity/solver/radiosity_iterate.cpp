@@ -17,9 +17,9 @@
 namespace transillum {
 
 RadiosityIterate::RadiosityIterate(const Unknowns& unknowns, const SolveOptions& options,
-                                   const PatchShare& share)
+                                   const OwnedPatches& owned)
     : unknowns_(unknowns),
-      share_(share),
+      owned_(owned),
       two_way_(options.two_way),
       normalization_(options.normalize),
       sky_(options.sky),
@@ -74,8 +74,8 @@ void RadiosityIterate::add(const Transfers& transfers) {
       at(gathered_, t.source) += t.area * at(unshot_, t.receiver);
     }
   });
-  const std::size_t first = share_.first();
-  for (std::size_t i = first; i < share_.last(); ++i) {
+  const std::size_t first = owned_.first();
+  for (std::size_t i = first; i < owned_.last(); ++i) {
     for (std::size_t u = functions * i; u < functions * (i + 1); ++u) {
       projected_[u] += transfers.forward[i - first].projected;
       if (two_way_) {
@@ -95,8 +95,8 @@ void RadiosityIterate::add(const Transfers& transfers) {
 void RadiosityIterate::add_sky(const Vec3& omega, const std::vector<Coverage>& coverages,
                                const std::vector<CoverageMoments>& moments) {
   const double radiance = sky_.relative_radiance(omega);
-  const std::size_t first = share_.first(), functions = unknowns_.per_patch;
-  for (std::size_t i = first; i < share_.last(); ++i) {
+  const std::size_t first = owned_.first(), functions = unknowns_.per_patch;
+  for (std::size_t i = first; i < owned_.last(); ++i) {
     const double uncovered = coverages[i - first].uncovered();
     if (uncovered == 0) {
       continue;
@@ -111,9 +111,9 @@ void RadiosityIterate::add_sky(const Vec3& omega, const std::vector<Coverage>& c
 }
 
 void RadiosityIterate::complete() {
-  share_.complete(gathered_);
-  share_.complete(projected_);
-  share_.complete(sky_areas_);
+  owned_.complete(gathered_);
+  owned_.complete(projected_);
+  owned_.complete(sky_areas_);
 }
 
 void RadiosityIterate::keep(const KeptSums& sums) {
@@ -133,7 +133,7 @@ void RadiosityIterate::gather(const KeptSums& sums) {
     for (const ExchangeSums* part : sums) {
       part->gather(unshot_, gathered_);
     }
-    share_.complete(gathered_);
+    owned_.complete(gathered_);
     return;
   }
   std::vector<Rgb> scaled(b_.size());
@@ -143,7 +143,7 @@ void RadiosityIterate::gather(const KeptSums& sums) {
   for (const ExchangeSums* part : sums) {
     part->gather(scaled, gathered_);
   }
-  share_.complete(gathered_);
+  owned_.complete(gathered_);
   for (std::size_t i = 0; i < b_.size(); ++i) {
     gathered_[i] = scales_[i] * gathered_[i];
   }
@@ -159,7 +159,7 @@ void RadiosityIterate::add_symmetric_product(const KeptSums& sums,
       image[j] += area * values[i];
     });
   }
-  share_.complete(image);
+  owned_.complete(image);
 }
 
 /// Computes scales d with d_i sum_j S_ij d_j = the area that row i would sum to if its quadrature
@@ -215,8 +215,8 @@ double RadiosityIterate::sky_scale(std::size_t i, double projected, int passes) 
   return projected > 0 ? 1 / projected : 0.0;
 }
 
-double RadiosityIterate::sky_share(std::size_t u, double uncovered, double projected,
-                                   int passes) const {
+double RadiosityIterate::sky_fraction(std::size_t u, double uncovered, double projected,
+                                      int passes) const {
   return sky_scale(u, projected, passes) * uncovered;
 }
 
@@ -307,7 +307,7 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
     }
     solve_by_conjugate_gradients(
         [&](const double* x, double* y) {
-          share_.throw_if_canceled(cancellation);
+          owned_.throw_if_canceled(cancellation);
           std::vector<double> image(patches);
           for (std::size_t i = 0; i < patches; ++i) {
             weighted[i] = weights[i] * x[i];
@@ -320,11 +320,11 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
         right, tolerance, unknowns_.per_patch > 1 ? Entries::any_sign : Entries::at_least_zero,
         unknown);
     for (std::size_t row = 0; row < patches; ++row) {
-      const double share = std::sqrt(rho_of(unknowns_.reflectance[row]) / unknowns_.area[row]);
+      const double owned = std::sqrt(rho_of(unknowns_.reflectance[row]) / unknowns_.area[row]);
       const Rgb known = radiosity(row, given[row]);
-      rho_of(result[row]) = rho_of(known) + share * unknown[row];
+      rho_of(result[row]) = rho_of(known) + owned * unknown[row];
       const double rho = rho_of(unknowns_.reflectance[row]);
-      rho_of(h_[row]) = rho_of(given[row]) + (rho > 0 ? share * unknown[row] / rho : 0.0);
+      rho_of(h_[row]) = rho_of(given[row]) + (rho > 0 ? owned * unknown[row] / rho : 0.0);
     }
   };
   const auto channels = {&Rgb::r, &Rgb::g, &Rgb::b};

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "radiosity/exchange/exchange_sums.h"
-#include "radiosity/exchange/patch_share.h"
+#include "radiosity/exchange/owned_patches.h"
 #include "radiosity/exchange/unknowns.h"
 #include "transillum/scene.h"
 #include "transillum/solve_options.h"
@@ -24,7 +24,8 @@ class RadiosityIterate {
   /// that it covers is not gathered again:
   ///   B_i = E_i + rho_i (H_i of the shot + H_i of the sky + sum_j F_ij (B_j - E_j shot)).
   /// @param share passes are gathered for its patches; after them complete() must be called
-  RadiosityIterate(const Unknowns& unknowns, const SolveOptions& options, const PatchShare& share);
+  RadiosityIterate(const Unknowns& unknowns, const SolveOptions& options,
+                   const OwnedPatches& owned);
 
   /// Memory that an iterate takes, with its mean over iterations.
   static constexpr std::uint64_t bytes_per_unknown = 8 * sizeof(Rgb);
@@ -64,7 +65,7 @@ class RadiosityIterate {
   double form_factor_sum(std::size_t u, double row_areas, double projected, int passes) const;
   /// The share of what leaves the patch of u that escapes.
   /// @param uncovered, projected, passes as in VisibleAreaSums
-  double sky_share(std::size_t u, double uncovered, double projected, int passes) const;
+  double sky_fraction(std::size_t u, double uncovered, double projected, int passes) const;
   /// Irradiance of u from the sky in the passes so far, W/m².
   Rgb sky_irradiance(std::size_t u) const;
   /// Power sent by the part of B that is gathered, in the unit of gathered().
@@ -114,7 +115,7 @@ class RadiosityIterate {
   double row_scale(std::size_t i) const { return row_scale(i, projected_[i], passes_); }
 
   const Unknowns& unknowns_;
-  PatchShare share_;
+  OwnedPatches owned_;
   bool two_way_;
   Normalization normalization_;
   Sky sky_;

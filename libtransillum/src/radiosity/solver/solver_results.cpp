@@ -20,8 +20,8 @@ namespace {
 
 /// Sets rho_max, predicted_contraction and energy_balance. Requires statistics.directions.
 /// @param from_sky irradiance from the sky; empty without one
-void add_scene_figures(const Scene& scene, const std::vector<Rgb>& h,
-                       const std::vector<Rgb>& from_sky, SolveStatistics& statistics) {
+void add_scene_values(const Scene& scene, const std::vector<Rgb>& h,
+                      const std::vector<Rgb>& from_sky, SolveStatistics& statistics) {
   double absorbed = 0, emitted = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const double area = scene.patch(i).area;
@@ -82,9 +82,9 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   result.iteration_records = history.records();
   result.converged = history.converged();
   result.energy_defect = iteration.energy_defect;
-  add_scene_figures(*input.scene, history.patch_h(), sky_irradiance(), result);
+  add_scene_values(*input.scene, history.patch_h(), sky_irradiance(), result);
   result.shot_sources = std::ssize(input.shot->sources);
-  result.shot_power_share = input.shot->power_share;
+  result.shot_power_fraction = input.shot->power_fraction;
   result.integrated_pairs = input.shot->integrated_pairs;
   result.seconds_bsp = input.seconds_bsp;
   result.seconds_first_shot = input.seconds_first_shot;
@@ -142,17 +142,17 @@ std::vector<double> RadiositySolver::form_factor_sums() const {
   return form_factor_sums;
 }
 
-std::vector<double> RadiositySolver::sky_shares() const {
+std::vector<double> RadiositySolver::sky_fractions() const {
   const VisibleAreaSums& areas = impl_->statistics.areas();
-  std::vector<double> shares(areas.uncovered.size());
+  std::vector<double> fractions(areas.uncovered.size());
   if (areas.passes == 0) {
-    return shares;
+    return fractions;
   }
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    shares[i] = impl_->whole.sky_share(impl_->input.unknowns->per_patch * i, areas.uncovered[i],
-                                       areas.projected[i], areas.passes);
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    fractions[i] = impl_->whole.sky_fraction(impl_->input.unknowns->per_patch * i,
+                                             areas.uncovered[i], areas.projected[i], areas.passes);
   }
-  return shares;
+  return fractions;
 }
 
 std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
@@ -167,20 +167,20 @@ std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
 
 std::vector<Rgb> RadiositySolver::sky_irradiance() const { return impl_->sky_irradiance(); }
 
-std::vector<double> RadiositySolver::back_seen_shares() const {
-  return impl_->statistics.back_seen_shares();
+std::vector<double> RadiositySolver::back_seen_fractions() const {
+  return impl_->statistics.back_seen_fractions();
 }
 
-std::vector<LinearPart> RadiositySolver::linear_parts() const {
-  std::vector<LinearPart> parts;
+std::vector<LinearTerm> RadiositySolver::linear_terms() const {
+  std::vector<LinearTerm> terms;
   if (options().basis == Basis::linear) {
     const std::vector<Rgb>& values =
         impl_->passes_done() > 0 ? impl_->iteration.estimate : impl_->history.b();
     for (std::size_t u = 0; u < values.size(); u += 3) {
-      parts.push_back({values[u + 1], values[u + 2]});
+      terms.push_back({values[u + 1], values[u + 2]});
     }
   }
-  return parts;
+  return terms;
 }
 
 std::vector<Rgb> reflected_light(const Scene& scene, const std::vector<Rgb>& b) {
@@ -190,12 +190,12 @@ std::vector<Rgb> reflected_light(const Scene& scene, const std::vector<Rgb>& b) 
 std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i) {
   const auto outline = solution.scene->outline(i);
   std::vector<Rgb> corners(outline.size(), at(solution.radiosity, i));
-  if (!solution.linear_parts.empty()) {
+  if (!solution.linear_terms.empty()) {
     const LinearBasis basis = linear_basis(*solution.scene, i);
-    const LinearPart& part = at(solution.linear_parts, i);
+    const LinearTerm& term = at(solution.linear_terms, i);
     for (std::size_t k = 0; k < outline.size(); ++k) {
       const auto [first, second] = basis.at(solution.scene->point(outline[k]));
-      corners[k] += first * part.first + second * part.second;
+      corners[k] += first * term.first + second * term.second;
     }
   }
   return corners;
@@ -209,12 +209,12 @@ Solution RadiositySolver::solution() const {
   solution.irradiance = irradiance();
   if (impl_->statistics.areas().passes > 0) {
     solution.form_factor_sums = form_factor_sums();
-    solution.sky_shares = sky_shares();
+    solution.sky_fractions = sky_fractions();
     solution.sky_irradiance = sky_irradiance();
   }
   solution.error = error_estimate();
   solution.statistics = statistics();
-  solution.linear_parts = linear_parts();
+  solution.linear_terms = linear_terms();
   solution.statistics.negative_corners = negative_corners(solution);
   solution.complete = impl_->history.finished();
   return solution;

@@ -79,25 +79,25 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
       first_sides_(first_sides(scene)),
       blockers_(blockers_of(scene)),
       tree_(boxes_of(blockers_)),
-      part_begin_(static_cast<std::size_t>(scene.patch_count()) + 1) {
+      open_begin_(static_cast<std::size_t>(scene.patch_count()) + 1) {
   std::vector<Bounds> boxes;
   for (const Piece& piece : scene.pieces()) {
     boxes.push_back(bounds_of(corners_of(piece)));
   }
   const BoxTree pieces(boxes);
-  std::vector<std::vector<Part>> parts(static_cast<std::size_t>(scene.patch_count()));
+  std::vector<std::vector<OpenPiece>> by_patch(static_cast<std::size_t>(scene.patch_count()));
   for (std::size_t k = 0; k < scene.pieces().size(); ++k) {
     cancellation.throw_if_canceled();
-    auto& of_patch = at(parts, scene.pieces()[k].patch);
+    auto& of_patch = at(by_patch, scene.pieces()[k].patch);
     const double bend = bend_of(corners_of(scene.pieces()[k]));
-    for (Corners& part : open_parts(k, pieces)) {
-      const HalfSpace front = lit_half_space(part);
-      of_patch.push_back({std::move(part), front, bend});
+    for (Corners& open : open_pieces(k, pieces)) {
+      const HalfSpace front = lit_half_space(open);
+      of_patch.push_back({std::move(open), front, bend});
     }
   }
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    std::move(parts[i].begin(), parts[i].end(), std::back_inserter(parts_));
-    part_begin_[i + 1] = parts_.size();
+  for (std::size_t i = 0; i < by_patch.size(); ++i) {
+    std::move(by_patch[i].begin(), by_patch[i].end(), std::back_inserter(open_pieces_));
+    open_begin_[i + 1] = open_pieces_.size();
   }
   for (MergedFace& face : merged_faces(scene)) {
     // The patches of both sides of a two-sided face alternate.
@@ -149,7 +149,7 @@ bool ExchangeFinder::covers(PatchId upper, PatchId lower) const {
   return cover_rank(scene_, upper) < cover_rank(scene_, lower);
 }
 
-std::vector<Corners> ExchangeFinder::open_parts(std::size_t piece, const BoxTree& pieces) const {
+std::vector<Corners> ExchangeFinder::open_pieces(std::size_t piece, const BoxTree& pieces) const {
   const Corners corners = corners_of(scene_.pieces()[piece]);
   const PatchId patch = scene_.pieces()[piece].patch;
   const HalfSpace front = lit_half_space(corners);
@@ -352,8 +352,8 @@ template <class Visit>
 void ExchangeFinder::for_each_facing(PatchId i, PatchId j, const Numbers* among,
                                      Visit visit) const {
   Numbers blockers;
-  for (const Part& p : parts_of(i)) {
-    for (const Part& q : parts_of(j)) {
+  for (const OpenPiece& p : open_pieces_of(i)) {
+    for (const OpenPiece& q : open_pieces_of(j)) {
       const FacingPolygons facing(p.corners, p.front, q.corners, q.front,
                                   tolerance_ + p.bend + q.bend);
       if (!facing.empty()) {
@@ -416,9 +416,9 @@ void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
       std::upper_bound(faces_.begin(), faces_.end(), next,
                        [](PatchId j, const MergedFace& f) { return j <= f.patches.back(); });
   // A patch in several parts may see a face by each of them.
-  for (; face != faces_.end() && parts_of(i).size() == 1; ++face) {
+  for (; face != faces_.end() && open_pieces_of(i).size() == 1; ++face) {
     visit(next, face->patches.front(), nullptr);
-    const Part& p = parts_of(i)[0];
+    const OpenPiece& p = open_pieces_of(i)[0];
     const FacingPolygons facing(p.corners, p.front, face->outline, lit_half_space(face->outline),
                                 tolerance_ + p.bend);
     if (!facing.empty()) {

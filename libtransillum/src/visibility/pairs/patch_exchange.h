@@ -72,7 +72,7 @@ class ExchangeFinder {
 
  private:
   /// A convex part of a patch that coplanar patches do not cover.
-  struct Part {
+  struct OpenPiece {
     Corners corners;
     HalfSpace front;
     double bend;  ///< bend of the piece
@@ -96,7 +96,7 @@ class ExchangeFinder {
   double bend_of(Outline corners) const;
   std::vector<Blocker> blockers_of(const Scene& scene) const;
   static std::vector<Bounds> boxes_of(const std::vector<Blocker>& blockers);
-  std::vector<Corners> open_parts(std::size_t piece, const BoxTree& pieces) const;
+  std::vector<Corners> open_pieces(std::size_t piece, const BoxTree& pieces) const;
   bool covers(PatchId upper, PatchId lower) const;
   Corners corners_of(const Piece& piece) const;
   void collect_blockers(const FacingPolygons& facing, const Sides& sides, const Numbers* among,
@@ -105,7 +105,7 @@ class ExchangeFinder {
   bool is_hidden(const FacingPolygons& facing, const Corners& blocker) const;
   void add_partial(const FacingPolygons& facing, const Numbers& blockers, bool estimate,
                    const std::function<void()>& tick, PatchExchange& exchange) const;
-  void collect_blockers(const Vec3& x, Outline polygon, const Part& part, PatchId patch,
+  void collect_blockers(const Vec3& x, Outline polygon, const OpenPiece& open, PatchId patch,
                         Numbers& blockers) const;
   TransferMoments moments_between(PatchId i, PatchId j, const std::vector<LinearBasis>& bases,
                                   const Numbers* among, const std::function<void()>& tick) const;
@@ -125,9 +125,9 @@ class ExchangeFinder {
   void for_each_facing(PatchId i, PatchId j, const Numbers* among, Visit visit) const;
   PatchExchange between(PatchId i, PatchId j, const Numbers* among, bool estimate,
                         const std::function<void()>& tick) const;
-  std::span<const Part> parts_of(PatchId i) const {
+  std::span<const OpenPiece> open_pieces_of(PatchId i) const {
     const auto k = static_cast<std::size_t>(i);
-    return {parts_.data() + part_begin_[k], part_begin_[k + 1] - part_begin_[k]};
+    return {open_pieces_.data() + open_begin_[k], open_begin_[k + 1] - open_begin_[k]};
   }
 
   const Scene& scene_;
@@ -137,8 +137,8 @@ class ExchangeFinder {
   std::vector<PatchId> first_sides_;
   std::vector<Blocker> blockers_;
   BoxTree tree_;  ///< tree of blockers_
-  std::vector<Part> parts_;
-  std::vector<std::size_t> part_begin_;
+  std::vector<OpenPiece> open_pieces_;
+  std::vector<std::size_t> open_begin_;
   std::vector<MergedFace> faces_;  ///< faces of consecutive patches
 };
 

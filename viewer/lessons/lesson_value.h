@@ -16,7 +16,7 @@ struct ViewState;
 
 /// The kind of a figure; `i` is Figure::patch, `j` one of Figure::others. Areas are in m², on the
 /// transillumination plane of Figure::direction unless stated otherwise.
-enum class FigureKind {
+enum class LessonValueKind {
   constant,          ///< Figure::number
   patches,           ///< number of patches
   fragments,         ///< number of fragments of the BSP tree
@@ -46,12 +46,12 @@ enum class FigureKind {
   light_directions,  ///< SolveStatistics::light_directions per replica
   covered,  ///< fraction of all B, of patches that do not emit, whose 95 % interval contains the
             ///< reference
-  ratio     ///< ratio of the two figures of Figure::parts
+  ratio     ///< ratio of the two values of Figure::parts
 };
 
 /// A number that the program computes for a page of a lesson, as its file names it.
-struct Figure {
-  FigureKind kind = FigureKind::constant;
+struct LessonValue {
+  LessonValueKind kind = LessonValueKind::constant;
   double number = 0;            ///< the value of a constant
   PatchId patch = no_patch;     ///< i; each patch in turn if it is no_patch
   std::vector<PatchId> others;  ///< j; if there are none, each patch in turn or all together
@@ -65,25 +65,25 @@ struct Figure {
   Vec3 eye;                     ///< eye of a radiance, m
   std::vector<MaterialChange> changes;  ///< for a radiance: changes of the scene's materials
   SolveOptions solve;                   ///< the run of the page, with the figure's own changes
-  std::vector<Figure> parts;            ///< the two figures of a ratio
+  std::vector<LessonValue> parts;       ///< the two values of a ratio
 };
 
 /// Reads a number, or an object with the key `figure`.
 /// @param page_options  the JSON of the page's `options`
 /// @param page  the page's state
 /// @throws InputError that begins with `where`
-Figure figure_from_json(const nlohmann::json& value, const std::string& where,
-                        const nlohmann::json& page_options, const ViewState& page);
+LessonValue lesson_value_from_json(const nlohmann::json& value, const std::string& where,
+                                   const nlohmann::json& page_options, const ViewState& page);
 /// The options of the page's run, changed by the key `with` of an object.
 /// @throws InputError
 SolveOptions run_from_json(JsonObject& object, const nlohmann::json& page_options,
                            const ViewState& page);
 /// Whether the figure has one value for each patch, not one for the scene: the file omits the
 /// patch.
-bool is_per_patch(const Figure& figure);
+bool is_per_patch(const LessonValue& wanted);
 /// Whether the figure is computed: true for all but constants.
-bool is_computed(const Figure& figure);
-/// The names of all figures in files.
-std::vector<std::string> figure_names();
+bool is_computed(const LessonValue& wanted);
+/// The names of all values in files.
+std::vector<std::string> lesson_value_names();
 
 }  // namespace transillum::viewer
