@@ -1,11 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Protocol. A round is a range of consecutive passes; passes are dealt in rising order, at most
-// three rounds ahead of what is added. A rank enters the exchange of a round when it has made all
-// of the round's passes dealt to it and knows that it will get no more of them (floor). An exchange
-// is one Ialltoall of sizes and one Ialltoallv of messages. A rank that cannot continue asks rank 0
-// to deal no more and enters its next exchange with the size -1, and so does everyone who then
-// finds that nothing more is dealt; after such an exchange all leave and agree on the reason.
+// Protocol. A message round is a range of consecutive passes; passes are dealt in rising order, at
+// most three rounds ahead of what is added. A rank enters the exchange of a round when it has made
+// all of the round's passes dealt to it and knows that it will get no more of them (floor). An
+// exchange is one Ialltoall of sizes and one Ialltoallv of messages. A rank that cannot continue
+// asks rank 0 to deal no more and enters its next exchange with the size -1, and so does everyone
+// who then finds that nothing more is dealt; after such an exchange all leave and agree on the
+// reason.
 #include "message_rounds.h"
 
 #include <algorithm>

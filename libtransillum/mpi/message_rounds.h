@@ -17,8 +17,8 @@
 
 namespace transillum::mpi {
 
-/// The passes of one PatchSums::run(). They are added in rounds of consecutive passes: when every
-/// rank has made its part of a round, all exchange what they need of it, while their threads
+/// The passes of one PatchSums::run(). They are added in message rounds of consecutive passes: when
+/// every rank has made its part of a round, all exchange what they need of it, while their threads
 /// continue with the next one.
 class MessageRounds {
  public:

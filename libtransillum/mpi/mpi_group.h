@@ -41,7 +41,7 @@ class MpiGroup : public ProcessGroup {
   int rank_ = 0, size_ = 1;
   MPI_Comm comm_ = MPI_COMM_NULL, dealing_ = MPI_COMM_NULL;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;  ///< 16 bytes
-  MessageRounds* rounds_ = nullptr;        ///< rounds of the run under way
+  MessageRounds* rounds_ = nullptr;        ///< message rounds under way
   std::int64_t sent_in_passes_ = 0, sent_in_sums_ = 0;
 };
 

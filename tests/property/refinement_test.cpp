@@ -164,7 +164,7 @@ TEST_P(RefinementBy, DividesAtTheEdgeOfAShadowFirst) {
   EXPECT_LT(at_edge / count_at_edge, 0.2 * beside / count_beside);
 }
 
-/// With RefineBy::error, the figure of the last round estimates the error of the result.
+/// With RefineBy::error, the measure of the last round estimates the error of the result.
 TEST(Refinement, EstimatesItsError) {
   const Refinement refined =
       refine(load_scene("cornell-box"), options(), {.by = RefineBy::error, .patches = 200});

@@ -326,7 +326,7 @@ class AppearanceTest : public QObject {
       QVERIFY2(text.contains('`' + key + '`'), qPrintable(key + ": " + use));
     }
     // The tables at the ends of its pages have only keys of the menus, of a saved view, of the kept
-    // run, of the list of kept runs, of the timeline and of the panel Groups.
+    // run, of the list of kept runs, of the timeline and of the panel Surfaces.
     const QStringList others{"Alt+1", "A", "F2", "Del", "←", "→", "Return", "E", "R"};
     static const QRegularExpression quoted(QStringLiteral("`([^`]+)`"));
     int listed = 0;

@@ -313,7 +313,7 @@ void add_glossy_lesson(std::vector<Statement>& all) {
   const MaterialChange wide = Shown(11, 3).page.question->reveal->materials.front();
   all.push_back({11, 3, QString("(*n* = %1)").arg(wide.lobe->exponent)});
   all.push_back({11, 5, QString("The floor has *n* = %1.").arg(n)});
-  for (const LessonValue& value : Shown(11, 5).page.question->wanted.parts) {
+  for (const LessonValue& value : Shown(11, 5).page.question->wanted.of) {
     all.push_back({11, 5, QString("*M* = %1").arg(value.solve.directions)});
   }
 }

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Groups" (powers by group and material, actions on their patches), the sky of an open
+// The panel "Surfaces" (powers by group and material, actions on their patches), the sky of an open
 // scene, and the fraction of sky of each patch.
 #include <QAction>
 #include <QApplication>

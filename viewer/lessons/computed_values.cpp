@@ -23,7 +23,7 @@
 
 namespace transillum::viewer {
 
-/// A solve. It is finished, and has form factors, only where a figure needs them.
+/// A solve. It is finished, and has form factors, only where a value needs them.
 struct ComputedValues::Run {
   SolveOptions options;
   RadiositySolver solver;
@@ -238,7 +238,7 @@ double ComputedValues::of_run(const LessonValue& wanted) {
   return wanted.kind == LessonValueKind::estimated_error ? estimate.rms : estimate.rms_limit;
 }
 
-/// The rows of the map that the figure is about: fragments of patch i, or the polygons directly
+/// The rows of the map that the value is about: fragments of patch i, or the polygons directly
 /// above them or above the patches of `others`.
 std::vector<std::int32_t> ComputedValues::rows_of(const LessonValue& wanted) {
   const MapHistory& history = history_of(wanted);
@@ -353,7 +353,7 @@ double ComputedValues::value(const LessonValue& wanted) {
     case LessonValueKind::fragments:
       return static_cast<double>(loaded_->tree->fragments().size());
     case LessonValueKind::ratio:
-      return value(wanted.parts.front()) / value(wanted.parts.back());
+      return value(wanted.of.front()) / value(wanted.of.back());
     case LessonValueKind::rms_error:
       return error_of(wanted);
     case LessonValueKind::function_error:

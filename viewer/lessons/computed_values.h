@@ -23,10 +23,10 @@ class ComputedValues {
   ComputedValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation);
   ~ComputedValues();
 
-  /// @throws InputError where the figure names a patch or direction that does not exist, or needs
+  /// @throws InputError where the value names a patch or direction that does not exist, or needs
   /// replicas that the run does not have; Canceled; what a solve throws
   double value(const LessonValue& wanted);
-  /// The value for each patch in turn, of a figure that is_per_patch(). @throws as value()
+  /// The value for each patch in turn, of a value that is_per_patch(). @throws as value()
   std::vector<double> of_patches(const LessonValue& wanted);
   /// Where the area of a projected_area or visible_area is on the plane: convex polygons that do
   /// not overlap. @throws as value()
@@ -39,7 +39,7 @@ class ComputedValues {
   /// The solution of a run in which lobes take part; null for other runs.
   const Solution* solved_with_lobes(const SolveOptions& options,
                                     const std::vector<MaterialChange>& changes = {});
-  /// B or H of a patch, or its radiance toward the figure's eye.
+  /// B or H of a patch, or its radiance toward the value's eye.
   Rgb light_of(const LessonValue& wanted);
   const MapHistory& history_of(const LessonValue& wanted);
   const std::vector<Rgb>& reference_of(const LessonValue& wanted);

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Values in lesson files: {"figure": "form-factor", "patch": 16, "others": [9]}. One table says
-// which keys each figure has.
+// which keys each value has.
 #include "lessons/lesson_value.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 constexpr int largest_number = 1 << 30;
 constexpr int most_reference_passes = 1 << 16;
 
-// Which keys a figure has besides "figure" and "with".
+// Which keys a value has besides "figure" and "with".
 enum Keys : unsigned {
   none = 0,
   has_patch = 1,
@@ -85,9 +85,9 @@ ValueName name_from(JsonObject& object) {
     }
     choices += (choices.empty() ? "" : ", ") + std::string(known.name);
   }
-  object.fail_at(
-      "figure", name.empty() ? "is missing"
-                             : "unknown figure " + in_quotes(name) + "; known figures: " + choices);
+  object.fail_at("figure", name.empty()
+                               ? "is missing"
+                               : "unknown value " + in_quotes(name) + "; known values: " + choices);
 }
 
 std::vector<PatchId> patches_from(JsonObject& object, const char* key) {
@@ -194,12 +194,12 @@ LessonValue lesson_value_from_json(const json& value, const std::string& where,
   if (name.keys & has_parts) {
     const json* parts = object.find("of");
     if (!parts || !parts->is_array() || parts->size() != 2) {
-      object.fail_at("of", "must be a list of two figures");
+      object.fail_at("of", "must be a list of two values");
     }
     for (const json& part : *parts) {
-      wanted.parts.push_back(lesson_value_from_json(part, object.where("of"), page_options, page));
-      if (is_per_patch(wanted.parts.back())) {
-        object.fail_at("of", "each figure must be one number: a patch is missing");
+      wanted.of.push_back(lesson_value_from_json(part, object.where("of"), page_options, page));
+      if (is_per_patch(wanted.of.back())) {
+        object.fail_at("of", "each value must be one number: a patch is missing");
       }
     }
   }

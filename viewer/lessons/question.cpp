@@ -72,13 +72,12 @@ void read_choices(Question& question, const Place& place) {
   }
 }
 
-// Reads "largest", "smallest", or an object with one of `rules` and a figure.
+// Reads "largest", "smallest", or an object with one of `rules` and a value.
 void read_rule(Question& question, const Place& place, const json& answer) {
   const bool of_patches = question.kind == Question::Kind::patch;
   const std::string wanted =
-      of_patches
-          ? "must be {\"largest\": figure} or {\"smallest\": figure}"
-          : "must be \"largest\", \"smallest\", {\"nearest\": figure} or {\"equals\": figure}";
+      of_patches ? "must be {\"largest\": value} or {\"smallest\": value}"
+                 : "must be \"largest\", \"smallest\", {\"nearest\": value} or {\"equals\": value}";
   if (!of_patches && (answer == "largest" || answer == "smallest")) {
     question.rule = answer == "largest" ? Question::Rule::largest : Question::Rule::smallest;
     return;
@@ -103,12 +102,12 @@ void check_computed(const Question& question, JsonObject& object) {
       std::any_of(question.choices.begin(), question.choices.end(),
                   [](const auto& choice) { return choice.value && is_computed(*choice.value); });
   if (!is_computed(question.wanted) && !of_choices) {
-    object.fail_at("answer", "must be computed, but neither the answer nor a choice is a figure");
+    object.fail_at("answer", "must be computed, but neither the answer nor a choice is a value");
   }
   const bool of_patches = question.kind == Question::Kind::patch;
   if (is_per_patch(question.wanted) != of_patches) {
-    object.fail_at("answer", of_patches ? "the figure must omit the patch to be found"
-                                        : "the figure must be one number: a patch is missing");
+    object.fail_at("answer", of_patches ? "the value must omit the patch to be found"
+                                        : "the value must be one number: a patch is missing");
   }
   const bool has_region = question.wanted.kind == LessonValueKind::visible_area ||
                           question.wanted.kind == LessonValueKind::projected_area;

@@ -27,9 +27,9 @@ struct Question {
   enum class Rule {
     largest,   ///< the choice, or patch, with the largest value
     smallest,  ///< the choice, or patch, with the smallest value
-    nearest,   ///< the choice whose value is nearest to `figure`
-    equals,    ///< choices whose value is `figure`
-    value      ///< `figure` itself
+    nearest,   ///< the choice whose value is nearest to `wanted`
+    equals,    ///< choices whose value is `wanted`
+    value      ///< `wanted` itself
   };
   struct Choice {
     std::string text;                  ///< the value is shown if it is empty
@@ -71,7 +71,7 @@ struct Solved {
   std::vector<double>
       values;              ///< values of choices (NaN without a value) or of patches; else empty
   std::vector<int> right;  ///< indices of the right choices, or right patches; ascending
-  double value = 0;        ///< value of Question::figure, where it is one number
+  double value = 0;        ///< value of Question::wanted, where it is one number
   std::vector<std::vector<Vec2>> region;  ///< answer to a question for an area
 };
 

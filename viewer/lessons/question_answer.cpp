@@ -27,7 +27,7 @@ bool is_of_direction(const LessonValue& wanted) {
     case LessonValueKind::above:
       return true;
     default:
-      return std::any_of(wanted.parts.begin(), wanted.parts.end(),
+      return std::any_of(wanted.of.begin(), wanted.of.end(),
                          [](const LessonValue& part) { return is_of_direction(part); });
   }
 }

@@ -186,7 +186,7 @@ void PatchInspector::show_patch() {
   show_coefficients(patch);
   const Scene& scene = *snapshot_->loaded->scene;
   const Patch& p = scene.patch(patch);
-  // Written as in files, without group separators.
+  // Written as in files, without separators of thousands.
   id_->setText(QString::number(patch));
   face_->setText(QString::number(p.face));
   material_->setText(QString::fromStdString(scene.material(patch).name));

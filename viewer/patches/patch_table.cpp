@@ -188,7 +188,7 @@ QVariant PatchTable::data(const QModelIndex& index, int role) const {
       if (column.kind == PatchColumn::Kind::text) {
         return text_of(column, entry);
       }
-      // Written as in files, without group separators.
+      // Written as in files, without separators of thousands.
       if (column.kind == PatchColumn::Kind::integer) {
         return QString::number(static_cast<qint64>(key_of(column, entry)));
       }

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Groups". Snapshots arrive often while a solve runs; their powers are added up a few
+// The panel "Surfaces". Snapshots arrive often while a solve runs; their powers are added up a few
 // times a second at most, on a thread of their own, and only while the panel is visible.
 #include "patches/surface_panel.h"
 

@@ -76,7 +76,7 @@ void InspectionPanels::add_tables_to(DockLayouts& docks) {
   table_dock_ = docks.add(tr("Patches"), "table_dock", tables_,
                           {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
   connect(table_dock_, &QDockWidget::visibilityChanged, tables_, &PatchTablePanel::set_watched);
-  const QDockWidget* surfaces = docks.add(tr("Groups"), "parts_dock", surfaces_,
+  const QDockWidget* surfaces = docks.add(tr("Surfaces"), "parts_dock", surfaces_,
                                           {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
   connect(surfaces, &QDockWidget::visibilityChanged, surfaces_, &SurfacePanel::set_watched);
   const QDockWidget* paths = docks.add(tr("Light paths"), "paths_dock", paths_,

@@ -79,7 +79,7 @@ class SolveSession {
     stage,      ///< when a stage has ended; the next one is not prepared yet
     finished,   ///< when the solve is finished
   };
-  /// Called after every pass, in order, and after every iteration; with lobes after groups of
+  /// Called after every pass, in order, and after every iteration; with lobes after batches of
   /// passes, and while lobes are scaled or reflect. On any thread, but never on two at once. It may
   /// read the session and returns false to pause.
   using Observer = std::function<bool(const SolveSession&)>;
@@ -184,7 +184,7 @@ struct Refinement {
 };
 
 /// Refines a scene in rounds: each solves it and divides the patches that are worst, until the
-/// number of patches or the figure is reached, or nothing is left to divide. The number of patches
+/// number of patches or the measure is reached, or nothing is left to divide. The number of patches
 /// at most doubles in a round, so that each decision is made by a solve that can see it.
 /// @param scene to start from.
 /// @param options of the solves. Engines that make no passes are refused.

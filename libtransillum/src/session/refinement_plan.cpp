@@ -191,7 +191,7 @@ void RefineOptions::validate() const {
   }
   if (!(until >= 0 && until < 1)) {
     throw InputError(
-        fmt::format("refinement: the figure to reach is {}, but must be >= 0 and < 1", until));
+        fmt::format("refinement: the measure to reach is {}, but must be >= 0 and < 1", until));
   }
 }
 

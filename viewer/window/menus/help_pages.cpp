@@ -85,7 +85,7 @@ KeySection pointer_section() {
        {tr("Timeline"), tr("drag: go to a step; Shift+drag: step by step; arrow keys: one step, "
                            "with Ctrl one direction")},
        {tr("Kept runs"), tr("F2 or double-click: rename; Del: remove")},
-       {tr("Groups"), tr("Return: select the patches of the row; E: make it emit; R: reflect")},
+       {tr("Surfaces"), tr("Return: select the patches of the row; E: make it emit; R: reflect")},
        {tr("Directions"), tr("drag: rotate the sphere; click: go to a direction")}}};
 }
 

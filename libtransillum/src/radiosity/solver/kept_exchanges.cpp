@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Keeps the exchanges of all passes within the memory limit and turns them into form factors.
-// Input: the runs that sort() prepared, in the order of the passes.
+// Input: the exchanges that sort() prepared, in the order of the passes.
 #include "radiosity/solver/kept_exchanges.h"
 
 #include <fmt/format.h>
