@@ -73,8 +73,7 @@ void GlossySolver::Impl::check_radiance_memory(std::size_t patches, std::size_t 
 }
 
 void GlossySolver::Impl::forget_passes() {
-  statistics =
-      std::make_unique<PassStatistics>(*input.scene, true, *input.shot, input.fraction(), 1);
+  statistics = std::make_unique<PassStatistics>(*input.scene, true, *input.shot, input.owned(), 1);
   std::vector<char> directional(input.patch_count());
   for (std::size_t i = 0; i < directional.size(); ++i) {
     directional[i] = light->index_of[i] >= 0 ? 1 : 0;

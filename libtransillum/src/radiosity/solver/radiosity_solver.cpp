@@ -28,7 +28,7 @@ bool RadiositySolver::advance(Until until, const Observer& observer) {
       }
     }
     s.finish_iteration();
-    const bool stop = s.fraction.sums->any(observer && !observer(*this));
+    const bool stop = s.owned.sums->any(observer && !observer(*this));
     if (stop || until != Until::finished) {
       break;
     }

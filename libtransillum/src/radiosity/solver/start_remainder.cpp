@@ -86,7 +86,7 @@ void StartRemainder::start(const RadiosityIterate& whole) {
 }
 
 void StartRemainder::make_upper() {
-  upper_.emplace(*input_.unknowns, input_.options, input_.fraction());
+  upper_.emplace(*input_.unknowns, input_.options, input_.owned());
 }
 
 double StartRemainder::contraction() const {
