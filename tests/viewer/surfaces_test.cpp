@@ -394,4 +394,4 @@ const test::Registered registered("surfaces", test::run_as_viewer<SurfacesTest>)
 
 }  // namespace transillum::viewer::surfaces_test
 
-#include "parts_test.moc"
+#include "surfaces_test.moc"

@@ -185,7 +185,7 @@ void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellat
       // From here on, stop() stops the solve of the new scene.
       solve_cancellation_ = cancellation;
       loading_ = false;
-      choice_ = prepared.run;
+      choice_ = prepared.choice;
       relight_request_.reset();
       replace_goal(request.then);
     }

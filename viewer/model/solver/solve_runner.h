@@ -89,7 +89,7 @@ class SolveRunner : public SolveMessages {
   bool loading_ = false;
   SolveWorker::Choice choice_;       // the present or failed one
   Cancellation load_cancellation_;   // cancels the running or the last load
-  Cancellation solve_cancellation_;  // cancels run_
+  Cancellation solve_cancellation_;  // cancels choice_
 
   SolveWorker worker_{*this};
   std::thread thread_;
