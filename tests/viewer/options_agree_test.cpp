@@ -222,7 +222,7 @@ class OptionsAgreeTest : public QObject {
     std::ifstream stream(file);
     const nlohmann::json json = nlohmann::json::parse(stream).at("options");
     for (const Option& option : transillum::options()) {
-      if (!option.in_files || option.reads_scene || option.group == "Patches") {
+      if (!option.in_files || option.reads_scene || option.section == "Patches") {
         continue;
       }
       RunOptions read;
