@@ -41,8 +41,8 @@ struct SurfacePower {
 struct PowerTable {
   std::vector<SurfacePower> surfaces;  ///< parts with patches, in the order of the scene; the
                                        ///< patches of no group come last
-  SurfacePower total;         ///< over all patches; its name is "total"
-  bool escape_known = false;  ///< Solution::sky_fractions is known
+  SurfacePower total;                  ///< over all patches; its name is "total"
+  bool escape_known = false;           ///< Solution::sky_fractions is known
   /// Entry [i][j]: power that leaves part j and arrives directly at part i, sum A_k F_kl B_l over
   /// their patches, W; empty without form factors.
   std::vector<std::vector<Rgb>> exchanged;
