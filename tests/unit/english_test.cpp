@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Checks five rules of plain English in comments, string literals, lessons and documents:
+// Checks six rules of plain English in comments, string literals, lessons and documents:
 //   1. "that of" and "those of" have their noun earlier in the same sentence, in a parallel phrase:
 //      "the area of the patch …, that of the piece", "its area …, that of the piece".
 //   2. No comment, help text or message begins with Of, Those, As, It or What. Questions may; so
@@ -9,9 +9,11 @@
 //   3. "0:", "null:", "none:", "empty:" and "unset:" are followed by a phrase of three words.
 //   4. Words that are not the field's terms are not used.
 //   5. A paragraph has at most three sentences; lines have at most 100 characters.
-// Rules 1 and 4 apply everywhere, rules 2 and 3 to sources and lessons. Rule 2 does not apply to
-// strings of tests, which quote parts of messages. Rule 5 applies to documents except decisions:
-// these are records of measurements, written once, one paragraph a line.
+//   6. Names of types, by their declarations, do not use part, run, figure, share, group and round
+//      for what has another name in GLOSSARY.md.
+// Rules 1 and 4 apply everywhere, rule 6 to C++, rules 2 and 3 to sources and lessons. Rule 2 does
+// not apply to strings of tests, which quote parts of messages. Rule 5 applies to documents except
+// decisions: these are records of measurements, written once, one paragraph a line.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -59,6 +61,13 @@ const std::vector<Term> terms{
     {R"(\bwithout a word\b)", "a word", "silently"},
     {R"(\beven directions\b)", "even dir", "evenly spread directions"},
 };
+
+/// The declaration of a type, or of the parameter of a template, whose name has a word of the
+/// glossary in another meaning.
+const std::regex misnamed_type(
+    R"(\b(struct|class|using) (Parts?|Figures?|Shares|Groups?|Rounds?|Part[A-Z]\w*|)"
+    R"(\w*(PartsBy|OfParts|Figures|FigureKind|FigureValues)|(Linear|Surface|Solver)Parts?|)"
+    R"((Back|Patch)Share|KeyGroup|PassRounds|RunInput)(?!\w))");
 
 /// A violation that stays.
 struct Exception {
@@ -252,7 +261,22 @@ struct FileType {
   bool decision = false;            ///< rule 5 does not apply
 };
 
+/// Finds names of types that use a word of the glossary in another meaning.
+void check_types(const std::string& content, std::vector<Violation>& found) {
+  std::istringstream lines(content);
+  std::string line;
+  std::smatch match;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (std::regex_search(line, match, misnamed_type)) {
+      found.push_back({number, 6, match.str(2)});
+    }
+  }
+}
+
 void check_source(const std::string& content, const FileType& type, std::vector<Violation>& found) {
+  if (type.comment_mark == "//") {
+    check_types(content, found);
+  }
   for (const Passage& passage : SourceReader(content, type.comment_mark).run()) {
     const std::string text = lower(passage.text);
     check_nouns(passage, text, found);
@@ -349,7 +373,7 @@ int exception_for(const std::string& name, const Violation& violation) {
   return -1;
 }
 
-TEST(English, FollowsFiveRules) {
+TEST(English, FollowsSixRules) {
   std::ostringstream list;
   int count = 0;
   std::set<int> used;
@@ -461,6 +485,15 @@ TEST(English, OtherTermsAreFound) {
                           "2: rule 4: \"went on\": say continue, resume",
                           "2: rule 4: \"anew\": say again, re-",
                           "2: rule 4: \"even directions\": say evenly spread directions"));
+}
+
+TEST(English, TypesWithAWordInAnotherMeaningAreFound) {
+  EXPECT_THAT(
+      reports("enum class PartsBy { group };\nstruct GlossyFigures {};\nclass PassRounds;\n"),
+      ElementsAre("1: rule 6: PartsBy", "2: rule 6: GlossyFigures", "3: rule 6: PassRounds"));
+  EXPECT_THAT(reports("struct InsideParts {};\nclass SvgFigure {};\nclass ProcessGroup;\n"
+                      "struct RefinementRound {};\nstruct KeptRun {};\nstruct Share {};\n"),
+              IsEmpty());
 }
 
 TEST(English, LongParagraphsAndLinesAreFound) {

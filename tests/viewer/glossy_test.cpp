@@ -46,9 +46,9 @@ struct GlossyWindow {
   }
   const SolverSnapshot& snapshot() const { return *window->snapshot(); }
   SceneView& view() const { return *window->findChild<SceneView*>(); }
-  template <class Part>
-  Part* part(const char* name) const {
-    return window->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* name) const {
+    return window->findChild<Widget*>(name);
   }
   /// Whether the scene shows the radiance toward its camera.
   bool shows_radiance_toward_camera() const {

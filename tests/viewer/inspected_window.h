@@ -14,9 +14,9 @@ namespace transillum::viewer::test {
 struct Inspected : SolvedWindow {
   using SolvedWindow::SolvedWindow;
 
-  template <class Part>
-  Part* part(const char* name) const {
-    return window->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* name) const {
+    return window->findChild<Widget*>(name);
   }
   bool raise(const char* name) const {
     auto* dock = part<QDockWidget>(name);

@@ -65,9 +65,9 @@ struct Controlled : Opened {
                        "rho": {"reflectance": "glowing", "from": 0, "to": 0.8},
                        "step": {"focus": "step"}}}]})") {}
 
-  template <class Part>
-  Part* part(const char* control, const char* name) const {
-    return window->findChild<QWidget*>(control)->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* control, const char* name) const {
+    return window->findChild<QWidget*>(control)->findChild<Widget*>(name);
   }
 };
 

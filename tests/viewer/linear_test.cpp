@@ -39,9 +39,9 @@ struct LinearWindow : SolvedWindow {
   bool settles(const std::function<bool()>& reached) const {
     return wait_for([&] { return reached() && window->settled(); });
   }
-  template <class Part>
-  Part* part(const char* name) const {
-    return window->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* name) const {
+    return window->findChild<Widget*>(name);
   }
 };
 

@@ -98,9 +98,9 @@ struct WatchedRounds {
 struct RefinedWindow : SolvedWindow {
   RefinedWindow() : SolvedWindow("cornell-box", few) {}
 
-  template <class Part>
-  Part* part(const char* name) const {
-    return window->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* name) const {
+    return window->findChild<Widget*>(name);
   }
   void start(const QString& criterion, int patches) const {
     part<QComboBox>("refine_by")->setCurrentText(criterion);
