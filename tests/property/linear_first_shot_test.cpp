@@ -27,7 +27,7 @@ using testing::Imperfect;
 using testing::Sketch;
 
 DirectLight linear_shot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0) {
-  return shoot(scene, sources, threads, {}, {}, Basis::linear);
+  return shoot(scene, sources, {.threads = threads, .basis = Basis::linear});
 }
 
 double larger(const Rgb& a, const Rgb& b) { return std::max(max_abs(a), max_abs(b)); }

@@ -111,9 +111,9 @@ TEST(Shoot, MatchesTheFormulaForIrradiance) {
 TEST(Shoot, IsTheSameForAnyNumberOfThreads) {
   const auto scene = load_scene("stars:n=3");
   const auto sources = find_small_sources(*scene);
-  const DirectLight one = shoot(*scene, sources, 1);
+  const DirectLight one = shoot(*scene, sources, {.threads = 1});
   for (const int threads : {2, 5}) {
-    EXPECT_TRUE(shoot(*scene, sources, threads).irradiance == one.irradiance);
+    EXPECT_TRUE(shoot(*scene, sources, {.threads = threads}).irradiance == one.irradiance);
   }
 }
 
@@ -134,7 +134,7 @@ TEST(Shoot, ReportsProgressAndIsCanceledWithinAPair) {
   const auto scene = cluttered();
   int reports = 0, reports_of_pairs = 0;
   double last = 0;
-  shoot(*scene, {0}, 1, {}, [&](double fraction) {
+  shoot(*scene, {0}, {.threads = 1}, {}, [&](double fraction) {
     EXPECT_GE(fraction, last);
     EXPECT_LE(fraction, 1);
     reports_of_pairs += fraction > last ? 1 : 0;
@@ -147,7 +147,7 @@ TEST(Shoot, ReportsProgressAndIsCanceledWithinAPair) {
   for (const int until : {1, 2, reports / 2}) {
     const Cancellation cancellation;
     int seen = 0;
-    EXPECT_THROW(shoot(*scene, {0}, 1, cancellation,
+    EXPECT_THROW(shoot(*scene, {0}, {.threads = 1}, cancellation,
                        [&](double) {
                          if (++seen == until) {
                            cancellation.cancel();
@@ -176,12 +176,12 @@ TEST(Shoot, CanBeCanceledAndReportsProgress) {
   const auto scene = load_scene("stars");
   Cancellation cancellation;
   std::vector<double> heard;
-  shoot(*scene, find_small_sources(*scene), 1, cancellation,
+  shoot(*scene, find_small_sources(*scene), {.threads = 1}, cancellation,
         [&](double fraction) { heard.push_back(fraction); });
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_EQ(heard.back(), 1);
   cancellation.cancel();
-  EXPECT_THROW(shoot(*scene, find_small_sources(*scene), 0, cancellation), Canceled);
+  EXPECT_THROW(shoot(*scene, find_small_sources(*scene), {}, cancellation), Canceled);
   EXPECT_THAT(shoot(*scene, {}).irradiance, SizeIs(scene->patches().size()));
 }
 

@@ -52,6 +52,7 @@ bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked) {
     expected.directions = in_effect.directions;
     expected.replicas = in_effect.replicas;
     expected.tolerance = in_effect.tolerance;
+    expected.engine_options.points = in_effect.engine_options.points;
   }
   return expected == in_effect;
 }

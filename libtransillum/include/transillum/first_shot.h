@@ -74,21 +74,34 @@ struct DirectLight {
   std::vector<LinearTerm> linear_part_errors = {};
 };
 
+/// Options of a first shot.
+struct ShotOptions {
+  int threads = 0;  ///< 0: all cores; the result does not depend on it
+  /// linear: the linear terms of H are computed too, by points of the smaller polygon; the means
+  /// have the same bits as with constant functions
+  Basis basis = Basis::constant;
+  /// Number of points along a polygon as large as its distance from the other, where something is
+  /// between, up to EngineOptions::largest_points; 0 means default_points.
+  int points = 0;
+  static constexpr int default_points = 16;
+};
+
+/// The options by which a solve makes its first shot.
+ShotOptions shot_options(const SolveOptions& options);
+
 /// Distributes the emission of `sources` to all patches by exact form factors: of whole polygons
 /// where nothing stands between, else by points of the smaller polygon with exact shadows
 /// (decisions/0022-first-shot.md). Time grows as sources times patches times polygons between them.
 /// @param scene the scene.
 /// @param sources find_small_sources(), or any emitting patches, ascending.
-/// @param threads 0: all cores; the result does not depend on it.
+/// @param options how.
 /// @param cancellation checked during computation.
 /// @param progress if set, called at intervals with the fraction of pairs done, in [0,1], on this
 /// thread; also while one pair takes long.
-/// @param basis linear: the linear terms of H are computed too, by points of the smaller polygon;
-/// the means have the same bits as with constant functions.
 /// @throws Canceled
-DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0,
-                  const Cancellation& cancellation = {},
-                  const std::function<void(double)>& progress = {}, Basis basis = Basis::constant);
+DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
+                  const ShotOptions& options = {}, const Cancellation& cancellation = {},
+                  const std::function<void(double)>& progress = {});
 
 /// The direct light of the same sources after a change of materials, from the parts of `light`. The
 /// result has no parts.

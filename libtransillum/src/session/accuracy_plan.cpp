@@ -44,6 +44,9 @@ constexpr int enough_to_converge = 1 << 14;
 constexpr double time_fraction = 0.85;
 /// Fraction of the goal from which on missing iterations are made, instead of more passes.
 constexpr double iteration_fraction = 0.25;
+/// The same for the error of the first shot, which more points decrease.
+constexpr double shot_fraction = 0.5;
+constexpr int more_points = 4;
 
 /// The same levels and names, and errors of 0.
 ErrorEstimate without_errors(const ErrorEstimate& error) {
@@ -74,6 +77,16 @@ double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorE
   return ratio_or_zero(error.quantile * largest, max_norm(reflected_light(scene, b)));
 }
 
+/// The part of error_for() that a bias of B makes.
+/// @param error of `solver`
+double error_of_bias(const AccuracyGoal& goal, const ErrorSurfaces& surfaces,
+                     const RadiositySolver& solver, const ErrorEstimate& error,
+                     const std::vector<Rgb>& bias) {
+  ErrorEstimate missing = without_errors(error);
+  include_bias(missing, solver.scene(), surfaces, solver.radiosity(), bias);
+  return error_for(goal, solver.scene(), solver.radiosity(), missing);
+}
+
 /// The part of error_for() that further iterations can take away: a bound of what they would
 /// change.
 /// @param error of `solver`
@@ -92,9 +105,7 @@ double error_of_iteration(const AccuracyGoal& goal, const ErrorSurfaces& surface
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     at(left, i) = to_limit * scene.reflectance(i);
   }
-  ErrorEstimate missing = without_errors(error);
-  include_bias(missing, scene, surfaces, b, left);
-  return error_for(goal, scene, b, missing);
+  return error_of_bias(goal, surfaces, solver, error, left);
 }
 
 }  // namespace
@@ -214,6 +225,16 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
       return Next::stage;
     }
   }
+  // No number of passes makes the first shot more accurate.
+  int& points = stage_.engine_options.points;
+  const int used_points = points > 0 ? points : ShotOptions::default_points;
+  if (goal.accuracy > 0 && used_points < EngineOptions::largest_points &&
+      error_of_bias(goal, surfaces_, solver, estimate,
+                    bias_of_shot(solver.scene(), *solver.direct_light())) >
+          shot_fraction * goal.accuracy) {
+    points = std::min(more_points * used_points, EngineOptions::largest_points);
+    return Next::stage;
+  }
   // Error ~ 1/sqrt(number of replicas); a new stage makes all its passes, but gains more.
   const double missing = report_.error / goal.accuracy;
   const int replicas = solved.replicas, per_replica = solved.directions / replicas;
@@ -323,8 +344,8 @@ void AccuracyPlan::visit_state(Archive& archive, Self& self) {
     report.surface.assign(surface.begin(), surface.end());
   }
   archive(report.error, report.reached, report.trusted, report.passes_made, self.stage_.directions,
-          self.stage_.replicas, self.stage_.tolerance, self.light_directions_, self.seconds_,
-          self.passes_before_);
+          self.stage_.replicas, self.stage_.tolerance, self.stage_.engine_options.points,
+          self.light_directions_, self.seconds_, self.passes_before_);
 }
 
 void AccuracyPlan::save(std::ostream& out) const {

@@ -53,6 +53,7 @@ void SolveSession::Impl::begin(const std::shared_ptr<const Scene>& solved) {
   scene = solved;
   tree = scene == request.scene ? request.tree : nullptr;
   shot = scene == request.scene ? request.shot : nullptr;
+  shot_points = request.options.engine_options.points;
   seconds_bsp = seconds_first_shot = seconds_before = 0;
   if (called) {
     called = Clock::now();
@@ -77,9 +78,10 @@ void SolveSession::Impl::build_tree() {
 }
 
 void SolveSession::Impl::shoot_first() {
-  const SolveOptions& options = request.options;
+  const SolveOptions& options = plan ? plan->stage() : request.options;
   const std::optional<double> threshold = options.used_first_shot();
-  if (shot || !threshold) {
+  const int points = options.engine_options.points;
+  if (!threshold || (shot && shot_points == points)) {
     return;
   }
   const auto start = Clock::now();
@@ -89,8 +91,10 @@ void SolveSession::Impl::shoot_first() {
     report(0);
   }
   shot = std::make_shared<const DirectLight>(shoot(
-      *scene, first_shot_sources(*scene, *threshold, expected_directions(options), cancellation),
-      options.threads, cancellation, report, options.basis));
+      *scene,
+      first_shot_sources(*scene, *threshold, expected_directions(request.options), cancellation),
+      shot_options(options), cancellation, report));
+  shot_points = points;
   seconds_first_shot = seconds_since(start);
 }
 

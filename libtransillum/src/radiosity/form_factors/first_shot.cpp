@@ -196,9 +196,15 @@ Rgb exitance_of_contribution(const DirectLight::Contribution& contribution,
 
 }  // namespace
 
-DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads,
-                  const Cancellation& cancellation, const std::function<void(double)>& progress,
-                  Basis basis) {
+ShotOptions shot_options(const SolveOptions& options) {
+  return {
+      .threads = options.threads, .basis = options.basis, .points = options.engine_options.points};
+}
+
+DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
+                  const ShotOptions& options, const Cancellation& cancellation,
+                  const std::function<void(double)>& progress) {
+  const Basis basis = options.basis;
   const auto patches = scene.patches().size();
   DirectLight light{.irradiance = std::vector<Rgb>(patches),
                     .exitance = std::vector<Rgb>(patches),
@@ -212,8 +218,9 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int t
   if (sources.empty()) {
     return light;
   }
-  const ExchangeFinder exchange(scene, cancellation);
-  WorkerThreads workers(thread_count(threads));
+  const ExchangeFinder exchange(scene, cancellation,
+                                options.points > 0 ? options.points : ShotOptions::default_points);
+  WorkerThreads workers(thread_count(options.threads));
   ShotProgress shot(static_cast<double>(patches) * static_cast<double>(sources.size()),
                     cancellation, progress);
   IntegratedPairs integrated{0};

@@ -60,7 +60,7 @@ void SolverInput::prepare() {
       sources = first_shot_sources(*scene, *threshold, expected_directions(options), requested);
     }
     shot = std::make_shared<const DirectLight>(
-        shoot(*scene, sources, options.threads, requested, {}, options.basis));
+        shoot(*scene, sources, shot_options(options), requested));
     seconds_first_shot = seconds_since(start);
   }
   if (!tree) {
