@@ -16,6 +16,7 @@
 #include "scene/build/division.h"
 #include "scene/build/patch_count.h"
 #include "session/error_report.h"
+#include "session/total_plan.h"
 #include "support/imperfect_scenes.h"
 #include "support/scenes.h"
 
@@ -161,7 +162,7 @@ std::vector<Case> cases() {
       {"rooms", built_in("rooms:n=4,rooms=2", 100), 32},
       {"rooms, seed 3", built_in("rooms:n=5,rooms=2,seed=3", 100), 24},
       {"sphere-flake", built_in("sphere-flake:levels=1,slices=6,stacks=3", 160), 12},
-      {"stars", built_in("stars:n=3", 100), 32},
+      {"gallery", built_in("gallery:slices=6,stacks=3", 120), 24},
       {"flatland", built_in("flatland", 80), 32},
       {"room, large lamp", with_patches(room(1, 2, 1.2, 0.7), 80), 24},
       {"room, small lamp", with_patches(room(2, 3, 0.2, 0.7), 90), 32},
@@ -174,6 +175,100 @@ std::vector<Case> cases() {
       {"ball", imperfect({.kind = Imperfect::ball, .count = 4, .digits = 9}, 100), 24},
       {"terrain", imperfect({.kind = Imperfect::terrain, .count = 3, .digits = 9}, 90), 24},
   };
+}
+
+ErrorReport report_of(const ScenePointer& scene, const SolveOptions& options) {
+  return measure_errors(solve_to_measure(scene, options));
+}
+
+const SurfaceCauses& worst(const ErrorReport& report) { return at(report.surfaces, report.worst); }
+
+TEST(ErrorReport, ExpectsOfADivisionAboutWhatItBrings) {
+  const ScenePointer scene = built_in("cornell-box", 60);
+  SolveOptions options;
+  options.directions = 64;
+  options.replicas = 4;
+  const ErrorReport before = report_of(scene, options);
+  const ErrorReport after = report_of(divide(*scene, all_patches(*scene)).scene, options);
+  ASSERT_EQ(before.surfaces.size(), after.surfaces.size());
+  for (std::size_t s = 0; s < before.surfaces.size(); ++s) {
+    const SurfaceCauses& surface = before.surfaces[s];
+    const double brought = after.surfaces[s].errors.patches;
+    EXPECT_GT(brought, 0.7 * surface.divided_all) << surface.name;
+    EXPECT_LT(brought, 1.3 * surface.divided_all) << surface.name;
+    EXPECT_LE(surface.divided_all, surface.divided_alone) << surface.name;
+    EXPECT_LT(surface.divided_alone, surface.errors.patches) << surface.name;
+  }
+}
+
+TEST(ErrorReport, HasNoErrorOfPatchesWhereTheLightIsTheSameEverywhere) {
+  SolveOptions options;
+  options.directions = 64;
+  options.replicas = 4;
+  options.normalize = Normalization::rows;
+  const ErrorReport report = report_of(load_scene("furnace"), options);
+  EXPECT_LT(worst(report).errors.patches, 1e-7);  // the root of rounding
+  EXPECT_LT(worst(report).errors.method, 1e-9);
+  ASSERT_TRUE(report.measurements.lost);
+  EXPECT_LT(*report.measurements.lost, 1e-12);
+}
+
+TEST(ErrorReport, FindsTheErrorOfAnEngineAndOfFewIterations) {
+  const ScenePointer scene = load_scene("cornell-box");
+  SolveOptions options;
+  options.directions = 64;
+  options.replicas = 4;
+  const ErrorReport exact = report_of(scene, options);
+  options.engine = Engine::zbuffer;
+  options.engine_options.resolution = 32;
+  options.tolerance = 0.01;
+  const ErrorReport coarse = report_of(scene, options);
+  EXPECT_GT(worst(coarse).errors.method, 10 * worst(exact).errors.method);
+  EXPECT_LT(worst(exact).errors.iterations, 1e-5);
+  EXPECT_GT(worst(coarse).errors.iterations, 1e-4);
+}
+
+TEST(ErrorReport, AddsReplicasToASolveWithoutAny) {
+  const ScenePointer scene = load_scene("cornell-box");
+  SolveOptions options;
+  options.directions = 64;
+  const ErrorReport report = report_of(scene, options);
+  EXPECT_TRUE(report.measurements.replicas_added);
+  EXPECT_EQ(report.measurements.replicas, 4);
+  EXPECT_GT(worst(report).errors.directions, 0);
+  EXPECT_EQ(std::ssize(report.relative_errors), scene->patch_count());
+}
+
+TEST(ErrorReport, DividesASampleWherePatchesWouldBeTooMany) {
+  const ScenePointer scene = built_in("cornell-box", 200);
+  SolveOptions options;
+  options.directions = 64;
+  options.replicas = 4;
+  const MeasuredSolve solve = solve_to_measure(scene, options);
+  const ErrorReport all = measure_errors(solve);
+  const ErrorReport sample = measure_errors(solve, {}, {}, 2 * scene->patch_count());
+  EXPECT_LT(sample.measurements.divided_share, 0.34);
+  EXPECT_LE(sample.measurements.divided_patches, 2 * scene->patch_count());
+  EXPECT_NEAR(worst(sample).errors.patches, worst(all).errors.patches,
+              0.5 * worst(all).errors.patches);
+}
+
+TEST(TotalError, IsReachedByDividingPatchesAndAddingDirections) {
+  const TotalSolve total =
+      solve_to_total({.scene = load_scene("cornell-box")}, {.total = 0.25, .patches = 5000});
+  EXPECT_EQ(total.end, TotalEnd::reached);
+  EXPECT_LE(total.report.total(), 0.25);
+  ASSERT_GE(total.stages.size(), 2U);
+  EXPECT_GT(total.stages.front().errors.total(), 0.25);
+  EXPECT_GT(total.stages.back().patches, total.stages.front().patches);
+}
+
+TEST(TotalError, EndsWhereThePatchesAreTooMany) {
+  const TotalSolve total =
+      solve_to_total({.scene = load_scene("cornell-box")}, {.total = 0.1, .patches = 60});
+  EXPECT_EQ(total.end, TotalEnd::patches);
+  EXPECT_LE(total.solve.solution.scene->patch_count(), 60);
+  EXPECT_EQ(total.stages.back().patches, total.solve.solution.scene->patch_count());
 }
 
 /// How often truth over claim lies in [1/3, 1].

@@ -66,6 +66,9 @@ class Measuring {
   void measure_iterations();
   void measure_method();
   void measure_patches(std::int64_t most_patches);
+  std::vector<double> noise_of_division(const SurfaceErrors& fine) const;
+  void sum_patches(const PatchErrors& squares, const std::vector<PatchId>& chosen,
+                   const std::vector<double>& noise);
   void add_up();
 
   void observe(Measurement what, double share) const {
@@ -257,32 +260,62 @@ void Measuring::measure_patches(std::int64_t most_patches) {
   const PatchErrors squares = patch_errors(scene_, divided, fine, &solve_.solution);
   report_.measurements.divided_patches = divided.scene->patch_count();
   report_.measurements.divided_seconds = seconds_since(start);
+  sum_patches(squares, chosen, noise_of_division(fine.error.surfaces));
+}
+
+/// Mean square of what the parts of patches differ by because of the directions alone: their
+/// replicas vary more than those of the whole patches.
+std::vector<double> Measuring::noise_of_division(const SurfaceErrors& fine) const {
+  const SurfaceErrors& whole = solve_.solution.error.surfaces;
+  std::vector<double> noise(report_.surfaces.size());
+  const bool known = report_.measurements.divided_share == 1 &&
+                     fine.surfaces.size() == noise.size() && whole.surfaces.size() == noise.size();
+  for (std::size_t s = 0; known && s < noise.size(); ++s) {
+    const double parts = fine.surfaces[s].spread * fine.surfaces[s].unit;
+    const double wholes = whole.surfaces[s].spread * whole.surfaces[s].unit;
+    noise[s] = std::max(0.0, parts * parts - wholes * wholes);
+  }
+  return noise;
+}
+
+void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchId>& chosen,
+                            const std::vector<double>& noise) {
   struct Sums {
-    double area = 0, now = 0, alone = 0, all = 0;
+    double area = 0, within = 0, shifted = 0;
   };
   std::vector<Sums> sums(surfaces_.surfaces.size());
   report_.patch_errors.assign(scene_.patches().size(), 0);
   for (const PatchId i : chosen) {
     const double within = at(squares.unrepresented, i), shifted = at(squares.displaced, i);
-    const double now = within_error * within + shift_error * shifted;
     const double area = scene_.patch(i).area;
-    at(report_.patch_errors, i) = std::sqrt(now / (3 * area));
+    at(report_.patch_errors, i) =
+        std::sqrt((within_error * within + shift_error * shifted) / (3 * area));
     if (const std::int32_t s = surfaces_.of(i); s != Surfaces::none) {
-      Sums& sum = at(sums, s);
-      sum.area += area;
-      sum.now += now;
-      sum.alone += (within_error - 1) * within + shift_error * shifted;
-      sum.all += (within_error - 1) * within + std::pow(std::sqrt(shift_error) - 1, 2) * shifted;
+      at(sums, s).area += area;
+      at(sums, s).within += within;
+      at(sums, s).shifted += shifted;
     }
   }
   for (std::size_t s = 0; s < sums.size(); ++s) {
     SurfaceCauses& surface = report_.surfaces[s];
-    const auto rms = [&](double squares_sum) {
-      return ratio_or_zero(std::sqrt(ratio_or_zero(squares_sum, 3 * sums[s].area)), surface.unit);
+    const double entries = 3 * sums[s].area;
+    const double within = std::max(0.0, ratio_or_zero(sums[s].within, entries) - noise[s]);
+    const double shifted = ratio_or_zero(sums[s].shifted, entries);
+    const auto error = [&](double within_factor, double shift_factor) {
+      return ratio_or_zero(std::sqrt(within_factor * within + shift_factor * shifted),
+                           surface.unit);
     };
-    surface.errors.patches = rms(sums[s].now);
-    surface.divided_alone = rms(sums[s].alone);
-    surface.divided_all = rms(sums[s].all);
+    surface.errors.patches = error(within_error, shift_error);
+    surface.divided_alone = error(left_within * within_error, shift_error);
+    surface.divided_all = error(left_within * within_error, left_shift * shift_error);
+  }
+  // Of patches that were not divided, the surface's mean square is the best guess.
+  for (PatchId i = 0; report_.measurements.divided_share < 1 && i < scene_.patch_count(); ++i) {
+    const std::int32_t s = surfaces_.of(i);
+    if (s != Surfaces::none && !std::binary_search(chosen.begin(), chosen.end(), i)) {
+      const SurfaceCauses& surface = at(report_.surfaces, s);
+      at(report_.patch_errors, i) = surface.errors.patches * surface.unit;
+    }
   }
 }
 

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // How wrong a solve is, by surface and cause: directions, patches, iterations and method. Each is
-// measured by further work on the same scene; none is assumed (ALGORITHM.md 6.16).
+// measured by further work on the same scene; none is assumed (ALGORITHM.md 6.15).
 #pragma once
 
 #include <cstdint>
