@@ -15,7 +15,7 @@
 #include "radiosity/error/surfaces.h"
 #include "scene/build/division.h"
 #include "scene/build/patch_count.h"
-#include "session/error_report.h"
+#include "session/measure_errors.h"
 #include "session/total_plan.h"
 #include "support/imperfect_scenes.h"
 #include "support/scenes.h"
@@ -115,7 +115,7 @@ std::vector<PatchId> all_patches(const Scene& scene) {
   return patches;
 }
 
-/// What B(x) of a solve with constant functions is off by, by surface, over the units of `report`.
+/// The errors of B(x) of a solve with constant functions, by surface, over the units of `report`.
 std::vector<double> true_errors(const MeasuredSolve& solve, const ErrorReport& report) {
   const ScenePointer scene = solve.solution.scene;
   const DividedScene once = divide(*scene, all_patches(*scene));
@@ -146,7 +146,7 @@ std::vector<double> true_errors(const MeasuredSolve& solve, const ErrorReport& r
 struct Case {
   std::string name;
   ScenePointer scene;
-  int directions;  ///< of each of four replicas
+  int directions;  ///< M of each of four replicas
 };
 
 std::vector<Case> cases() {

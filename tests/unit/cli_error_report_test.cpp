@@ -70,7 +70,7 @@ TEST(CliTotal, RefusesInOneLineWhatItCannotDo) {
       {"solve", "cornell-box", "--total"},
       {
           {{"-m", "64"}, "used only with an accuracy"},
-          {{"--accuracy", "20%", "--accuracy-of", "rms"}, "that of surfaces"},
+          {{"--accuracy", "20%", "--accuracy-of", "rms"}, "an error of surfaces"},
           {{"--accuracy", "20%", "--seconds", "5"}, "no time limit"},
           {{"--accuracy", "20%", "--refine-by", "jump", "--patches", "60"}, "no rounds"},
           {{"--accuracy", "20%", "--checkpoint", "a.tck"}, "--checkpoint"},

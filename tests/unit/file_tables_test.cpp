@@ -18,6 +18,7 @@
 #include "io/results/error_report_files.h"
 #include "io/results/sensor_files.h"
 #include "io/results/study_csv.h"
+#include "session/measure_errors.h"
 #include "support/program_run.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"

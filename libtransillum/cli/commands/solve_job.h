@@ -8,7 +8,7 @@
 
 #include "cli/arguments/checkpoint_options.h"
 #include "cli/progress_display.h"
-#include "session/error_report.h"
+#include "session/measure_errors.h"
 #include "session/total_plan.h"
 #include "transillum/cancellation.h"
 #include "transillum/checkpoint.h"

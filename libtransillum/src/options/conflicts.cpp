@@ -94,7 +94,7 @@ constexpr Conflict conflicts[] = {
     {"glossy", is_glossy, has_rounds, "lobes are not available with rounds of refinement"},
     {"total", is_total, has_rounds, "patches are divided by the total error; no rounds come first"},
     {"total", is_total, has_time_limit, "a total error has no time limit"},
-    {"total", is_total, has_other_error, "a total error is that of surfaces"},
+    {"total", is_total, has_other_error, "a total error is an error of surfaces"},
     {"refine-by", has_rounds, has_no_limit_of_patches,
      "requires patches, the most patches to make"},
     {"refine-by", has_rounds, has_time_limit, "rounds of refinement have no time limit"},

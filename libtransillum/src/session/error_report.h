@@ -5,19 +5,17 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "transillum/at.h"
 #include "transillum/bsp_tree.h"
-#include "transillum/cancellation.h"
 #include "transillum/engine.h"
 #include "transillum/first_shot.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
-#include "transillum/solve_session.h"
 
 namespace transillum {
 
@@ -47,9 +45,9 @@ struct SurfaceCauses {
 /// A change of a solve, and what the error of the worst surface would be after it.
 struct NextStep {
   enum class Kind { divide_surface, divide_all, directions, iterations };
-  Kind kind = Kind::divide_all;  ///< what to change
+  Kind kind = Kind::divide_all;  ///< the change
   std::string surface;           ///< the worst surface
-  std::int64_t patches = 0;      ///< of the scene after it
+  std::int64_t patches = 0;      ///< number of the scene's patches after it
   int passes = 0;                ///< per iteration after it
   double tolerance = 0;          ///< SolveOptions::tolerance after it
   double seconds = 0;            ///< wall time of the solve after it, by measured rates
@@ -64,9 +62,9 @@ struct ErrorMeasurements {
   int replicas = 0;                  ///< whose spread gives the error by directions
   bool replicas_added = false;       ///< the solve had none: it was repeated with them
   std::int64_t divided_patches = 0;  ///< patches of the scene with divided patches
-  double divided_share = 1;          ///< of all patches; below 1: of each surface as many
-  double divided_seconds = 0;        ///< wall time of its solve
-  int compared_directions = 0;       ///< along which two engines were compared; 0: none
+  double divided_share = 1;     ///< share of all patches; below 1, the same share of each surface
+  double divided_seconds = 0;   ///< wall time of its solve
+  int compared_directions = 0;  ///< along which two engines were compared; 0 means no comparison
   Engine reference = Engine::exact;  ///< the other engine
   std::int64_t exact_queries = 0;    ///< PassCounts::exact_queries of the solve
   std::optional<double> lost;        ///< share of projected area without anything above it, along
@@ -76,7 +74,7 @@ struct ErrorMeasurements {
 
 /// The errors of a solve.
 struct ErrorReport {
-  std::vector<SurfaceCauses> surfaces;  ///< as SurfaceErrors::surfaces
+  std::vector<SurfaceCauses> surfaces;  ///< in the order of SurfaceErrors::surfaces
   int worst = -1;                       ///< index of the largest total; -1 if there is none
   std::vector<NextStep> steps;          ///< by decreasing gain(), without those that gain nothing
   /// Per patch: RMS over the patch of B(x) against its functions, estimated, W/m².
@@ -87,32 +85,16 @@ struct ErrorReport {
   ErrorMeasurements measurements;
 
   /// The total of the worst surface; 0 without surfaces.
-  double total() const;
+  double total() const { return worst < 0 ? 0 : at(surfaces, worst).errors.total(); }
 };
 
 /// A finished solve, whose error is asked for.
 struct MeasuredSolve {
-  Solution solution;     ///< complete
-  SolveOptions options;  ///< of the last stage; `directions` and `replicas` are the solution's
+  Solution solution;  ///< complete
+  SolveOptions
+      options;  ///< options of the last stage; `directions` and `replicas` are the solution's
   std::shared_ptr<const BspTree> tree;      ///< tree of its scene
   std::shared_ptr<const DirectLight> shot;  ///< null if there is none
   std::vector<Vec3> directions;             ///< omega of the passes of an iteration
 };
-/// The solve of a finished session.
-/// @throws InputError where lobes took part, or with a scheme that renews directions
-MeasuredSolve measured_solve(const SolveSession& session);
-
-/// What is measured, and how far that is.
-enum class Measurement { replicas, divided, engines };
-using MeasurementObserver = std::function<void(Measurement, double share)>;
-
-/// Measures the errors of a solve. Time: mostly that of a solve with every patch divided, by the
-/// same directions: about five times the solve. Where so many patches do not fit into memory or
-/// exceed `most_patches`, a sample of each surface is divided.
-/// @param observer called on any thread, one at a time.
-/// @throws Canceled, InputError; exceptions of solve()
-ErrorReport measure_errors(const MeasuredSolve& solve, const Cancellation& cancellation = {},
-                           const MeasurementObserver& observer = {},
-                           std::int64_t most_patches = 2'000'000);
-
 }  // namespace transillum

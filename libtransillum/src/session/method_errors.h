@@ -10,7 +10,7 @@
 
 namespace transillum {
 
-/// What the engine of a solve makes wrong, from some of its directions.
+/// The errors that the engine of a solve makes, from some of its directions.
 struct MethodErrors {
   std::vector<double> rms;  ///< by surface: RMS error of B over patches and channels, W/m²
   int directions = 0;       ///< along which transfers were compared

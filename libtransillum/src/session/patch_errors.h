@@ -9,10 +9,10 @@
 
 namespace transillum {
 
-/// What a solve with divided patches finds about the functions of the whole ones. Integrals over
+/// The errors of the functions of patches, found by a solve with divided patches. Integrals over
 /// each patch of the whole scene of squares of W/m², summed over channels: W²/m².
 struct PatchErrors {
-  /// Of the radiosity, what the functions of the patch cannot represent.
+  /// The part of the radiosity that the functions of the patch cannot represent.
   std::vector<double> unrepresented;
   /// Difference between what they can represent and what the solve with whole patches has found:
   /// patches that send light are too coarse. Empty without such a solve.

@@ -29,13 +29,13 @@ constexpr double directions_share = 1.0 / 3;
 constexpr double early_share = 0.1;
 /// Error of directions of the first stage.
 constexpr double first_directions = 0.03;
-/// What patches may leave of what is left for them, so that an estimate that is a little too small
-/// takes no further stage.
+/// Share of what is left for patches that they may take, so that an estimate that is a little too
+/// small takes no further stage.
 constexpr double caution = 0.9;
 /// Least share of the total that is asked of directions.
 constexpr double least_directions_share = 0.05;
 
-/// What the patches of a surface may leave.
+/// The error that the patches of a surface may have.
 double allowed_for_patches(const CauseErrors& errors, double total) {
   const double others =
       std::min(errors.directions, directions_share * total) + errors.iterations + errors.method;

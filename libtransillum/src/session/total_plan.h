@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "session/error_report.h"
+#include "session/measure_errors.h"
 #include "transillum/cancellation.h"
 #include "transillum/solve_session.h"
 
@@ -17,7 +17,7 @@ namespace transillum {
 
 /// One solve on the way to a total error, and its measured errors.
 struct TotalStage {
-  std::int64_t patches = 0;  ///< of the scene
+  std::int64_t patches = 0;  ///< patches of the scene
   int passes = 0;            ///< per iteration
   std::string surface;       ///< the worst one
   CauseErrors errors = {};   ///< its errors
@@ -31,13 +31,13 @@ enum class TotalEnd {
   memory,      ///< a further division does not fit into memory
   directions,  ///< the error of the directions does not get as small as required
   thin,        ///< the patches to divide are too thin
-  canceled,    ///< the result is that of the stage before
+  canceled,    ///< the result is the one of the stage before
   other,       ///< iterations and method alone exceed what was asked
 };
 /// The end as a phrase: "not reached with at most 5,000 patches".
 std::string end_text(TotalEnd end, std::int64_t most_patches);
 
-/// What is asked of a solve to a total error.
+/// The goal of a solve to a total error.
 struct TotalGoal {
   double total = 0.01;               ///< CauseErrors::total() of the worst surface, (0,1)
   std::int64_t patches = 1'000'000;  ///< the most patches to make
@@ -51,11 +51,11 @@ struct TotalSolve {
   TotalEnd end = TotalEnd::reached;
 };
 
-/// What is called meanwhile; each may be empty.
+/// Functions that are called meanwhile; each may be empty.
 struct TotalObservers {
-  SolveSession::Observer solve = {};             ///< of each solve; its result is not used
-  MeasurementObserver measurement = {};          ///< of each measurement
-  std::function<void(const TotalStage&)> stage;  ///< after each stage
+  SolveSession::Observer solve = {};             ///< observes each solve; its result is not used
+  MeasurementObserver measurement = {};          ///< observes each measurement
+  std::function<void(const TotalStage&)> stage;  ///< called after each stage
 };
 
 /// Which patches of a solve are to be divided for `total`, in ascending order: on each surface

@@ -4,7 +4,7 @@
 // ErrorReport. Directions: the spread of replicas. Patches: a solve of the same directions in which
 // every patch is divided, so that the errors of directions cancel. Iterations: what changes and
 // their contraction leave. Method: another engine, the first shot's own estimate, lost area.
-#include "session/error_report.h"
+#include "session/measure_errors.h"
 
 #include <fmt/format.h>
 
@@ -89,7 +89,7 @@ class Measuring {
   const MeasurementObserver& observer_;
   const Scene& scene_;
   const Surfaces surfaces_;
-  std::vector<Rgb> standard_error_;  ///< of B, W/m², one per patch
+  std::vector<Rgb> standard_error_;  ///< standard error of B, W/m², one per patch
   ErrorReport report_;
 };
 
@@ -309,7 +309,7 @@ void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchI
     surface.divided_alone = error(left_within * within_error, shift_error);
     surface.divided_all = error(left_within * within_error, left_shift * shift_error);
   }
-  // Of patches that were not divided, the surface's mean square is the best guess.
+  // The surface's mean square is the best guess for patches that were not divided.
   for (PatchId i = 0; report_.measurements.divided_share < 1 && i < scene_.patch_count(); ++i) {
     const std::int32_t s = surfaces_.of(i);
     if (s != Surfaces::none && !std::binary_search(chosen.begin(), chosen.end(), i)) {
@@ -336,8 +336,6 @@ void Measuring::add_up() {
 }
 
 }  // namespace
-
-double ErrorReport::total() const { return worst < 0 ? 0 : at(surfaces, worst).errors.total(); }
 
 MeasuredSolve measured_solve(const SolveSession& session) {
   if (session.diffuse() == nullptr) {
