@@ -16,7 +16,7 @@ struct Processes {
   std::shared_ptr<PatchSums> sums;       ///< sums of a solve; null if this process is alone
   int here = 1;                          ///< processes on this machine
   int threads = 0;                       ///< default of --threads; 0: the number of cores
-  std::function<std::string()> figures;  ///< says what was sent, in a sentence; all must call it
+  std::function<std::string()> traffic;  ///< says what was sent, in a sentence; all must call it
 };
 
 /// Set once, before the program runs.

@@ -70,7 +70,7 @@ std::string program_footer() {
 
 struct Program {
   CLI::App app{"Radiosity of polygonal scenes by the transillumination method"};
-  std::vector<std::pair<CLI::App*, Run>> commands;
+  std::vector<std::pair<CLI::App*, Command>> commands;
 
   Program() {
     app.name("transillum");
@@ -80,7 +80,7 @@ struct Program {
     for (auto add : {add_scene_command, add_solve_command, add_transfers_command, add_map_command,
                      add_factors_command, add_directions_command, add_bounds_command,
                      add_study_command, add_compare_command, add_info_command, add_merge_command}) {
-      Run run = add(app);
+      Command run = add(app);
       CLI::App& command = *app.get_subcommands({}).back();
       if (command.get_groups().size() > 2) {  // one of them has the arguments
         command.set_help_all_flag("--help-all", "show all options, by group");
@@ -97,7 +97,7 @@ struct Program {
     }
     return names;
   }
-  const std::pair<CLI::App*, Run>* chosen() const {
+  const std::pair<CLI::App*, Command>* chosen() const {
     for (const auto& entry : commands) {
       if (entry.first->parsed()) {
         return &entry;

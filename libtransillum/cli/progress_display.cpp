@@ -32,8 +32,8 @@ std::size_t terminal_width() {
   return size.ws_col;
 }
 
-std::string bar(double share, int cells) {
-  const int full = static_cast<int>(std::lround(share * cells));
+std::string bar(double fraction, int cells) {
+  const int full = static_cast<int>(std::lround(fraction * cells));
   return "[" + std::string(static_cast<std::size_t>(full), '#') +
          std::string(static_cast<std::size_t>(cells - full), '.') + "]";
 }
@@ -58,10 +58,10 @@ bool ProgressDisplay::due() {
   return true;
 }
 
-void ProgressDisplay::show(const std::string& what, double share, const std::string& detail) {
+void ProgressDisplay::show(const std::string& what, double fraction, const std::string& detail) {
   const std::lock_guard lock(mutex_);
   repeated_ = {};
-  show_if_due({what, share, detail});
+  show_if_due({what, fraction, detail});
 }
 
 void ProgressDisplay::show_if_due(const Line& line) {
@@ -73,8 +73,8 @@ void ProgressDisplay::show_if_due(const Line& line) {
     return;
   }
   std::string text = line.what;
-  if (line.share >= 0) {
-    text += fmt::format(", {:.0f} %", 100 * std::min(line.share, 1.0));
+  if (line.fraction >= 0) {
+    text += fmt::format(", {:.0f} %", 100 * std::min(line.fraction, 1.0));
   }
   if (!line.detail.empty()) {
     text += ", " + line.detail;
@@ -103,15 +103,15 @@ void ProgressDisplay::begin(const std::string& what) {
   repeat({what, -1, {}});
 }
 
-void ProgressDisplay::show_rate(const std::string& what, double share, double total,
+void ProgressDisplay::show_rate(const std::string& what, double fraction, double total,
                                 const char* units) {
   const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
-  if (!(share > 0 && seconds > 0)) {
+  if (!(fraction > 0 && seconds > 0)) {
     return;
   }
-  show(what, share,
-       fmt::format("{:.0f} {}/s, {} left", share * total / seconds, units,
-                   time_text(seconds * (1 - share) / share)));
+  show(what, fraction,
+       fmt::format("{:.0f} {}/s, {} left", fraction * total / seconds, units,
+                   time_text(seconds * (1 - fraction) / fraction)));
 }
 
 void ProgressDisplay::repeat(const Line& line) {
@@ -147,15 +147,15 @@ void ProgressDisplay::repeat_while_it_takes_long(const std::stop_token& stop) {
     }
     Line line = repeated_;
     line.detail += fmt::format("{}{}under way for {}", line.detail.empty() ? "" : ", ",
-                               line.share < 0 ? "" : "next pass ", time_text(waiting.count()));
+                               line.fraction < 0 ? "" : "next pass ", time_text(waiting.count()));
     show_if_due(line);
   }
 }
 
 void ProgressDisplay::redraw(const Line& line) {
   std::string text = line.what;
-  if (line.share >= 0) {
-    const double shown = std::min(line.share, 1.0);
+  if (line.fraction >= 0) {
+    const double shown = std::min(line.fraction, 1.0);
     text += fmt::format(" {} {:3.0f} %", bar(shown, 16), 100 * shown);
   }
   if (!line.detail.empty()) {
@@ -184,7 +184,7 @@ std::string rate_text(double passes_per_second, double seconds_left) {
 std::shared_ptr<const BspTree> build_tree(const Scene& scene, const Cancellation& cancellation,
                                           ProgressDisplay& display, int threads) {
   return std::make_shared<const BspTree>(
-      scene, cancellation, [&](double share) { display.show("building BSP tree", share); },
+      scene, cancellation, [&](double fraction) { display.show("building BSP tree", fraction); },
       threads);
 }
 

@@ -27,18 +27,18 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  /// Shows the task, its finished share in [0,1] (below 0: unknown) and details, such as rate and
-  /// time left.
-  void show(const std::string& what, double share, const std::string& detail = {});
+  /// Shows the task, its finished fraction in [0,1] (below 0: unknown) and details, such as rate
+  /// and time left.
+  void show(const std::string& what, double fraction, const std::string& detail = {});
   /// Shows label and number of the pass, with rate and time left; nothing between iterations.
   void show_passes(const std::string& label, const SolveProgress& progress);
   /// Passes begin, of which the first may take minutes.
   void expect_passes(const std::string& label, int passes);
   /// A task begins whose share is unknown and which may take long: its name is repeated.
   void begin(const std::string& what);
-  /// Shows the finished share of the task begun, with rate and time left.
+  /// Shows the finished fraction of the task begun, with rate and time left.
   /// @param total number of `units` in the task
-  void show_rate(const std::string& what, double share, double total, const char* units);
+  void show_rate(const std::string& what, double fraction, double total, const char* units);
   /// Clears the line, before other text is printed.
   void clear();
 
@@ -47,7 +47,7 @@ class ProgressDisplay {
   /// The contents of the line.
   struct Line {
     std::string what;
-    double share = -1;
+    double fraction = -1;
     std::string detail;
   };
   bool due();

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Solves direction by direction, prints the change made by each pass, and stops when 20 passes in
-// a row have changed the estimate by less than a given share.
+// a row have changed the estimate by less than a given fraction.
 //
 // Usage: watch_and_stop SCENE [SHARE]
 //   SCENE  a .obj file or a built-in scene, such as "cornell-box"

@@ -34,7 +34,7 @@ Names engines_of(const std::string& command) {
 /// The names that an option accepts; empty if it has no fixed names.
 Names choices_of(const std::string& command, const std::string& option) {
   static const std::map<std::string, Names> of_commands{
-      {"by", names_of<PartsBy>()},
+      {"by", names_of<SurfaceKind>()},
       {"error", names_of<ErrorMeasure>()},
       {"against", names_of<StudyAxis>()},
       {"series-every", {"iteration", "direction"}},

@@ -42,7 +42,7 @@ class BlockSchedule {
   bool stopped_ = false;
 };
 
-/// Passes per thread and round: some, for even loads; few where their messages are large.
+/// Passes per thread and message round: some, for even loads; few where their messages are large.
 /// @param bytes_of_a_pass of the messages of a pass to all ranks
 inline int passes_per_thread(std::uint64_t bytes_of_a_pass) {
   constexpr std::uint64_t bytes = std::uint64_t{64} << 20;
@@ -50,7 +50,7 @@ inline int passes_per_thread(std::uint64_t bytes_of_a_pass) {
                                      std::uint64_t{1}, std::uint64_t{8}));
 }
 
-/// Rounds that may be begun before the first of them is added.
-inline constexpr int rounds_ahead = 3;
+/// Message rounds that may be begun before the first of them is added.
+inline constexpr int message_rounds_ahead = 3;
 
 }  // namespace transillum::mpi

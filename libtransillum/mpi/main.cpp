@@ -103,7 +103,7 @@ int run(int argc, char** argv) {
   cli::Processes& processes = cli::processes();
   const auto group = std::make_shared<MpiGroup>();
   processes.sums = group;
-  processes.figures = [&group] { return group->figures(); };
+  processes.traffic = [&group] { return group->traffic(); };
   look_at_machine(processes);
   const int status = cli::run_program(argc, argv, keep_message);
   const int agreed =

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "message_rounds.h"
 #include "mpi_waiting.h"
-#include "pass_rounds.h"
 
 namespace transillum::mpi {
 namespace {
@@ -49,10 +49,10 @@ void MpiGroup::wait(MPI_Request& request) {
 }
 
 bool MpiGroup::run_messages(const GroupPasses& passes) {
-  PassRounds rounds(comm_, dealing_, unit_, passes);
+  MessageRounds rounds(comm_, dealing_, unit_, passes);
   struct Current {
     MpiGroup& group;
-    PassRounds& rounds;
+    MessageRounds& rounds;
     ~Current() {
       group.sent_in_passes_ += static_cast<std::int64_t>(rounds.bytes_sent());
       group.rounds_ = nullptr;
@@ -122,7 +122,7 @@ void MpiGroup::gather(std::span<const std::byte> bytes,
   }
 }
 
-std::string MpiGroup::figures() {
+std::string MpiGroup::traffic() {
   std::vector<std::int64_t> sent{sent_in_passes_, sent_in_sums_};
   sums(sent);
   struct rusage usage = {};

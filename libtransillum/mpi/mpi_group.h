@@ -10,7 +10,7 @@
 
 namespace transillum::mpi {
 
-class PassRounds;
+class MessageRounds;
 
 /// The ranks of MPI as a group of processes. Waiting leaves the core to others. Only the thread
 /// that initialized MPI may call it.
@@ -32,7 +32,7 @@ class MpiGroup : public ProcessGroup {
 
   /// Says what all ranks have sent so far and the most memory that one has used, in a sentence. To
   /// be called by all.
-  std::string figures();
+  std::string traffic();
 
  private:
   bool run_messages(const GroupPasses& passes) override;
@@ -41,7 +41,7 @@ class MpiGroup : public ProcessGroup {
   int rank_ = 0, size_ = 1;
   MPI_Comm comm_ = MPI_COMM_NULL, dealing_ = MPI_COMM_NULL;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;  ///< 16 bytes
-  PassRounds* rounds_ = nullptr;           ///< rounds of the run under way
+  MessageRounds* rounds_ = nullptr;        ///< message rounds under way
   std::int64_t sent_in_passes_ = 0, sent_in_sums_ = 0;
 };
 

@@ -9,7 +9,7 @@
 
 namespace transillum::mpi {
 
-/// Splits a pass into messages for the members of a group. Each gets the figures of the whole pass,
+/// Splits a pass into messages for the members of a group. Each gets the values of the whole pass,
 /// the coverages of the patches it owns, and the exchanges that meet one of them.
 /// Pass::run is not sent: it follows from the exchanges.
 GroupMessages split(const Pass& pass, const PatchSums& group, PatchId patches);

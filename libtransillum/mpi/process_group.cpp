@@ -45,7 +45,7 @@ bool ProcessGroup::run(const PassLoop& loop) {
     loop.add(k, std::move(pass));
     going = loop.observe(k) && going;
   };
-  passes.after_round = [&] {
+  passes.after_message_round = [&] {
     loop.settle();
     return !any(!going);
   };

@@ -41,7 +41,7 @@ struct GroupPasses {
   /// Called on every member after the same passes have been added; may call the group's functions.
   /// @returns whether to continue; the same on every member. May throw, if it does so on every
   /// member.
-  std::function<bool()> after_round;
+  std::function<bool()> after_message_round;
 };
 
 /// Processes that solve together, the members of a group, each of which keeps the sums of the
@@ -53,7 +53,7 @@ class ProcessGroup : public PatchSums {
 
  protected:
   /// Makes passes, spread over all members as they have time, and adds each on every member.
-  /// @returns what the last GroupPasses::after_round() returned.
+  /// @returns what the last GroupPasses::after_message_round() returned.
   /// @throws as PatchSums::run()
   virtual bool run_messages(const GroupPasses& passes) = 0;
 };

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Sorting and passes of the fast engine on scenes as files have them: rounded, turned, touching,
-// interpenetrating, long and thin. All figures are also given relative to the sphere flake in the
+// interpenetrating, long and thin. All values are also given relative to the sphere flake in the
 // same run.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -231,7 +231,7 @@ class LineTracer {
 };
 
 void PassOverTenLinesPerPatch(benchmark::State& state) {
-  constexpr int rounds = 5;
+  constexpr int trials = 5;
   const auto scene = load_scene("sphere-flake");
   const auto tree = std::make_shared<const BspTree>(*scene);
   const TransferEngine engine = make_engine(Engine::fast, scene, tree);
@@ -243,7 +243,7 @@ void PassOverTenLinesPerPatch(benchmark::State& state) {
   for (auto _ : state) {
     // Alternates the two methods, so that other load affects both, and takes the best round of
     // each.
-    for (int round = 0; round < rounds; ++round) {
+    for (int trial = 0; trial < trials; ++trial) {
       double passes = 0, traces = 0;
       hits = exchanges = 0;
       for (const Vec3& omega : directions) {

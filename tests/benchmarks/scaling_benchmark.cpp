@@ -23,7 +23,7 @@ double pass_milliseconds(const std::shared_ptr<const Scene>& scene) {
   const TransferEngine engine = make_engine(Engine::fast, scene, tree);
   const auto directions = some_directions(8);
   double best = HUGE_VAL;
-  for (int round = 0; round < 3; ++round) {
+  for (int trial = 0; trial < 3; ++trial) {
     const double seconds = seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] {
       for (const Vec3& omega : directions) {
         engine(omega, {});
@@ -130,7 +130,7 @@ void TwoThreads(benchmark::State& state) {
   };
   double one = HUGE_VAL, two = HUGE_VAL;
   for (auto _ : state) {
-    for (int round = 0; round < 3; ++round) {
+    for (int trial = 0; trial < 3; ++trial) {
       one = std::min(one, wall(1));
       two = std::min(two, wall(2));
     }

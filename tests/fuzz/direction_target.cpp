@@ -116,9 +116,9 @@ std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<
       outline = before[bytes.below(static_cast<unsigned>(before.size()))];
       if (bytes.flag()) {
         const Vec3 shift = grid_point(bytes);
-        const double share = std::ldexp(0.5, -static_cast<int>(bytes.below(20)));
+        const double fraction = std::ldexp(0.5, -static_cast<int>(bytes.below(20)));
         for (Vec3& p : outline) {
-          p = p + share * shift;
+          p = p + fraction * shift;
         }
       }
       return outline;

@@ -59,7 +59,7 @@ void check_division(const Scene& scene, const Scene& fine) {
   }
   // Parts may be steeper than their face: a corner that is a thousandth of the width off its plane,
   // over a tenth of the width, adds 5e-5 to the area of that part.
-  require(std::abs(area_of(fine) - 2 * area_of(scene)) <= 5e-5 * area_of(scene) + rounding,
+  require(std::abs(total_area(fine) - 2 * total_area(scene)) <= 5e-5 * total_area(scene) + rounding,
           "refined, both sides have the same area");
 }
 
@@ -69,7 +69,7 @@ void check_file(const test::TemporaryFolder& folder, const std::string& path) {
   check(scene);
   check_written(folder, description);
   // Some hundred patches, however large the faces are.
-  const double area = area_of(scene);
+  const double area = total_area(scene);
   if (!(area > 0 && std::isfinite(area))) {
     return;
   }

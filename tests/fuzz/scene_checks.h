@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fuzz/require.h"
+#include "radiosity/norms.h"
 #include "transillum/at.h"
 #include "transillum/scene.h"
 
@@ -20,14 +21,6 @@ inline Vec3 doubled_area(const Scene& scene, std::span<const PointId> outline) {
   const Vec3 origin = scene.point(outline[0]);
   for (std::size_t k = 2; k < outline.size(); ++k) {
     sum = sum + cross(scene.point(outline[k - 1]) - origin, scene.point(outline[k]) - origin);
-  }
-  return sum;
-}
-
-inline double area_of(const Scene& scene) {
-  double sum = 0;
-  for (const Patch& patch : scene.patches()) {
-    sum += patch.area;
   }
   return sum;
 }

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
-#include "mpi_run.h"
+#include "mpi_call.h"
 #include "support/wait_until.h"
 
 namespace transillum {

@@ -3,7 +3,7 @@
 // Runs the commands of transillum-mpi that COOKBOOK.md prints.
 #include <gmock/gmock.h>
 
-#include "mpi_run.h"
+#include "mpi_call.h"
 #include "support/printed_commands.h"
 
 namespace transillum {

@@ -10,7 +10,7 @@
 
 #include <sstream>
 
-#include "mpi_run.h"
+#include "mpi_call.h"
 #include "support/wait_until.h"
 
 namespace transillum {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "mpi_run.h"
+#include "mpi_call.h"
 
 namespace transillum {
 namespace {

@@ -41,8 +41,8 @@ class Table : public ::testing::Environment {
   void add(Engine a, Engine b, const TransferDifference& found) {
     Row& row = rows_[{a, b}];
     ++row.directions;
-    if (!(found.share <= row.worst)) {
-      row.worst = found.share;
+    if (!(found.fraction <= row.worst)) {
+      row.worst = found.fraction;
     }
   }
   void TearDown() override {
@@ -88,7 +88,7 @@ class EngineComparison {
       for (std::size_t b = a + 1; b < results.size(); ++b) {
         const TransferDifference found = testing::difference(*scene_, results[a], results[b]);
         table->add(engines_[a].first, engines_[b].first, found);
-        EXPECT_LE(found.share, agreed)
+        EXPECT_LE(found.fraction, agreed)
             << name_of(engines_[a].first) << " and " << name_of(engines_[b].first) << ", "
             << scene_->name() << ", direction "
             << fmt::format("{},{},{}", omega.x, omega.y, omega.z) << ", " << found.where;

@@ -64,7 +64,7 @@ TEST(CorrectedEngine, IsExactWhereNothingIsPartlyHidden) {
   for (const Vec3& omega : test_directions(30, 5)) {
     const auto met =
         testing::difference(*engines.scene, engines.fast(omega, {}), engines.corrected(omega, {}));
-    EXPECT_LT(met.share, 1e-6) << met.where;
+    EXPECT_LT(met.fraction, 1e-6) << met.where;
   }
 }
 
@@ -102,11 +102,12 @@ TEST(CorrectedEngine, AssignsTheRestToTheFaceBehind) {
   EXPECT_NEAR(transfers.exchanges[1].area, 3, 1e-12);
 }
 
-/// A closed scene, and the largest share of the light that is exchanged between the wrong patches,
-/// of 20 directions, as measured: it is a property of the rule that assigns the rest (decision 34).
+/// A closed scene, and the largest fraction of the light that is exchanged between the wrong
+/// patches, of 20 directions, as measured: it is a property of the rule that assigns the rest
+/// (decision 34).
 struct Misplaced {
   const char* scene;
-  double share;
+  double fraction;
 };
 
 class CorrectedPower : public ::testing::TestWithParam<Misplaced> {};
@@ -128,7 +129,7 @@ TEST_P(CorrectedPower, ReceivedEqualsProjectedAndLittleIsMisplaced) {
     EXPECT_NEAR(received, exact, 1e-5 * exact);
     most = std::max(most, compare(by_fast, transfers).misplaced);
   }
-  EXPECT_NEAR(most, GetParam().share, 1e-3);
+  EXPECT_NEAR(most, GetParam().fraction, 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(ClosedScenes, CorrectedPower,
@@ -175,13 +176,13 @@ TEST(CorrectedMap, AgreesWithTheEnginesSums) {
       const Transfers transfers = engine(omega, {});
       std::vector<double> given(transfers.backward.size()), open(given.size());
       double area = 0;
-      for (const CorrectedMap::Part& part : map.parts) {
-        area += part.area;
-        if (part.front_facing) {
+      for (const CorrectedMap::Fragment& fragment : map.fragments) {
+        area += fragment.area;
+        if (fragment.front_facing) {
           continue;
         }
-        at(given, part.patch) += part.area - part.open;
-        at(open, part.patch) += part.exact;
+        at(given, fragment.patch) += fragment.area - fragment.open;
+        at(open, fragment.patch) += fragment.exact;
       }
       for (std::size_t i = 0; i < given.size(); ++i) {
         ASSERT_NEAR(given[i], transfers.backward[i].covered, 1e-9 * area) << spec << " " << i;
@@ -206,17 +207,18 @@ TEST(CorrectedMap, ShowsTheEnginesErrors) {
   const auto scene = sketch.scene();
   const auto tree = std::make_shared<const BspTree>(*scene);
   const MapRecord record = record_local_map(*scene, *tree, {0, 0, 1}).record;
-  EXPECT_TRUE(corrected_map_after(scene, tree, record, -1).parts.empty());
+  EXPECT_TRUE(corrected_map_after(scene, tree, record, -1).fragments.empty());
   const CorrectedMap first = corrected_map_after(scene, tree, record, 0);
-  ASSERT_EQ(first.parts.size(), 1U);
-  EXPECT_NEAR(first.parts[0].open, 2, 1e-9);
+  ASSERT_EQ(first.fragments.size(), 1U);
+  EXPECT_NEAR(first.fragments[0].open, 2, 1e-9);
   EXPECT_EQ(first.wrong_share(), 0);
   const CorrectedMap last = corrected_map_after(scene, tree, record, 2);
-  ASSERT_EQ(last.parts.size(), 3U);
-  EXPECT_NEAR(last.parts[0].exact, 0.5, 1e-9);
-  EXPECT_NEAR(last.parts[0].open, 0, 1e-6);  // the receiver must be covered, so it gets all of it
-  EXPECT_NEAR(last.parts[1].exact, 0, 1e-9);
-  EXPECT_NEAR(last.parts[1].open, 0, 1e-6);
+  ASSERT_EQ(last.fragments.size(), 3U);
+  EXPECT_NEAR(last.fragments[0].exact, 0.5, 1e-9);
+  EXPECT_NEAR(last.fragments[0].open, 0,
+              1e-6);  // the receiver must be covered, so it gets all of it
+  EXPECT_NEAR(last.fragments[1].exact, 0, 1e-9);
+  EXPECT_NEAR(last.fragments[1].open, 0, 1e-6);
   EXPECT_NEAR(last.wrong_share(), 1, 1e-5);
 }
 

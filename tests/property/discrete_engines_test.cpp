@@ -71,7 +71,7 @@ double total_difference(const PairAreas& exact, PairAreas found) {
   return sum;
 }
 
-/// The share of wrongly exchanged area falls in proportion to the pixel's side, or faster.
+/// The fraction of wrongly exchanged area falls in proportion to the pixel's side, or faster.
 TEST_P(DiscreteEngines, ErrorDecreasesWithPixelSize) {
   for (const auto& scene : {load_scene("cornell-box"), load_scene("rooms"), random_triangles(),
                             load_scene("boards", {.two_sided = true})}) {

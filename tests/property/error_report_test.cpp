@@ -247,7 +247,7 @@ TEST(ErrorReport, DividesASampleWherePatchesWouldBeTooMany) {
   const MeasuredSolve solve = solve_to_measure(scene, options);
   const ErrorReport all = measure_errors(solve);
   const ErrorReport sample = measure_errors(solve, {}, {}, 2 * scene->patch_count());
-  EXPECT_LT(sample.measurements.divided_share, 0.34);
+  EXPECT_LT(sample.measurements.divided_fraction, 0.34);
   EXPECT_LE(sample.measurements.divided_patches, 2 * scene->patch_count());
   EXPECT_NEAR(worst(sample).errors.patches, worst(all).errors.patches,
               0.5 * worst(all).errors.patches);

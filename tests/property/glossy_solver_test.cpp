@@ -129,11 +129,11 @@ TEST(GlossySolver, TellsOfItsStages) {
     const std::vector<SolveProgress> found = of(stage, iteration);
     ASSERT_GE(found.size(), 2U);
     for (std::size_t k = 0; k < found.size(); ++k) {
-      EXPECT_GT(found[k].stage_share, k == 0 ? 0 : found[k - 1].stage_share);
+      EXPECT_GT(found[k].stage_fraction, k == 0 ? 0 : found[k - 1].stage_fraction);
       EXPECT_GT(found[k].lobes_per_second, 0);
       EXPECT_GE(found[k].seconds_left, 0);
     }
-    EXPECT_EQ(found.back().stage_share, 1);
+    EXPECT_EQ(found.back().stage_fraction, 1);
     EXPECT_EQ(found.back().seconds_left, 0);
   }
   EXPECT_EQ(told.front().stage, Stage::scaling_lobes);

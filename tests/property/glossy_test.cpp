@@ -42,7 +42,7 @@ constexpr double pi = std::numbers::pi;
 
 TEST(GlossyDiffuseLimit, ScenesWithoutLobesHaveTheSameBits) {
   const auto scene = box_in_cube(3, 2).scene();
-  SolveOptions options{.directions = 64};
+  SolveOptions options{.directions = 64, .first_shot = {}};
   const Solution without = solve(scene, options);
   options.glossy = true;
   const Solution with = solve(scene, options);
@@ -92,11 +92,11 @@ TEST(GlossyFurnace, HasTheSameRadianceEverywhere) {
   for (const Lobe& lobe : {phong(0.3, 12), phong(0.3, 300), phong(0.5, 1), ggx(0.3, 0.4),
                            ggx(0.3, 0.05), ggx(0.3, 1)}) {
     const auto scene = box_scene([&](std::size_t f, Material& m) {
-      const double share = f % 2 == 0 ? lobe.reflectance.r : 0;
+      const double fraction = f % 2 == 0 ? lobe.reflectance.r : 0;
       m.exitance = {1, 1, 1};
-      m.reflectance = {0.5 - share, 0.5 - share, 0.5 - share};
+      m.reflectance = {0.5 - fraction, 0.5 - fraction, 0.5 - fraction};
       m.lobe = lobe;
-      m.lobe.reflectance = {share, share, share};
+      m.lobe.reflectance = {fraction, fraction, fraction};
     });
     SolveOptions options = glossy_options(60);
     options.normalize = Normalization::rows;
@@ -354,7 +354,7 @@ TEST(GlossyLobes, TooNarrowOnesAreNamed) {
   EXPECT_NEAR(equivalent_exponent(ggx(1, 0.5)), std::log(2.0) * 16, 1e-12);
 }
 
-/// Lobes that the set cannot resolve still reflect no more than their share.
+/// Lobes that the set cannot resolve still reflect no more than their fraction.
 TEST(GlossyLobes, StayWithinTheirShareWhereTheSetIsTooCoarse) {
   const auto scene = box_scene([](std::size_t f, Material& m) {
     m.reflectance = {};

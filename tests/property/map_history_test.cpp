@@ -222,7 +222,7 @@ TEST(MapHistory, ClosedScenesLeaveNothingOpenAboveAReceiver) {
         continue;
       }
       ++receivers;
-      EXPECT_LT(history.step(k).open_share(), 1e-10);
+      EXPECT_LT(history.step(k).open_fraction(), 1e-10);
     }
   }
   EXPECT_GT(receivers, 0);

@@ -85,11 +85,12 @@ TEST(Orientation, RestoresScenesTurnedInsideOut) {
 
 TEST(Orientation, RestoresRandomFaces) {
   for (const char* spec : scenes) {
-    for (const double share : {0.1, 0.5, 0.9}) {
-      SCOPED_TRACE(std::string(spec) + ", " + std::to_string(share));
+    for (const double fraction : {0.1, 0.5, 0.9}) {
+      SCOPED_TRACE(std::string(spec) + ", " + std::to_string(fraction));
       std::mt19937 random(7);
-      expect_restored(describe_scene(spec),
-                      [&](std::size_t) { return static_cast<double>(random()) < share * 0x1p32; });
+      expect_restored(describe_scene(spec), [&](std::size_t) {
+        return static_cast<double>(random()) < fraction * 0x1p32;
+      });
     }
   }
 }

@@ -207,9 +207,9 @@ TEST(PairFormFactors, AreCanceledWithinARow) {
   const Cancellation cancellation;
   double last = 0;
   EXPECT_THROW(pair_form_factors(*scene, {.threads = 1}, cancellation,
-                                 [&](double share) {
-                                   EXPECT_GE(share, last);
-                                   last = share;
+                                 [&](double fraction) {
+                                   EXPECT_GE(fraction, last);
+                                   last = fraction;
                                    cancellation.cancel();
                                  }),
                Canceled);
@@ -233,12 +233,13 @@ TEST(PairSolve, AgreesWithPassesWithinTheirError) {
     const RadiosityError error = radiosity_error(*scene, pairs.radiosity, passes.radiosity);
     EXPECT_LT(error.rms, passes.error.quantile * passes.error.rms);
     // A single set is more evenly spread than replicas.
-    const Solution one_set = solve(scene, {.directions = 12288, .tolerance = 1e-8});
+    const Solution one_set =
+        solve(scene, {.directions = 12288, .first_shot = {}, .tolerance = 1e-8});
     EXPECT_LT(radiosity_error(*scene, pairs.radiosity, one_set.radiosity).rms, 1e-4);
   }
 }
 
-TEST(PairSolve, ReportsItsFigures) {
+TEST(PairSolve, ReportsItsStatistics) {
   const auto scene = box_in_cube(4, 2).scene();
   const Solution solution = solved_by_pairs(scene, 32);
   const SolveStatistics& s = solution.statistics;

@@ -95,8 +95,8 @@ std::vector<Rgb> coefficients(const Solution& solution) {
   std::vector<Rgb> values;
   for (std::size_t i = 0; i < solution.radiosity.size(); ++i) {
     values.push_back(solution.radiosity[i]);
-    values.push_back(solution.linear_parts[i].first);
-    values.push_back(solution.linear_parts[i].second);
+    values.push_back(solution.linear_terms[i].first);
+    values.push_back(solution.linear_terms[i].second);
   }
   return values;
 }
@@ -156,7 +156,7 @@ TEST(PairMoments, FurnaceAndEnergy) {
   for (const Rgb& b : uniform.radiosity) {
     EXPECT_NEAR(b.r, 2, 1e-5);
   }
-  for (const LinearPart& part : uniform.linear_parts) {
+  for (const LinearTerm& part : uniform.linear_terms) {
     EXPECT_LT(std::max(max_abs(part.first), max_abs(part.second)), 1e-3);
   }
   const Solution box = solved(load_scene("cornell-box"), 16, Basis::linear);

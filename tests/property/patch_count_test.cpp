@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string>
 
+#include "radiosity/norms.h"
 #include "support/random_scenes.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
@@ -16,14 +17,6 @@
 
 namespace transillum::patch_count_test {
 namespace {
-
-double total_area(const Scene& scene) {
-  double sum = 0;
-  for (const Patch& patch : scene.patches()) {
-    sum += patch.area;
-  }
-  return sum;
-}
 
 TEST(PatchCount, IsTheNumberOfPatchesMade) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {

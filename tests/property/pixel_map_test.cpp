@@ -94,10 +94,10 @@ Found find(const VisibilityMap& map, const Polygons& polygons, const Vec2& p) {
 void expect_marked_where_wrong(const Views& views) {
   const PixelMap& pixels = views.pixels;
   std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> share(0, 1);
+  std::uniform_real_distribution<double> fraction(0, 1);
   int wrong = 0;
   for (int k = 0; k < 1500; ++k) {
-    const double column = pixels.columns * share(random), row = pixels.rows * share(random);
+    const double column = pixels.columns * fraction(random), row = pixels.rows * fraction(random);
     const Vec2 p{pixels.corner.x + column * pixels.side, pixels.corner.y + row * pixels.side};
     const PatchId shown =
         pixels.items[pixels.index(static_cast<int>(column), static_cast<int>(row))];
@@ -133,11 +133,11 @@ TEST(PixelMap, MarksWhereItIsWrongAndNowhereElse) {
 
 TEST(PixelMap, DifferencesDecreaseWithPixelSize) {
   const auto scene = load_scene("cornell-box");
-  const auto share = [&](int resolution) {
+  const auto fraction = [&](int resolution) {
     const Views views(scene, normalized({1, 2, 3}), Engine::zbuffer, resolution, 14);
     return area_of(views.drawn.pixels.differences) / area_of(views.exact.window);
   };
-  EXPECT_NEAR(share(64) / share(256), 4, 1);
+  EXPECT_NEAR(fraction(64) / fraction(256), 4, 1);
 }
 
 TEST(PixelMap, PixelsThatFitDoNotDiffer) {
@@ -168,7 +168,7 @@ TEST(PixelMap, ZBufferAndPainterShowTheSame) {
 /// V after a step, in pixels.
 struct Step {
   PixelMap pixels;
-  double wrong;  ///< differing share of V
+  double wrong;  ///< differing fraction of V
 };
 
 Step after_step(const std::shared_ptr<const Scene>& scene, const BspTree& tree,
@@ -206,7 +206,7 @@ TEST(PixelMap, AllEnginesShowEachStepOfADirection) {
       if (step < 0) {
         continue;
       }
-      // Rays sample another point of each pixel; a similar share is wrong.
+      // Rays sample another point of each pixel; a similar fraction is wrong.
       const Step rays = show(Engine::rays, {.resolution = 100});
       EXPECT_NE(rays.pixels.items, painter.pixels.items);
       EXPECT_NEAR(rays.wrong / painter.wrong, 1.3, 0.45) << scene->name() << " " << step;

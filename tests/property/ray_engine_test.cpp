@@ -52,10 +52,10 @@ struct Deviations {
   int pairs = 0, beyond_2 = 0;
   double largest = 0;
 
-  void add(double count, double lines, double share) {
+  void add(double count, double lines, double fraction) {
     // A pair that fills the window has no variance except rounding.
-    const double variance = std::max(lines * share * (1 - share), 1.0);
-    const double z = (count - lines * share) / std::sqrt(variance);
+    const double variance = std::max(lines * fraction * (1 - fraction), 1.0);
+    const double z = (count - lines * fraction) / std::sqrt(variance);
     ++pairs;
     beyond_2 += std::abs(z) > 2;
     largest = std::max(largest, std::abs(z));
@@ -103,12 +103,12 @@ TEST(RayEngine, CountsAreBinomial) {
       // Pairs of too small expectation are counted together.
       double rest = 0, rest_expected = 0;
       for (const auto& [pair, area] : expected) {
-        const double share = area / window;
-        if (lines * share < fewest) {
+        const double fraction = area / window;
+        if (lines * fraction < fewest) {
           rest_expected += area;
           rest += found[pair];
         } else {
-          all.add(found[pair] / window * lines, lines, share);
+          all.add(found[pair] / window * lines, lines, fraction);
         }
         found.erase(pair);
       }

@@ -88,7 +88,7 @@ TEST(Jumps, OfALinearFunctionCutInTwoAreNone) {
           0.5 * dot(slope, basis.gradient[a]) / dot(basis.gradient[a], basis.gradient[a]);
       return Rgb{b, b, b};
     };
-    solution.linear_parts.push_back({part(0), part(1)});
+    solution.linear_terms.push_back({part(0), part(1)});
   }
   EXPECT_GT(steps, 0.1);
   EXPECT_THAT(radiosity_jumps(solution), Each(::testing::Lt(1e-12)));
@@ -164,23 +164,23 @@ TEST_P(RefinementBy, DividesAtTheEdgeOfAShadowFirst) {
   EXPECT_LT(at_edge / count_at_edge, 0.2 * beside / count_beside);
 }
 
-/// With RefineBy::error, the figure of the last round estimates the error of the result.
+/// With RefineBy::error, the measure of the last round estimates the error of the result.
 TEST(Refinement, EstimatesItsError) {
   const Refinement refined =
       refine(load_scene("cornell-box"), options(), {.by = RefineBy::error, .patches = 200});
   const double error = error_of(refined.scene, Basis::constant);
   // A division changes sqrt(3/4) of an error that falls as h, and sqrt(1/2) of an error that falls
   // as sqrt(h).
-  EXPECT_LT(refined.rounds.back().figure, error);
-  EXPECT_GT(refined.rounds.back().figure, 0.6 * error);
+  EXPECT_LT(refined.rounds.back().measure, error);
+  EXPECT_GT(refined.rounds.back().measure, 0.6 * error);
   EXPECT_EQ(refined.rounds.back().patches, refined.scene->patch_count());
 }
 
 TEST(Refinement, EndsWhereItsFigureIsReached) {
   const RefineOptions until{.by = RefineBy::error, .patches = 100000, .until = 0.2};
   const Refinement refined = refine(load_scene("cornell-box"), options(), until);
-  EXPECT_LE(refined.rounds.back().figure, 0.2);
-  EXPECT_GT(refined.rounds[refined.rounds.size() - 2].figure, 0.2);
+  EXPECT_LE(refined.rounds.back().measure, 0.2);
+  EXPECT_GT(refined.rounds[refined.rounds.size() - 2].measure, 0.2);
   EXPECT_LT(refined.scene->patch_count(), 2000);
 }
 
@@ -190,7 +190,7 @@ TEST(Refinement, LeavesUniformLightAlone) {
     rows.normalize = Normalization::rows;
     const Refinement refined = refine(load_scene("furnace"), rows, {.by = by, .patches = 500});
     EXPECT_THAT(refined.rounds, SizeIs(1));
-    EXPECT_LT(refined.rounds.front().figure, 1e-6);
+    EXPECT_LT(refined.rounds.front().measure, 1e-6);
     EXPECT_EQ(refined.scene->patch_count(), load_scene("furnace")->patch_count());
   }
 }

@@ -271,8 +271,9 @@ TEST(ReflectedLight, AccuracyIsThatOfReflectedLight) {
       SolveOptions options;
       options.seed = static_cast<std::uint64_t>(++runs);
       options.goal.accuracy = 0.02;
-      if (shoots) {
-        options.first_shot = first_shot_where_it_pays;
+      options.goal.of = AccuracyOf::rms;
+      if (!shoots) {
+        options.first_shot.reset();
       }
       const Solution solution = solve(test.scene, options);
       const AccuracyReport& report = *solution.accuracy;

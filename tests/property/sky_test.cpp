@@ -102,8 +102,8 @@ TEST(Sky, SymmetricRowsSumToOneWithIt) {
                                                      .normalize = Normalization::symmetric,
                                                      .tolerance = tight,
                                                      .sky = gray_sky(3)});
-  for (std::size_t i = 0; i < solution.sky_shares.size(); ++i) {
-    EXPECT_NEAR(solution.form_factor_sums[i] + solution.sky_shares[i], 1, 1e-8);
+  for (std::size_t i = 0; i < solution.sky_fractions.size(); ++i) {
+    EXPECT_NEAR(solution.form_factor_sums[i] + solution.sky_fractions[i], 1, 1e-8);
   }
 }
 
@@ -130,12 +130,12 @@ TEST(Sky, FurnacesHaveTheKnownRadiosity) {
 }
 
 /// With B everywhere equal to the exitance of the sky, an open box of rho 0 would have H = E.
-TEST(Sky, BlackPatchesReceiveTheirShareOfIt) {
+TEST(Sky, BlackPatchesReceiveTheirFractionOfIt) {
   SolveOptions options{.directions = 64, .tolerance = tight, .sky = gray_sky(5)};
   const Solution solution = solve(open_box(0, 1), options);
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     EXPECT_EQ(max_abs(at(solution.radiosity, i)), 0);
-    EXPECT_NEAR(at(solution.irradiance, i).b, 5 * at(solution.sky_shares, i), 1e-12);
+    EXPECT_NEAR(at(solution.irradiance, i).b, 5 * at(solution.sky_fractions, i), 1e-12);
     EXPECT_NEAR(at(solution.sky_irradiance, i).b, at(solution.irradiance, i).b, 1e-12);
   }
 }
@@ -183,7 +183,7 @@ TEST(Sky, EnergyIsConserved) {
                                .normalize = normalize,
                                .tolerance = tight,
                                .sky = gray_sky(3, SkyModel::cie_overcast)};
-    const PowerTable table = power_table(solve(open_box(0.7, 3), options), PartsBy::material);
+    const PowerTable table = power_table(solve(open_box(0.7, 3), options), SurfaceKind::material);
     const double in = table.total.emitted.r + table.total.from_sky.r;
     const double out = table.total.absorbed.r + table.total.escaped.r;
     EXPECT_GT(in, 1);
@@ -200,7 +200,7 @@ TEST(Sky, DoesNotDependOnTheNumberOfThreads) {
   const Solution three = solve(open_box(0.5, 2), options);
   EXPECT_TRUE(one.radiosity == three.radiosity);
   EXPECT_TRUE(one.error.standard_error == three.error.standard_error);
-  EXPECT_TRUE(one.sky_shares == three.sky_shares);
+  EXPECT_TRUE(one.sky_fractions == three.sky_fractions);
 }
 
 TEST(Sky, IsRefusedWhereItCannotBe) {

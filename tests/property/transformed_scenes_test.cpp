@@ -36,7 +36,7 @@ using testing::RandomScene;
 
 /// The error that engines promise, relative to the patch's area.
 constexpr double promised = 1e-10;
-/// Rounding of sums and products of doubles, as a share of an area.
+/// Rounding of sums and products of doubles, as a fraction of an area.
 constexpr double summed = 1e-14;
 
 Bounds bounds_of(const SceneDescription& description) {
@@ -326,16 +326,16 @@ class TestedScene {
   std::vector<std::pair<Engine, TransferEngine>> engines_;
 };
 
-/// The largest shares of the bounds that were found, by property.
+/// The largest fractions of the bounds that were found, by property.
 class Table : public ::testing::Environment {
  public:
-  void add(const std::string& property, double share) {
+  void add(const std::string& property, double fraction) {
     double& worst = worst_[property];
-    worst = std::max(worst, share);
+    worst = std::max(worst, fraction);
   }
   void TearDown() override {
-    for (const auto& [property, share] : worst_) {
-      std::cout << fmt::format("  {:<50} {:8.1e} of the bound\n", property, share);
+    for (const auto& [property, fraction] : worst_) {
+      std::cout << fmt::format("  {:<50} {:8.1e} of the bound\n", property, fraction);
     }
   }
 
@@ -346,10 +346,12 @@ auto* const table = static_cast<Table*>(::testing::AddGlobalTestEnvironment(new 
 
 void expect_near(const char* property, double value, double expected, double bound,
                  const std::function<std::string()>& where) {
-  const double share = bound > 0 ? std::abs(value - expected) / bound : value == expected ? 0 : 2;
-  table->add(property, share);
-  EXPECT_LE(share, 1) << property << ": " << value << ", expected " << expected << " within "
-                      << bound << ", " << where();
+  const double fraction = bound > 0           ? std::abs(value - expected) / bound
+                          : value == expected ? 0
+                                              : 2;
+  table->add(property, fraction);
+  EXPECT_LE(fraction, 1) << property << ": " << value << ", expected " << expected << " within "
+                         << bound << ", " << where();
 }
 
 /// The projection of each patch follows from its normal; nothing is less than 0 or covered twice.

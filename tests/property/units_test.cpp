@@ -65,7 +65,7 @@ void expect_same(const Solution& solution, const Solution& expected, double powe
   EXPECT_EQ(a.escaped, b.escaped);
   EXPECT_EQ(a.energy_balance, b.energy_balance);
   EXPECT_EQ(a.energy_defect, b.energy_defect);
-  EXPECT_EQ(a.shot_power_share, b.shot_power_share);
+  EXPECT_EQ(a.shot_power_fraction, b.shot_power_fraction);
 }
 
 /// Solves the room in several units, with the same bits.

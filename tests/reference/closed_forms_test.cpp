@@ -146,7 +146,7 @@ TEST(Energy, PowerEmittedEqualsPowerAbsorbed) {
        {"cornell-box", "furnace", "boards", "rooms", "stars", "sphere-flake:levels=1"}) {
     RadiositySolver solver(load_scene(spec), {.directions = 256, .tolerance = 1e-10});
     solver.advance(RadiositySolver::Until::finished);
-    for (const double seen : solver.back_seen_shares()) {
+    for (const double seen : solver.back_seen_fractions()) {
       ASSERT_LE(seen, 1e-12) << spec;
     }
     EXPECT_NEAR(solver.statistics().energy_balance, 1, 2e-3) << spec;

@@ -78,7 +78,7 @@ class Lobed {
     const double base = half.z * half.z * (alpha2 - 1) + 1;
     return alpha2 * half.z / (pi * base * base) / (4 * std::abs(dot(a, half)));
   }
-  const Rgb& share() const { return lobe_.reflectance; }
+  const Rgb& fraction() const { return lobe_.reflectance; }
 
  private:
   static constexpr std::size_t count = 240;
@@ -227,7 +227,7 @@ class PathTracer {
     Rgb reflected = 1 / pi * material.reflectance;
     double density = (1 - part) * in.z / pi;
     if (lobe != nullptr) {
-      reflected += lobe->value(in, out) * lobe->share();
+      reflected += lobe->value(in, out) * lobe->fraction();
       density += part * lobe->density(out, in);
     }
     const Rgb next = in.z / density * (weight * reflected);
@@ -247,14 +247,14 @@ class PathTracer {
   double offset_ = 0;
 };
 
-Lobe phong(const Rgb& share, double exponent) {
-  Lobe lobe{.reflectance = share};
+Lobe phong(const Rgb& fraction, double exponent) {
+  Lobe lobe{.reflectance = fraction};
   lobe.exponent = exponent;
   return lobe;
 }
 
-Lobe ggx(const Rgb& share, double roughness) {
-  Lobe lobe{.reflectance = share, .shape = LobeShape::ggx};
+Lobe ggx(const Rgb& fraction, double roughness) {
+  Lobe lobe{.reflectance = fraction, .shape = LobeShape::ggx};
   lobe.roughness = roughness;
   return lobe;
 }

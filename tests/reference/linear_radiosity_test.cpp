@@ -27,7 +27,7 @@ SolveOptions linear(int directions) { return {.directions = directions, .basis =
 
 double largest_part(const Solution& solution) {
   double largest = 0;
-  for (const LinearPart& part : solution.linear_parts) {
+  for (const LinearTerm& part : solution.linear_terms) {
     largest = std::max({largest, max_abs(part.first), max_abs(part.second)});
   }
   return largest;
@@ -43,7 +43,7 @@ TEST(LinearFurnace, IsConstantWithRowNormalization) {
       options.normalize = Normalization::rows;
       options.tolerance = 1e-13;
       const Solution solution = solve(scene, options);
-      ASSERT_EQ(solution.linear_parts.size(), scene->patches().size());
+      ASSERT_EQ(solution.linear_terms.size(), scene->patches().size());
       for (const Rgb& b : solution.radiosity) {
         EXPECT_NEAR(b.r, 2, 1e-11);
       }
@@ -55,7 +55,7 @@ TEST(LinearFurnace, IsConstantWithRowNormalization) {
   }
 }
 
-/// Oracle 4: the power received is the power sent, which the linear parts share in.
+/// Oracle 4: the power received is the power sent, which the linear terms share in.
 TEST(LinearEnergy, ReceivedIsSent) {
   for (const char* spec : {"cornell-box", "rooms"}) {
     for (const Scheme scheme : {Scheme::fixed, Scheme::growing, Scheme::conjugate_gradients}) {
@@ -80,9 +80,9 @@ TEST(LinearSchemes, LeadToTheSameFunction) {
     const Solution solution = solve(scene, other);
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
       EXPECT_NEAR(max_abs(at(solution.radiosity, i) - at(kept.radiosity, i)), 0, accuracy);
-      EXPECT_NEAR(max_abs(at(solution.linear_parts, i).first - at(kept.linear_parts, i).first), 0,
+      EXPECT_NEAR(max_abs(at(solution.linear_terms, i).first - at(kept.linear_terms, i).first), 0,
                   accuracy);
-      EXPECT_NEAR(max_abs(at(solution.linear_parts, i).second - at(kept.linear_parts, i).second), 0,
+      EXPECT_NEAR(max_abs(at(solution.linear_terms, i).second - at(kept.linear_terms, i).second), 0,
                   accuracy);
     }
   };
@@ -143,10 +143,10 @@ TEST(LinearClosedForms, IrradianceFromARectangleIntegratedAgainstTheBasis) {
   for (const auto& [directions, accuracy] : {std::pair{1000, 1e-3}, {30000, 8e-5}}) {
     const Solution solution = solve(scene, linear(directions));
     EXPECT_NEAR(solution.irradiance[0].r, expected[0], accuracy);
-    EXPECT_NEAR(solution.linear_parts[0].first.r, 0.5 * expected[1], accuracy);
-    EXPECT_NEAR(solution.linear_parts[0].second.r, 0.5 * expected[2], accuracy);
+    EXPECT_NEAR(solution.linear_terms[0].first.r, 0.5 * expected[1], accuracy);
+    EXPECT_NEAR(solution.linear_terms[0].second.r, 0.5 * expected[2], accuracy);
     // E is constant.
-    EXPECT_EQ(solution.linear_parts[1].first.r, 0);
+    EXPECT_EQ(solution.linear_terms[1].first.r, 0);
     EXPECT_EQ(solution.radiosity[1].r, 1);
   }
 }
@@ -177,8 +177,8 @@ double error_below_a_rectangle(Basis basis, double max_patch_area) {
       double b = at(solution.radiosity, i).r;
       if (basis == Basis::linear) {
         const auto phi = functions.at({x, y, 0});
-        b += phi[0] * at(solution.linear_parts, i).first.r +
-             phi[1] * at(solution.linear_parts, i).second.r;
+        b += phi[0] * at(solution.linear_terms, i).first.r +
+             phi[1] * at(solution.linear_terms, i).second.r;
       }
       const double weight = scene->patch(i).area;
       errors += weight * (b - expected) * (b - expected);
@@ -233,8 +233,8 @@ TEST(LinearInvariance, APatchCutByHandHasTheSameFunction) {
       const double weight = norm(cross(q - p, r - p)) / 2 / 3;
       for (const Vec3& x : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) {
         const auto psi = own.at(x), phi = basis.at(x);
-        const double b = at(parts.radiosity, k).r + psi[0] * at(parts.linear_parts, k).first.r +
-                         psi[1] * at(parts.linear_parts, k).second.r;
+        const double b = at(parts.radiosity, k).r + psi[0] * at(parts.linear_terms, k).first.r +
+                         psi[1] * at(parts.linear_terms, k).second.r;
         projected[0] += weight * b;
         projected[1] += weight * b * phi[0];
         projected[2] += weight * b * phi[1];
@@ -243,10 +243,10 @@ TEST(LinearInvariance, APatchCutByHandHasTheSameFunction) {
   }
   const double area = whole.scene->patch(first).area;
   EXPECT_NEAR(projected[0] / area, at(whole.radiosity, first).r, 1e-12);
-  EXPECT_NEAR(projected[1] / area, at(whole.linear_parts, first).first.r, 1e-12);
-  EXPECT_NEAR(projected[2] / area, at(whole.linear_parts, first).second.r, 1e-12);
-  EXPECT_GT(std::abs(at(whole.linear_parts, first).first.r), 0.01);
-  EXPECT_GT(std::abs(at(whole.linear_parts, first).second.r), 0.001);
+  EXPECT_NEAR(projected[1] / area, at(whole.linear_terms, first).first.r, 1e-12);
+  EXPECT_NEAR(projected[2] / area, at(whole.linear_terms, first).second.r, 1e-12);
+  EXPECT_GT(std::abs(at(whole.linear_terms, first).first.r), 0.01);
+  EXPECT_GT(std::abs(at(whole.linear_terms, first).second.r), 0.001);
 }
 
 /// Half of a patch below a screen: the Galerkin projection of a step. B falls below 0 at the dark
@@ -288,8 +288,8 @@ TEST(LinearSky, IsLikeAnEnclosure) {
     const Solution open = solve(scene(false), options);
     for (PatchId i = 0; i < open.scene->patch_count(); ++i) {
       EXPECT_NEAR(at(open.radiosity, i).r, at(enclosed.radiosity, i).r, 1e-10);
-      EXPECT_NEAR(at(open.linear_parts, i).first.r, at(enclosed.linear_parts, i).first.r, 1e-10);
-      EXPECT_NEAR(at(open.linear_parts, i).second.r, at(enclosed.linear_parts, i).second.r, 1e-10);
+      EXPECT_NEAR(at(open.linear_terms, i).first.r, at(enclosed.linear_terms, i).first.r, 1e-10);
+      EXPECT_NEAR(at(open.linear_terms, i).second.r, at(enclosed.linear_terms, i).second.r, 1e-10);
     }
   }
 }
@@ -306,8 +306,8 @@ double error_of_functions(const Solution& solution, const Solution& known) {
   };
   for (PatchId i = 0; i < known.scene->patch_count(); ++i) {
     add(at(solution.radiosity, i), at(known.radiosity, i), known.scene->exitance(i));
-    add(at(solution.linear_parts, i).first, at(known.linear_parts, i).first, {});
-    add(at(solution.linear_parts, i).second, at(known.linear_parts, i).second, {});
+    add(at(solution.linear_terms, i).first, at(known.linear_terms, i).first, {});
+    add(at(solution.linear_terms, i).second, at(known.linear_terms, i).second, {});
   }
   return std::sqrt(error / reflected);
 }
@@ -346,9 +346,9 @@ TEST(LinearState, IsRestoredToTheSameBits) {
     };
     const Solution a = finished(solver), b = finished(restored);
     EXPECT_EQ(a.radiosity, b.radiosity);
-    for (std::size_t i = 0; i < a.linear_parts.size(); ++i) {
-      EXPECT_EQ(a.linear_parts[i].first, b.linear_parts[i].first);
-      EXPECT_EQ(a.linear_parts[i].second, b.linear_parts[i].second);
+    for (std::size_t i = 0; i < a.linear_terms.size(); ++i) {
+      EXPECT_EQ(a.linear_terms[i].first, b.linear_terms[i].first);
+      EXPECT_EQ(a.linear_terms[i].second, b.linear_terms[i].second);
     }
   }
 }

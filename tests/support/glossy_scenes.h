@@ -13,14 +13,14 @@
 
 namespace transillum::testing {
 
-inline Lobe phong(double share, double exponent) {
-  Lobe lobe{.reflectance = {share, share, share}};
+inline Lobe phong(double fraction, double exponent) {
+  Lobe lobe{.reflectance = {fraction, fraction, fraction}};
   lobe.exponent = exponent;
   return lobe;
 }
 
-inline Lobe ggx(double share, double roughness) {
-  Lobe lobe{.reflectance = {share, share, share}, .shape = LobeShape::ggx};
+inline Lobe ggx(double fraction, double roughness) {
+  Lobe lobe{.reflectance = {fraction, fraction, fraction}, .shape = LobeShape::ggx};
   lobe.roughness = roughness;
   return lobe;
 }

@@ -202,14 +202,14 @@ class View {
 };
 
 /// A triangle of p with the integral over it.
-struct Part {
+struct Cell {
   std::array<Vec, 3> corners;
   Real value = 0, error = 0;
 
-  bool operator<(const Part& other) const { return error < other.error; }
+  bool operator<(const Cell& other) const { return error < other.error; }
 };
 
-Part integrated(const std::array<Vec, 3>& corners, const View& view) {
+Cell integrated(const std::array<Vec, 3>& corners, const View& view) {
   const Vec a = corners[1] - corners[0], b = corners[2] - corners[0];
   const Real area = norm(cross(a, b)) / 2;
   const auto by_rule = [&](const std::vector<Vec>& rule) {
@@ -219,7 +219,7 @@ Part integrated(const std::array<Vec, 3>& corners, const View& view) {
     }
     return area * sum;
   };
-  Part part{corners};
+  Cell part{corners};
   part.value = by_rule(triangle_rule<7>());
   part.error = std::abs(part.value - by_rule(triangle_rule<4>()));
   return part;
@@ -252,13 +252,13 @@ ReferenceExchange reference_exchange(const ConvexPolygon& p, const ConvexPolygon
   // The cut by the plane of q is a kink.
   const Vec front = area_vector(polygon_of(q));
   const Polygon before = clipped(of_p, front, dot(front, polygon_of(q)[0]));
-  std::priority_queue<Part> parts;
+  std::priority_queue<Cell> cells;
   Real value = 0, error = 0;
   const auto add = [&](const std::array<Vec, 3>& corners) {
-    const Part part = integrated(corners, view);
+    const Cell part = integrated(corners, view);
     value += part.value;
     error += part.error;
-    parts.push(part);
+    cells.push(part);
   };
   for (std::size_t k = 1; k + 1 < before.size(); ++k) {
     add({before[0], before[k], before[k + 1]});
@@ -266,9 +266,9 @@ ReferenceExchange reference_exchange(const ConvexPolygon& p, const ConvexPolygon
   const auto is_reached = [&] {
     return error <= std::max<Real>(absolute, relative * std::abs(value));
   };
-  while (!is_reached() && static_cast<int>(parts.size()) < most_parts) {
-    const Part worst = parts.top();
-    parts.pop();
+  while (!is_reached() && static_cast<int>(cells.size()) < most_parts) {
+    const Cell worst = cells.top();
+    cells.pop();
     value -= worst.value;
     error -= worst.error;
     for (const auto& half : halves(worst.corners)) {

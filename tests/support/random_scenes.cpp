@@ -67,10 +67,10 @@ class SceneGenerator {
 };
 
 /// Corners of a plane figure placed in space: at + x u + y v.
-std::vector<Vec3> placed(const std::vector<std::array<double, 2>>& figure, const Vec3& at,
+std::vector<Vec3> placed(const std::vector<std::array<double, 2>>& outline, const Vec3& at,
                          const Vec3& u, const Vec3& v) {
   std::vector<Vec3> outline;
-  for (const auto& [x, y] : figure) {
+  for (const auto& [x, y] : outline) {
     outline.push_back(at + x * u + y * v);
   }
   return outline;
@@ -89,19 +89,19 @@ PlaneAxes any_axes(SceneGenerator& generator) {
 /// @param straight_corners adds corners in the middle of some edges.
 std::vector<std::array<double, 2>> star(SceneGenerator& generator, int count,
                                         bool straight_corners) {
-  std::vector<std::array<double, 2>> figure;
+  std::vector<std::array<double, 2>> outline;
   for (int k = 0; k < count; ++k) {
     const double angle = 2 * M_PI * (k + generator.uniform(0, 0.7)) / count;
     const double radius = generator.uniform(0.25, 1);
-    figure.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    outline.push_back({radius * std::cos(angle), radius * std::sin(angle)});
   }
   if (!straight_corners) {
-    return figure;
+    return outline;
   }
   std::vector<std::array<double, 2>> refined;
-  for (std::size_t k = 0; k < figure.size(); ++k) {
-    const auto& a = figure[k];
-    const auto& b = figure[(k + 1) % figure.size()];
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const auto& a = outline[k];
+    const auto& b = outline[(k + 1) % outline.size()];
     refined.push_back(a);
     if (generator.chance(0.5)) {
       refined.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2});
@@ -179,10 +179,10 @@ void stacks_of_tiles(SceneGenerator& generator) {
 void cut_rectangle(SceneGenerator& generator, const PlaneAxes& axes, const Vec3& at, double x0,
                    double x1, double y0, double y1, int depth, bool reversed) {
   if (depth > 0) {
-    const double share = generator.uniform(0.2, 0.8);
+    const double fraction = generator.uniform(0.2, 0.8);
     const bool across = x1 - x0 > y1 - y0;
-    const double x = across ? x0 + share * (x1 - x0) : x1;
-    const double y = across ? y1 : y0 + share * (y1 - y0);
+    const double x = across ? x0 + fraction * (x1 - x0) : x1;
+    const double y = across ? y1 : y0 + fraction * (y1 - y0);
     cut_rectangle(generator, axes, at, x0, x, y0, y, depth - 1 - generator.pick(2), reversed);
     cut_rectangle(generator, axes, at, across ? x : x0, x1, across ? y0 : y, y1,
                   depth - 1 - generator.pick(2), reversed);
@@ -252,10 +252,10 @@ void coincident_faces(SceneGenerator& generator) {
   for (int k = 0; k < count; ++k) {
     const PlaneAxes axes = any_axes(generator);
     const Vec3 at = generator.point(0.6);
-    const auto figure = star(generator, generator.some(3, 6), false);
+    const auto outline = star(generator, generator.some(3, 6), false);
     const int copies = generator.some(1, 3);
     for (int copy = 0; copy < copies; ++copy) {
-      generator.face(placed(figure, at, axes.u, axes.v));
+      generator.face(placed(outline, at, axes.u, axes.v));
     }
     if (generator.chance(0.6)) {
       const double x = generator.uniform(-0.5, 0.5), y = generator.uniform(-0.5, 0.5);

@@ -83,7 +83,7 @@ class ThreadGroup : public mpi::ProcessGroup {
       for (int k = first; k < last; ++k) {
         passes.add(k, table_.messages.at(k).to(rank_));
       }
-      going = passes.after_round();
+      going = passes.after_message_round();
     }
     return going;
   }

@@ -30,7 +30,7 @@ void update(TransferDifference& worst, double a, double b, double area, double r
             const std::string& what) {
   const double found = std::max(std::abs(a - b) - rounding, 0.0) / area;
   // Also true for NaN.
-  if (!(found <= worst.share)) {
+  if (!(found <= worst.fraction)) {
     worst = {found, fmt::format("{}: {} and {}", what, a, b)};
   }
 }

@@ -11,8 +11,8 @@ namespace transillum::testing {
 /// The largest difference found. The uncertainty of a needle's area due to the rounding of its
 /// coordinates is subtracted.
 struct TransferDifference {
-  double share = 0;   ///< over the area of the patch; for an exchange, of the smaller patch
-  std::string where;  ///< quantity, patches and values, for the message
+  double fraction = 0;  ///< over the area of the patch; for an exchange, of the smaller patch
+  std::string where;    ///< quantity, patches and values, for the message
 };
 
 /// Compares exchanges and coverages of one direction, for omega and -omega, by two engines.

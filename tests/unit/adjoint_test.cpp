@@ -33,8 +33,11 @@ TEST(Adjoint, EqualsTheDifferenceOfSolvesWithAndWithoutAWatt) {
   const auto scene = std::make_shared<const Scene>(description);
   for (const bool two_way : {true, false}) {
     for (const Normalization normalize : {Normalization::none, Normalization::rows}) {
-      const SolveOptions options{
-          .directions = 60, .two_way = two_way, .normalize = normalize, .tolerance = tight};
+      const SolveOptions options{.directions = 60,
+                                 .two_way = two_way,
+                                 .normalize = normalize,
+                                 .first_shot = {},
+                                 .tolerance = tight};
       const PatchId i = 3;
       const Adjoint adjoint = solve_adjoint(*scene, form_factors_of(scene, options), i,
                                             scene->materials(), {.tolerance = tight});

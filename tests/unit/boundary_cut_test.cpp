@@ -223,8 +223,8 @@ TEST(BoundaryCut, AllBackendsGiveTheSameBits) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1, 1);
   int cuts = 0;
-  for (int round = 0; round < 20000; ++round) {
-    const bool small = round % 2 == 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const bool small = trial % 2 == 0;
     const double size = small ? 3 : 0x1p40;
     const auto number = [&] { return std::round(size * place(random)); };
     Points star;

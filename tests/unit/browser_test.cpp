@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/results/srgb.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/solution.h"

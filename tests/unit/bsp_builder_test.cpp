@@ -123,18 +123,18 @@ TEST(BspBuilder, MakesTheSameTreeForAnyNumberOfThreads) {
 
 TEST(BspBuilder, ReportsProgressOnItsThread) {
   const auto scene = load_scene("sphere-flake:levels=3");
-  std::vector<double> shares;
+  std::vector<double> fractions;
   const BspTree tree(
       *scene, {},
-      [&, thread = std::this_thread::get_id()](double share) {
+      [&, thread = std::this_thread::get_id()](double fraction) {
         EXPECT_EQ(std::this_thread::get_id(), thread);
-        shares.push_back(share);
+        fractions.push_back(fraction);
       },
       2);
-  ASSERT_FALSE(shares.empty());
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  EXPECT_GE(shares.front(), 0);
-  EXPECT_LE(shares.back(), 1);
+  ASSERT_FALSE(fractions.empty());
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GE(fractions.front(), 0);
+  EXPECT_LE(fractions.back(), 1);
 }
 
 TEST(BspBuilder, IsCanceledWhileThreadsBuild) {

@@ -34,8 +34,8 @@ void expect_same(const RadiositySolver& a, const RadiositySolver& b) {
   EXPECT_TRUE(a.error_estimate().standard_error == b.error_estimate().standard_error);
   EXPECT_EQ(a.error_estimate().rms_limit, b.error_estimate().rms_limit);
   EXPECT_EQ(a.form_factor_sums(), b.form_factor_sums());
-  EXPECT_EQ(a.sky_shares(), b.sky_shares());
-  EXPECT_EQ(a.back_seen_shares(), b.back_seen_shares());
+  EXPECT_EQ(a.sky_fractions(), b.sky_fractions());
+  EXPECT_EQ(a.back_seen_fractions(), b.back_seen_fractions());
   EXPECT_EQ(a.quadrature_errors(), b.quadrature_errors());
   const SolveStatistics s = a.statistics(), t = b.statistics();
   EXPECT_EQ(s.passes_made, t.passes_made);

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "transillum/files.h"
 
 namespace transillum::testing {
@@ -18,13 +18,13 @@ TEST(CliAccuracy, ChoosesPassesAndReportsWhatItReached) {
   const ProgramResult result =
       expect_success({"solve", "rooms", "--accuracy", "0.5%", "--first-shot", "none", "--stats",
                       folder / "s.json"});
-  EXPECT_THAT(result.out, HasSubstr("0.5 % asked, reached: rms error at most"));
+  EXPECT_THAT(result.out, HasSubstr("0.5 % asked, reached: error of the worst surface, "));
   const auto json = read_json(folder / "s.json");
   const auto& accuracy = json.at("accuracy");
   EXPECT_TRUE(accuracy.at("reached"));
   EXPECT_EQ(accuracy.at("asked"), 0.005);
   EXPECT_LE(accuracy.at("error").get<double>(), 0.005);
-  EXPECT_EQ(accuracy.at("error"), json.at("error_estimate").at("rms_limit"));
+  EXPECT_EQ(accuracy.at("error"), json.at("error_estimate").at("by_surface").at("limit"));
   EXPECT_EQ(accuracy.at("stages").back().at("directions"), json.at("passes"));
   EXPECT_LE(json.at("error_estimate").at("rms_lowest"), json.at("error_estimate").at("rms"));
 }
@@ -61,7 +61,8 @@ TEST(CliAccuracy, ShootsLampsFirst) {
 
 TEST(CliAccuracy, EndsWithTheTime) {
   const ProgramResult result = expect_success({"solve", "furnace", "--seconds", "0.2"});
-  EXPECT_THAT(result.out, HasSubstr("within the time given, time is up: rms error at most"));
+  EXPECT_THAT(result.out,
+              HasSubstr("within the time given, time is up: error of the worst surface, "));
 }
 
 TEST(CliAccuracy, OfEnginePairsTakesPoints) {
@@ -71,16 +72,17 @@ TEST(CliAccuracy, OfEnginePairsTakesPoints) {
 }
 
 TEST(CliAccuracy, WarnsWhereItCannotBeTrusted) {
-  const ProgramResult result =
-      expect_success({"solve", "stars", "-m", "64", "--replicas", "4", "--max-patch-area", "1"});
+  const ProgramResult result = expect_success({"solve", "stars", "-m", "64", "--replicas", "4",
+                                               "--max-patch-area", "1", "--first-shot", "none"});
   EXPECT_THAT(result.err, HasSubstr("the error estimate cannot be trusted"));
   EXPECT_THAT(result.err, HasSubstr("--first-shot 0"));
 }
 
 TEST(CliAccuracy, CountsPatchesWhoseErrorsCannotBeTrusted) {
   const TemporaryFolder folder;
-  const ProgramResult result = expect_success(
-      {"solve", "stars", "-m", "512", "--replicas", "4", "--stats", folder / "s.json"});
+  const ProgramResult result =
+      expect_success({"solve", "stars", "-m", "512", "--replicas", "4", "--first-shot", "none",
+                      "--stats", folder / "s.json"});
   const auto json = read_json(folder / "s.json");
   const auto& count = json.at("error_estimate").at("uncertain_patches");
   EXPECT_GT(count, 0);
@@ -102,8 +104,8 @@ TEST(CliAccuracy, RefusesWhatItCannotKeep) {
           {{"--accuracy", "1%", "--engine", "hemicube"}, "accuracy"},
           {{"--accuracy", "1%", "--accuracy-of", "patch:99999"}, "there is no patch 99999"},
           {{"--accuracy", "1%", "--accuracy-of", "best"},
-           "--accuracy-of: \"best\" is not rms, max"},
-          {{"--accuracy-of", "max"}, "--accuracy-of: used only with an accuracy"},
+           "--accuracy-of: \"best\" is not surfaces"},
+          {{"-m", "8", "--accuracy-of", "max"}, "--accuracy-of: used only with an accuracy"},
           {{"--seconds", "0"}, "--seconds: \"0\" is not greater than 0"},
           {{"--seconds", "nan"}, "--seconds"},
       });

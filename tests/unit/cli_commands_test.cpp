@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/directions.h"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 
 namespace transillum::testing {
 namespace {
@@ -53,7 +53,8 @@ const std::vector<Refusal> invalid_calls{
     {{"factors", "furnace", "--engine", "hemicube", "--resolution", "31"}, "even"},
     {{"solve", "furnace", "--engine", "hemicube", "--resolution", "4096"}, "from 2 to 2048"},
     {{"solve", "furnace", "--engine", "hemicube", "--replicas", "4"}, "no directions"},
-    {{"solve", "furnace", "--iterations", "3", "--tolerance", "1e-3"}, "excludes"},
+    {{"solve", "furnace", "--iterations", "3", "--tolerance", "1e-3"},
+     "--tolerance: not used with a given number of iterations"},
     {{"solve", "furnace", "--iterations", "0"}, "--iterations"},
     {{"solve", "furnace", "--tolerance", "nan"}, "--tolerance"},
     {{"solve", "furnace", "--tolerance", "1"}, "--tolerance"},

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 
 namespace transillum::testing {
 namespace {

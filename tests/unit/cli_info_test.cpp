@@ -8,7 +8,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 
 namespace transillum::testing {
 namespace {
@@ -50,9 +50,10 @@ TEST(CliInfo, ReportsASealedRoomWithTwoSidedFacesAsClosed) {
   EXPECT_THAT(run_program({"solve", "cornell-box", "--two-sided", "-m", "8"}).out,
               HasSubstr("0 % of the projected area sees no patch, outer sides of two-sided faces"));
   EXPECT_THAT(run_program({"solve", "cornell-box:open=1", "-m", "8"}).out,
-              ::testing::AllOf(::testing::Not(HasSubstr("closure defect")),
-                               ::testing::ContainsRegex(
-                                   "open +[0-9.]+ % of the projected area sees no patch: light")));
+              ::testing::AllOf(
+                  ::testing::Not(HasSubstr("closure defect")),
+                  ::testing::ContainsRegex("open +[0-9.]+ % of the light escapes; [0-9.]+ % of the "
+                                           "projected area sees no patch\n")));
 }
 
 /// The six faces of a cube with a lamp as its ceiling; the text of the faces to turn is reversed.
@@ -198,6 +199,16 @@ TEST(CliInfo, ReportsOverlappingCoplanarFaces) {
   EXPECT_THAT(two.out, ::testing::ContainsRegex(
                            "coplanar overlap +1 pair of patches:\n +face [01] +overlaps face "
                            "[01], 1 m2"));
+}
+
+/// A ceiling whose B was the mean over the part that its lamp covers, too.
+TEST(CliInfo, SolvesWarnOfFacesThatOthersCoverInPart) {
+  const std::string scene = TRANSILLUM_DATA_DIR "/scenes/lamp-in-ceiling.obj";
+  const ProgramResult partly = expect_success({"solve", scene, "-m", "8"});
+  EXPECT_THAT(partly.err, HasSubstr("warning: face 1 (white) loses 7.6 % of its light, because "
+                                    "face 6 (lamp) in the same plane covers parts of its patches"));
+  // 0.5 m divides the sides of the ceiling and of the lamp.
+  EXPECT_EQ(expect_success({"solve", scene, "-m", "8", "-q", "--max-patch-area", "0.25"}).err, "");
 }
 
 }  // namespace

@@ -6,12 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/wait_until.h"
 
 namespace transillum::testing {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -52,6 +53,8 @@ TEST_F(CliInterruption, SavesResultsSoFarAndExitsWith130) {
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.status, 130) << result.err;
     EXPECT_THAT(result.err, HasSubstr("interrupted; the results so far are saved"));
+    EXPECT_THAT(result.err, ContainsRegex("warning: interrupted in the first iteration, after "
+                                          "[0-9]+ passes: B lacks light that is reflected"));
     EXPECT_THAT(folder.names(), ElementsAre("a.csv", "a.json"));
     const auto json = read_json(folder / "a.json");
     EXPECT_FALSE(json.at("complete"));
@@ -113,24 +116,24 @@ TEST_F(CliInterruption, WritesNothingBeforeTheFirstPass) {
 
 /// B requires the complete matrix.
 TEST_F(CliInterruption, EnginesWithoutDirectionsSaveNothingAndReportWhy) {
-  struct Run {
+  struct Case {
     std::vector<std::string> options;
     const char *progress, *message;
   };
-  for (const Run& run : {Run{{"--engine", "hemicube", "--resolution", "1024"},
-                             "hemicubes",
-                             "% of the hemicubes were drawn, but B requires all of them"},
-                         Run{{"--engine", "pairs", "--points", "64"},
-                             "pairs/s",
-                             "% of the pairs were computed, but B requires all of them"}}) {
+  for (const Case& of : {Case{{"--engine", "hemicube", "--resolution", "1024"},
+                              "hemicubes",
+                              "% of the hemicubes were drawn, but B requires all of them"},
+                         Case{{"--engine", "pairs", "--points", "64"},
+                              "pairs/s",
+                              "% of the pairs were computed, but B requires all of them"}}) {
     const TemporaryFolder folder;
     RunningProgram program(Arguments{"solve", "sphere-flake:levels=1", "--out", folder / "a.csv"} +
-                           run.options);
-    ASSERT_TRUE(program.reports(run.progress)) << program.err_so_far();
+                           of.options);
+    ASSERT_TRUE(program.reports(of.progress)) << program.err_so_far();
     program.send(SIGINT);
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.status, 130) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(run.message));
+    EXPECT_THAT(result.err, HasSubstr(of.message));
     EXPECT_THAT(folder.names(), ::testing::IsEmpty());
   }
 }

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_solve.h"
@@ -33,30 +33,35 @@ TEST(CliLinearBasis, IsRefusedInOneLineWhereItIsNotAvailable) {
           {{"--engine", "rays"}, "engine rays does not have"},
           {{"--engine", "corrected"}, "engine corrected does not have"},
           {{"--engine", "hemicube"}, "engine hemicube does not have"},
-          {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
           {{"--scheme", "semi-iterative"}, "not available with the semi-iterative scheme"},
-          {{"--first-shot", "auto"}, "not available with a first shot"},
-          {{"--factors", "f.npz"}, "not used with --factors"},
       });
   expect_refused({"solve", "furnace", "--basis", "quadratic"}, "choose one of constant, linear");
 }
 
 TEST(CliLinearBasis, WorksWithTheOtherOptions) {
-  const Arguments options[] = {{"--one-way"},           {"--normalize", "rows"},
-                               {"--scheme", "growing"}, {"--scheme", "conjugate-gradients"},
-                               {"--replicas", "4"},     {"--memory", "1M", "--iterations", "3"},
-                               {"--sky", "1"},          {"--two-sided"},
-                               {"--engine", "local"},   {"--by", "material"},
-                               {"--engine", "exact"}};
+  const Arguments options[] = {{"--one-way"},
+                               {"--normalize", "rows"},
+                               {"--normalize", "symmetric"},
+                               {"--scheme", "growing"},
+                               {"--scheme", "conjugate-gradients"},
+                               {"--replicas", "4"},
+                               {"--memory", "1M", "--iterations", "3"},
+                               {"--sky", "1"},
+                               {"--two-sided"},
+                               {"--engine", "local"},
+                               {"--by", "material"},
+                               {"--engine", "exact"},
+                               {"--first-shot", "0"},
+                               {"--first-shot", "auto"}};
   for (const Arguments& option : options) {
     SCOPED_TRACE(::testing::PrintToString(option));
     expect_success(linear_box + Arguments{"-m", "16"} + option);
   }
-  // Exchanges by form factors of constant functions would differ.
-  const ProgramResult table = run_program(linear_box + Arguments{"-m", "16", "--by", "material"});
-  EXPECT_THAT(table.out, HasSubstr("absorbed, W"));
-  EXPECT_THAT(table.out, Not(HasSubstr("power, W")));
-  EXPECT_THAT(table.err, HasSubstr("exchanges between groups are not available"));
+  for (const Arguments& option : {Arguments{"-m", "16"}, Arguments{"--engine", "pairs"}}) {
+    const ProgramResult table = expect_success(linear_box + option + Arguments{"--by", "material"});
+    EXPECT_THAT(table.out, HasSubstr("absorbed, W"));
+    EXPECT_THAT(table.out, HasSubstr("power, W"));
+  }
   expect_success(linear_box + Arguments{"--accuracy", "10%"});
 }
 
@@ -68,7 +73,7 @@ TEST(CliLinearBasis, PairsHaveFunctionsToo) {
         Arguments{"--iterations", "3"}, Arguments{"--threads", "2"}}) {
     SCOPED_TRACE(::testing::PrintToString(option));
     expect_success(pairs + option + Arguments{"--out", folder / "r.vtp"});
-    EXPECT_EQ(read_result(folder / "r.vtp").linear_parts.size(), 27U);
+    EXPECT_EQ(read_result(folder / "r.vtp").linear_terms.size(), 27U);
   }
   for (const Arguments& option : {Arguments{"--normalize", "rows"}, Arguments{"--replicas", "4"},
                                   Arguments{"--scheme", "growing"}, Arguments{"--sky", "1"}}) {
@@ -85,11 +90,48 @@ TEST(CliLinearBasis, PairsHaveFunctionsToo) {
   EXPECT_THAT(study.out, HasSubstr("pairs/linear"));
 }
 
-TEST(CliLinearBasis, GivenFormFactorsAreRefused) {
+/// What passes and pairs give, by way of a file.
+TEST(CliLinearBasis, StoredFormFactorsHaveMoments) {
+  const TemporaryFolder folder;
+  for (const Arguments& method : {Arguments{"-m", "64"}, Arguments{"--engine", "pairs"}}) {
+    expect_success(linear_box + method +
+                   Arguments{"--tolerance", "1e-12", "--out", folder / "direct.vtp"});
+    const Solution direct = read_result(folder / "direct.vtp");
+    for (const char* name : {"f.npz", "f.mtx"}) {
+      expect_success(
+          Arguments{"factors", "cornell-box", "--basis", "linear", "--out", folder / name} +
+          method);
+      expect_success(linear_box + Arguments{"--factors", folder / name, "--tolerance", "1e-12",
+                                            "--out", folder / "stored.vtp"});
+      const Solution stored = read_result(folder / "stored.vtp");
+      ASSERT_EQ(stored.linear_terms.size(), direct.linear_terms.size());
+      for (std::size_t i = 0; i < direct.linear_terms.size(); ++i) {
+        EXPECT_NEAR(max_abs(stored.radiosity[i] - direct.radiosity[i]), 0, 1e-10) << name;
+        EXPECT_NEAR(max_abs(stored.linear_terms[i].first - direct.linear_terms[i].first), 0, 1e-10);
+        EXPECT_NEAR(max_abs(stored.linear_terms[i].second - direct.linear_terms[i].second), 0,
+                    1e-10);
+      }
+      // Constant functions do not read the moments.
+      expect_success({"solve", "cornell-box", "-q", "--factors", folder / name});
+    }
+  }
+  expect_success({"factors", "cornell-box", "-m", "8", "--out", folder / "constant.npz"});
+  expect_refused(linear_box + Arguments{"--factors", folder / "constant.npz"},
+                 "no moments for linear functions");
+  const Arguments factors{"factors", "cornell-box", "--basis", "linear", "-m", "8", "--out"};
+  expect_refused(factors + Arguments{folder / "f.vf"}, "a .vf file cannot hold");
+  expect_refused(factors + Arguments{folder / "g.npz", "--engine", "zbuffer"},
+                 "engine zbuffer does not have");
+  expect_success(factors + Arguments{folder / "f.csv", "--drop", "1e-3"});
+  EXPECT_THAT(read_file(folder / "f.csv"), HasSubstr("i,j,F,F01,F02,F10,F11,F12,F20,F21,F22\n"));
+}
+
+TEST(CliLinearBasis, GivenFormFactorsWithoutMomentsAreRefused) {
+  const auto scene = load_scene("furnace");
   SolveOptions options;
   options.basis = Basis::linear;
   EXPECT_THAT(test::refusal([&] {
-                (void)solve_with_form_factors(load_scene("furnace"), FormFactors(), options);
+                (void)solve_with_form_factors(scene, pair_form_factors(*scene, {}), options);
               }),
               HasSubstr("no moments for linear functions"));
 }
@@ -119,11 +161,11 @@ TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
   }
   expect_success(call);
   const Solution solution = read_result(folder / "r.vtp");
-  ASSERT_EQ(solution.linear_parts.size(), solution.radiosity.size());
+  ASSERT_EQ(solution.linear_terms.size(), solution.radiosity.size());
   const std::string csv = read_file(folder / "r.csv");
   EXPECT_EQ(column(csv, "B_r"), solution.radiosity[0].r);
-  EXPECT_EQ(column(csv, "B1_r"), solution.linear_parts[0].first.r);
-  EXPECT_EQ(column(csv, "B2_b"), solution.linear_parts[0].second.b);
+  EXPECT_EQ(column(csv, "B1_r"), solution.linear_terms[0].first.r);
+  EXPECT_EQ(column(csv, "B2_b"), solution.linear_terms[0].second.b);
   const LinearBasis basis = linear_basis(*solution.scene, 0);
   EXPECT_EQ(column(csv, "c_x"), basis.center.x);
   EXPECT_EQ(column(csv, "g2_z"), basis.gradient[1].z);
@@ -182,8 +224,8 @@ TEST(CliLinearBasis, CompareMeasuresFunctionsOfDifferentPatches) {
   const TemporaryFolder folder;
   const auto solve = [&](const std::string& basis, const std::string& area,
                          const std::string& name) {
-    expect_success({"solve", "cornell-box", "-q", "-m", "64", "--basis", basis, "--max-patch-area",
-                    area, "--out", folder / name});
+    expect_success({"solve", "cornell-box", "-q", "-m", "64", "--first-shot", "none", "--basis",
+                    basis, "--max-patch-area", area, "--out", folder / name});
   };
   solve("constant", "0.01", "fine.vtp");
   solve("constant", "0.3", "constant.vtp");

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/sanitizers.h"
 
 namespace transillum::testing {

@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 
 namespace transillum::testing {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "transillum/files.h"
 
 namespace transillum::testing {

@@ -14,7 +14,7 @@
 #include <random>
 #include <tuple>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/wait_until.h"
 
 namespace transillum::testing {

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 
 namespace transillum::testing {
 namespace {

@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "options/option_table.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 
@@ -130,15 +129,6 @@ TEST(CliUnusedOptions, ZbufferFormFactorsDependOnTheResolution) {
         .out;
   };
   EXPECT_NE(with("16"), with("64"));
-}
-
-/// Every setting is known: a misspelled name in the table would never be found.
-TEST(CliUnusedOptions, TheTableNamesSettings) {
-  std::size_t count = 0;
-  for (const Option& option : options()) {
-    count += why_unused(option.name, {}).empty() ? 0 : 1;
-  }
-  EXPECT_EQ(count, 14U);
 }
 
 }  // namespace

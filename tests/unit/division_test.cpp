@@ -116,9 +116,9 @@ TEST(Division, PassesOfUnequalPatchesAddUp) {
     SCOPED_TRACE(spec);
     std::shared_ptr<const Scene> scene = load_scene(spec);
     SolveOptions options{.directions = 64, .normalize = Normalization::rows};
-    for (int round = 0; round < 3; ++round) {
+    for (int trial = 0; trial < 3; ++trial) {
       std::vector<PatchId> some;
-      for (PatchId i = round; i < scene->patch_count(); i += 3) {
+      for (PatchId i = trial; i < scene->patch_count(); i += 3) {
         some.push_back(i);
       }
       scene = divide(*scene, some).scene;
@@ -135,7 +135,7 @@ TEST(Division, LeavesWhatIsTooThin) {
   const double tiny = 3e-14;
   const Scene scene = one_face({{1, 0, 0}, {1 + tiny, 0, 0}, {1, tiny, 0}});
   std::shared_ptr<const Scene> last = std::make_shared<const Scene>(scene);
-  for (int round = 0; round < 8; ++round) {
+  for (int trial = 0; trial < 8; ++trial) {
     last = divide(*last, all_of(*last)).scene;
     for (const Patch& patch : last->patches()) {
       EXPECT_GT(patch.area, 0);

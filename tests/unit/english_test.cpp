@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Checks five rules of plain English in comments, string literals, lessons and documents:
+// Checks six rules of plain English in comments, string literals, lessons and documents:
 //   1. "that of" and "those of" have their noun earlier in the same sentence, in a parallel phrase:
 //      "the area of the patch …, that of the piece", "its area …, that of the piece".
 //   2. No comment, help text or message begins with Of, Those, As, It or What. Questions may; so
@@ -9,9 +9,11 @@
 //   3. "0:", "null:", "none:", "empty:" and "unset:" are followed by a phrase of three words.
 //   4. Words that are not the field's terms are not used.
 //   5. A paragraph has at most three sentences; lines have at most 100 characters.
-// Rules 1 and 4 apply everywhere, rules 2 and 3 to sources and lessons. Rule 2 does not apply to
-// strings of tests, which quote parts of messages. Rule 5 applies to documents except decisions:
-// these are records of measurements, written once, one paragraph a line.
+//   6. Names of types, by their declarations, do not use part, run, figure, share, group and round
+//      for what has another name in GLOSSARY.md.
+// Rules 1 and 4 apply everywhere, rule 6 to C++, rules 2 and 3 to sources and lessons. Rule 2 does
+// not apply to strings of tests, which quote parts of messages. Rule 5 applies to documents except
+// decisions: these are records of measurements, written once, one paragraph a line.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -27,10 +29,18 @@
 #include <string_view>
 #include <vector>
 
+#include "support/passages.h"
+
 namespace transillum::english_test {
 namespace {
 
 namespace fs = std::filesystem;
+using test::is_word;
+using test::Kind;
+using test::paragraphs_in;
+using test::Passage;
+using test::SourceReader;
+using test::trimmed;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
@@ -52,6 +62,13 @@ const std::vector<Term> terms{
     {R"(\beven directions\b)", "even dir", "evenly spread directions"},
 };
 
+/// The declaration of a type, or of the parameter of a template, whose name has a word of the
+/// glossary in another meaning.
+const std::regex misnamed_type(
+    R"(\b(struct|class|using) (Parts?|Figures?|Shares|Groups?|Rounds?|Part[A-Z]\w*|)"
+    R"(\w*(PartsBy|OfParts|Figures|FigureKind|FigureValues)|(Linear|Surface|Solver)Parts?|)"
+    R"((Back|Patch)Share|KeyGroup|PassRounds|RunInput)(?!\w))");
+
 /// A violation that stays.
 struct Exception {
   const char* file;
@@ -63,196 +80,6 @@ struct Exception {
 const std::vector<Exception> exceptions{
     {"tests/unit/english_test.cpp", 0, "", "quotes what the rules forbid"},
 };
-
-// ---- What is read -----------------------------------------------------------------------------
-
-enum class Kind { comment, string, paragraph };
-
-/// A comment, a string literal or a paragraph. A line end is a blank here, an empty line '\n'.
-struct Passage {
-  Kind kind = Kind::comment;
-  std::string text;
-  std::vector<int> lines;  ///< the line of each character of text, from 1
-
-  void add(std::string_view part, int line) {
-    text += part;
-    lines.resize(text.size(), line);
-  }
-};
-
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  return begin == std::string_view::npos
-             ? std::string_view()
-             : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
-/// Finds the comments and string literals of C++, Python, CMake or JSON sources. Consecutive
-/// comment lines in one column are one passage, as are literals with only white space between them.
-class SourceReader {
- public:
-  /// @param comment_mark what a comment begins with; empty: the language has no comments
-  SourceReader(std::string_view text, std::string_view comment_mark)
-      : text_(text), comment_mark_(comment_mark) {}
-
-  std::vector<Passage> run() {
-    while (at_ < text_.size()) {
-      step();
-    }
-    return std::move(passages_);
-  }
-
- private:
-  bool here(std::string_view part) const { return text_.substr(at_, part.size()) == part; }
-
-  void step() {
-    const char c = text_[at_];
-    const bool cpp = comment_mark_ == "//";
-    if (c == '\n') {
-      ++line_;
-      line_begin_ = ++at_;
-    } else if (std::isspace(static_cast<unsigned char>(c)) != 0) {
-      ++at_;
-    } else if (!comment_mark_.empty() && here(comment_mark_)) {
-      read_comment();
-    } else if (cpp && here("/*")) {
-      read_block_comment();
-    } else if (cpp && here("#include")) {
-      at_ = std::min(text_.find('\n', at_), text_.size());
-    } else if (cpp && here("R\"")) {
-      read_raw_string();
-    } else if (here("\"\"\"")) {
-      read_until("\"\"\"", 3);
-    } else if (c == '"' || (c == '\'' && comment_mark_ == "#")) {
-      read_string(c);
-    } else if (c == '\'' && (at_ == 0 || !is_word(text_[at_ - 1]))) {
-      skip_character();
-    } else {
-      string_continues_ = false;
-      ++at_;
-    }
-  }
-
-  void read_comment() {
-    const std::size_t column = at_ - line_begin_;
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    std::string_view words = text_.substr(at_, end - at_);
-    words.remove_prefix(std::min(words.find_first_not_of("/#!<"), words.size()));
-    words = trimmed(words);
-    const bool alone = trimmed(text_.substr(line_begin_, column)).empty();
-    if (alone && comment_line_ == line_ - 1 && comment_column_ == column) {
-      passages_[comment_].add(words.empty() ? "\n" : " ", line_);
-    } else {
-      comment_ = passages_.size();
-      passages_.push_back({Kind::comment, {}, {}});
-      string_continues_ = false;
-    }
-    passages_[comment_].add(words, line_);
-    comment_line_ = line_;
-    comment_column_ = column;
-    at_ = end;
-  }
-
-  void read_block_comment() {
-    read_until("*/", 2);
-    passages_.back().kind = Kind::comment;
-    string_continues_ = false;
-  }
-
-  /// Reads a passage that ends with `mark`; it begins `skip` characters from here.
-  void read_until(std::string_view mark, std::size_t skip) {
-    at_ += skip;
-    const std::size_t end = std::min(text_.find(mark, at_), text_.size());
-    passages_.push_back({Kind::string, {}, {}});
-    for (; at_ < end; ++at_) {
-      add_to_string(text_.substr(at_, 1));
-    }
-    at_ = std::min(at_ + mark.size(), text_.size());
-    string_continues_ = false;
-  }
-
-  void read_raw_string() {
-    const std::size_t bracket = std::min(text_.find('(', at_), text_.size() - 1);
-    const std::string mark = ")" + std::string(text_.substr(at_ + 2, bracket - at_ - 2)) + "\"";
-    read_until(mark, bracket + 1 - at_);
-  }
-
-  void read_string(char quote) {
-    if (!string_continues_) {
-      passages_.push_back({Kind::string, {}, {}});
-    }
-    for (++at_; at_ < text_.size() && text_[at_] != quote && text_[at_] != '\n'; ++at_) {
-      if (text_[at_] == '\\' && at_ + 1 < text_.size()) {
-        ++at_;
-        passages_.back().add(text_[at_] == 'n' ? "\n" : text_.substr(at_, 1), line_);
-      } else {
-        add_to_string(text_.substr(at_, 1));
-      }
-    }
-    at_ += at_ < text_.size() && text_[at_] == quote ? 1 : 0;
-    string_continues_ = comment_mark_ == "//";
-  }
-
-  void add_to_string(std::string_view character) {
-    if (character != "\n") {
-      passages_.back().add(character, line_);
-      return;
-    }
-    passages_.back().add(" ", line_);
-    ++line_;
-    line_begin_ = at_ + 1;
-    while (at_ + 1 < text_.size() && text_[at_ + 1] == ' ') {
-      ++at_;  // indentation
-    }
-  }
-
-  void skip_character() {
-    at_ += at_ + 1 < text_.size() && text_[at_ + 1] == '\\' ? 3 : 2;
-    at_ = std::min(std::min(text_.find('\'', at_), text_.size() - 1) + 1, text_.size());
-    string_continues_ = false;
-  }
-
-  std::string_view text_;
-  std::string_view comment_mark_;
-  std::size_t at_ = 0;
-  std::size_t line_begin_ = 0;
-  int line_ = 1;
-  std::vector<Passage> passages_;
-  bool string_continues_ = false;   ///< the next literal is a part of the last passage
-  std::size_t comment_ = 0;         ///< number of the passage with the last comment
-  std::size_t comment_column_ = 0;  ///< where that comment begins
-  int comment_line_ = -1;           ///< last line of that comment
-};
-
-/// The paragraphs and list items of a Markdown document; not its headings, tables and code.
-std::vector<Passage> paragraphs_in(const std::string& document) {
-  static const std::regex item(R"(^(\s*([-*+]|\d+[.)])\s+|\s*>\s?)+)");
-  std::vector<Passage> found;
-  std::istringstream lines(document);
-  bool in_code = false, open = false;
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const std::string_view words = trimmed(line);
-    const bool fence = words.starts_with("```");
-    in_code = in_code != fence;
-    if (fence || in_code || words.empty() || words.starts_with("#") || words.starts_with("|")) {
-      open = false;
-      continue;
-    }
-    std::smatch mark;
-    const bool begins = std::regex_search(line, mark, item);
-    if (begins || !open) {
-      found.push_back({Kind::paragraph, {}, {}});
-    } else {
-      found.back().add(" ", number);
-    }
-    open = true;
-    found.back().add(trimmed(std::string_view(line).substr(begins ? mark.length() : 0)), number);
-  }
-  return found;
-}
 
 // ---- The rules --------------------------------------------------------------------------------
 
@@ -434,7 +261,22 @@ struct FileType {
   bool decision = false;            ///< rule 5 does not apply
 };
 
+/// Finds names of types that use a word of the glossary in another meaning.
+void check_types(const std::string& content, std::vector<Violation>& found) {
+  std::istringstream lines(content);
+  std::string line;
+  std::smatch match;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (std::regex_search(line, match, misnamed_type)) {
+      found.push_back({number, 6, match.str(2)});
+    }
+  }
+}
+
 void check_source(const std::string& content, const FileType& type, std::vector<Violation>& found) {
+  if (type.comment_mark == "//") {
+    check_types(content, found);
+  }
   for (const Passage& passage : SourceReader(content, type.comment_mark).run()) {
     const std::string text = lower(passage.text);
     check_nouns(passage, text, found);
@@ -531,7 +373,7 @@ int exception_for(const std::string& name, const Violation& violation) {
   return -1;
 }
 
-TEST(English, FollowsFiveRules) {
+TEST(English, FollowsSixRules) {
   std::ostringstream list;
   int count = 0;
   std::set<int> used;
@@ -643,6 +485,15 @@ TEST(English, OtherTermsAreFound) {
                           "2: rule 4: \"went on\": say continue, resume",
                           "2: rule 4: \"anew\": say again, re-",
                           "2: rule 4: \"even directions\": say evenly spread directions"));
+}
+
+TEST(English, TypesWithAWordInAnotherMeaningAreFound) {
+  EXPECT_THAT(
+      reports("enum class PartsBy { group };\nstruct GlossyFigures {};\nclass PassRounds;\n"),
+      ElementsAre("1: rule 6: PartsBy", "2: rule 6: GlossyFigures", "3: rule 6: PassRounds"));
+  EXPECT_THAT(reports("struct InsideParts {};\nclass SvgFigure {};\nclass ProcessGroup;\n"
+                      "struct RefinementRound {};\nstruct KeptRun {};\nstruct Share {};\n"),
+              IsEmpty());
 }
 
 TEST(English, LongParagraphsAndLinesAreFound) {

@@ -108,12 +108,12 @@ class RandomGrid {
   std::mt19937_64 generator_{17};
 };
 
-constexpr int rounds = 4000;
+constexpr int trials = 4000;
 
 TEST(ExactSide, IsCorrectForPoints) {
   RandomGrid random;
   int on_line = 0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int trial = 0; trial < trials; ++trial) {
     const GridLine line = random.line();
     for (const GridPoint& p :
          {random.point(random.size()), random.beside(line), random.near(line.a), line.b}) {
@@ -122,7 +122,7 @@ TEST(ExactSide, IsCorrectForPoints) {
       on_line += truth == 0;
     }
   }
-  EXPECT_GT(on_line, rounds);
+  EXPECT_GT(on_line, trials);
 }
 
 void expect_side_of_meeting(const GridLine& line, const GridLine& p, const GridLine& q) {
@@ -135,7 +135,7 @@ void expect_side_of_meeting(const GridLine& line, const GridLine& p, const GridL
 
 TEST(ExactSide, IsCorrectForIntersectionsOfLines) {
   RandomGrid random;
-  for (int round = 0; round < rounds; ++round) {
+  for (int trial = 0; trial < trials; ++trial) {
     const GridLine line = random.line(), p = random.line(), q = random.line();
     expect_side_of_meeting(line, p, q);
     // Small angles, between two of the lines and among all three.
@@ -147,7 +147,7 @@ TEST(ExactSide, IsCorrectForIntersectionsOfLines) {
 
 TEST(ExactSide, IsZeroWhereThreeLinesMeet) {
   RandomGrid random;
-  for (int round = 0; round < rounds; ++round) {
+  for (int trial = 0; trial < trials; ++trial) {
     const GridPoint at = random.point(58);
     const GridLine line = random.through(at), p = random.through(at), q = random.through(at);
     ASSERT_EQ(exact_side(line, p, q), 0);
@@ -186,7 +186,7 @@ void expect_meeting(const GridLine& p, const GridLine& q, const GridPoint& origi
 
 TEST(ExactMeeting, IsCorrectForAnyAngle) {
   RandomGrid random;
-  for (int round = 0; round < rounds; ++round) {
+  for (int trial = 0; trial < trials; ++trial) {
     const GridLine p = random.line();
     for (const GridLine& q : {random.line(), random.along(p), GridLine{p.a, random.near(p.b)}}) {
       if (q.a.x == q.b.x && q.a.y == q.b.y) {
@@ -200,7 +200,7 @@ TEST(ExactMeeting, IsCorrectForAnyAngle) {
 
 TEST(ExactMeeting, DetectsParallelLines) {
   RandomGrid random;
-  for (int round = 0; round < rounds; ++round) {
+  for (int trial = 0; trial < trials; ++trial) {
     const GridPoint origin = random.point(58), d = random.point(27);
     if (d.x == 0 && d.y == 0) {
       continue;

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "scene/build/joining.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "transillum/at.h"
 #include "transillum/material_changes.h"

@@ -43,8 +43,8 @@ struct Fast {
 void expect_as_local(const Fast& fast, const Vec3& omega) {
   const testing::MapOnFailure map(*fast.scene, *fast.tree, omega);
   const auto found = testing::difference(*fast.scene, fast.local()(omega, {}), fast.run(omega, {}));
-  EXPECT_LE(found.share, agreed) << fast.scene->name() << ", direction " << omega.x << ", "
-                                 << omega.y << ", " << omega.z << ", " << found.where;
+  EXPECT_LE(found.fraction, agreed) << fast.scene->name() << ", direction " << omega.x << ", "
+                                    << omega.y << ", " << omega.z << ", " << found.where;
 }
 
 void expect_as_local(const std::shared_ptr<const Scene>& scene, int directions = 20) {
@@ -326,8 +326,8 @@ TEST(FastEngine, OppositeDirectionsGiveTheSameAreas) {
     for (const Vec3& omega : testing::test_directions(12, 13)) {
       const auto found =
           testing::difference_from_both_ends(*scene, fast.run(omega, {}), fast.run(-omega, {}));
-      EXPECT_LE(found.share, agreed) << scene->name() << ", direction " << omega.x << ", "
-                                     << omega.y << ", " << omega.z << ", " << found.where;
+      EXPECT_LE(found.fraction, agreed) << scene->name() << ", direction " << omega.x << ", "
+                                        << omega.y << ", " << omega.z << ", " << found.where;
     }
   }
 }
@@ -363,8 +363,8 @@ TEST(FastEngine, SeesAllOfSmallFacesFromAHugeOne) {
   EXPECT_LT(worst_closure(Fast(sketch.scene()), testing::test_directions(50, 16)), 1e-11);
 }
 
-/// Share of the patches whose queries required exact signs, over some random directions.
-double exact_share(const char* spec) {
+/// Fraction of the patches whose queries required exact signs, over some random directions.
+double exact_fraction(const char* spec) {
   const Fast fast(load_scene(spec));
   PassCounts counts;
   std::vector<Vec3> directions = testing::test_directions(27, 14);
@@ -381,10 +381,10 @@ double exact_share(const char* spec) {
 }
 
 TEST(FastEngine, RarelyNeedsExactSigns) {
-  EXPECT_LT(exact_share("sphere-flake"), 0.005);
+  EXPECT_LT(exact_fraction("sphere-flake"), 0.005);
   // Points on lines are common here: walls and blocks share planes and lines.
-  EXPECT_LT(exact_share("rooms"), 0.005);
-  EXPECT_LT(exact_share("cornell-box"), 0.005);
+  EXPECT_LT(exact_fraction("rooms"), 0.005);
+  EXPECT_LT(exact_fraction("cornell-box"), 0.005);
 }
 
 /// Faces thinner than doubles can resolve, and faces 10^4 times smaller than the faces behind them.
@@ -444,16 +444,17 @@ TEST(FastEngine, StopsQuicklyWhenCanceledDuringAPass) {
   const double begin = testing::cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
   fast.run(omega, {});
   const double pass = testing::cpu_seconds(CLOCK_THREAD_CPUTIME_ID) - begin;
-  for (const double share : {0.02, 0.1, 0.25, 0.5, 0.7}) {
+  for (const double fraction : {0.02, 0.1, 0.25, 0.5, 0.7}) {
     std::optional<double> seconds;
     for (int attempt = 0; attempt < 10 && !seconds; ++attempt) {
       seconds = testing::seconds_to_stop(
-          [&](const Cancellation& cancellation) { fast.run(omega, cancellation); }, share * pass);
+          [&](const Cancellation& cancellation) { fast.run(omega, cancellation); },
+          fraction * pass);
     }
-    ASSERT_TRUE(seconds) << "ten passes ended before " << share << " of " << pass << " s";
+    ASSERT_TRUE(seconds) << "ten passes ended before " << fraction << " of " << pass << " s";
     // Sanitizers slow everything down in proportion.
     EXPECT_LT(*seconds, std::max(testing::longest_stop, 0.2 * pass))
-        << share << " of " << pass << " s";
+        << fraction << " of " << pass << " s";
   }
 }
 

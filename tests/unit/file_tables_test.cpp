@@ -19,7 +19,7 @@
 #include "io/results/sensor_files.h"
 #include "io/results/study_csv.h"
 #include "session/measure_errors.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
 #include "transillum/solve_session.h"

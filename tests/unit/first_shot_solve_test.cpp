@@ -33,11 +33,11 @@ double error_of(const Solution& solution, const Solution& reference) {
 
 TEST(FirstShot, RemovesTheErrorOfStars) {
   const auto scene = load_scene("stars");
-  const Solution reference = solve(scene, {.directions = 8192});
-  const Solution plain = solve(scene, {.directions = 512});
+  const Solution reference = solve(scene, {.directions = 8192, .first_shot = {}});
+  const Solution plain = solve(scene, {.directions = 512, .first_shot = {}});
   const Solution shot = solve(scene, {.directions = 256, .first_shot = small_source_ratio});
   EXPECT_EQ(shot.statistics.shot_sources, 96);
-  EXPECT_DOUBLE_EQ(shot.statistics.shot_power_share, 1);
+  EXPECT_DOUBLE_EQ(shot.statistics.shot_power_fraction, 1);
   // The reference, of plain passes, still has an error of 1.8e-3.
   EXPECT_GT(error_of(plain, reference), 5 * error_of(shot, reference));
   const Solution finer = solve(scene, {.directions = 2048, .first_shot = small_source_ratio});

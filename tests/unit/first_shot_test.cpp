@@ -58,7 +58,7 @@ TEST(Shoot, ConservesPower) {
        {std::pair{"stars", 1e-5}, {"cornell-box", 1e-4}, {"furnace", 1e-4}}) {
     const auto scene = load_scene(spec);
     const DirectLight light = shoot(*scene, find_small_sources(*scene, 0));
-    EXPECT_DOUBLE_EQ(light.power_share, 1);
+    EXPECT_DOUBLE_EQ(light.power_fraction, 1);
     EXPECT_GT(power_sent(*scene, light), 0);
     EXPECT_NEAR(power_received(*scene, light) / power_sent(*scene, light), 1, accuracy) << spec;
   }
@@ -105,15 +105,15 @@ TEST(Shoot, MatchesTheFormulaForIrradiance) {
   EXPECT_NEAR(shot.irradiance[2].g, 7 * 0.2000437761, 1e-9);
   EXPECT_EQ(shot.exitance[1], (Rgb{7, 7, 7}));
   EXPECT_EQ(shot.exitance[2], Rgb{}) << "not shot";
-  EXPECT_DOUBLE_EQ(shot.power_share, 0.5);
+  EXPECT_DOUBLE_EQ(shot.power_fraction, 0.5);
 }
 
 TEST(Shoot, IsTheSameForAnyNumberOfThreads) {
   const auto scene = load_scene("stars:n=3");
   const auto sources = find_small_sources(*scene);
-  const DirectLight one = shoot(*scene, sources, 1);
+  const DirectLight one = shoot(*scene, sources, {.threads = 1});
   for (const int threads : {2, 5}) {
-    EXPECT_TRUE(shoot(*scene, sources, threads).irradiance == one.irradiance);
+    EXPECT_TRUE(shoot(*scene, sources, {.threads = threads}).irradiance == one.irradiance);
   }
 }
 
@@ -134,11 +134,11 @@ TEST(Shoot, ReportsProgressAndIsCanceledWithinAPair) {
   const auto scene = cluttered();
   int reports = 0, reports_of_pairs = 0;
   double last = 0;
-  shoot(*scene, {0}, 1, {}, [&](double share) {
-    EXPECT_GE(share, last);
-    EXPECT_LE(share, 1);
-    reports_of_pairs += share > last ? 1 : 0;
-    last = share;
+  shoot(*scene, {0}, {.threads = 1}, {}, [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    reports_of_pairs += fraction > last ? 1 : 0;
+    last = fraction;
     ++reports;
   });
   EXPECT_EQ(last, 1);
@@ -147,7 +147,7 @@ TEST(Shoot, ReportsProgressAndIsCanceledWithinAPair) {
   for (const int until : {1, 2, reports / 2}) {
     const Cancellation cancellation;
     int seen = 0;
-    EXPECT_THROW(shoot(*scene, {0}, 1, cancellation,
+    EXPECT_THROW(shoot(*scene, {0}, {.threads = 1}, cancellation,
                        [&](double) {
                          if (++seen == until) {
                            cancellation.cancel();
@@ -176,12 +176,12 @@ TEST(Shoot, CanBeCanceledAndReportsProgress) {
   const auto scene = load_scene("stars");
   Cancellation cancellation;
   std::vector<double> heard;
-  shoot(*scene, find_small_sources(*scene), 1, cancellation,
-        [&](double share) { heard.push_back(share); });
+  shoot(*scene, find_small_sources(*scene), {.threads = 1}, cancellation,
+        [&](double fraction) { heard.push_back(fraction); });
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_EQ(heard.back(), 1);
   cancellation.cancel();
-  EXPECT_THROW(shoot(*scene, find_small_sources(*scene), 0, cancellation), Canceled);
+  EXPECT_THROW(shoot(*scene, find_small_sources(*scene), {}, cancellation), Canceled);
   EXPECT_THAT(shoot(*scene, {}).irradiance, SizeIs(scene->patches().size()));
 }
 

@@ -23,7 +23,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
@@ -126,7 +126,7 @@ TEST_F(IoWriters, CsvHasWhatIsKnownOfTheSkyAndQuotesNames) {
   solution_.radiosity = {{1, 1, 1}};
   solution_.irradiance = {{}};
   solution_.form_factor_sums = {0.25};
-  solution_.sky_shares = {0.75};
+  solution_.sky_fractions = {0.75};
   const std::string text = written("a.csv");
   EXPECT_THAT(text, HasSubstr(",H_r,H_g,H_b,F_sum,sky,group,material\n"));
   EXPECT_THAT(text, HasSubstr(",0,0,0,0.25,0.75,wall,\"red, \"\"matt\"\"\"\n"));

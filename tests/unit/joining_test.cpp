@@ -99,7 +99,7 @@ class Mesh {
 };
 
 SceneDescription joined(const SceneDescription& d) { return join_faces(d, {}).description; }
-double area_of(const SceneDescription& d) { return test::total_area(Scene(d)); }
+double area_of(const SceneDescription& d) { return total_area(Scene(d)); }
 
 /// The largest number of faces that an edge has in one direction, and whether each edge has as many
 /// in the other.
@@ -206,21 +206,21 @@ TEST(Joining, KeepsTheFacetsOfACylinder) {
 TEST(Joining, KeepsTheAreaOfAnyMesh) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (int round = 0; round < 50; ++round) {
+  for (int trial = 0; trial < 50; ++trial) {
     Mesh mesh;
     mesh.add_grid({}, {1, 0, 0}, {0, 1, 0}, 9, [&](int, int) { return unit(random) < 0.3; });
     mesh.add_grid({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 4, [&](int, int) { return unit(random) < 0.2; });
     mesh.move(turned);
-    if (round % 3 == 1) {
+    if (trial % 3 == 1) {
       mesh.move(as_float);
-    } else if (round % 3 == 2) {
+    } else if (trial % 3 == 2) {
       // Points that are nearly one.
       mesh.move([&](const Vec3& p) { return p + Vec3{1e-15 * unit(random), 0, 0}; });
     }
     const SceneDescription result = joined(mesh.description);
-    EXPECT_LT(result.face_count(), mesh.description.face_count() / (round % 3 == 2 ? 1 : 2));
+    EXPECT_LT(result.face_count(), mesh.description.face_count() / (trial % 3 == 2 ? 1 : 2));
     const double area = area_of(mesh.description);
-    EXPECT_NEAR(area_of(result), area, 1e-5 * area) << round;
+    EXPECT_NEAR(area_of(result), area, 1e-5 * area) << trial;
   }
 }
 

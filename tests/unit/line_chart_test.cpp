@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/temporary_folder.h"
 #include "transillum/errors.h"
 

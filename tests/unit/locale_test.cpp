@@ -13,7 +13,7 @@
 #include "io/drawing/line_chart.h"
 #include "io/results/study_csv.h"
 #include "support/comma_locale.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"

@@ -25,7 +25,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"

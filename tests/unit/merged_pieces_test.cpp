@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "radiosity/norms.h"
 #include "support/scenes.h"
 
 namespace transillum::merged_pieces_test {
@@ -58,10 +59,7 @@ TEST(MergedPieces, OfConcaveFacesAreTheirPiecesAndOfNonplanarOnesTheirTriangles)
 TEST(MergedPieces, CoverTheSameAreaAsThePatches) {
   for (const char* spec : {"cornell-box", "rooms", "stars", "sphere-flake:levels=1"}) {
     const auto scene = load_scene(spec, {.max_patch_area = 0.05});
-    double patches = 0;
-    for (const Patch& patch : scene->patches()) {
-      patches += patch.area;
-    }
+    const double patches = total_area(*scene);
     const auto merged = merged_pieces(*scene);
     EXPECT_LT(merged.size(), scene->pieces().size()) << spec;
     EXPECT_NEAR(area(merged), patches, 1e-9 * patches) << spec;

@@ -12,6 +12,7 @@
 #include "support/scenes.h"
 #include "transillum/errors.h"
 #include "transillum/solve_session.h"
+#include "visibility/pixels/pixel_map.h"
 
 namespace transillum::option_table_test {
 namespace {
@@ -87,15 +88,83 @@ TEST(OptionTable, TheSeedIsThatOfEngineRays) {
   EXPECT_NE(with_seed(1), with_seed(5));
 }
 
-TEST(OptionTable, TheFirstShotOfAnAccuracyIsAutomaticWhereThereAreDirections) {
-  RunOptions run{.solve = {.engine = Engine::pairs, .goal = {.accuracy = 0.01}}};
-  set_dependent_defaults(run, {});
-  EXPECT_FALSE(run.solve.first_shot);
-  run.solve.engine = Engine::fast;
-  set_dependent_defaults(run, {"first-shot"});
-  EXPECT_FALSE(run.solve.first_shot);
-  set_dependent_defaults(run, {});
-  EXPECT_EQ(run.solve.first_shot, first_shot_where_it_pays);
+/// A default never excludes anything: where there cannot be a first shot, there is none.
+TEST(OptionTable, TheFirstShotIsAutomaticWhereThereCanBeOne) {
+  SolveOptions options;
+  EXPECT_EQ(options.used_first_shot(), first_shot_where_it_pays);
+  options.engine = Engine::pairs;
+  EXPECT_FALSE(options.used_first_shot());
+  EXPECT_NO_THROW(options.validate());
+  options = {};
+  options.first_shot = 500;
+  EXPECT_EQ(options.used_first_shot(), 500);
+  RunOptions run{.solve = {.engine = Engine::hemicube}};
+  EXPECT_FALSE(why_unused("first-shot", {run}).empty());
+  run.solve.first_shot.reset();
+  EXPECT_TRUE(why_unused("first-shot", {run}).empty());
+}
+
+RunOptions defaults_with(const std::vector<std::pair<const char*, const char*>>& given) {
+  RunOptions run;
+  std::set<std::string> names;
+  for (const auto& [name, value] : given) {
+    option(name).parse(run, value);
+    names.insert(name);
+  }
+  set_dependent_defaults(run, names);
+  return run;
+}
+
+TEST(OptionTable, WithoutDirectionsAnAccuracyIsTheDefault) {
+  const AccuracyGoal goal = defaults_with({}).solve.goal;
+  EXPECT_EQ(goal.accuracy, 0.01);
+  EXPECT_EQ(goal.passes, 16384);
+  EXPECT_EQ(goal.of, AccuracyOf::surfaces);
+  EXPECT_EQ(defaults_with({{"accuracy-of", "rms"}}).solve.goal.accuracy, 0.01);
+  // One that is given has no limit of passes.
+  EXPECT_EQ(defaults_with({{"accuracy", "2%"}}).solve.goal.passes, 0);
+  using Given = std::vector<std::pair<const char*, const char*>>;
+  for (const Given& given :
+       {Given{{"directions", "64"}}, Given{{"iterations", "3"}}, Given{{"replicas", "4"}},
+        Given{{"scheme", "growing"}}, Given{{"engine", "zbuffer"}}, Given{{"engine", "pairs"}},
+        Given{{"accuracy", "none"}}, Given{{"paper", "yes"}}}) {
+    const RunOptions run = defaults_with(given);
+    EXPECT_FALSE(run.solve.goal.is_set()) << given[0].first << ' ' << given[0].second;
+    EXPECT_NO_THROW(run.validate());
+  }
+}
+
+TEST(OptionTable, ThePapersChoicesAreDefaultsOfTheRest) {
+  const SolveOptions paper = defaults_with({{"paper", "yes"}}).solve;
+  EXPECT_EQ(paper.directions, 1024);
+  EXPECT_EQ(paper.used_sampling(), Sampling::hammersley);
+  EXPECT_FALSE(paper.two_way);
+  EXPECT_FALSE(paper.first_shot);
+  EXPECT_EQ(paper.basis, Basis::constant);
+  const SolveOptions other =
+      defaults_with({{"directions", "64"}, {"sampling", "halton"}, {"paper", "yes"}}).solve;
+  EXPECT_EQ(other.directions, 64);
+  EXPECT_EQ(other.used_sampling(), Sampling::halton);
+  EXPECT_FALSE(other.two_way);
+}
+
+/// The copied command of each run, made again, is the run.
+TEST(OptionTable, DifferencesMakeTheRunAgain) {
+  using Given = std::vector<std::pair<const char*, const char*>>;
+  for (const Given& given :
+       {Given{}, Given{{"paper", "yes"}}, Given{{"paper", "yes"}, {"directions", "64"}},
+        Given{{"accuracy", "1%"}}, Given{{"accuracy", "none"}}, Given{{"directions", "1024"}},
+        Given{{"directions", "64"}}, Given{{"most-passes", "99"}}, Given{{"engine", "pairs"}},
+        Given{{"accuracy-of", "groups:a,b c"}}, Given{{"first-shot", "none"}}}) {
+    const RunOptions run = defaults_with(given);
+    const auto differences = differences_from_default(run);
+    Given again;
+    for (const auto& [name, value] : differences) {
+      again.emplace_back(name.c_str(), value.c_str());
+    }
+    EXPECT_EQ(defaults_with(again), run);
+    EXPECT_LE(again.size(), std::max<std::size_t>(given.size(), 1));
+  }
 }
 
 TEST(EngineTraits, SayWhatMakeEngineDoes) {
@@ -108,6 +177,14 @@ TEST(EngineTraits, SayWhatMakeEngineDoes) {
       continue;
     }
     EXPECT_NO_THROW(make_engine(traits.value, scene, tree)) << traits.name;
+    const auto sample = [&, &engine = traits.value] {
+      pixel_map({engine, {.resolution = 8}}, *scene, *tree, {0, 0, 1});
+    };
+    if (has_pixels(traits.value)) {
+      EXPECT_NO_THROW(sample()) << traits.name;
+    } else {
+      EXPECT_THROW(sample(), InputError) << traits.name;
+    }
     if (traits.has_moments) {
       EXPECT_NO_THROW(make_engine(traits.value, scene, tree, {.moments = true})) << traits.name;
     } else {

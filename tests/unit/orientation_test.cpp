@@ -60,8 +60,8 @@ TEST(OrientationPlan, TurnsWhatTurnedFacesOfARoomNeed) {
     const OrientationPlan plan = plan_orientation(description);
     EXPECT_EQ(faces_of(plan.turned), turned);
     EXPECT_THAT(faces_of(plan.two_sided), ::testing::IsEmpty());
-    EXPECT_EQ(plan.report.parts, 1);
-    EXPECT_EQ(plan.report.parts_turned, turned.empty() ? 0 : 1);
+    EXPECT_EQ(plan.report.components, 1);
+    EXPECT_EQ(plan.report.components_turned, turned.empty() ? 0 : 1);
   }
 }
 
@@ -93,7 +93,7 @@ TEST(OrientationPlan, MakesOpenSheetsTwoSidedUnlessTheyEmit) {
   const OrientationPlan plan = plan_orientation(sketch.description());
   EXPECT_EQ(faces_of(plan.two_sided), std::vector<std::size_t>{6});
   EXPECT_THAT(faces_of(plan.turned), ::testing::IsEmpty());
-  EXPECT_EQ(plan.report.parts_two_sided, 1);
+  EXPECT_EQ(plan.report.components_two_sided, 1);
 }
 
 /// A lamp just below the ceiling lights the room, not the gap, however it was turned.
@@ -202,7 +202,7 @@ TEST(OrientationPlan, HandlesEdgesOfManyFaces) {
   sketch.box({2, 2, 1}, {3, 3, 2}, true, 0);
   const OrientationPlan plan = plan_orientation(sketch.description());
   EXPECT_EQ(faces_of(plan.turned), (std::vector<std::size_t>{12, 13, 14, 15, 16, 17}));
-  EXPECT_EQ(plan.report.parts, 3);
+  EXPECT_EQ(plan.report.components, 3);
 }
 
 TEST(OrientationPlan, IsAppliedOnceAndCanBeAppliedAgain) {
@@ -220,7 +220,7 @@ TEST(OrientationPlan, IsAppliedOnceAndCanBeAppliedAgain) {
 
 TEST(OrientationPlan, IsCanceled) {
   EXPECT_THROW(plan_orientation(room().description(), 0, testing::canceled()), Canceled);
-  EXPECT_THROW(back_share(*room().scene(), 0, testing::canceled()), Canceled);
+  EXPECT_THROW(back_fraction(*room().scene(), 0, testing::canceled()), Canceled);
 }
 
 TEST(TwoSidedFaces, GiveTwoPatchesEach) {
@@ -239,18 +239,18 @@ TEST(TwoSidedFaces, GiveTwoPatchesEach) {
   EXPECT_THROW(Scene{description}, InputError);
 }
 
-TEST(BackShare, IsZeroWhereOnlyFrontsAreSeen) {
+TEST(BackFraction, IsZeroWhereOnlyFrontsAreSeen) {
   for (const char* spec : {"furnace", "cornell-box", "rooms", "boards"}) {
-    const BackShare share = back_share(*load_scene(spec));
-    EXPECT_EQ(share.share, 0) << spec;
-    EXPECT_EQ(share.open, 0) << spec;
-    EXPECT_THAT(share.materials, ::testing::IsEmpty()) << spec;
+    const BackFraction fraction = back_fraction(*load_scene(spec));
+    EXPECT_EQ(fraction.fraction, 0) << spec;
+    EXPECT_EQ(fraction.open, 0) << spec;
+    EXPECT_THAT(fraction.materials, ::testing::IsEmpty()) << spec;
   }
 }
 
 /// In a sphere every point sees equal areas alike, so light meets backs in proportion to their
 /// area.
-TEST(BackShare, IsTheShareOfTheAreaInASphere) {
+TEST(BackFraction, IsTheFractionOfTheAreaInASphere) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1), red = sketch.material(0.3, 1);
   constexpr int n = 24;
@@ -274,53 +274,53 @@ TEST(BackShare, IsTheShareOfTheAreaInASphere) {
     turned += patch.material == red ? patch.area : 0;
     all += patch.area;
   }
-  const BackShare share = back_share(*scene);
-  EXPECT_NEAR(share.share, turned / all, 0.01);
-  EXPECT_NEAR(share.open, turned / all, 0.01);
-  ASSERT_EQ(share.materials.size(), 1U);
-  EXPECT_EQ(share.materials[0].share, 1);
-  EXPECT_EQ(share.materials[0].of_all, share.share);
+  const BackFraction fraction = back_fraction(*scene);
+  EXPECT_NEAR(fraction.fraction, turned / all, 0.01);
+  EXPECT_NEAR(fraction.open, turned / all, 0.01);
+  ASSERT_EQ(fraction.materials.size(), 1U);
+  EXPECT_EQ(fraction.materials[0].fraction, 1);
+  EXPECT_EQ(fraction.materials[0].of_all, fraction.fraction);
 }
 
 /// Boxes that interpenetrate see backs inside each other, where no light is.
-TEST(BackShare, IsZeroWhereOnlyDarkPlacesSeeBacks) {
+TEST(BackFraction, IsZeroWhereOnlyDarkPlacesSeeBacks) {
   Sketch sketch = room();
   sketch.box({1, 1, 1}, {2, 2, 2}, false, 0).box({1.2, 1.2, 0.5}, {1.8, 1.8, 2.5}, false, 0);
-  EXPECT_LT(back_share(*sketch.scene()).share, 1e-4);
+  EXPECT_LT(back_fraction(*sketch.scene()).fraction, 1e-4);
 }
 
-TEST(BackShare, IsOneWhereTheOnlyLampIsTurnedAway) {
+TEST(BackFraction, IsOneWhereTheOnlyLampIsTurnedAway) {
   SceneDescription description = room().description();
   turn(description, 5);
-  EXPECT_EQ(back_share(Scene(description)).share, 1);
+  EXPECT_EQ(back_fraction(Scene(description)).fraction, 1);
 }
 
 /// Turned solids are lit inside, which no light reaches.
-TEST(BackShare, IsOneWhereEverythingIsTurned) {
+TEST(BackFraction, IsOneWhereEverythingIsTurned) {
   for (const char* spec : {"cornell-box", "stars", "boards"}) {
     SceneDescription description = describe_scene(spec);
     for (std::size_t f = 0; f < description.face_count(); ++f) {
       turn(description, f);
     }
-    EXPECT_GT(back_share(Scene(description)).share, 0.9) << spec;
+    EXPECT_GT(back_fraction(Scene(description)).fraction, 0.9) << spec;
   }
 }
 
-TEST(BackShare, IsOneInARoomInsideOut) {
+TEST(BackFraction, IsOneInARoomInsideOut) {
   SceneDescription description = room().description();
   for (std::size_t f = 0; f < 6; ++f) {
     turn(description, f);
   }
-  EXPECT_EQ(back_share(Scene(description)).share, 1);
-  EXPECT_EQ(back_share(Scene(description)).open, 1);
+  EXPECT_EQ(back_fraction(Scene(description)).fraction, 1);
+  EXPECT_EQ(back_fraction(Scene(description)).open, 1);
 }
 
-TEST(BackShare, OfASealedRoomWithTwoSidedFacesIsZeroAndItIsClosed) {
+TEST(BackFraction, OfASealedRoomWithTwoSidedFacesIsZeroAndItIsClosed) {
   const auto scene = room().scene({.two_sided = true});
-  EXPECT_EQ(back_share(*scene).share, 0);
-  EXPECT_EQ(back_share(*scene).open, 0);
-  EXPECT_EQ(back_share(*load_scene("cornell-box", {.two_sided = true})).open, 0);
-  EXPECT_GT(back_share(*load_scene("cornell-box:open=1", {.two_sided = true})).open, 0.1);
+  EXPECT_EQ(back_fraction(*scene).fraction, 0);
+  EXPECT_EQ(back_fraction(*scene).open, 0);
+  EXPECT_EQ(back_fraction(*load_scene("cornell-box", {.two_sided = true})).open, 0);
+  EXPECT_GT(back_fraction(*load_scene("cornell-box:open=1", {.two_sided = true})).open, 0.1);
 }
 
 /// The outer sides of a sealed room do not count as open, for passes and hemicubes alike.
@@ -338,15 +338,15 @@ TEST(TwoSidedFaces, OfASealedRoomLetNothingEscape) {
   }
 }
 
-TEST(BackShare, DoesNotDependOnThreads) {
+TEST(BackFraction, DoesNotDependOnThreads) {
   SceneDescription description = describe_scene("rooms");
   for (std::size_t f = 0; f < description.face_count(); f += 5) {
     turn(description, f);
   }
   const Scene scene(description);
-  const BackShare one = back_share(scene, 1), many = back_share(scene, 4);
-  EXPECT_GT(one.share, 0.05);
-  EXPECT_EQ(one.share, many.share);
+  const BackFraction one = back_fraction(scene, 1), many = back_fraction(scene, 4);
+  EXPECT_GT(one.fraction, 0.05);
+  EXPECT_EQ(one.fraction, many.fraction);
   EXPECT_EQ(one.open, many.open);
 }
 

@@ -11,7 +11,7 @@
 #include "geometry/form_factor.h"
 #include "io/results/sensor_files.h"
 #include "support/form_factor_rows.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "transillum/at.h"
 
@@ -23,7 +23,8 @@ struct Solved {
 };
 
 Solved solved(const std::shared_ptr<const Scene>& scene, Normalization normalize) {
-  RadiositySolver solver(scene, {.directions = 64, .normalize = normalize, .tolerance = 1e-13});
+  RadiositySolver solver(
+      scene, {.directions = 64, .normalize = normalize, .first_shot = {}, .tolerance = 1e-13});
   solver.advance(RadiositySolver::Until::finished);
   return {solver.solution(), solver.form_factors()};
 }
@@ -44,23 +45,23 @@ std::shared_ptr<const Scene> grouped(const char* spec) {
 }
 
 TEST(PowerTable, PartsSumToTheStatistics) {
-  for (const PartsBy by : {PartsBy::group, PartsBy::material}) {
+  for (const SurfaceKind by : {SurfaceKind::group, SurfaceKind::material}) {
     const Solved s = solved(grouped("cornell-box"), Normalization::none);
     const PowerTable table = power_table(s.solution, by, &s.form_factors);
-    ASSERT_GT(table.parts.size(), 2U);
+    ASSERT_GT(table.surfaces.size(), 2U);
     double area = 0;
     Rgb received, exchanged;
     std::int64_t patches = 0;
-    for (std::size_t p = 0; p < table.parts.size(); ++p) {
-      patches += table.parts[p].patches;
-      area += table.parts[p].area;
-      received += table.parts[p].received;
+    for (std::size_t p = 0; p < table.surfaces.size(); ++p) {
+      patches += table.surfaces[p].patches;
+      area += table.surfaces[p].area;
+      received += table.surfaces[p].received;
       Rgb row;
       for (const Rgb& power : table.exchanged[p]) {
         row += power;
       }
       // The power that a part receives comes from the parts.
-      EXPECT_LE(max_abs(row - table.parts[p].received), 1e-9 * max_abs(row));
+      EXPECT_LE(max_abs(row - table.surfaces[p].received), 1e-9 * max_abs(row));
       exchanged += row;
     }
     EXPECT_EQ(patches, s.solution.scene->patch_count());
@@ -79,7 +80,7 @@ TEST(PowerTable, ExchangesAreReciprocal) {
   for (Rgb& b : s.solution.radiosity) {
     b = {1, 1, 1};
   }
-  const auto exchanged = power_table(s.solution, PartsBy::group, &s.form_factors).exchanged;
+  const auto exchanged = power_table(s.solution, SurfaceKind::group, &s.form_factors).exchanged;
   for (std::size_t i = 0; i < exchanged.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_NEAR(exchanged[i][j].r, exchanged[j][i].r, 1e-10 * exchanged[i][j].r);
@@ -89,7 +90,7 @@ TEST(PowerTable, ExchangesAreReciprocal) {
 
 TEST(PowerTable, EnergyOfClosedScenesIsConserved) {
   const Solved s = solved(grouped("cornell-box"), Normalization::symmetric);
-  const PartPower total = power_table(s.solution, PartsBy::group).total;
+  const SurfacePower total = power_table(s.solution, SurfaceKind::group).total;
   EXPECT_GT(sum(total.emitted), 0);
   EXPECT_NEAR(sum(total.absorbed + total.escaped) / sum(total.emitted), 1, 1e-8);
 }
@@ -97,13 +98,25 @@ TEST(PowerTable, EnergyOfClosedScenesIsConserved) {
 /// E = 1, rho = 0.5 gives B = H = 2 everywhere, and nothing escapes.
 TEST(PowerTable, TheFurnaceAbsorbsWhatItEmits) {
   const Solved s = solved(load_scene("furnace"), Normalization::rows);
-  const PowerTable table = power_table(s.solution, PartsBy::material);
-  ASSERT_EQ(table.parts.size(), 1U);
+  const PowerTable table = power_table(s.solution, SurfaceKind::material);
+  ASSERT_EQ(table.surfaces.size(), 1U);
   EXPECT_TRUE(table.escape_known);
   EXPECT_NEAR(table.total.emitted.r, table.total.area, 1e-9 * table.total.area);
   EXPECT_NEAR(table.total.absorbed.r, table.total.area, 1e-9 * table.total.area);
   EXPECT_NEAR(table.total.received.r, 2 * table.total.area, 1e-9 * table.total.area);
   EXPECT_NEAR(table.total.escaped.r, 0, 1e-9 * table.total.area);
+}
+
+/// What escapes from a box without a front is neither absorbed nor lost.
+TEST(PowerTable, TheShareThatEscapesIsWhatIsNotAbsorbed) {
+  const Solved s = solved(grouped("cornell-box:open=1"), Normalization::symmetric);
+  const SurfacePower total = power_table(s.solution, SurfaceKind::group).total;
+  const double escaped = escaped_share(total);
+  EXPECT_GT(escaped, 0.01);
+  EXPECT_NEAR(escaped, 1 - sum(total.absorbed) / sum(total.emitted), 0.02);
+  EXPECT_TRUE(is_open(s.solution.statistics));
+  EXPECT_EQ(escaped_share({}), 0);
+  EXPECT_FALSE(is_open(solved(grouped("cornell-box"), Normalization::none).solution.statistics));
 }
 
 /// A part emits the exitance of its changed material; `index` finds the part in the scene.
@@ -113,30 +126,30 @@ TEST(PowerTable, TakesChangedMaterials) {
   const std::vector<Material> materials{{"a", {0.25, 0.5, 0.75}, {1, 2, 3}}};
   const std::vector<std::int32_t> all_the_same(scene.patches().size(), 0);
   const PowerTable table =
-      power_table(s.solution, PartsBy::group, nullptr, materials, all_the_same);
+      power_table(s.solution, SurfaceKind::group, nullptr, materials, all_the_same);
   EXPECT_NEAR(table.total.emitted.g, 2 * table.total.area, 1e-12 * table.total.area);
   EXPECT_NEAR(table.total.absorbed.b, 0.25 * table.total.received.b,
               1e-12 * table.total.received.b);
-  for (const PartPower& part : table.parts) {
-    EXPECT_EQ(part.name, part.index < 0 ? "" : at(scene.groups(), part.index));
+  for (const SurfacePower& surface : table.surfaces) {
+    EXPECT_EQ(surface.name, surface.index < 0 ? "" : at(scene.groups(), surface.index));
   }
   EXPECT_EQ(table.total.index, -1);
 }
 
 TEST(PowerTable, KnowsWhatIsNotKnown) {
   Solved s = solved(load_scene("boards"), Normalization::none);
-  s.solution.sky_shares.clear();
-  const PowerTable table = power_table(s.solution, PartsBy::group);
+  s.solution.sky_fractions.clear();
+  const PowerTable table = power_table(s.solution, SurfaceKind::group);
   EXPECT_FALSE(table.escape_known);
   EXPECT_TRUE(table.exchanged.empty());
-  ASSERT_EQ(table.parts.size(), 1U);
-  EXPECT_EQ(table.parts[0].name, "");
+  ASSERT_EQ(table.surfaces.size(), 1U);
+  EXPECT_EQ(table.surfaces[0].name, "");
   EXPECT_THAT(refusal([&] {
-                power_table(s.solution, PartsBy::group, std::make_unique<FormFactors>().get());
+                power_table(s.solution, SurfaceKind::group, std::make_unique<FormFactors>().get());
               }),
               HasSubstr("number of patches differs"));
-  EXPECT_EQ(refusal([] { from_name<PartsBy>("face"); }),
-            "unknown kind of parts \"face\"; choose one of group, material");
+  EXPECT_EQ(refusal([] { from_name<SurfaceKind>("face"); }),
+            "unknown kind of surfaces \"face\"; choose one of group, material");
 }
 
 TEST(CliSolveBy, PrintsTheTable) {

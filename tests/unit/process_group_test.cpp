@@ -48,7 +48,10 @@ Outcome outcome_of(const Solution& solution) {
   append(outcome.values, solution.irradiance);
   append(outcome.values, solution.error.standard_error);
   append(outcome.values, solution.sky_irradiance);
-  for (const auto* list : {&solution.form_factor_sums, &solution.sky_shares}) {
+  for (const LinearTerm& part : solution.linear_terms) {
+    append(outcome.values, {part.first, part.second});
+  }
+  for (const auto* list : {&solution.form_factor_sums, &solution.sky_fractions}) {
     outcome.values.insert(outcome.values.end(), list->begin(), list->end());
   }
   const SolveStatistics& s = solution.statistics;
@@ -85,7 +88,7 @@ Outcome solved(const SolveOptions& options, const std::shared_ptr<PatchSums>& gr
   }
   outcome.values.insert(outcome.values.end(), solver.quadrature_errors().begin(),
                         solver.quadrature_errors().end());
-  const auto backs = solver.back_seen_shares();
+  const auto backs = solver.back_seen_fractions();
   outcome.values.insert(outcome.values.end(), backs.begin(), backs.end());
   if (outcome.statistics.kept_form_factors && options.scheme != Scheme::semi_iterative) {
     outcome.factors = solver.form_factors();
@@ -142,6 +145,11 @@ TEST(ProcessGroup, HasTheBitsOfOneSolverWithReplicasAndNormalizations) {
   expect_bits_of_one(sky);
 }
 
+TEST(ProcessGroup, HasTheBitsOfOneSolverWithLinearFunctions) {
+  expect_bits_of_one({.directions = 32, .basis = Basis::linear, .first_shot = 0, .replicas = 2});
+  expect_bits_of_one({.directions = 32, .normalize = Normalization::rows, .basis = Basis::linear});
+}
+
 TEST(ProcessGroup, HasTheBitsOfOneSolverInEveryScheme) {
   expect_bits_of_one({.directions = 128, .scheme = Scheme::growing});
   expect_bits_of_one(
@@ -170,7 +178,7 @@ TEST(ProcessGroup, DropsFormFactorsOnAllMembers) {
   EXPECT_EQ(errors, std::vector<std::exception_ptr>(3));
 }
 
-TEST(ProcessGroup, KeepsAShareOfTheFormFactors) {
+TEST(ProcessGroup, KeepsAFractionOfTheFormFactors) {
   const SolveOptions options{.directions = 256, .iterations = 1};
   RadiositySolver alone(box(), options);
   alone.advance(Until::finished);

@@ -226,8 +226,10 @@ TEST(Schemes, ReportTheDirectionOfAnyPass) {
 }
 
 TEST(Normalize, SymmetricKeepsReciprocityAndClosesRows) {
-  RadiositySolver solver(
-      box(), {.directions = 24, .normalize = Normalization::symmetric, .tolerance = 1e-13});
+  RadiositySolver solver(box(), {.directions = 24,
+                                 .normalize = Normalization::symmetric,
+                                 .first_shot = {},
+                                 .tolerance = 1e-13});
   solver.advance(Until::finished);
   const FormFactors f = solver.form_factors();
   const Scene& scene = solver.scene();
@@ -282,7 +284,7 @@ TEST(Schemes, ThatRequireKeptFormFactorsReportTheMemoryLimit) {
 
 /// How often error intervals contain the true value, over runs of 8 replicas each.
 struct Coverage {
-  double patches = 0;  ///< share of the patches' intervals, red channel
+  double patches = 0;  ///< fraction of the patches' intervals, red channel
   int means = 0;       ///< number of runs whose interval of the mean B contains it
   double rms = 0;      ///< estimated RMS error over the actual one
 };
@@ -306,6 +308,7 @@ Coverage coverage_of(int runs, int directions_a_replica, double tolerance = 1e-6
                            {.directions = 8 * directions_a_replica,
                             .seed = static_cast<std::uint64_t>(1000 * run),
                             .scheme = scheme,
+                            .first_shot = {},
                             .replicas = 8,
                             .tolerance = tolerance},
                            {.tree = tree});

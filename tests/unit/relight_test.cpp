@@ -74,6 +74,7 @@ TEST(Relight, KeepsTheLightOfASky) {
   changed.materials = other(description.materials);
   const SolveOptions options{
       .directions = 100,
+      .first_shot = {},
       .tolerance = tight,
       .sky = {.exitance = {1, 2, 3}, .model = SkyModel::cie_overcast, .up = {0, 0, -1}}};
   const auto solution_of = [&](const SceneDescription& of) {
@@ -132,7 +133,8 @@ TEST(Relight, EqualsASolveWithTheOtherMaterials) {
   changed.materials = other(description.materials);
   for (const Normalization normalize :
        {Normalization::none, Normalization::rows, Normalization::symmetric}) {
-    const SolveOptions options{.directions = 200, .normalize = normalize, .tolerance = tight};
+    const SolveOptions options{
+        .directions = 200, .normalize = normalize, .first_shot = {}, .tolerance = tight};
     const Solved before = solved(description, options), after = solved(changed, options);
     const RelightResult relit =
         relight(*before.scene, before.form_factors, changed.materials, {.tolerance = tight});
@@ -155,11 +157,12 @@ TEST(Relight, EqualsASolveWithTheOtherMaterialsAfterAFirstShot) {
     SceneDescription changed = description;
     changed.materials = other(description.materials);
     for (const Normalization normalize : {Normalization::none, Normalization::rows}) {
-      SolveOptions options{.directions = 100, .normalize = normalize, .tolerance = tight};
+      SolveOptions options{
+          .directions = 100, .normalize = normalize, .first_shot = {}, .tolerance = tight};
       options.first_shot = ratio;
       const Solved before = solved(description, options), after = solved(changed, options);
       ASSERT_FALSE(before.shot->sources.empty());
-      several += before.shot->parts.size() > 1;
+      several += before.shot->contributions.size() > 1;
       ASSERT_EQ(before.shot->sources, after.shot->sources);
       const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials,
                                           {.tolerance = tight, .shot = before.shot.get()});
@@ -185,7 +188,7 @@ TEST(Relight, EqualsASolveWithOtherMaterialsOfSomeFaces) {
   change_materials(changed, std::vector<MaterialChange>{{"face:3", {}, Rgb{4, 5, 6}},
                                                         {"face:7", Rgb{0.1, 0.8, 0.3}}});
   ASSERT_GT(changed.materials.size(), description.materials.size());
-  const SolveOptions options{.directions = 200, .tolerance = tight};
+  const SolveOptions options{.directions = 200, .first_shot = {}, .tolerance = tight};
   const Solved before = solved(description, options), after = solved(changed, options);
   const auto of_patch = patch_materials(*before.scene, changed);
   const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials,
@@ -241,7 +244,7 @@ TEST(Relight, ShootsNothingIfNothingEmits) {
     material.exitance = {};
   }
   const DirectLight none = with_materials(light, scene, dark);
-  EXPECT_EQ(none.power_share, 0);
+  EXPECT_EQ(none.power_fraction, 0);
   for (const Rgb& h : none.irradiance) {
     EXPECT_EQ(max_abs(h), 0);
   }
@@ -261,7 +264,7 @@ TEST(Relight, KeepsTheSourcesOfTheShot) {
   options.first_shot = 0;
   const Solved before = solved(description, options);
   const Solved after = solved(changed, options, &before.shot->sources);
-  EXPECT_EQ(after.shot->power_share, 0);
+  EXPECT_EQ(after.shot->power_fraction, 0);
   const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials,
                                       {.tolerance = tight, .shot = before.shot.get()});
   expect_same(relit.radiosity, after.radiosity, 1e-10);
@@ -272,7 +275,7 @@ TEST(Relight, RejectsAShotWithoutPartsOrOfAnotherScene) {
   options.first_shot = 0;
   const Solved s = solved(describe_scene("cornell-box"), options);
   DirectLight light = *s.shot;
-  light.parts.clear();
+  light.contributions.clear();
   EXPECT_THROW(relight(*s.scene, s.form_factors, s.scene->materials(), {.shot = &light}),
                InputError);
   light = *s.shot;

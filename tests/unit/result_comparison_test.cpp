@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/files.h"
@@ -17,6 +17,7 @@ namespace {
 
 using test::refusal;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Three unit squares in two groups; the third is in none.
 SceneDescription squares() {
@@ -33,10 +34,10 @@ SceneDescription squares() {
 }
 
 /// @param reflected B - E
-Solution result(const std::vector<Rgb>& reflected,
-                const SceneDescription& description = squares()) {
+Solution result(const std::vector<Rgb>& reflected, const SceneDescription& description = squares(),
+                const SceneOptions& options = {}) {
   Solution solution;
-  solution.scene = std::make_shared<const Scene>(description);
+  solution.scene = std::make_shared<const Scene>(description, options);
   for (const Rgb& light : reflected) {
     const auto i = static_cast<PatchId>(solution.radiosity.size());
     solution.radiosity.push_back(light + solution.scene->exitance(i));
@@ -45,39 +46,82 @@ Solution result(const std::vector<Rgb>& reflected,
   return solution;
 }
 
-TEST(ResultComparison, FindsTheKnownDifferences) {
-  const Solution a = result({{1, 1, 1}, {2, 2, 2}, {4, 4, 4}});
-  const Solution b = result({{1, 1, 1.5}, {2, 3, 2}, {4, 4, 4}});
-  const ResultComparison comparison = compare_results(a, b);
-  EXPECT_DOUBLE_EQ(comparison.whole.rms, std::sqrt((0.25 + 1) / (3 + 12 + 48)));
-  EXPECT_DOUBLE_EQ(comparison.whole.largest, 1.0 / 4);
-  EXPECT_EQ(comparison.whole.worst, 1);
-  EXPECT_EQ(comparison.whole.second, (Rgb{3, 4, 3}));
-  ASSERT_EQ(comparison.groups.size(), 3U);
-  EXPECT_EQ(comparison.groups[0].group, 0);
-  EXPECT_DOUBLE_EQ(comparison.groups[0].difference.largest, 0.5);
-  EXPECT_EQ(comparison.groups[1].group, 2);
-  EXPECT_DOUBLE_EQ(comparison.groups[1].difference.rms, std::sqrt(1.0 / 12));
-  EXPECT_EQ(comparison.groups[2].group, no_group);
-  EXPECT_EQ(comparison.groups[2].difference.worst, no_patch);
+/// Squares that do not emit.
+SceneDescription dark_squares() {
+  SceneDescription description = squares();
+  description.materials[0].exitance = {};
+  return description;
 }
 
-/// Sources do not count, however bright, unless a group has only sources.
-TEST(ResultComparison, LeavesSourcesOut) {
-  SceneDescription description = squares();
+TEST(ResultComparison, FindsTheKnownDifferencesTheWorstSurfaceFirst) {
+  const Solution a = result({{1, 1, 1}, {2, 2, 2}, {4, 4, 4}});
+  const Solution b = result({{1, 1, 1.6}, {2, 3, 2}, {4, 4, 4}});
+  const ResultComparison comparison = compare_results(a, b);
+  ASSERT_EQ(comparison.surfaces.size(), 3U);
+  const SurfaceDifference& low = comparison.surfaces[0];
+  const SurfaceDifference& middle = comparison.surfaces[1];
+  EXPECT_EQ(low.name, "low");
+  EXPECT_DOUBLE_EQ(low.level, 1);
+  EXPECT_DOUBLE_EQ(low.rms, std::sqrt(0.36 / 3));
+  EXPECT_DOUBLE_EQ(low.largest, 0.6);
+  EXPECT_EQ(low.worst, 0);
+  EXPECT_EQ(middle.name, "middle");
+  EXPECT_DOUBLE_EQ(middle.rms, std::sqrt(1.0 / 12));
+  EXPECT_EQ(middle.second, (Rgb{3, 4, 3}));
+  EXPECT_EQ(comparison.surfaces[2].name, "no group");
+  EXPECT_EQ(comparison.surfaces[2].worst, no_patch);
+  EXPECT_DOUBLE_EQ(comparison.rms, std::sqrt((0.36 + 1) / (3 + 12 + 48)));
+}
+
+/// A dim surface that is wrong by its own level disappears in the RMS over everything.
+TEST(ResultComparison, PutsADimSurfaceFirstThatIsWrongByItsOwnLevel) {
+  const Solution a = result({{100, 100, 100}, {1, 1, 1}, {100, 100, 100}}, dark_squares());
+  const Solution b = result({{101, 101, 101}, {2, 2, 2}, {100, 100, 100}}, dark_squares());
+  const ResultComparison comparison = compare_results(a, b);
+  EXPECT_EQ(comparison.surfaces.front().name, "middle");
+  EXPECT_DOUBLE_EQ(comparison.surfaces.front().rms, 1);
+  EXPECT_FALSE(comparison.surfaces.front().is_dark);
+  EXPECT_LT(comparison.rms, 0.02);
+}
+
+TEST(ResultComparison, MeasuresASurfaceInTheDarkByAThousandthOfTheBrightest) {
+  const Solution a = result({{1000, 1000, 1000}, {1e-6, 1e-6, 1e-6}, {10, 10, 10}}, dark_squares());
+  Solution b = a;
+  b.radiosity[1] = {0.1, 0.1, 0.1};
+  const SurfaceDifference dark = compare_results(a, b).surfaces.front();
+  EXPECT_EQ(dark.name, "middle");
+  EXPECT_TRUE(dark.is_dark);
+  EXPECT_DOUBLE_EQ(dark.unit, 1);
+  EXPECT_NEAR(dark.rms, 0.1, 1e-5);
+}
+
+/// Sources are omitted, however bright, and so are surfaces of sources only.
+TEST(ResultComparison, OmitsSources) {
+  SceneDescription description = dark_squares();
   description.materials.push_back(description.materials[0]);
-  description.materials[0].exitance = {};
   description.materials[1].exitance = {1e6, 1e6, 1e6};
   description.face_material = {0, 0, 1};
-  description.face_group = {0, 0, 2};
+  description.face_group = {0, 1, 2};
   const Solution a = result({{1, 1, 1}, {1, 1, 1}, {4, 4, 4}}, description);
   const Solution b = result({{1, 1, 1}, {1.5, 1.5, 1.5}, {5, 5, 5}}, description);
   const ResultComparison comparison = compare_results(a, b);
-  EXPECT_DOUBLE_EQ(comparison.whole.rms, std::sqrt(0.125));
-  EXPECT_DOUBLE_EQ(comparison.whole.largest, 0.5);
-  EXPECT_EQ(comparison.whole.worst, 1);
-  ASSERT_EQ(comparison.groups.size(), 2U);
-  EXPECT_NEAR(comparison.groups[1].difference.rms, 0.25, 1e-9);
+  ASSERT_EQ(comparison.surfaces.size(), 2U);
+  EXPECT_EQ(comparison.surfaces[0].name, "unused");
+  EXPECT_DOUBLE_EQ(comparison.surfaces[0].rms, 0.5);
+  EXPECT_DOUBLE_EQ(comparison.rms, std::sqrt(0.125));
+  EXPECT_EQ(comparison.units, (std::vector<double>{1, 1, 0}));
+}
+
+/// A lamp that is switched off in one of two runs is a lamp.
+TEST(ResultComparison, OmitsWhatEmitsInEither) {
+  const Scene scene(dark_squares());
+  const PatchLight on{{{5, 5, 5}, {}, {}}, {{6, 6, 6}, {2, 2, 2}, {2, 2, 2}}};
+  const PatchLight off{{{}, {}, {5, 5, 5}}, {{1, 1, 1}, {1, 1, 1}, {6, 6, 6}}};
+  const ResultComparison comparison = compare_light(scene, on, off);
+  ASSERT_EQ(comparison.surfaces.size(), 1U);
+  EXPECT_EQ(comparison.surfaces[0].name, "middle");
+  EXPECT_DOUBLE_EQ(comparison.surfaces[0].rms, 0.5);
+  EXPECT_DOUBLE_EQ(comparison.rms, 0.5);
 }
 
 TEST(ResultComparison, NamesDifferentSkies) {
@@ -101,19 +145,20 @@ TEST(ResultComparison, NamesDifferentSkies) {
 
 TEST(ResultComparison, EqualResultsDoNotDiffer) {
   const Solution dark = result({{}, {}, {}}), bright = result({{1, 1, 1}, {}, {}});
-  EXPECT_EQ(compare_results(dark, dark).whole.rms, 0);
-  EXPECT_EQ(compare_results(bright, bright).whole.largest, 0);
-  EXPECT_EQ(compare_results(dark, bright).whole.rms, HUGE_VAL);
-  EXPECT_EQ(compare_results(bright, dark).whole.largest, 1);
+  EXPECT_EQ(compare_results(dark, dark).rms, 0);
+  EXPECT_EQ(compare_results(bright, bright).surfaces.front().largest, 0);
+  EXPECT_EQ(compare_results(dark, bright).rms, HUGE_VAL);
+  EXPECT_EQ(compare_results(dark, bright).surfaces.front().largest, HUGE_VAL);
+  EXPECT_EQ(compare_results(bright, dark).surfaces.front().largest, 1);
 }
 
 TEST(ResultComparison, IsRelativeForLightOfAnyStrength) {
   for (const double strength : {1e-170, 1.0, 1e170}) {
     const Rgb one = strength * Rgb{1, 1, 1};
-    SceneDescription dark = squares();
-    dark.materials[0].exitance = {};
-    const Solution a = result({one, one, one}, dark), b = result({one, one, 1.5 * one}, dark);
-    EXPECT_NEAR(compare_results(a, b).whole.rms, std::sqrt(0.25 / 3), 1e-15);
+    const Solution a = result({one, one, one}, dark_squares()),
+                   b = result({one, one, 1.5 * one}, dark_squares());
+    EXPECT_NEAR(compare_results(a, b).rms, std::sqrt(0.25 / 3), 1e-15);
+    EXPECT_NEAR(compare_results(a, b).surfaces.front().rms, 0.5, 1e-15);
   }
 }
 
@@ -151,23 +196,43 @@ class CliCompare : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(CliCompare, PrintsByGroupAndWhere) {
+TEST_F(CliCompare, NamesTheWorstSurfaceFirstAndTheRmsOverAllLast) {
   const ProgramResult compared = run({"a.vtp", "b.vtp"});
   EXPECT_EQ(compared.status, 0) << compared.err;
   EXPECT_EQ(compared.err, "");
-  EXPECT_THAT(compared.out, HasSubstr("0.25 of the largest reflected light"));
-  EXPECT_THAT(compared.out, HasSubstr("patch 1 (face 1"));
-  EXPECT_THAT(compared.out, HasSubstr("group middle)"));
-  EXPECT_THAT(compared.out, ::testing::ContainsRegex("low +1 +0 +0"));
-  EXPECT_THAT(compared.out, HasSubstr("(no group)"));
+  EXPECT_THAT(compared.out, HasSubstr("patches            3\n"
+                                      "worst surface      middle: 28.87 % RMS\n"
+                                      "largest there      50 %, patch 1 (face 1, material m0, "
+                                      "group middle)\n"));
+  EXPECT_THAT(compared.out, ::testing::ContainsRegex("\nmiddle +1 +28.87 % +50 % +patch 1\n"
+                                                     "low +1 +0 % +0 %"));
+  EXPECT_THAT(compared.out, HasSubstr("no group"));
+  EXPECT_THAT(compared.out, ::testing::EndsWith("RMS over all       12.6 % of the RMS of reflected "
+                                                "light\n"));
+  EXPECT_THAT(compared.out, Not(HasSubstr("dark")));
 }
 
-TEST_F(CliCompare, ExitsWith1OverTheTolerance) {
-  EXPECT_EQ(run({"a.vtp", "b.vtp", "--tolerance", "0.25"}).status, 0);
-  const ProgramResult over = run({"a.vtp", "b.vtp", "--tolerance", "0.24"});
+TEST_F(CliCompare, SaysWhichSurfacesAreInTheDark) {
+  const std::vector<Rgb> light{{1000, 1000, 1000}, {}, {10, 10, 10}};
+  Solution one = result(light, dark_squares()), other = one;
+  other.radiosity[1] = {0.1, 0.1, 0.1};
+  write_result(folder_ / "one.vtp", one);
+  write_result(folder_ / "other.vtp", other);
+  const std::string text = run({"one.vtp", "other.vtp"}).out;
+  EXPECT_THAT(text, HasSubstr("middle: 10 % RMS of a thousandth of the brightest surface"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("middle .*patch 1 \\(dark\\)\n"));
+  EXPECT_THAT(text, HasSubstr("\n(dark): relative to a thousandth of the level"));
+}
+
+TEST_F(CliCompare, ExitsWith1IfTheWorstSurfaceIsOverTheTolerance) {
+  EXPECT_EQ(run({"a.vtp", "b.vtp", "--tolerance", "0.289"}).status, 0);
+  EXPECT_EQ(run({"a.vtp", "b.vtp", "--tolerance", "28.9%"}).status, 0);
+  const ProgramResult over = run({"a.vtp", "b.vtp", "--tolerance", "0.28"});
   EXPECT_EQ(over.status, 1);
   EXPECT_THAT(over.out, HasSubstr("patch 1"));
-  EXPECT_EQ(over.err, "transillum: the results differ by 0.25, more than the tolerance of 0.24\n");
+  EXPECT_EQ(over.err,
+            "transillum: the results of surface \"middle\" differ by 28.87 %, more than the "
+            "tolerance of 28 %\n");
   EXPECT_EQ(run({"a.vtp", "a.vtp", "--tolerance", "0"}).status, 0);
 }
 
@@ -185,6 +250,18 @@ TEST_F(CliCompare, RefusesWhatCannotBeCompared) {
   write_result(folder_ / "c.vtp", result({{}, {}, {}}, other));
   expect_refused({"a.vtp", "c.vtp"},
                  "a.vtp and c.vtp: the results are of different scenes: patch 0 has rho");
+  expect_refused({"a.vtp", "c.vtp", "--functions"},
+                 "a.vtp and c.vtp: the results are of different scenes: face 0 has rho 0.5 0.5 0.5 "
+                 "in one and 0 0 0 in the other");
+  write_result(folder_ / "halves.vtp",
+               result(std::vector<Rgb>(6), squares(), {.max_patch_area = 0.5}));
+  expect_refused({"a.vtp", "halves.vtp"},
+                 "one has 3 patches and the other 6; --functions compares results whose patches "
+                 "alone differ\n");
+  EXPECT_EQ(run({"a.vtp", "halves.vtp", "--functions"}).status, 0);
+  write_result(folder_ / "black-halves.vtp",
+               result(std::vector<Rgb>(6), other, {.max_patch_area = 0.5}));
+  expect_refused({"a.vtp", "black-halves.vtp"}, "one has 3 patches and the other 6\n");
   expect_refused({"a.vtp", "missing.vtp"}, "missing.vtp");
   expect_refused({"a.csv", "b.vtp"}, "a.csv: only results in .vtp files");
   expect_refused({"a.vtp", "b.vtp", "--tolerance", "-1"}, "is less than 0");

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/results/srgb.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
@@ -382,7 +382,7 @@ TEST(ResultPictures, HaveLinearFunctionsPointByPoint) {
     const double b = 0.8 * basis.gradient[a].x / dot(basis.gradient[a], basis.gradient[a]);
     return Rgb{b, b, b};
   };
-  solution.linear_parts = {{part(0), part(1)}};
+  solution.linear_terms = {{part(0), part(1)}};
   solution.eye = Vec3{0.5, 0.5, 2};
   const TemporaryFolder folder;
   write_result(folder / "r.png", solution, {.exposure = 1.0, .up = Vec3{0, 1, 0}});

@@ -18,7 +18,7 @@
 #include <limits>
 #include <random>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/files.h"
@@ -55,7 +55,7 @@ void expect_same(const Solution& read, const Solution& written) {
   EXPECT_EQ(read.radiosity, written.radiosity);
   EXPECT_EQ(read.irradiance, written.irradiance);
   EXPECT_EQ(read.form_factor_sums, written.form_factor_sums);
-  EXPECT_EQ(read.sky_shares, written.sky_shares);
+  EXPECT_EQ(read.sky_fractions, written.sky_fractions);
   EXPECT_EQ(read.sky_irradiance, written.sky_irradiance);
   EXPECT_EQ(read.sky, written.sky);
   EXPECT_EQ(read.complete, written.complete);
@@ -128,10 +128,10 @@ TEST_F(ResultReader, ReadsTwoSidedResultsOfLinearFunctions) {
   write_result(path_, linear);
   const Solution again = read_result(path_);
   expect_same(again, linear);
-  ASSERT_EQ(again.linear_parts.size(), linear.linear_parts.size());
-  for (std::size_t i = 0; i < again.linear_parts.size(); ++i) {
-    EXPECT_EQ(again.linear_parts[i].first, linear.linear_parts[i].first);
-    EXPECT_EQ(again.linear_parts[i].second, linear.linear_parts[i].second);
+  ASSERT_EQ(again.linear_terms.size(), linear.linear_terms.size());
+  for (std::size_t i = 0; i < again.linear_terms.size(); ++i) {
+    EXPECT_EQ(again.linear_terms[i].first, linear.linear_terms[i].first);
+    EXPECT_EQ(again.linear_terms[i].second, linear.linear_terms[i].second);
   }
 }
 
@@ -206,7 +206,7 @@ TEST_F(ResultReader, ReadsGroupsAndTheLightOfTheSky) {
   expect_refused("F_sum of patch 1 is inf");
 }
 
-TEST_F(ResultReader, NeedsNeitherMaterialsNorFigures) {
+TEST_F(ResultReader, NeedsNeitherMaterialsNorValues) {
   change([](vtkPolyData& mesh) {
     mesh.GetCellData()->RemoveArray("material");
     mesh.GetFieldData()->Initialize();
@@ -296,7 +296,7 @@ TEST_F(ResultReader, RefusesImpossibleValues) {
     return
         [=](vtkPolyData& mesh) { mesh.GetCellData()->GetArray(name)->SetComponent(1, 2, value); };
   };
-  const auto figure = [](const char* name, double value) {
+  const auto field = [](const char* name, double value) {
     return [=](vtkPolyData& mesh) { mesh.GetFieldData()->GetArray(name)->SetTuple1(0, value); };
   };
   const Case cases[] = {
@@ -304,11 +304,11 @@ TEST_F(ResultReader, RefusesImpossibleValues) {
       {"H of patch 1 is not a finite number", set("H", HUGE_VAL)},
       {"reflectance rho (Kd) is 1", set("rho", 1)},
       {"exitance E (Ke) is -1", set("E", -1)},
-      {"passes is -1, not a whole number from 0 to 1073741824", figure("passes", -1)},
-      {"passes is 1e+300", figure("passes", 1e300)},
-      {"transfers is 0.5", figure("transfers", 0.5)},
-      {"patch 0 is not followed by its other side", figure("two_sided", 1)},
-      {"two_sided is 7, not a whole number from 0 to 1", figure("two_sided", 7)},
+      {"passes is -1, not a whole number from 0 to 1073741824", field("passes", -1)},
+      {"passes is 1e+300", field("passes", 1e300)},
+      {"transfers is 0.5", field("transfers", 0.5)},
+      {"patch 0 is not followed by its other side", field("two_sided", 1)},
+      {"two_sided is 7, not a whole number from 0 to 1", field("two_sided", 7)},
       {"a polygon's corner is point 99",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, 99); }},
       {"a polygon's corner is point 10, not in the range 0 to 9",

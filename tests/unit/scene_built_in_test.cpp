@@ -28,7 +28,7 @@ TEST_P(BuiltIns, HaveExpectedPatchesAndNoWarnings) {
   EXPECT_TRUE(scene->report().warnings.empty())
       << ::testing::PrintToString(scene->report().warnings);
   if (GetParam().area > 0) {
-    EXPECT_NEAR(test::total_area(*scene), GetParam().area, 1e-12 * GetParam().area);
+    EXPECT_NEAR(total_area(*scene), GetParam().area, 1e-12 * GetParam().area);
   }
 }
 

@@ -64,7 +64,7 @@ TEST_P(Corpus, LoadsWithAReport) {
   EXPECT_EQ(scene->patch_count(), e.patches);
   EXPECT_EQ(scene->pieces().size(), e.pieces);
   if (e.area > 0) {
-    EXPECT_NEAR(test::total_area(*scene), e.area, 1e-12 * e.area);
+    EXPECT_NEAR(total_area(*scene), e.area, 1e-12 * e.area);
   }
   EXPECT_EQ(scene->report().removed_degenerate, e.removed);
   EXPECT_EQ(scene->report().cut_non_planar, e.split);
@@ -77,10 +77,10 @@ TEST_P(Corpus, LoadsTwoSidedAndRefined) {
   const auto twice = load_scene(path_of(GetParam()), {.two_sided = true});
   EXPECT_EQ(twice->patch_count(), 2 * once->patch_count());
   EXPECT_EQ(twice->pieces().size(), 2 * once->pieces().size());
-  const double area = test::total_area(*once);
+  const double area = total_area(*once);
   const auto fine = load_scene(path_of(GetParam()), {.max_patch_area = area / 200});
   EXPECT_GE(fine->patch_count(), 200);
-  EXPECT_NEAR(test::total_area(*fine), area, 1e-9 * area);
+  EXPECT_NEAR(total_area(*fine), area, 1e-9 * area);
 }
 
 /// Bytes changed, removed or duplicated: the result is a scene or an InputError.

@@ -103,11 +103,7 @@ TEST(ScenePatches, KeepQuadrilateralsOfRelativeWidth1eMinus7) {
                              {0.78580605615928334, -0.088742516725631299, -0.90514144642816285},
                              {0.78580602476888761, -0.088742447006912112, -0.90514153020474153},
                              {-0.93879859645380437, 0.27196625333697394, 0.041234787099088704}}));
-  double area = 0;
-  for (const Patch& patch : scene.patches()) {
-    area += patch.area;
-  }
-  EXPECT_NEAR(area, 2.26844e-7, 1e-11);
+  EXPECT_NEAR(total_area(scene), 2.26844e-7, 1e-11);
 }
 
 TEST(ScenePatches, BentQuadrilateralsAreSplitDependingOnTheirDeviation) {

@@ -42,7 +42,7 @@ TEST(Refinement, KeepsTotalAreaAndLimitForEveryBuiltIn) {
     const double bound = 0.1 * whole.bounds().diagonal() * whole.bounds().diagonal() / 100;
     const Scene fine = refined(d, bound);
     EXPECT_GT(fine.patch_count(), whole.patch_count());
-    EXPECT_NEAR(test::total_area(fine), test::total_area(whole), 1e-11 * test::total_area(whole));
+    EXPECT_NEAR(total_area(fine), total_area(whole), 1e-11 * total_area(whole));
     std::int32_t face = 0;
     for (const Patch& p : fine.patches()) {
       EXPECT_LE(p.area, bound * (1 + 1e-8));
@@ -91,7 +91,7 @@ TEST(Refinement, PrecedesTheDoublingOfTwoSidedFaces) {
 TEST(Refinement, DividesConcaveFaces) {
   const Scene scene = refined(
       test::polygon({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}), 0.1);
-  EXPECT_NEAR(test::total_area(scene), 3, 1e-13);
+  EXPECT_NEAR(total_area(scene), 3, 1e-13);
   EXPECT_GE(scene.patch_count(), 30);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "radiosity/norms.h"
 #include "support/refusal.h"
 #include "support/temporary_folder.h"
 #include "transillum/scene.h"
@@ -74,14 +75,6 @@ inline Vec3 doubled_area(const Scene& scene, std::span<const PointId> outline) {
     const Vec3 origin = scene.point(outline[0]);
     sum = sum + cross(scene.point(outline[i]) - origin,
                       scene.point(outline[(i + 1) % outline.size()]) - origin);
-  }
-  return sum;
-}
-
-inline double total_area(const Scene& scene) {
-  double sum = 0;
-  for (const Patch& p : scene.patches()) {
-    sum += p.area;
   }
   return sum;
 }

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "transillum/scene.h"
 
 namespace transillum::scripts_test {

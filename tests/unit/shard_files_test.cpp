@@ -67,7 +67,7 @@ TEST_F(Shards, HaveTheBitsOfOneSolve) {
       EXPECT_TRUE(whole.radiosity == solution.radiosity);
       EXPECT_TRUE(whole.irradiance == solution.irradiance);
       EXPECT_EQ(whole.form_factor_sums, solution.form_factor_sums);
-      EXPECT_EQ(whole.sky_shares, solution.sky_shares);
+      EXPECT_EQ(whole.sky_fractions, solution.sky_fractions);
       EXPECT_EQ(whole.statistics.closure_defect_max, solution.statistics.closure_defect_max);
       EXPECT_EQ(whole.statistics.transfers, solution.statistics.transfers);
       EXPECT_EQ(whole.error.rms, solution.error.rms);
@@ -162,7 +162,7 @@ TEST_F(Shards, LeaveNothingBehindWhenCanceled) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
-TEST(ShareText, IsKOfN) {
+TEST(FractionText, IsKOfN) {
   EXPECT_EQ(share_from_text("3/16"), (Share{3, 16}));
   EXPECT_EQ((Share{3, 16}.text()), "3/16");
   for (const char* text :

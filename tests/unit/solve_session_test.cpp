@@ -42,7 +42,7 @@ std::vector<Case> cases() {
                   .refine = RefineOptions{.by = RefineBy::jump, .patches = 80}}});
   all.push_back({"rounds by error with an accuracy",
                  {.scene = box(), .refine = RefineOptions{.by = RefineBy::error, .patches = 60}}});
-  all.back().request.options.goal.accuracy = 0.2;
+  all.back().request.options.goal.accuracy = 0.02;
   all.push_back({"lobes", {.scene = box_with_a_lobe(), .options = {.directions = 24}}});
   all.back().request.options.glossy = true;
   return all;
@@ -129,8 +129,8 @@ TEST(SolveSession, MayBePreparedAgain) {
   SolveRequest request{.scene = box(), .options = {.directions = 24}};
   int begun = 0;
   bool fails = true;
-  request.preparing = [&](Preparation preparation, double share) {
-    begun += preparation == Preparation::tree && share == 0 ? 1 : 0;
+  request.preparing = [&](Preparation preparation, double fraction) {
+    begun += preparation == Preparation::tree && fraction == 0 ? 1 : 0;
     if (fails) {
       throw std::runtime_error("no");
     }

@@ -15,7 +15,7 @@
 #include "io/drawing/study_chart.h"
 #include "io/results/reference_cache.h"
 #include "support/canceled.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/scenes.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
@@ -120,6 +120,7 @@ TEST(Study, PointsEqualPlainSolves) {
                                      .sampling = Sampling::hammersley,
                                      .two_way = false,
                                      .normalize = Normalization::rows,
+                                     .first_shot = {},
                                      .tolerance = 1e-8});
   EXPECT_EQ(study.points[0].rms_error, rows.rms);
   EXPECT_EQ(study.points[0].max_error, rows.max);
@@ -127,6 +128,7 @@ TEST(Study, PointsEqualPlainSolves) {
   const RadiosityError mean = error({.directions = 24,
                                      .sampling = Sampling::random,
                                      .scheme = Scheme::semi_iterative,
+                                     .first_shot = {},
                                      .burn_in = 2,
                                      .iterations = 18});
   EXPECT_EQ(study.points[1].rms_error, mean.rms);
@@ -248,13 +250,13 @@ TEST(Study, KeepsFinishedPointsWhenCanceled) {
   options.series = {{Sampling::random}, {Sampling::fibonacci}};
   options.directions = {64, 16};
   const Cancellation cancellation;
-  double last_share = 0;
+  double last_fraction = 0;
   const Study study = box().study(
       options,
       [&](const StudyProgress& now) {
-        EXPECT_GE(now.share, last_share);
-        EXPECT_LE(now.share, 1);
-        last_share = now.share;
+        EXPECT_GE(now.fraction, last_fraction);
+        EXPECT_LE(now.fraction, 1);
+        last_fraction = now.fraction;
         // The callback is called within a point, and after it.
         const std::size_t before = (now.directions == 64 ? 2 : 0) + now.series;
         EXPECT_THAT(now.points, AnyOf(SizeIs(before), SizeIs(before + 1)));
@@ -267,7 +269,7 @@ TEST(Study, KeepsFinishedPointsWhenCanceled) {
   ASSERT_THAT(study.points, SizeIs(3));
   EXPECT_EQ(study.points[1].passes, 64);  // by series, then M
   EXPECT_EQ(study.points[2].series, 1U);
-  EXPECT_GT(last_share, 0.5);
+  EXPECT_GT(last_fraction, 0.5);
 }
 
 TEST(Study, RejectsInvalidOptions) {
@@ -282,7 +284,7 @@ TEST(Study, RejectsInvalidOptions) {
   EXPECT_THROW(run_study(box().scene, box().tree, options, {dark}), InputError);
 }
 
-/// The error of a constant on a patch where the reference is linear is the norm of its linear part.
+/// The error of a constant on a patch where the reference is linear is the norm of its linear term.
 TEST(FunctionError, IsTheL2NormOfFunctions) {
   const Scene& scene = *box().scene;
   const std::size_t patches = scene.patches().size();
@@ -316,6 +318,9 @@ TEST(ReferenceCache, FindsWhatItStoredAndNothingElse) {
   other.rotation.reset();
   EXPECT_FALSE(cache.find(scene, other));
   EXPECT_FALSE(cache.find(scene, reference_options(4097)));
+  other = options;
+  other.engine_options.points = 8;
+  EXPECT_FALSE(cache.find(scene, other));
   SceneDescription moved = describe_scene("cornell-box");
   moved.points[0].x += 1e-9;
   EXPECT_FALSE(cache.find(Scene(moved), options));

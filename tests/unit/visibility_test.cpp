@@ -35,7 +35,7 @@ TEST(PlaneIndex, FindsOverlapsWhileBoxesAreInsertedAndErased) {
     const double x = 2 * uniform(generator) - 1, y = 2 * uniform(generator) - 1;
     return PlaneBox{x, y, x + size * uniform(generator), y + size * uniform(generator)};
   };
-  for (int round = 0; round < 3000; ++round) {
+  for (int trial = 0; trial < 3000; ++trial) {
     const auto id = static_cast<std::size_t>(generator() % boxes.size());
     if (present[id]) {
       index.erase(static_cast<std::int32_t>(id));
@@ -44,7 +44,7 @@ TEST(PlaneIndex, FindsOverlapsWhileBoxesAreInsertedAndErased) {
       index.insert(static_cast<std::int32_t>(id), boxes[id]);
     }
     present[id] = !present[id];
-    if (round % 10 != 0) {
+    if (trial % 10 != 0) {
       continue;
     }
     const PlaneBox asked = random_box();
@@ -203,7 +203,7 @@ TEST(ExchangeSums, AddUpAndGatherInBothDirections) {
           }
         }
       }
-      sums.add(sums.make_run(exchanges));
+      sums.add(sums.sort(exchanges));
     }
     sums.finish();
     std::vector<Rgb> b(n), gathered(n);
@@ -251,8 +251,8 @@ TEST(ExchangeSums, HaveTheSameBitsWheneverTheyAreMerged) {
       exchanges.push_back({i, j, area});
       in_order_of_passes[std::minmax(i, j)] += area;
     }
-    roomy.add(roomy.make_run(exchanges));
-    crowded.add(crowded.make_run(exchanges));
+    roomy.add(roomy.sort(exchanges));
+    crowded.add(crowded.sort(exchanges));
   }
   for (ExchangeSums* sums : {&roomy, &crowded}) {
     ASSERT_FALSE(sums->overrun());

@@ -20,7 +20,7 @@
 #include <random>
 
 #include "scene_test_support.h"
-#include "support/program_run.h"
+#include "support/program_call.h"
 #include "support/refusal.h"
 #include "transillum/files.h"
 #include "transillum/solution.h"
@@ -152,7 +152,7 @@ TEST_F(VtkReader, ResultsAreScenes) {
   description.face_group.assign(description.face_count(), 0);
   description.face_group.back() = 1;
   for (const bool two_sided : {false, true}) {
-    const SolveOptions options{.directions = 32};
+    const SolveOptions options{.directions = 32, .first_shot = {}};
     const Solution solution = solve(
         std::make_shared<const Scene>(description, SceneOptions{.two_sided = two_sided}), options);
     write_result(path("r.vtp"), solution);

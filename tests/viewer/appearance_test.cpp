@@ -100,14 +100,14 @@ class AppearanceTest : public QObject {
       QVERIFY(shown("timeline_dock") && shown("lesson_dock") && !shown("map_dock"));
     }
     // A session that is saved during projector mode has the panels of the window.
-    const QByteArray kept = window.parts().docks.state();
+    const QByteArray kept = window.views().docks.state();
     const auto* timeline = window.findChild<QDockWidget*>("timeline_dock");
     QVERIFY2(wait_for([&] { return timeline->height() < 0.1 * window.height(); }, 5000),
              qPrintable(QString::number(timeline->height())));
     QTest::keyClick(&window, Qt::Key_F11);
     QVERIFY(wait_for([&] { return !window.isFullScreen(); }, 5000));
     QVERIFY(shown("map_dock") && window.menuBar()->isVisible());
-    QVERIFY(window.parts().docks.restore(static_cast<int>(Layout::inspect), kept));
+    QVERIFY(window.views().docks.restore(static_cast<int>(Layout::inspect), kept));
     QVERIFY(shown("map_dock") && shown("settings_dock"));
     QVERIFY(theme::scale() == 1);
   }
@@ -122,17 +122,17 @@ class AppearanceTest : public QObject {
     QVERIFY(map->isVisible());
     window.findChild<QAction*>("full_screen")->trigger();
     QVERIFY(wait_for([&] { return window.isFullScreen() && !map->isVisible(); }, 5000));
-    const QByteArray kept = window.parts().docks.state();
+    const QByteArray kept = window.views().docks.state();
     window.findChild<QAction*>("layout_debug")->trigger();
     QVERIFY(!map->isVisible());
     window.findChild<QAction*>("full_screen")->trigger();
     QVERIFY(wait_for([&] { return !window.isFullScreen(); }, 5000));
     QVERIFY(map->isVisible());
-    QVERIFY(window.parts().docks.current() == Layout::inspect);
-    QVERIFY(window.parts().docks.restore(static_cast<int>(Layout::inspect), kept));
+    QVERIFY(window.views().docks.current() == Layout::inspect);
+    QVERIFY(window.views().docks.restore(static_cast<int>(Layout::inspect), kept));
     QVERIFY(map->isVisible());
     window.findChild<QAction*>("layout_debug")->trigger();
-    QVERIFY(window.parts().docks.current() == Layout::debug);
+    QVERIFY(window.views().docks.current() == Layout::debug);
   }
 
   void no_page_has_to_be_scrolled_on_a_projector() {
@@ -241,7 +241,7 @@ class AppearanceTest : public QObject {
     }
   }
 
-  void lines_of_watched_figures_stand_out_in_both_modes() {
+  void lines_of_watched_values_stand_out_in_both_modes() {
     for (const bool dark : {true, false}) {
       theme::apply(*qApp, {.dark = dark});
       for (std::size_t k = 0; k < Watches::most; ++k) {
@@ -303,8 +303,8 @@ class AppearanceTest : public QObject {
   void all_keys_are_documented_and_have_one_use() {
     const auto window = make_active_window();
     std::map<QString, QString> uses;
-    for (const KeyGroup& group : keys_of(*window)) {
-      for (const KeyUse& key : group.keys) {
+    for (const KeySection& section : keys_of(*window)) {
+      for (const KeyUse& key : section.keys) {
         for (const QString& one : key.keys.split(' ')) {
           QVERIFY2(uses.emplace(one, key.text).second, qPrintable(one + ": " + key.text));
         }
@@ -326,7 +326,7 @@ class AppearanceTest : public QObject {
       QVERIFY2(text.contains('`' + key + '`'), qPrintable(key + ": " + use));
     }
     // The tables at the ends of its pages have only keys of the menus, of a saved view, of the kept
-    // run, of the list of kept runs, of the timeline and of the panel Groups.
+    // run, of the list of kept runs, of the timeline and of the panel Surfaces.
     const QStringList others{"Alt+1", "A", "F2", "Del", "←", "→", "Return", "E", "R"};
     static const QRegularExpression quoted(QStringLiteral("`([^`]+)`"));
     int listed = 0;
@@ -381,10 +381,10 @@ class AppearanceTest : public QObject {
       const auto window = make_active_window();
       window->findChild<QDockWidget*>("map_dock")->close();
       QTest::keyClick(window.get(), Qt::Key_3, Qt::ControlModifier);
-      window->parts().docks.save(settings);
+      window->views().docks.save(settings);
     }
     const auto window = make_active_window();
-    QVERIFY(window->parts().docks.load(settings));
+    QVERIFY(window->views().docks.load(settings));
     QVERIFY(window->findChild<QDockWidget*>("breakpoint_dock")->isVisible());
     QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
     QVERIFY(!window->findChild<QDockWidget*>("map_dock")->isVisible());
@@ -395,7 +395,7 @@ class AppearanceTest : public QObject {
     const auto window = make_active_window();
     auto* panel = window->findChild<QDockWidget*>("compare_dock");
     for (const char* layout : {"layout_inspect", "layout_reset", "layout_teach"}) {
-      window->parts().docks.bring_to_front("compare");
+      window->views().docks.bring_to_front("compare");
       panel->setFloating(true);
       QVERIFY(panel->isFloating() && panel->isVisible());
       QVERIFY(panel->windowFlags().testFlag(Qt::WindowMaximizeButtonHint));

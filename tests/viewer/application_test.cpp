@@ -5,10 +5,9 @@
 
 #include <QTest>
 #include <QTimer>
-#include <new>
-#include <stdexcept>
 
 #include "registered.h"
+#include "thrown.h"
 
 namespace transillum::viewer::application_test {
 
@@ -31,16 +30,7 @@ class ApplicationTest : public QObject {
     QFETCH(const QString, message);
     QStringList messages;
     application_.on_failure = [&](const QString& text) { messages << text; };
-    const auto fail = [exception] {
-      switch (exception) {
-        case 0:
-          throw std::bad_alloc();
-        case 1:
-          throw std::runtime_error("no such thing");
-        default:
-          throw 7;  // NOLINT(hicpp-exception-baseclass)
-      }
-    };
+    const auto fail = [exception] { throw_kind(exception); };
     bool later = false;
     QTimer::singleShot(0, this, fail);
     QMetaObject::invokeMethod(this, fail, Qt::QueuedConnection);

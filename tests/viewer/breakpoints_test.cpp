@@ -501,13 +501,13 @@ class BreakpointsTest : public QObject {
     const Direction d("cornell-box");
     const Scene& scene = *d.scene->scene;
     const std::vector<Rgb> radiosity = uneven_radiosity(scene);
-    std::vector<LinearPart> parts;
+    std::vector<LinearTerm> parts;
     for (PatchId p = 0; p < scene.patch_count(); ++p) {
       parts.push_back({{0.1 * p, -0.2, 0.3}, {1, 0.02 * p, -0.5}});
     }
     SolverSnapshot snapshot = snapshot_of(d, radiosity);
     snapshot.options.basis = Basis::linear;
-    snapshot.kept_linear_parts = {std::make_shared<const std::vector<LinearPart>>(parts)};
+    snapshot.kept_linear_terms = {std::make_shared<const std::vector<LinearTerm>>(parts)};
     FocusOn focus(d);
     std::vector<Rgb> sums(radiosity.size());
     for (std::int32_t k = 0; k < d.history().step_count(); ++k) {

@@ -8,6 +8,8 @@
 #include <QTest>
 #include <cmath>
 
+#include "colors/pointer_label.h"
+#include "model/run_comparison.h"
 #include "model/snapshot_values.h"
 #include "registered.h"
 #include "solved_snapshot.h"
@@ -58,6 +60,8 @@ class ColorChoiceTest : public QObject {
     }
     QVERIFY(!values_of(Quantity::difference, *snapshot, 0, nullptr).missing.isEmpty());
     QVERIFY(values_of(Quantity::difference, *snapshot, 0, snapshot.get()).missing.isEmpty());
+    const auto dark = times(*snapshot, 0);
+    QVERIFY(values_of(Quantity::difference, *snapshot, 0, dark.get()).missing.contains("no light"));
   }
 
   void quantities_agree_with_the_equations() {
@@ -234,10 +238,15 @@ class ColorChoiceTest : public QObject {
         QVERIFY(colors.keep_run());
       }
     }
-    // Whether the difference shown is `factor` times the first run.
+    // Whether the difference shown is `factor` times the run A in B - E, in percent of its level.
+    const std::vector<Rgb> of_one =
+        values_of(Quantity::difference, *times(*base, 2), 0, base.get()).values;
     const auto is_shown = [&](double factor) {
       for (std::size_t i = 0; i < base->radiosity.size(); ++i) {
-        if (!(max_abs(colors.values().at(i) - factor * base->radiosity[i]) < 1e-12)) {
+        const Rgb& shown = colors.values().at(i);
+        const bool emits = max_abs(base->loaded->scene->exitance(static_cast<PatchId>(i))) > 0;
+        if (emits != std::isnan(shown.r) ||
+            (!emits && !(max_abs(shown - factor * of_one.at(i)) < 1e-9))) {
           return false;
         }
       }
@@ -245,25 +254,45 @@ class ColorChoiceTest : public QObject {
     };
     QCOMPARE(runs.first(), 1);
     QCOMPARE(runs.second(), -1);
-    QVERIFY(is_shown(0.75));
+    QVERIFY(is_shown(0.75 / 1.25));
     runs.set_first(0);
     QVERIFY(is_shown(1));
     runs.set_second(1);
     QVERIFY(is_shown(0.25));
-    const RunDifference difference =
-        difference_of(*base->loaded->scene, colors.run_b()->radiosity, colors.run_a()->radiosity);
-    QVERIFY(std::abs(difference.rms - 0.25) < 1e-12);
-    double largest = 0;
-    for (const Rgb& b : base->radiosity) {
-      largest = std::max(largest, max_abs(b));
+    // Each surface is off by a fourth of its own level.
+    const ResultComparison comparison = compare_runs(*colors.run_a(), *colors.run_b());
+    QVERIFY(comparison.surfaces.size() > 1);
+    for (const SurfaceDifference& surface : comparison.surfaces) {
+      QVERIFY(std::abs(surface.rms - 0.25) < 1e-12);
     }
-    QVERIFY(std::abs(difference.largest - 0.25 * largest) < 1e-12);
-    QCOMPARE(max_abs(base->radiosity.at(std::size_t(difference.worst))), largest);
-    QCOMPARE(difference_of(*base->loaded->scene, base->radiosity, base->radiosity).worst, no_patch);
+    QVERIFY(std::abs(comparison.rms - 0.25) < 1e-12);
+    const PatchId worst = comparison.surfaces.front().worst;
+    QVERIFY(max_abs(base->loaded->scene->exitance(worst)) == 0);
+    QCOMPARE(compare_runs(*base, *base).surfaces.front().worst, no_patch);
 
     runs.remove(1);
     QCOMPARE(runs.second(), -1);
     QVERIFY(is_shown(1));
+  }
+
+  /// A lamp has no difference: it is gray, whatever its B, and the pointer says why.
+  void lamps_are_omitted_from_the_difference() {
+    ColorChoice colors(selection_);
+    const auto base = solved("cornell-box");
+    colors.set_quantity(Quantity::difference);
+    colors.fit(base);
+    QVERIFY(colors.keep_run());
+    colors.fit(times(*base, 1.5));
+    const Scene& scene = *base->loaded->scene;
+    int lamps = 0;
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      const bool emits = max_abs(scene.exitance(i)) > 0;
+      lamps += emits ? 1 : 0;
+      QCOMPARE(at(colors.patch_colors(), i) == omitted_color, emits);
+      QCOMPARE(pointer_text(colors, {i, {}}).contains("omitted"), emits);
+    }
+    QVERIFY(lamps > 0);
+    QVERIFY(colors.scale().high < 1000);
   }
 
   void runs_of_other_patches_say_why_they_cannot_be_compared() {
@@ -298,14 +327,14 @@ class ColorChoiceTest : public QObject {
     values[1] = {5, 0, 0};  // beyond the range
     ColorScale scale;
     scale.mode = ColorMode::red;
-    const std::vector<double> shares = histogram(scale, scene, values, 10);
+    const std::vector<double> fractions = histogram(scale, scene, values, 10);
     double rest = 0;
     for (PatchId i = 2; i < scene.patch_count(); ++i) {
       rest += scene.patch(i).area;
     }
-    QCOMPARE(shares[9], 1.0);
-    QVERIFY(std::abs(shares[1] - scene.patch(0).area / rest) < 1e-12);
-    QCOMPARE(shares[5], 0.0);
+    QCOMPARE(fractions[9], 1.0);
+    QVERIFY(std::abs(fractions[1] - scene.patch(0).area / rest) < 1e-12);
+    QCOMPARE(fractions[5], 0.0);
   }
 };
 

@@ -37,7 +37,8 @@ class CommandLineTest : public QObject {
   void defaults_are_those_of_solve() {
     const Outcome outcome = parse({});
     QVERIFY(!outcome.parsed.exit_now);
-    const SolveOptions solve;
+    SolveOptions solve;
+    solve.goal = {.accuracy = 0.01, .passes = 16384};
     QCOMPARE(outcome.parsed.command_line.options.solve.directions, solve.directions);
     QCOMPARE(outcome.parsed.command_line.options.solve.tolerance, solve.tolerance);
     QVERIFY(outcome.parsed.command_line.options.solve.two_way);

@@ -14,6 +14,7 @@
 #include <QPushButton>
 #include <QTemporaryDir>
 
+#include "options/option_table.h"
 #include "solved_window.h"
 #include "test_files.h"
 #include "transillum/at.h"
@@ -51,7 +52,9 @@ class CommandTextTest : public QObject {
 
  private slots:
   void defaults_are_left_out() {
-    QCOMPARE(QString::fromStdString(solve_command("cornell-box", {}, {})),
+    RunOptions defaults;
+    set_dependent_defaults(defaults, {});
+    QCOMPARE(QString::fromStdString(solve_command("cornell-box", defaults, {})),
              QString("transillum solve cornell-box"));
     QCOMPARE(QString::fromStdString(map_command("a b's.obj", {}, {}, {0, 0.5, -1})),
              QString("transillum map 'a b'\\''s.obj' --direction 0,0.5,-1 --out map.svg"));

@@ -52,20 +52,20 @@ class CompareTest : public QObject {
     const ComparedWindow shown;
     QVERIFY(shown.ready);
     CompareView* view = shown.view;
-    const auto figures = [&] {
-      return QStringList{shown.text("first_figures"), shown.text("other_figures")};
+    const auto values = [&] {
+      return QStringList{shown.text("first_values"), shown.text("other_values")};
     };
     const auto* picture = view->findChild<QWidget*>("difference_picture");
-    for (const QString& side : figures()) {
+    for (const QString& side : values()) {
       QVERIFY2(side.contains("pairs"), qPrintable(side));
     }
     // The room is closed.
-    QVERIFY2(figures()[0].replace(QChar(QChar::Nbsp), ' ').contains("100 % covered"),
-             qPrintable(figures()[0]));
+    QVERIFY2(values()[0].replace(QChar(QChar::Nbsp), ' ').contains("100 % covered"),
+             qPrintable(values()[0]));
     const auto total = [&] {
       double sum = 0;
       for (PatchId i = 0; i < 27; ++i) {
-        sum += static_cast<const DifferencePicture*>(picture)->share(i);
+        sum += static_cast<const DifferencePicture*>(picture)->fraction(i);
       }
       return sum;
     };
@@ -82,7 +82,7 @@ class CompareTest : public QObject {
     view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("Fast"));
     QVERIFY(wait_for([&] { return view->up_to_date(); }));
     const auto without_time = [](const QString& side) { return side.section("ms", 1); };
-    QCOMPARE(without_time(figures()[1]), without_time(figures()[0]));
+    QCOMPARE(without_time(values()[1]), without_time(values()[0]));
     QCOMPARE(total(), 0.0);
     QVERIFY(shown.text("compare_words").contains(QStringLiteral("0 %")));
   }
@@ -144,7 +144,7 @@ class CompareTest : public QObject {
     list->setCurrentIndex(table->index(row, 0));
     QCOMPARE(picture->receiver(), pair.receiver);
     QCOMPARE(shown.window->selection.patch(), pair.source);
-    QCOMPARE(picture->share(pair.source),
+    QCOMPARE(picture->fraction(pair.source),
              (pair.other - pair.first) / std::max(pair.other, pair.first));
     MapCanvas* canvas = picture->canvas();
     QVERIFY(wait_for([&] { return canvas->up_to_date() && canvas->polygon_count() > 0; }));
@@ -162,8 +162,9 @@ class CompareTest : public QObject {
     }
     QCOMPARE(canvas->polygon_count(), polygons);
     QVERIFY(std::abs(area - pair.first) < 1e-9);
-    const Color8 expected = color_of(
-        ColorMap::diverging, 0.5 + picture->share(pair.source) / (2 * PairPicture::full_color_at));
+    const Color8 expected =
+        color_of(ColorMap::diverging,
+                 0.5 + picture->fraction(pair.source) / (2 * PairPicture::full_color_at));
     shown.window->selection.select(no_patch);
     const QImage image = canvas->grab().toImage();
     int colored = 0;
@@ -219,13 +220,13 @@ class CompareTest : public QObject {
     QVERIFY(wait_for([&] { return shown.window->settled(); }));
     save_picture(*shown.window, "compare-large");
     // The kept state of the layout is the state before.
-    const QByteArray kept = shown.window->parts().docks.state();
+    const QByteArray kept = shown.window->views().docks.state();
     shown.trigger("compare_large");
     QVERIFY2(wait_for([&] { return dock->size() == usual; }),
              qPrintable(QString("%1, not %2").arg(dock->width()).arg(usual.width())));
     QVERIFY(panels() == others && !action->isChecked());
     shown.trigger("layout_debug");
-    DockLayouts& docks = shown.window->parts().docks;
+    DockLayouts& docks = shown.window->views().docks;
     QVERIFY(docks.restore(static_cast<int>(Layout::inspect), kept));
     QVERIFY(wait_for([&] { return panels() == others; }));
     // Another layout ends it too.
@@ -320,21 +321,21 @@ class CompareTest : public QObject {
     QCOMPARE(hemicube->comparison()->request.eye, 14);
     const auto* picture =
         static_cast<const DifferencePicture*>(view->findChild<QWidget*>("difference_picture"));
-    const double wrong = picture->share(14);
+    const double wrong = picture->fraction(14);
     QVERIFY(wrong > 0.01 && wrong < 0.4);
     for (PatchId j = 0; j < 27; ++j) {
-      QVERIFY(picture->share(j) >= 0 && picture->share(j) <= 1 + 1e-9);
+      QVERIFY(picture->fraction(j) >= 0 && picture->fraction(j) <= 1 + 1e-9);
     }
     save_picture(*shown.window, "compare-hemicube");
     // The same engine on both sides shows no difference, along any direction.
     view->findChild<QSpinBox*>("first_resolution")->setValue(128);
     view->findChild<QComboBox*>("first_engine")->setCurrentText(QStringLiteral("Hemicube"));
-    QVERIFY(wait_for([&] { return picture->share(14) == 0; }));
+    QVERIFY(wait_for([&] { return picture->fraction(14) == 0; }));
     // Pairs have no directions either, and hemicubes differ from them.
     view->findChild<QComboBox*>("first_engine")->setCurrentText(QStringLiteral("Pairs of patches"));
-    QVERIFY(wait_for([&] { return view->up_to_date() && picture->share(14) > 0.01; }));
+    QVERIFY(wait_for([&] { return view->up_to_date() && picture->fraction(14) > 0.01; }));
     view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("Pairs of patches"));
-    QVERIFY(wait_for([&] { return view->up_to_date() && picture->share(14) == 0; }));
+    QVERIFY(wait_for([&] { return view->up_to_date() && picture->fraction(14) == 0; }));
   }
 
   void settings_keep_every_value() {

@@ -413,7 +413,7 @@ class DebuggingTest : public QObject {
     QVERIFY(!label->text().contains("Cut by step"));
   }
 
-  void watched_figures_are_those_of_the_steps() {
+  void watched_values_are_those_of_the_steps() {
     const Debugging s("cornell-box");
     QVERIFY(s.ready && s.go_to(3, -1));
     // The known values at each step come from the rows of V and from the step itself.
@@ -455,7 +455,7 @@ class DebuggingTest : public QObject {
     }
   }
 
-  void watched_figures_of_the_selection_need_one() {
+  void watched_values_of_the_selection_need_one() {
     const Debugging s("cornell-box");
     QVERIFY(s.ready && s.go_to(3, -1));
     QVERIFY(!s.window->findChild<WatchChart*>()->isVisible());
@@ -464,7 +464,7 @@ class DebuggingTest : public QObject {
     QVERIFY(s.window->findChild<QAction*>("watch_area")->isEnabled());
   }
 
-  void values_of_watched_figures_are_beside_the_chart_on_a_small_screen() {
+  void watched_values_are_beside_the_chart_on_a_small_screen() {
     const Watching s;
     QVERIFY(s.ready);
     // A window that is high enough gives the chart more than its least height.
@@ -489,7 +489,7 @@ class DebuggingTest : public QObject {
   }
 
   // The lines pass through the values, and the buttons show them.
-  void watched_figures_are_drawn_over_the_steps() {
+  void watched_values_are_drawn_over_the_steps() {
     const Watching s;
     QVERIFY(s.ready);
     const MapHistory& history = s.history();
@@ -513,7 +513,7 @@ class DebuggingTest : public QObject {
     save_picture(*s.window, "watched");
   }
 
-  void watched_figures_are_removed_at_a_click_and_with_their_scene() {
+  void watched_values_are_removed_at_a_click_and_with_their_scene() {
     const Watching s;
     QVERIFY(s.ready);
     QTest::mouseClick(s.button(1), Qt::LeftButton);

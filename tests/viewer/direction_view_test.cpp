@@ -56,7 +56,8 @@ class DirectionViewTest : public QObject {
   /// Eq. 11: what a patch receives is the sum over directions.
   void contributions_sum_to_the_irradiance() {
     Shown shown("cornell-box");
-    const Solution solution = solve(load_scene("cornell-box"), {.directions = 32});
+    const Solution solution =
+        solve(load_scene("cornell-box"), {.directions = 32, .first_shot = {}});
     for (const PatchId patch : {0, 3, 7}) {
       shown.select(patch);
       const auto received = shown.view->received();
@@ -142,11 +143,12 @@ class DirectionViewTest : public QObject {
     SolveOptions options;
     options.directions = 64;
     options.scheme = Scheme::growing;
+    options.first_shot.reset();
     window.set_options(options, {});
     window.show();
     window.open("cornell-box");
     QVERIFY(wait_for([&] { return window.settled() && window.snapshot()->progress.finished; }));
-    window.parts().docks.bring_to_front("received");
+    window.views().docks.bring_to_front("received");
     auto* view = window.findChild<QTableView*>("received_light");
     auto* table = qobject_cast<ReceivedTable*>(view->model());
     const auto snapshot = window.snapshot();

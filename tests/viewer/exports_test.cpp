@@ -26,7 +26,7 @@ class ExportsTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void exports_pictures_charts_and_figures() {
+  void exports_pictures_charts_and_values() {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);
     const ExportActions& exports = *solved.window->findChild<ExportActions*>();
@@ -44,10 +44,10 @@ class ExportsTest : public QObject {
     const QByteArray charts = contents_of(folder.filePath("charts.svg"));
     QVERIFY(charts.contains("<polyline") || charts.contains("<path"));
     QVERIFY(!charts.contains("<image"));  // vector graphics
-    exports.write_chart_figures(folder.filePath("figures.csv"));
-    const QByteArray figures = contents_of(folder.filePath("figures.csv"));
-    QVERIFY(figures.startsWith("chart,x,change,quadrature_error\niteration,1,"));
-    QCOMPARE(figures.count("direction,"), 32);
+    exports.write_chart_values(folder.filePath("figures.csv"));
+    const QByteArray values = contents_of(folder.filePath("figures.csv"));
+    QVERIFY(values.startsWith("chart,x,change,quadrature_error\niteration,1,"));
+    QCOMPARE(values.count("direction,"), 32);
     QVERIFY_EXCEPTION_THROWN(exports.write_scene(folder.filePath("no/such.png"), 1),
                              std::runtime_error);
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), 4);

@@ -46,9 +46,9 @@ struct GlossyWindow {
   }
   const SolverSnapshot& snapshot() const { return *window->snapshot(); }
   SceneView& view() const { return *window->findChild<SceneView*>(); }
-  template <class Part>
-  Part* part(const char* name) const {
-    return window->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* name) const {
+    return window->findChild<Widget*>(name);
   }
   /// Whether the scene shows the radiance toward its camera.
   bool shows_radiance_toward_camera() const {
@@ -88,7 +88,7 @@ class GlossyTest : public QObject {
     QVERIFY(window->snapshot()->glossy);
     QVERIFY(window->snapshot()->options.glossy);
     QVERIFY(window->findChild<QCheckBox*>("glossy")->isChecked());
-    QVERIFY(!window->parts().settings.differ_from_effect());
+    QVERIFY(!window->views().settings.differ_from_effect());
     QCOMPARE(window->colors.quantity(), Quantity::eye_radiance);
     QVERIFY(solution_of(*window->snapshot()).glossy != nullptr);
     save_picture(*window, "glossy-gallery");
@@ -140,7 +140,7 @@ class GlossyTest : public QObject {
     }
     // Without lobes, L is B/pi from everywhere.
     w.part<QCheckBox>("glossy")->setChecked(false);
-    w.window->runner.restart(w.window->parts().settings.solve_options(), {Goal::Kind::finished});
+    w.window->runner.restart(w.window->views().settings.solve_options(), {Goal::Kind::finished});
     QVERIFY(wait_for([&] { return !w.window->snapshot()->glossy && w.settles(); }));
     w.window->colors.set_quantity(Quantity::eye_radiance);
     QCOMPARE(w.window->colors.values().size(), w.snapshot().radiosity.size());
@@ -178,7 +178,7 @@ class GlossyTest : public QObject {
     auto now = std::make_shared<SolverSnapshot>(w.snapshot());
     now->progress.iteration = 2;
     now->progress.stage = SolveProgress::Stage::reflecting;
-    now->progress.stage_share = 0.25;
+    now->progress.stage_fraction = 0.25;
     now->progress.lobes_per_second = 8.5;
     now->progress.seconds_left = 3;
     ProgressLine line;

@@ -30,7 +30,7 @@ using namespace test;
 
 namespace {
 
-constexpr double most = 0.9;  ///< share of points without a line
+constexpr double most = 0.9;  ///< fraction of points without a line
 
 }  // namespace
 
@@ -49,7 +49,7 @@ class InspectTest : public QObject {
     QVERIFY(shown.has_form_factors());
     QVERIFY(wait_for([&] { return shown.window->colors.missing().isEmpty(); }));
     QVERIFY(!shown.part<QWidget>("color_note")->isVisible());
-    QTRY_VERIFY(shown.share_in_own_color() > most);
+    QTRY_VERIFY(shown.fraction_in_own_color() > most);
   }
 
   void the_pointer_tells_patch_value_and_form_factor_data() {

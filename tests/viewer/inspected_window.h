@@ -14,9 +14,9 @@ namespace transillum::viewer::test {
 struct Inspected : SolvedWindow {
   using SolvedWindow::SolvedWindow;
 
-  template <class Part>
-  Part* part(const char* name) const {
-    return window->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* name) const {
+    return window->findChild<Widget*>(name);
   }
   bool raise(const char* name) const {
     auto* dock = part<QDockWidget>(name);
@@ -30,8 +30,8 @@ struct Inspected : SolvedWindow {
   bool has_form_factors() const {
     return wait_for([this] { return window->snapshot()->form_factors != nullptr; });
   }
-  double share_in_own_color() const {
-    return test::share_in_own_color(*scene_view, window->colors);
+  double fraction_in_own_color() const {
+    return test::fraction_in_own_color(*scene_view, window->colors);
   }
 };
 

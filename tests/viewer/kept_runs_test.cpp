@@ -8,6 +8,7 @@
 #include <QToolButton>
 
 #include "inspected_window.h"
+#include "model/run_comparison.h"
 
 namespace transillum::viewer::kept_runs_test {
 
@@ -97,7 +98,15 @@ class KeptRunsTest : public QObject {
     QTest::keyClick(shown.first, Qt::Key_Up);
     QCOMPARE(shown.first->currentText(), QString("one bounce"));
     const auto with_current = shown.text("run_difference");
-    QVERIFY2(with_current.contains("RMS"), qPrintable(with_current));
+    // The worst surface first, the RMS over everything last.
+    const std::string worst_name =
+        compare_runs(*shown.window->colors.run_a(), *shown.window->colors.run_b())
+            .surfaces.front()
+            .name;
+    QVERIFY2(with_current.startsWith(QString::fromStdString(worst_name) + ": RMS "),
+             qPrintable(with_current));
+    QVERIFY(with_current.indexOf("RMS over all surfaces") > with_current.indexOf("largest"));
+    QVERIFY(shown.part<QLabel>("run_difference")->toolTip().contains("by surface"));
     auto* second = shown.part<QComboBox>("run_b");
     QTest::keyClick(second, Qt::Key_End);
     QCOMPARE(second->currentText(), QString("Run 2"));

@@ -218,7 +218,7 @@ class LessonFormatTest : public QObject {
   void files_have_every_option_of_the_run() {
     const nlohmann::json defaults = to_json(RunOptions{});
     for (const Option& option : options()) {
-      const bool stored = option.in_files && !option.reads_scene && option.group != "Machine";
+      const bool stored = option.in_files && !option.reads_scene && option.section != "Machine";
       QCOMPARE(defaults.contains(option.name), stored);
     }
     QVERIFY(run_options_from_json(defaults, "d") == RunOptions{});

@@ -129,7 +129,7 @@ class LessonPagesTest : public QObject {
     const Shown closed(3, 3);
     const SolveStatistics run = closed.solution().statistics;
     QVERIFY(closed.contains("at least eleven digits for every patch and every direction"));
-    QVERIFY(step.open_share() < 1e-11 && run.closure_defect_max < 1e-11);
+    QVERIFY(step.open_fraction() < 1e-11 && run.closure_defect_max < 1e-11);
     QVERIFY(run.kept_form_factors);  // page 4: further iterations are sums
   }
 
@@ -147,7 +147,7 @@ class LessonPagesTest : public QObject {
     QVERIFY(!history.inside_at(k).empty() && !history.outside_at(k).empty());
     for (std::int32_t s = 0; s < history.step_count(); ++s) {  // page 6: fully covered
       if (history.step(s).front_facing) {
-        QVERIFY(history.step(s).open_share() < 1e-11);
+        QVERIFY(history.step(s).open_fraction() < 1e-11);
       }
     }
   }

@@ -65,9 +65,9 @@ struct Controlled : Opened {
                        "rho": {"reflectance": "glowing", "from": 0, "to": 0.8},
                        "step": {"focus": "step"}}}]})") {}
 
-  template <class Part>
-  Part* part(const char* control, const char* name) const {
-    return window->findChild<QWidget*>(control)->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* control, const char* name) const {
+    return window->findChild<QWidget*>(control)->findChild<Widget*>(name);
   }
 };
 
@@ -123,7 +123,7 @@ class LessonsTest : public QObject {
     QCOMPARE(window.findChild<QTextBrowser*>("lesson_text")->toPlainText(), QString("first"));
     QCOMPARE(window.snapshot()->progress.direction, 5);
     QCOMPARE(window.selection.patch(), PatchId{4});
-    QVERIFY(window.parts().docks.current() == Layout::teach);
+    QVERIFY(window.views().docks.current() == Layout::teach);
 
     taught.trigger("lesson_next");
     QVERIFY(taught.settles());
@@ -370,7 +370,7 @@ class LessonsTest : public QObject {
     const QByteArray text =
         contents_of(QStringLiteral(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md"));
     const Taught taught;
-    const std::vector<std::string> panels = taught.window->parts().docks.panels();
+    const std::vector<std::string> panels = taught.window->views().docks.panels();
     QVERIFY(panels.size() > 10);
     for (const std::string& panel : panels) {
       QVERIFY2(text.contains(('"' + panel + '"').c_str()), panel.c_str());
@@ -412,7 +412,7 @@ class LessonsTest : public QObject {
     window.colors.set_logarithmic(true);
     window.files().open_lesson("2", 3);
     QVERIFY(taught.settles());
-    QVERIFY(window.parts().map.labels_shown() && !taught.focus().following());
+    QVERIFY(window.views().map.labels_shown() && !taught.focus().following());
     // The lesson's scene and another one, each after the exposure was fixed.
     for (const std::string& scene : {window.scene.spec(), std::string("furnace")}) {
       window.colors.set_exposure(-3);
@@ -425,7 +425,7 @@ class LessonsTest : public QObject {
       QCOMPARE(window.snapshot()->options.directions, 32);
       QVERIFY(taught.focus().following());
       QVERIFY(window.colors.exposure_is_automatic() && window.colors.scale().logarithmic);
-      QVERIFY(!window.parts().map.labels_shown());
+      QVERIFY(!window.views().map.labels_shown());
       auto* view = window.findChild<SceneView*>();
       const ViewPoint shown = view->view_point();
       window.findChild<SceneView*>()->reset_view();
@@ -455,7 +455,7 @@ class LessonsTest : public QObject {
   void every_built_in_page_can_be_shown() {
     QFETCH(int, lesson);
     Taught taught;
-    check_panels(at(built_in_lessons(), lesson), "lesson", taught.window->parts().docks.panels());
+    check_panels(at(built_in_lessons(), lesson), "lesson", taught.window->views().docks.panels());
     const auto& pages = at(built_in_lessons(), lesson).pages;
     for (int k = 0; k < static_cast<int>(pages.size()); ++k) {
       // Few directions, to save time: what is checked here does not depend on their number.

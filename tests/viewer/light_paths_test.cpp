@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel of light paths: listed with their shares, drawn over the scene, written to files.
+// The panel of light paths: listed with their fractions, drawn over the scene, written to files.
 #include <QDockWidget>
 #include <QFile>
 #include <QJsonArray>
@@ -45,7 +45,7 @@ struct ListedPaths : Inspected {
 /// The number of pixels that are close to `color`.
 int count_of(const QImage& picture, const QColor& color) {
   return static_cast<int>(
-      std::lround(share_of(picture, color) * picture.width() * picture.height()));
+      std::lround(fraction_of(picture, color) * picture.width() * picture.height()));
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ class LightPathsTest : public QObject {
     QVERIFY(shown.text("path_caption").contains("Select a patch"));
   }
 
-  void light_paths_are_listed_with_their_shares() {
+  void light_paths_are_listed_with_their_fractions() {
     const ListedPaths shown;
     QVERIFY(shown.ready);
     const LightPaths expected = shown.expected();
@@ -72,7 +72,7 @@ class LightPathsTest : public QObject {
       QCOMPARE(shown.table->item(row, 2)->text().toInt(), int(path.patches.size()) - 1);
       QVERIFY(shown.table->item(row, 3)->text().endsWith("→ 4"));
       listed += shown.table->item(row, 0)->text().toDouble();
-      // Equal decimals in a column, so that the shares can be compared at a glance.
+      // Equal decimals in a column, so that the fractions can be compared at a glance.
       for (const int column : {0, 1}) {
         const QString text = shown.table->item(row, column)->text();
         const auto decimals = [](const QString& number) { return number.section('.', 1).size(); };
@@ -117,16 +117,16 @@ class LightPathsTest : public QObject {
     shown.panel->write(folder.filePath("paths.csv"));
     const QList<QByteArray> lines = contents_of(folder.filePath("paths.csv")).trimmed().split('\n');
     QCOMPARE(lines.size(), 5);
-    double shares = 0;
+    double fractions = 0;
     for (int line = 1; line < 5; ++line) {
-      shares += lines[line].split(',')[1].toDouble();
+      fractions += lines[line].split(',')[1].toDouble();
     }
     // B is solved to 1e-9 of the largest B, which a lamp has.
     double largest = 0;
     for (const Rgb& b : shown.window->snapshot()->radiosity) {
       largest = std::max(largest, luminance(b));
     }
-    QVERIFY(std::abs(shares - 1) < 1e-8 * largest / luminance(shown.expected().radiosity));
+    QVERIFY(std::abs(fractions - 1) < 1e-8 * largest / luminance(shown.expected().radiosity));
     shown.panel->write(folder.filePath("paths.json"));
     const QJsonObject root =
         QJsonDocument::fromJson(contents_of(folder.filePath("paths.json"))).object();

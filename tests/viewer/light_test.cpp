@@ -4,13 +4,16 @@
 // changes of single faces and groups, and the scene file saved with them.
 #include <QAction>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QSlider>
 #include <QTemporaryDir>
+#include <span>
 
 #include "patches/material_panel.h"
 #include "solved_window.h"
@@ -27,8 +30,8 @@ using namespace test;
 namespace {
 
 /// A closed room with a box in it. Faces 0 to 5: the room, seen from inside; 6 to 11: the box.
-/// `turned`: all faces of the box have the wrong side out.
-QByteArray room(bool turned) {
+/// `turned`: all faces of the box have the wrong side out. `open`: the room has no sixth face.
+QByteArray room(bool turned, bool open) {
   QByteArray text = "mtllib none.mtl\n";
   const auto add_points = [&](double low, double high) {
     for (int k = 0; k < 8; ++k) {
@@ -40,8 +43,8 @@ QByteArray room(bool turned) {
   add_points(1, 2.5);
   const int outward[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
                              {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
-  const auto add_box = [&](int first, bool inside_out) {
-    for (const auto& face : outward) {
+  const auto add_box = [&](int first, bool inside_out, int faces) {
+    for (const auto& face : std::span(outward).first(static_cast<std::size_t>(faces))) {
       text += 'f';
       for (int k = 0; k < 4; ++k) {
         text += ' ' + QByteArray::number(first + face[inside_out ? 3 - k : k]);
@@ -50,9 +53,9 @@ QByteArray room(bool turned) {
     }
   };
   text += "g room\nusemtl white\n";
-  add_box(0, true);
+  add_box(0, true, open ? 5 : 6);
   text += "g box\nusemtl gray\n";
-  add_box(8, turned);
+  add_box(8, turned, 6);
   return text;
 }
 
@@ -63,8 +66,8 @@ struct Opened {
   std::unique_ptr<TestWindow> window;
   bool ready = false;
 
-  explicit Opened(bool turned = false, const QByteArray& materials = {}) {
-    write_file(path, room(turned));
+  explicit Opened(bool turned = false, const QByteArray& materials = {}, bool open = false) {
+    write_file(path, room(turned, open));
     write_file(folder.filePath("none.mtl"), materials.isEmpty()
                                                 ? QByteArray("newmtl white\nKd .7 .7 .7\n"
                                                              "newmtl gray\nKd .4 .3 .2\n")
@@ -83,8 +86,8 @@ struct Opened {
   }
   const Scene& scene() const { return *window->snapshot()->loaded->scene; }
   MaterialEdits& edits() const { return window->relighting.edits(); }
-  QString light_bar() const { return window->parts().page.light_bar()->text(); }
-  QString orientation_bar() const { return window->parts().page.orientation_bar()->text(); }
+  QString light_bar() const { return window->views().page.light_bar()->text(); }
+  QString orientation_bar() const { return window->views().page.orientation_bar()->text(); }
   template <class Part>
   Part* part(const char* name) const {
     return window->findChild<Part*>(name);
@@ -165,7 +168,7 @@ class LightTest : public QObject {
   void a_closed_bar_stays_closed_until_another_scene() {
     const Opened opened;
     QVERIFY(opened.ready);
-    emit opened.window->parts().page.light_bar()->closed();
+    emit opened.window->views().page.light_bar()->closed();
     opened.window->selection.select(3);
     QVERIFY(opened.light_bar().isEmpty());
     opened.window->open("furnace");
@@ -173,6 +176,58 @@ class LightTest : public QObject {
     QVERIFY(opened.light_bar().isEmpty());
     opened.window->open(opened.path);
     QVERIFY(wait_for([&] { return !opened.light_bar().isEmpty(); }));
+  }
+
+  /// The solve would end with B = 0 everywhere: "good enough: error at most 0 %".
+  void a_solve_without_light_is_refused_and_a_light_or_a_sky_is_offered() {
+    const Opened opened;
+    QVERIFY(opened.ready);
+    QCOMPARE(opened.part<QLabel>("phase")->text(), QString("No light: B is 0 everywhere"));
+    emit opened.window->views().page.light_bar()->closed();
+    opened.window->selection.select(3);
+    QVERIFY(opened.light_bar().isEmpty());
+    const auto before = opened.window->snapshot();
+    QSignalSpy states(&opened.window->runner, &SolveRunner::state_changed);
+    opened.part<QLineEdit>("accuracy")->setText("5");
+    opened.part<QPushButton>("restart")->click();
+    QVERIFY2(opened.light_bar().startsWith("Not solved"), qPrintable(opened.light_bar()));
+    QVERIFY(opened.window->banner_text().isEmpty());  // no failure
+    QCOMPARE(opened.offers()[0]->text(), QString("Face 3"));
+    save_picture(*opened.window, "not-solved");
+    // The room is closed: no sky would light it.
+    QVERIFY(!opened.part<QPushButton>("make_sky")->isEnabled());
+    QVERIFY(!opened.light_bar().contains("sky"));
+    QVERIFY(states.isEmpty());
+    QVERIFY(opened.window->snapshot() == before);
+
+    opened.offers()[0]->trigger();
+    QVERIFY(opened.is_relit());
+    opened.part<QPushButton>("restart")->click();
+    QVERIFY(wait_for([&] { return opened.scene().has_light(); }));
+    QVERIFY(opened.settles());
+    QVERIFY(opened.light_bar().isEmpty());
+  }
+
+  void an_open_scene_without_light_is_solved_once_it_has_a_sky() {
+    const Opened opened(false, {}, true);
+    QVERIFY(opened.ready);
+    QVERIFY(opened.light_bar().contains("set a sky"));
+    opened.part<QPushButton>("restart")->click();
+    QVERIFY(opened.light_bar().startsWith("Not solved"));
+    opened.part<QPushButton>("make_sky")->click();
+    auto* sky = opened.part<QDoubleSpinBox>("sky");
+    QVERIFY(sky->isVisible());
+    save_picture(*opened.window, "sky-offered");
+    sky->setValue(10);
+    const auto before = opened.window->snapshot();
+    opened.part<QPushButton>("restart")->click();
+    QVERIFY(wait_for([&] { return opened.window->snapshot() != before; }));
+    QVERIFY(opened.settles());
+    QVERIFY(opened.light_bar().isEmpty());
+    QVERIFY(largest(opened.window->snapshot()->radiosity) > 0);
+    const QString closure = opened.part<QLabel>("summary_closure")->text();
+    QVERIFY2(closure.startsWith("open: ") && closure.endsWith("% of the light escapes"),
+             qPrintable(closure));
   }
 
   void sliders_change_a_material_a_group_or_a_face() {
@@ -305,8 +360,8 @@ class LightTest : public QObject {
   void a_scene_in_order_has_no_bars() {
     const SolvedWindow solved("cornell-box");
     QVERIFY(solved.ready);
-    QVERIFY(solved.window->parts().page.light_bar()->text().isEmpty());
-    QVERIFY(solved.window->parts().page.orientation_bar()->text().isEmpty());
+    QVERIFY(solved.window->views().page.light_bar()->text().isEmpty());
+    QVERIFY(solved.window->views().page.orientation_bar()->text().isEmpty());
   }
 };
 

@@ -12,14 +12,14 @@ namespace transillum::viewer::test {
 namespace {
 
 // A function, since the files register their tests before main() in any order.
-std::map<std::string, Run>& tests() {
-  static std::map<std::string, Run> by_name;
+std::map<std::string, TestMain>& tests() {
+  static std::map<std::string, TestMain> by_name;
   return by_name;
 }
 
 }  // namespace
 
-Registered::Registered(const char* name, Run run) { tests().emplace(name, run); }
+Registered::Registered(const char* name, TestMain run) { tests().emplace(name, run); }
 
 }  // namespace transillum::viewer::test
 

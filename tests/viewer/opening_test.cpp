@@ -80,7 +80,7 @@ class OpeningTest : public QObject {
     QCOMPARE(window->snapshot()->radiosity.size(), refined);
     window->files().open_scene("boards");
     QVERIFY(wait_for([&] { return window->windowTitle().startsWith("boards"); }));
-    QCOMPARE(window->parts().settings.scene_options().max_patch_area, 0.0);
+    QCOMPARE(window->views().settings.scene_options().max_patch_area, 0.0);
     QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
     QCOMPARE(window->snapshot()->loaded->scene->patch_count(), load_scene("boards")->patch_count());
   }

@@ -38,9 +38,9 @@ Outcome by_command_line(const Words& words) {
   std::string scene;
   app.add_option("SCENE", scene);
   cli::GivenOptions options;
-  cli::add_groups(app, options,
-                  {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
-                   "Refinement", "Sky", "Machine"});
+  cli::add_sections(app, options,
+                    {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
+                     "Refinement", "Sky", "Machine"});
   try {
     Words reversed(words.rbegin(), words.rend());
     app.parse(std::move(reversed));
@@ -91,14 +91,14 @@ class Draw {
     if (option.json == Option::Json::numbers) {
       return fmt(number(0, 2)) + "," + fmt(number(0, 2)) + "," + fmt(number(0.1, 2));
     }
-    const bool share = option.name == "tolerance" || option.name == "accuracy" ||
-                       option.name == "refine-until" ||
-                       option.name.find("reflectance") != std::string::npos;
-    const bool real = option.name == "scale" || option.name == "seconds" ||
-                      option.name == "max-patch-area" || option.name == "first-shot";
-    return share  ? fmt(number(1e-9, 1))
-           : real ? fmt(number(0.001, 1000))
-                  : std::to_string(1 + below(option.name == "replicas" ? 64 : 200));
+    const std::string fraction = fmt(number(1e-9, 1)), real = fmt(number(0.001, 1000));
+    for (const std::string& value : {fraction, real}) {
+      if (below(2) == 0 && accepts(option, value)) {
+        return value;
+      }
+    }
+    const std::string whole = std::to_string(1 + below(64));
+    return accepts(option, whole) ? whole : fraction;
   }
   /// Some options with values.
   Words set() {
@@ -130,6 +130,15 @@ class Draw {
   }
 
  private:
+  static bool accepts(const Option& option, const std::string& value) {
+    try {
+      RunOptions scratch;
+      option.parse(scratch, value);
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
   static std::string fmt(double value) {
     std::ostringstream text;
     text.precision(17);
@@ -222,7 +231,7 @@ class OptionsAgreeTest : public QObject {
     std::ifstream stream(file);
     const nlohmann::json json = nlohmann::json::parse(stream).at("options");
     for (const Option& option : transillum::options()) {
-      if (!option.in_files || option.reads_scene || option.group == "Patches") {
+      if (!option.in_files || option.reads_scene || option.section == "Patches") {
         continue;
       }
       RunOptions read;

@@ -150,17 +150,17 @@ class PatchTableTest : public QObject {
       return at(partners.columns, partners.column(name)).values;
     };
     Rgb received;
-    double share = 0, form_factors = 0;
+    double fraction = 0, form_factors = 0;
     for (const Rgb& value : values("received")) {
       received += value;
     }
     for (const Rgb& value : values("share_percent")) {
-      share += value.r;
+      fraction += value.r;
     }
     for (const Rgb& value : values("F_ij")) {
       form_factors += value.r;
     }
-    QVERIFY(std::abs(share - 100) < 1e-9);
+    QVERIFY(std::abs(fraction - 100) < 1e-9);
     QVERIFY(std::abs(form_factors - box_->form_factor_sums[3]) < 1e-12);
     Rgb irradiance;
     for (std::size_t k = 0; k < rows.patches.size(); ++k) {

@@ -158,7 +158,7 @@ class PicturesTest : public QObject {
     window.selection.select(16);
     const auto keep_panel = [&](const char* layout, const char* panel, const char* name) {
       window.findChild<QAction*>(layout)->trigger();
-      window.parts().docks.bring_to_front(panel);
+      window.views().docks.bring_to_front(panel);
       auto* dock = window.findChild<QDockWidget*>(QString(panel) + "_dock");
       QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }));
       QVERIFY(settles(window));

@@ -15,7 +15,7 @@
 #include <QToolButton>
 #include <cmath>
 
-#include "lessons/figure_values.h"
+#include "lessons/computed_values.h"
 #include "lessons/lesson_panel.h"
 #include "lessons/question_box.h"
 #include "scene/error_view.h"
@@ -48,12 +48,12 @@ std::string page_with(const std::string& question) {
 
 Solved solved(const std::string& question) {
   const Lesson lesson = lesson_from_text(page_with(question), "q.json");
-  FigureValues figures(loaded_for(lesson.pages[0].state), {});
-  return solve_question(*lesson.pages[0].question, figures);
+  ComputedValues computed(loaded_for(lesson.pages[0].state), {});
+  return solve_question(*lesson.pages[0].question, computed);
 }
 
-double value_of(const std::string& figure) {
-  return solved(R"({"kind": "number", "ask": "?", "answer": )" + figure + "}").value;
+double value_of(const std::string& wanted) {
+  return solved(R"({"kind": "number", "ask": "?", "answer": )" + wanted + "}").value;
 }
 
 /// A window that shows a lesson from a file in a folder of its own, with tallies in another.
@@ -113,12 +113,12 @@ class QuestionsTest : public QObject {
  private slots:
   void a_question_about_a_direction_hides_the_values_of_its_steps() {
     Class room;
-    const auto ask = [](const QString& figure) {
+    const auto ask = [](const QString& wanted) {
       const QString lesson = R"({"title": "T", "pages": [{"text": "", "show": {"layout": "teach",
         "scene": "cornell-box", "options": {"directions": 8}, "panels": ["algorithm"],
         "focus": {"direction": 3, "step": "exchange"}},
         "question": {"kind": "number", "ask": "How many?", "answer": {"figure": "%1"}}}]})";
-      return lesson.arg(figure).toStdString();
+      return lesson.arg(wanted).toStdString();
     };
     const auto* algorithm = room.window->findChild<QWidget*>("algorithm_dock");
     const auto* value = room.window->findChild<QLabel*>("value_j");
@@ -167,8 +167,8 @@ class QuestionsTest : public QObject {
     const Lesson::Page& shown = at(at(built_in_lessons(), lesson).pages, page);
     const Question& question = *shown.question;
     const auto loaded = loaded_for(shown.state);
-    FigureValues figures(loaded, {});
-    const Solved solved = solve_question(question, figures);
+    ComputedValues computed(loaded, {});
+    const Solved solved = solve_question(question, computed);
     QString found = QString("value %1; right").arg(solved.value);
     for (const int k : solved.right) {
       found += QString(" %1").arg(k);
@@ -212,8 +212,8 @@ class QuestionsTest : public QObject {
     }
   }
 
-  // In the furnace, the figures are known: six faces of a cube inside six faces of another.
-  void figures_have_known_values() {
+  // In the furnace, the values are known: six faces of a cube inside six faces of another.
+  void lesson_values_are_known() {
     QCOMPARE(value_of(R"({"figure": "patches"})"), 12.0);
     QCOMPARE(value_of(R"({"figure": "steps"})"), 12.0);
     QCOMPARE(value_of(R"({"figure": "directions"})"), 64.0);
@@ -362,8 +362,8 @@ class QuestionsTest : public QObject {
     room.open(page_with(R"({"kind": "area", "ask": "Draw it", "unit": "m²", "within": 0.8,
       "answer": {"figure": "projected-area", "patch": 6}})"));
     const auto& page = room.panel->lessons()[0].pages[0];
-    FigureValues figures(loaded_for(page.state), {});
-    const std::vector<Vec2> corners = solve_question(*page.question, figures).region.at(0);
+    ComputedValues computed(loaded_for(page.state), {});
+    const std::vector<Vec2> corners = solve_question(*page.question, computed).region.at(0);
     auto* canvas = room.window->findChild<MapCanvas*>("map_canvas");
     const auto click = [&](const Vec2& p) {
       // point_at() is linear in the position.
@@ -440,7 +440,7 @@ class QuestionsTest : public QObject {
     // On another page, nothing is measured until the user asks; a click stops the measurement.
     room.open_built_in(1, 1);
     QVERIFY(!view->result());
-    room.window->parts().docks.bring_to_front("error");
+    room.window->views().docks.bring_to_front("error");
     auto* button = view->findChild<QPushButton*>("measure_errors");
     QTRY_VERIFY(button->isVisible());
     button->click();
@@ -516,10 +516,10 @@ class QuestionsTest : public QObject {
     QVERIFY_EXCEPTION_THROWN(value_of(R"({"figure": "estimated-error"})"), InputError);
   }
 
-  void every_figure_is_described() {
+  void every_lesson_value_is_described() {
     const QString text = QString::fromUtf8(
         contents_of(QStringLiteral(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md")));
-    for (const std::string& name : figure_names()) {
+    for (const std::string& name : lesson_value_names()) {
       QVERIFY2(text.contains("`\"" + QString::fromStdString(name) + "\"`"), name.c_str());
     }
   }

@@ -41,7 +41,7 @@ const char* const triangle_room =
 /// A window whose session is kept in a folder.
 struct RecoveringWindow {
   std::unique_ptr<TestWindow> window = make_window(8);
-  WindowSession session{window->frame(), window->parts().docks, window->parts().notes,
+  WindowSession session{window->frame(), window->views().docks, window->views().notes,
                         window->applier()};
   Recovery recovery;
 

@@ -98,9 +98,9 @@ struct WatchedRounds {
 struct RefinedWindow : SolvedWindow {
   RefinedWindow() : SolvedWindow("cornell-box", few) {}
 
-  template <class Part>
-  Part* part(const char* name) const {
-    return window->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* name) const {
+    return window->findChild<Widget*>(name);
   }
   void start(const QString& criterion, int patches) const {
     part<QComboBox>("refine_by")->setCurrentText(criterion);
@@ -144,12 +144,12 @@ class RefinementTest : public QObject {
     const SolverSnapshot& snapshot = *watched.snapshot;
     QVERIFY(same_patches(*snapshot.loaded->scene, *expected.scene));
     QVERIFY(snapshot.radiosity == solution.radiosity);
-    QCOMPARE(snapshot.linear_parts.size(), solution.linear_parts.size());
+    QCOMPARE(snapshot.linear_terms.size(), solution.linear_terms.size());
     const auto& rounds = snapshot.statistics.refinement;
     QCOMPARE(rounds.size(), expected.rounds.size());
     for (std::size_t k = 0; k < rounds.size(); ++k) {
       QCOMPARE(rounds[k].patches, expected.rounds[k].patches);
-      QCOMPARE(rounds[k].figure, expected.rounds[k].figure);
+      QCOMPARE(rounds[k].measure, expected.rounds[k].measure);
       QVERIFY(rounds[k].seconds > 0);
     }
     QCOMPARE(snapshot.refinement.patches, expected.scene->patch_count());
@@ -165,17 +165,17 @@ class RefinementTest : public QObject {
     }
   }
 
-  void a_figure_to_reach_ends_the_rounds() {
+  void a_measure_to_reach_ends_the_rounds() {
     const Refinement all = refine(cornell_box(), few, {RefineBy::error, 400, 0});
-    const double until = all.rounds.at(2).figure;
+    const double until = all.rounds.at(2).measure;
     WatchedRounds watched;
     watched.open(few, by(RefineBy::error, 400, until));
     QVERIFY(watched.finishes());
     const auto& rounds = watched.snapshot->statistics.refinement;
     QVERIFY(rounds.size() < all.rounds.size());
-    QVERIFY(rounds.back().figure <= until);
+    QVERIFY(rounds.back().measure <= until);
     for (std::size_t k = 0; k + 1 < rounds.size(); ++k) {
-      QVERIFY(rounds[k].figure > until);
+      QVERIFY(rounds[k].measure > until);
     }
     QCOMPARE(watched.snapshot->loaded->scene->patch_count(), PatchId(rounds.back().patches));
   }
@@ -403,12 +403,12 @@ class RefinementTest : public QObject {
       QVERIFY(w.finishes());
       w.window->selection.select(80);
       radiosity = w.window->snapshot()->radiosity;
-      const WindowSession session(w.window->frame(), w.window->parts().docks,
-                                  w.window->parts().notes, w.window->applier());
+      const WindowSession session(w.window->frame(), w.window->views().docks,
+                                  w.window->views().notes, w.window->applier());
       text = QString::fromStdString(to_text(session.current(), folder.path().toStdString()));
     }
     const auto window = make_window(8);
-    WindowSession session(window->frame(), window->parts().docks, window->parts().notes,
+    WindowSession session(window->frame(), window->views().docks, window->views().notes,
                           window->applier());
     session.restore(session_from_text(text.toStdString(), "session", folder.path().toStdString()));
     QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
@@ -418,7 +418,7 @@ class RefinementTest : public QObject {
     QVERIFY2(window->banner_text().isEmpty(), qPrintable(window->banner_text()));
     QCOMPARE(window->findChild<QComboBox*>("refine_by")->currentText(), QString("Jumps"));
     QCOMPARE(window->findChild<QSpinBox*>("refine_patches")->value(), 100);
-    QVERIFY(!window->parts().settings.differ_from_effect());
+    QVERIFY(!window->views().settings.differ_from_effect());
   }
 
   void settings_are_those_of_the_panel() {

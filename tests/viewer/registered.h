@@ -10,11 +10,11 @@
 namespace transillum::viewer::test {
 
 /// Runs a test with the arguments of its process, and returns the number of failures.
-using Run = int (*)(int argc, char** argv);
+using TestMain = int (*)(int argc, char** argv);
 
 /// A test of this program by its name: the name of its file, without `_test.cpp`.
 struct Registered {
-  Registered(const char* name, Run run);
+  Registered(const char* name, TestMain run);
 };
 
 template <class Test>

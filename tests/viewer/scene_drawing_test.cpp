@@ -19,7 +19,7 @@ using namespace test;
 
 namespace {
 
-constexpr double most = 0.9;  ///< share of points without a line
+constexpr double most = 0.9;  ///< fraction of points without a line
 
 }  // namespace
 
@@ -52,16 +52,16 @@ class SceneDrawingTest : public QObject {
     QVERIFY(all.contains(front) && all.size() > 5);
     shown.trigger("hide_selection");
     QVERIFY(!patches_seen().contains(front));
-    QVERIFY(comes_to_rest(*shown.window) && shown.share_in_own_color() > most);
+    QVERIFY(comes_to_rest(*shown.window) && shown.fraction_in_own_color() > most);
     shown.trigger("undo");
     QCOMPARE(shown.picture(), before);
     QCOMPARE(patches_seen(), all);
     shown.trigger("isolate_selection");
     QCOMPARE(patches_seen(), QSet<PatchId>{front});
     shown.trigger("show_smooth");  // the other mesh omits them too
-    const double background = share_of(shown.picture(), theme::scene_background);
+    const double background = fraction_of(shown.picture(), theme::scene_background);
     shown.trigger("show_all");
-    const double around = share_of(shown.picture(), theme::scene_background);
+    const double around = fraction_of(shown.picture(), theme::scene_background);
     QVERIFY2(background > around + 0.2, qPrintable(QString("%1, %2").arg(background).arg(around)));
     shown.trigger("show_smooth");
     QCOMPARE(shown.picture(), before);
@@ -135,9 +135,9 @@ class SceneDrawingTest : public QObject {
     const QImage with = shown.picture();
     // The line has at least a tenth of the width.
     const double least = 0.1 * with.width() / (with.width() * with.height());
-    const double shares[] = {share_of(before, color), share_of(with, color)};
-    QVERIFY2(shares[1] > shares[0] + least,
-             qPrintable(QString("%1, %2").arg(shares[0]).arg(shares[1])));
+    const double fractions[] = {fraction_of(before, color), fraction_of(with, color)};
+    QVERIFY2(fractions[1] > fractions[0] + least,
+             qPrintable(QString("%1, %2").arg(fractions[0]).arg(fractions[1])));
     shown.trigger(name);
     QCOMPARE(shown.picture(), before);
   }
@@ -251,7 +251,7 @@ class SceneDrawingTest : public QObject {
     const Inspected shown("cornell-box");
     QVERIFY(shown.ready);
     shown.trigger("show_direction");
-    shown.window->parts().page.color_controls()->set_outlines(false);
+    shown.window->views().page.color_controls()->set_outlines(false);
     QVERIFY(shown.scene_view->feature_edges().edges().empty());  // light
     shown.window->colors.set_quantity(Quantity::reflectance);
     const auto& colors = shown.window->colors.patch_colors();
@@ -264,7 +264,7 @@ class SceneDrawingTest : public QObject {
     const auto flat = edges.size();
     shown.window->colors.set_quantity(Quantity::form_factor_sum);
     QVERIFY(!edges.empty() && edges.size() != flat);
-    shown.window->parts().page.color_controls()->set_outlines(true);
+    shown.window->views().page.color_controls()->set_outlines(true);
     QVERIFY(edges.empty());  // the outlines include them
   }
 
@@ -299,7 +299,7 @@ class SceneDrawingTest : public QObject {
     shown.trigger("keep_view");
     shown.trigger("view_top");
     QVERIFY(distance_of(shown.scene_view->view_point(), first) > 0.1);
-    const auto& saved = shown.window->parts().page.bookmarks().all();
+    const auto& saved = shown.window->views().page.bookmarks().all();
     QCOMPARE(saved.size(), std::size_t{1});
     shown.scene_view->set_view_point(saved[0].view);
     QVERIFY(distance_of(shown.scene_view->view_point(), first) < 1e-9);

@@ -75,8 +75,8 @@ class ScreenshotTest : public QObject {
         black += qGray(picture.pixel(x, y)) < 4 ? 1 : 0;
       }
     }
-    const double share = static_cast<double>(black) / (scene.width() * scene.height());
-    QVERIFY2(share < 0.01, qPrintable(QString::number(share)));
+    const double fraction = static_cast<double>(black) / (scene.width() * scene.height());
+    QVERIFY2(fraction < 0.01, qPrintable(QString::number(fraction)));
   }
 
   void exports_a_lesson() {

@@ -108,9 +108,9 @@ class SessionFileTest : public QObject {
       window.watches.add({Watch::Kind::patch_area, 7});
       window.findChild<QPlainTextEdit*>("notes")->setPlainText("mind the \"gap\"\nω");
       change_appearance(window);
-      window.parts().algorithm.set_kind(MapKind::global);
+      window.views().algorithm.set_kind(MapKind::global);
       camera = solved.scene_view->view_point();
-      window.parts().page.bookmarks().add(camera, "the \"first\" one");
+      window.views().page.bookmarks().add(camera, "the \"first\" one");
       camera.eye.x += 1;
       solved.scene_view->set_view_point(camera);
       window.files().save_session(path);
@@ -131,8 +131,8 @@ class SessionFileTest : public QObject {
              QString("mind the \"gap\"\nω"));
     QCOMPARE(window->findChild<SceneView*>()->view_point().eye.x, camera.eye.x);
     check_appearance(*window);
-    QVERIFY(window->parts().algorithm.kind() == MapKind::global);
-    const auto& views = window->parts().page.bookmarks().all();
+    QVERIFY(window->views().algorithm.kind() == MapKind::global);
+    const auto& views = window->views().page.bookmarks().all();
     QCOMPARE(views.size(), std::size_t{1});
     QCOMPARE(views[0].name, QString("the \"first\" one"));
     QCOMPARE(views[0].view.eye.x, camera.eye.x - 1);
@@ -149,7 +149,7 @@ class SessionFileTest : public QObject {
       QVERIFY(solved.ready);
       solved.window->selection.select(7);
       solved.window->selection.select_all(selected);
-      solved.window->parts().page.hidden().hide(hidden);
+      solved.window->views().page.hidden().hide(hidden);
       solved.window->findChild<QComboBox*>("clip_axis")->setCurrentIndex(2);
       solved.window->findChild<QSlider*>("clip_place")->setValue(50);
       solved.window->findChild<QCheckBox*>("clip_other_side")->setChecked(true);
@@ -161,7 +161,7 @@ class SessionFileTest : public QObject {
     QVERIFY(settles(*window));
     QCOMPARE(window->selection.patch(), PatchId{7});
     QVERIFY(window->selection.patches() == selected);
-    const HiddenPatches& left_out = window->parts().page.hidden();
+    const HiddenPatches& left_out = window->views().page.hidden();
     for (PatchId i = 0; i < window->scene.loaded()->scene->patch_count(); ++i) {
       QCOMPARE(left_out.hidden(i), std::count(hidden.begin(), hidden.end(), i) > 0);
     }
@@ -187,8 +187,8 @@ class SessionFileTest : public QObject {
              qPrintable(window->banner_text()));
     const std::vector<PatchId> selected{1, 3, 5, 6, 7};
     QVERIFY(window->selection.patches() == selected);
-    QVERIFY(!window->parts().page.hidden().hidden(3));
-    QVERIFY(window->parts().page.hidden().hidden(4));
+    QVERIFY(!window->views().page.hidden().hidden(3));
+    QVERIFY(window->views().page.hidden().hidden(4));
   }
 
   void a_locked_range_keeps_its_ends() {
@@ -217,17 +217,17 @@ class SessionFileTest : public QObject {
     write_file(path, R"({"show": {"scene": "furnace", "options": {"directions": 16},
                              "colors": {"show": "luminance", "range": [1, 2]}}})");
     const auto window = make_window(16);
-    window->parts().page.bookmarks().add({});
+    window->views().page.bookmarks().add({});
     window->files().open(path);
     QVERIFY(settles(*window));
     QCOMPARE(window->colors.scale().low, 1.0);
-    QVERIFY(window->parts().page.bookmarks().all().empty());
+    QVERIFY(window->views().page.bookmarks().all().empty());
     QVERIFY(window->colors.exposure_is_automatic());
   }
 
   void a_damaged_layout_is_not_restored() {
     const auto window = make_window(16);
-    DockLayouts& docks = window->parts().docks;
+    DockLayouts& docks = window->views().docks;
     const int layout = static_cast<int>(docks.current());
     const QByteArray saved = docks.state();
     QVERIFY(docks.restore(layout, saved));
@@ -251,7 +251,7 @@ class SessionFileTest : public QObject {
     window->files().open(path);
     QVERIFY(settles(*window));
     QVERIFY2(window->banner_text().startsWith("docks: damaged"), qPrintable(window->banner_text()));
-    QVERIFY(window->parts().docks.current() == Layout::debug);
+    QVERIFY(window->views().docks.current() == Layout::debug);
     QVERIFY(window->findChild<QDockWidget*>("algorithm_dock")->isVisible());
   }
 

@@ -16,6 +16,7 @@ inline std::shared_ptr<SolverSnapshot> solved_snapshot(const char* spec, int dir
   auto snapshot = std::make_shared<SolverSnapshot>();
   snapshot->loaded = loaded;
   snapshot->options.directions = directions;
+  snapshot->options.first_shot.reset();
   snapshot->options.replicas = replicas;
   RadiositySolver solver(loaded->scene, snapshot->options, {.tree = loaded->tree});
   snapshot->kept_radiosity.push_back(std::make_shared<std::vector<Rgb>>(solver.radiosity()));

@@ -15,7 +15,8 @@ struct SolvedWindow {
   MapView* map_view = nullptr;
   bool ready = false;
 
-  explicit SolvedWindow(const QString& scene, const SolveOptions& options = {.directions = 32}) {
+  explicit SolvedWindow(const QString& scene,
+                        const SolveOptions& options = {.directions = 32, .first_shot = {}}) {
     window = make_window(options);
     scene_view = window->findChild<SceneView*>();
     map_view = window->findChild<MapView*>();

@@ -203,7 +203,7 @@ class SteppingTest : public QObject {
     QVERIFY2(failure.find("overlap in a cycle") != std::string::npos, failure.c_str());
     QVERIFY(s.text("map_text").contains("failed"));
     const QImage picture = s.map_view->canvas()->grab().toImage();
-    QVERIFY(share_of(picture, theme::scene_background) > 0.8);
+    QVERIFY(fraction_of(picture, theme::scene_background) > 0.8);
     QVERIFY(color_count(picture) > 4);  // the message
     save_picture(*s.window, "map-newell");
   }
@@ -268,10 +268,10 @@ class SteppingTest : public QObject {
     const QImage split = picture_in("phase_split");
     const QImage after = picture_in("phase_after");
     for (const QImage& picture : {before, split, after}) {
-      QVERIFY(share_of(picture, theme::processed) > 0);
+      QVERIFY(fraction_of(picture, theme::processed) > 0);
     }
     QVERIFY(before != split && split != after && before != after);
-    QVERIFY(share_of(split, theme::inside) > share_of(before, theme::inside));
+    QVERIFY(fraction_of(split, theme::inside) > fraction_of(before, theme::inside));
     s.window->findChild<QToolButton*>("map_labels")->click();
     QVERIFY(s.settles());
     QVERIFY(canvas->grab().toImage() != after);
@@ -283,7 +283,7 @@ class SteppingTest : public QObject {
     s.trigger("layout_debug");
     s.focus.go_to({0, 3, -1});
     QVERIFY(s.settles());
-    QCOMPARE(share_of(s.picture(), theme::processed), 0.0);
+    QCOMPARE(fraction_of(s.picture(), theme::processed), 0.0);
     s.focus.seek(find_where([](const MapHistory& history, std::int32_t k) {
                    return history.step(k).exchanges > 1 && history.outside_at(k).size() > 1;
                  }),
@@ -295,7 +295,7 @@ class SteppingTest : public QObject {
     QVERIFY(s.text("value_gathered").size() > 3);
     const auto* events = s.window->findChild<QTableView*>("step_events");
     QCOMPARE(events->model()->rowCount(), step.cut + 1);
-    QVERIFY(share_of(s.picture(), theme::processed) > 0);
+    QVERIFY(fraction_of(s.picture(), theme::processed) > 0);
     // A click in the table selects the patch of the polygon that was cut.
     const QModelIndex above = events->model()->index(1, 3);
     QTest::mouseClick(events->viewport(), Qt::LeftButton, {}, events->visualRect(above).center());
@@ -330,9 +330,9 @@ class SteppingTest : public QObject {
     QVERIFY(comes_to_rest(*s.window));
     save_picture(*s.window, "global");
     // R is highlighted on the map, but only with the global map.
-    QVERIFY(share_of(canvas->grab().toImage(), theme::region) > 0.002);
+    QVERIFY(fraction_of(canvas->grab().toImage(), theme::region) > 0.002);
     s.window->findChild<QComboBox*>("map_kind")->setCurrentIndex(0);
-    QVERIFY(share_of(canvas->grab().toImage(), theme::region) < 1e-4);
+    QVERIFY(fraction_of(canvas->grab().toImage(), theme::region) < 1e-4);
   }
 
   void plays_until_the_end_of_the_run() {

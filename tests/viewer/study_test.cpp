@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The study dialog and the figures on the number of directions.
+// The study dialog and the values on the number of directions.
 #include "solve/study_dialog.h"
 
 #include <QCheckBox>
@@ -98,7 +98,7 @@ class StudyTest : public QObject {
     QVERIFY(color_count(chart->grab().toImage()) > 8);
   }
 
-  void saves_plots_and_figures() {
+  void saves_plots_and_values() {
     const Shown shown("furnace");
     shown.study();
     const QTemporaryDir folder;
@@ -139,7 +139,7 @@ class StudyTest : public QObject {
   }
 
   /// Without a study, the numbers follow from the bounds and from the run.
-  void figures_show_the_directions_for_one_percent() {
+  void the_summary_shows_the_directions_for_one_percent() {
     const auto window = make_window();
     window->set_options({.directions = 96, .replicas = 4}, {});
     window->open("cornell-box");
@@ -154,7 +154,7 @@ class StudyTest : public QObject {
 
   /// The directions of a replica hardly meet the small sources. Earlier, the row showed only
   /// errors.
-  void figures_name_errors_that_cannot_be_trusted() {
+  void the_summary_names_errors_that_cannot_be_trusted() {
     const auto window = make_window();
     const auto* row = window->findChild<QLabel*>("summary_error");
     const auto shows = [&](const QString& scene, int directions, const QString& end) {

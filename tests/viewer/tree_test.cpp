@@ -22,7 +22,7 @@ using namespace test;
 
 namespace {
 
-using Part = TreeVisit::Part;
+using Place = TreeVisit::Place;
 
 /// Mean of a fragment's corners.
 Vec3 middle(const BspTree& tree, FragmentId f) {
@@ -55,13 +55,13 @@ class TreeTest : public QObject {
           QCOMPARE(path.front().end, count);
           for (std::size_t k = 0; k < path.size(); ++k) {
             QVERIFY(path[k].holds(step));
-            QCOMPARE(path[k].part_of(step) == Part::plane, k + 1 == path.size());
+            QCOMPARE(path[k].place_of(step) == Place::plane, k + 1 == path.size());
             if (k == 0) {
               continue;
             }
             // All of one side of the parent plane.
             const TreeVisit& above = path[k - 1];
-            const bool near = above.part_of(step) == Part::near_side;
+            const bool near = above.place_of(step) == Place::near_side;
             QCOMPARE(path[k].begin, near ? above.begin : above.plane_end);
             QCOMPARE(path[k].end, near ? above.plane_begin : above.end);
           }
@@ -91,14 +91,14 @@ class TreeTest : public QObject {
             const double height = dot(plane.normal, middle(*tree, at(order, k))) - plane.offset;
             const double toward_omega = visit.cosine > 0 ? height : -height;
             const double tolerance = 1e-9;
-            switch (visit.part_of(k)) {
-              case Part::near_side:
+            switch (visit.place_of(k)) {
+              case Place::near_side:
                 QVERIFY(toward_omega > tolerance);
                 break;
-              case Part::plane:
+              case Place::plane:
                 QVERIFY(std::abs(toward_omega) < tolerance);
                 break;
-              case Part::far_side:
+              case Place::far_side:
                 QVERIFY(toward_omega < -tolerance);
                 break;
             }
@@ -212,7 +212,7 @@ class TreeTest : public QObject {
     s.window->selection.select(focus.map()->history.step(9).patch);
     QVERIFY(wait_for([&] { return focus.arrived(); }));
     QVERIFY(s.text("tree_words").contains("after"));
-    QTRY_VERIFY(share_of(view->grab().toImage(), theme::selection) > 0);
+    QTRY_VERIFY(fraction_of(view->grab().toImage(), theme::selection) > 0);
     save_picture(*s.window, "tree");
   }
 
@@ -221,7 +221,7 @@ class TreeTest : public QObject {
     QVERIFY(s.ready);
     Focus& focus = s.window->focus;
     s.trigger("layout_debug");
-    s.window->parts().docks.bring_to_front("tree");
+    s.window->views().docks.bring_to_front("tree");
     s.window->findChild<QTabWidget*>("tree_tabs")->setCurrentIndex(1);
     auto* view = s.window->findChild<QTreeView*>("tree_browser");
     const auto* model = qobject_cast<const TreeModel*>(view->model());

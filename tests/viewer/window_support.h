@@ -50,8 +50,8 @@ inline int color_count(const QImage& image) {
   return static_cast<int>(colors.size());
 }
 
-/// The share of pixels that are close to `color`.
-inline double share_of(const QImage& image, const QColor& color) {
+/// The fraction of pixels that are close to `color`.
+inline double fraction_of(const QImage& image, const QColor& color) {
   qint64 close = 0;
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
@@ -88,8 +88,8 @@ inline bool is_inside(const SceneView& view, const QPoint& point, PatchId patch)
 
 /// The fraction of points inside patches, or inside the background, whose pixels have the color
 /// that `color_of` gives for the patch, or no_patch. It is 0 if there are no such points.
-inline double share_in_color(const SceneView& view,
-                             const std::function<QColor(PatchId)>& color_of) {
+inline double fraction_in_color(const SceneView& view,
+                                const std::function<QColor(PatchId)>& color_of) {
   const QImage picture = view.canvas()->grab().toImage();
   const double scale = 1.0 * picture.width() / view.canvas()->width();
   int points = 0, right = 0;
@@ -112,11 +112,11 @@ inline double share_in_color(const SceneView& view,
   return points > 0 ? 1.0 * right / points : 0.0;
 }
 
-/// The share of points of the scene's picture that have the color of their patch, or of the
+/// The fraction of points of the scene's picture that have the color of their patch, or of the
 /// background: nearly 1 where the picture has these colors, patches and camera. Lines and the plane
 /// of the direction cover some.
-inline double share_in_own_color(const SceneView& view, const ColorChoice& colors) {
-  return share_in_color(view, [&colors](PatchId patch) {
+inline double fraction_in_own_color(const SceneView& view, const ColorChoice& colors) {
+  return fraction_in_color(view, [&colors](PatchId patch) {
     if (patch == no_patch) {
       return theme::scene_background;
     }
@@ -143,14 +143,14 @@ struct TestWindow : SharedState, MainWindow {
   TestWindow() : MainWindow(static_cast<SharedState&>(*this), false) {}
 
   void set_options(const SolveOptions& solve, const SceneOptions& scene_options) {
-    parts().settings.set_options(solve, scene_options);
+    views().settings.set_options(solve, scene_options);
   }
   /// Opens and solves a scene, with the options of the settings panel.
   void open(const QString& spec, Goal goal = {Goal::Kind::finished}) {
-    scene.open(spec.toStdString(), parts().settings.options(), goal);
+    scene.open(spec.toStdString(), views().settings.options(), goal);
   }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return scene.snapshot(); }
-  QString banner_text() { return parts().page.banner()->text(); }
+  QString banner_text() { return views().page.banner()->text(); }
 };
 
 /// Whether a part of the window is about to change by itself: Qt moves docks by animations, and
@@ -190,7 +190,7 @@ inline std::unique_ptr<TestWindow> make_window(const SolveOptions& options) {
 }
 /// A window with small settings, so that a test takes little time.
 inline std::unique_ptr<TestWindow> make_window(int directions = 32) {
-  return make_window(SolveOptions{.directions = directions});
+  return make_window(SolveOptions{.directions = directions, .first_shot = {}});
 }
 
 /// Saves a picture for inspection, in the folder named by TRANSILLUM_PICTURES, if it is set.

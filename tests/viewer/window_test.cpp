@@ -96,10 +96,10 @@ class WindowTest : public QObject {
     QVERIFY(solved.ready);
     const QImage scene = picture_of(solved.scene_view->canvas());
     QVERIFY2(color_count(scene) > 12, qPrintable(QString::number(color_count(scene))));
-    QVERIFY(share_of(scene, theme::scene_background) < 0.7);
+    QVERIFY(fraction_of(scene, theme::scene_background) < 0.7);
     const QImage map = picture_of(solved.map_view->canvas());
     QVERIFY2(color_count(map) > 8, qPrintable(QString::number(color_count(map))));
-    QVERIFY(share_of(map, theme::scene_background) < 0.9);
+    QVERIFY(fraction_of(map, theme::scene_background) < 0.9);
     const QImage whole = picture_of(solved.window.get());
     QCOMPARE(whole.size(), solved.window->size() * solved.window->devicePixelRatioF());
     QVERIFY(color_count(whole) > 40);
@@ -110,11 +110,11 @@ class WindowTest : public QObject {
     QVERIFY(solved.ready);
     solved.window->findChild<QComboBox*>("color_mode")->setCurrentIndex(1);
     QVERIFY(comes_to_rest(*solved.window));
-    const double share = share_in_own_color(*solved.scene_view, solved.window->colors);
-    QVERIFY2(share > 0.9, qPrintable(QString::number(share)));
+    const double fraction = fraction_in_own_color(*solved.scene_view, solved.window->colors);
+    QVERIFY2(fraction > 0.9, qPrintable(QString::number(fraction)));
     const Color8 top = color_of(ColorMap::viridis, 1);
     const QImage whole = picture_of(solved.window.get());
-    QVERIFY(share_of(whole, QColor(top[0], top[1], top[2])) > 0);
+    QVERIFY(fraction_of(whole, QColor(top[0], top[1], top[2])) > 0);
   }
 
   void typing_after_choosing_from_a_list_does_not_change_it() {
@@ -170,7 +170,7 @@ class WindowTest : public QObject {
       view.eye = patch.center + Vec3{-1, -8, 0} + below * patch.normal;
       solved.scene_view->set_view_point(view);
       save_picture(*solved.window, QString("outline-%1").arg(below));
-      const double pink = share_of(picture_of(solved.scene_view->canvas()), theme::selection);
+      const double pink = fraction_of(picture_of(solved.scene_view->canvas()), theme::selection);
       QVERIFY2(pink > 4e-4, qPrintable(QString("%1: %2").arg(below).arg(pink)));
     }
   }
@@ -181,16 +181,16 @@ class WindowTest : public QObject {
     const QPoint place = solved.place_of(solved.patches_in_map());
     QVERIFY(place.x() >= 0);
     const PatchId patch = solved.scene_view->patch_at(place);
-    QCOMPARE(share_of(picture_of(solved.scene_view->canvas()), theme::selection), 0.0);
-    QCOMPARE(share_of(picture_of(solved.map_view->canvas()), theme::selection), 0.0);
+    QCOMPARE(fraction_of(picture_of(solved.scene_view->canvas()), theme::selection), 0.0);
+    QCOMPARE(fraction_of(picture_of(solved.map_view->canvas()), theme::selection), 0.0);
 
     QTest::mouseClick(solved.scene_view->canvas(), Qt::LeftButton, {}, place);
     QCOMPARE(solved.window->selection.patch(), patch);
     QCOMPARE(solved.text("patch_id"), QString::number(patch));
     QVERIFY(!solved.text("patch_radiosity").isEmpty());
     QVERIFY(wait_for(
-        [&] { return share_of(picture_of(solved.map_view->canvas()), theme::selection) > 0; }));
-    QVERIFY(share_of(picture_of(solved.scene_view->canvas()), theme::selection) > 0);
+        [&] { return fraction_of(picture_of(solved.map_view->canvas()), theme::selection) > 0; }));
+    QVERIFY(fraction_of(picture_of(solved.scene_view->canvas()), theme::selection) > 0);
   }
 
   void a_drag_rotates_the_scene_and_selects_nothing() {
@@ -205,8 +205,8 @@ class WindowTest : public QObject {
     QVERIFY(norm(after.eye - before.eye) > 0.1 * norm(before.eye - before.target));
     // The picture belongs to the new camera.
     QVERIFY(comes_to_rest(*solved.window));
-    const double share = share_in_own_color(*solved.scene_view, solved.window->colors);
-    QVERIFY2(share > 0.9, qPrintable(QString::number(share)));
+    const double fraction = fraction_in_own_color(*solved.scene_view, solved.window->colors);
+    QVERIFY2(fraction > 0.9, qPrintable(QString::number(fraction)));
     QCOMPARE(solved.window->selection.patch(), no_patch);
   }
 
@@ -247,7 +247,7 @@ class WindowTest : public QObject {
     };
     const QSize small(1280, 720);
     QVERIFY(fits(small));
-    window->parts().lessons.show_page(3, 0);
+    window->views().lessons.show_page(3, 0);
     window->findChild<QAction*>("projector")->trigger();
     const QSize least = window->minimumSizeHint();
     window->findChild<QAction*>("projector")->trigger();
@@ -283,11 +283,11 @@ class WindowTest : public QObject {
     window->watches.add({Watch::Kind::map_size});
     check("a watch");
     window->hide();  // nothing has to be painted
-    window->parts().lessons.show_page(3, 0);
+    window->views().lessons.show_page(3, 0);
     window->findChild<QAction*>(layout)->trigger();
     check("a lesson");
-    for (const std::string& panel : window->parts().docks.panels()) {
-      window->parts().docks.bring_to_front(panel);
+    for (const std::string& panel : window->views().docks.panels()) {
+      window->views().docks.bring_to_front(panel);
       check(QString::fromStdString(panel));
     }
     QVERIFY2(too_large.isEmpty(), qPrintable(too_large.join("; ")));
@@ -301,7 +301,7 @@ class WindowTest : public QObject {
     QStringList too_large;
     for (std::size_t lesson = 0; lesson < built_in_lessons().size(); ++lesson) {
       for (std::size_t page = 0; page < built_in_lessons()[lesson].pages.size(); ++page) {
-        window->parts().lessons.show_page(static_cast<int>(lesson), static_cast<int>(page));
+        window->views().lessons.show_page(static_cast<int>(lesson), static_cast<int>(page));
         QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
         if (window->size() != screen) {
           too_large << QString("%1, page %2: %3 x %4")
@@ -446,9 +446,9 @@ class WindowTest : public QObject {
     auto* dock = window->findChild<QDockWidget*>("received_dock");
     QVERIFY(!dock->isHidden());
     QVERIFY(!dock->widget()->isVisible());
-    window->parts().docks.bring_to_front("received");
+    window->views().docks.bring_to_front("received");
     QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }, 5000));
-    window->parts().docks.bring_to_front("convergence");
+    window->views().docks.bring_to_front("convergence");
     QVERIFY(wait_for([&] { return !dock->widget()->isVisible(); }, 5000));
   }
 
@@ -457,7 +457,7 @@ class WindowTest : public QObject {
     window->resize(1440, 900);
     for (const char* panel : {"tree", "algorithm", "event"}) {
       window->findChild<QAction*>("layout_teach")->trigger();
-      window->parts().docks.bring_to_front(panel);
+      window->views().docks.bring_to_front(panel);
       const auto* dock = window->findChild<QDockWidget*>(QString(panel) + "_dock");
       QVERIFY(wait_for([&] { return dock->width() >= 400 && dock->height() >= 240; }, 5000));
     }

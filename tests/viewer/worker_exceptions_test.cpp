@@ -10,11 +10,11 @@
 #include <cstdlib>
 #include <mutex>
 #include <new>
-#include <stdexcept>
 
 #include "map/map_canvas.h"
 #include "model/solver/solve_runner.h"
 #include "solved_window.h"
+#include "thrown.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
@@ -224,18 +224,7 @@ class WorkerExceptionsTest : public QObject {
     Stopper stopper(snapshot);
     w.open({Goal::Kind::direction});
     QVERIFY(stopper.reached());
-    stopper.release([exception] {
-      switch (exception) {
-        case 0:
-          throw std::bad_alloc();
-        case 1:
-          throw std::runtime_error("no such thing");
-        case 2:
-          throw 7;  // NOLINT(hicpp-exception-baseclass)
-        default:
-          throw Canceled();
-      }
-    });
+    stopper.release([exception] { throw_kind(exception); });
     if (exception < 3) {
       QVERIFY(wait_for([&] { return !w.failure.isEmpty(); }));
       QVERIFY2(w.failure.contains(messages[exception]), qPrintable(w.failure));
@@ -246,7 +235,7 @@ class WorkerExceptionsTest : public QObject {
     QCOMPARE(w.failure, QString());
   }
 
-  // Beginning with each allocation after the snapshot's figures, some fail: first allocations of
+  // Beginning with each allocation after the snapshot's values, some fail: first allocations of
   // the snapshot, then of its message, of the state, and of the message on the failure.
   void any_allocation_may_fail() {
     for (const int failing : {1, 4, 30}) {
@@ -309,16 +298,8 @@ class WorkerExceptionsTest : public QObject {
     const QImage before = canvas.grab().toImage();
     const auto main_thread = std::this_thread::get_id();
     on_picture.set([=] {
-      if (std::this_thread::get_id() == main_thread) {
-        return;
-      }
-      switch (exception) {
-        case 0:
-          throw std::bad_alloc();
-        case 1:
-          throw std::runtime_error("no such thing");
-        default:
-          throw 7;  // NOLINT(hicpp-exception-baseclass)
+      if (std::this_thread::get_id() != main_thread) {
+        throw_kind(exception);
       }
     });
     int painted = 0;

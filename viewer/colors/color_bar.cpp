@@ -211,15 +211,15 @@ void ColorBar::paint_histogram(QPainter& painter, const QRectF& box) const {
   constexpr double pixels_per_bin = 4;
   const int bins = std::max(1, static_cast<int>(box.height() / pixels_per_bin));
   const double bin_height = box.height() / bins;
-  const std::vector<double> shares =
+  const std::vector<double> fractions =
       histogram(colors_.scale(), *colors_.snapshot()->loaded->scene, colors_.values(), bins);
   for (int k = 0; k < bins; ++k) {
-    const double share = at(shares, k);
-    if (share <= 0) {
+    const double fraction = at(fractions, k);
+    if (fraction <= 0) {
       continue;
     }
     // The square root makes rare values visible beside common ones.
-    const double length = std::max(1.0, std::sqrt(share) * box.width());
+    const double length = std::max(1.0, std::sqrt(fraction) * box.width());
     painter.fillRect(QRectF(box.right() - length, box.bottom() - (k + 1) * bin_height, length,
                             std::max(1.0, bin_height - 1)),
                      theme::on_dark_dim);

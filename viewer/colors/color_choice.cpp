@@ -163,7 +163,7 @@ void ColorChoice::set_automatic_exposure(bool automatic) {
 Rgb ColorChoice::value_at(PatchId i, const Vec3& point) const {
   const Rgb& mean = at(values_.values, i);
   return linear()
-             ? viewer::value_at(mean, at(values_.linear_parts, i), at(*values_.bases, i), point)
+             ? viewer::value_at(mean, at(values_.linear_terms, i), at(*values_.bases, i), point)
              : mean;
 }
 

@@ -91,7 +91,7 @@ class ColorChoice : public QObject {
   /// The shown quantity, one value per patch; or empty.
   const std::vector<Rgb>& values() const { return values_.values; }
   /// Whether the shown quantity is linear on patches; values() are then its means.
-  bool linear() const { return !values_.values.empty() && !values_.linear_parts.empty(); }
+  bool linear() const { return !values_.values.empty() && !values_.linear_terms.empty(); }
   /// The shown quantity at a point of patch i. Requires values().
   Rgb value_at(PatchId i, const Vec3& point) const;
   /// If values() is empty, the reason for the user; empty where nothing emits, which the window

@@ -56,11 +56,11 @@ Color8 color_of(ColorMap map, double t) {
   const auto last = static_cast<double>(samples.size() - 1);
   const double at = std::isfinite(t) ? std::clamp(t, 0.0, 1.0) * last : 0.0;
   const auto below = std::min(static_cast<std::size_t>(at), samples.size() - 2);
-  const double share = at - static_cast<double>(below);
+  const double fraction = at - static_cast<double>(below);
   Color8 color;
   for (std::size_t c = 0; c < 3; ++c) {
     color[c] = static_cast<std::uint8_t>(
-        std::lround((1 - share) * samples[below][c] + share * samples[below + 1][c]));
+        std::lround((1 - fraction) * samples[below][c] + fraction * samples[below + 1][c]));
   }
   return color;
 }

@@ -20,6 +20,8 @@ inline constexpr ColorMap default_color_map = ColorMap::viridis;
 const std::vector<std::string>& color_map_names();
 /// The color of values of 0 where they are marked. No color map contains it.
 inline constexpr Color8 zero_color{0xbf, 0xc9, 0xd6};
+/// The color of patches that are omitted, whose value is not a number.
+inline constexpr Color8 omitted_color{0x6e, 0x73, 0x7a};
 /// Evenly spaced colors of a map, 2 to 16; linear interpolation between them.
 std::span<const Color8> samples_of(ColorMap map);
 /// @param t  clamped to [0,1]; 0 if not finite

@@ -101,7 +101,9 @@ void ColorScale::color(std::span<const Rgb> radiosity, std::vector<Color8>& colo
   } else {
     std::transform(radiosity.begin(), radiosity.end(), colors.begin(), [&](const Rgb& b) {
       const double v = value(b);
-      return marks_zero && v == 0 ? zero_color : color_of(map, position(v));
+      return std::isnan(v)          ? omitted_color
+             : marks_zero && v == 0 ? zero_color
+                                    : color_of(map, position(v));
     });
   }
 }
@@ -232,8 +234,8 @@ std::vector<double> histogram(const ColorScale& scale, const Scene& scene,
   }
   const double most = area.empty() ? 0 : *std::max_element(area.begin(), area.end());
   if (most > 0) {
-    for (double& share : area) {
-      share /= most;
+    for (double& fraction : area) {
+      fraction /= most;
     }
   }
   return area;

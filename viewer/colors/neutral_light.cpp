@@ -6,18 +6,6 @@
 
 namespace transillum::viewer {
 
-bool has_light(const SolverSnapshot& snapshot) {
-  if (snapshot.options.sky.is_set()) {
-    return true;
-  }
-  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
-    if (max_abs(material_of(snapshot, i).exitance) > 0) {
-      return true;
-    }
-  }
-  return false;
-}
-
 double neutral_brightness(const Vec3& normal) {
   // The light comes from above in files whose up is z and in files whose up is y. Unit, up to
   // rounding.

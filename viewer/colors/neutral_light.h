@@ -8,9 +8,6 @@
 
 namespace transillum::viewer {
 
-/// Whether any patch emits, with the materials of the snapshot, or a sky does.
-bool has_light(const SolverSnapshot& snapshot);
-
 /// Brightness, 0.25 to 1, of a white surface with this unit normal in a neutral light that comes
 /// from above and the side. For pictures of shapes only; no solve uses it.
 double neutral_brightness(const Vec3& normal);

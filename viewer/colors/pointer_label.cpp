@@ -7,6 +7,7 @@
 #include <QMouseEvent>
 #include <QStringList>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "model/snapshot_values.h"
@@ -24,6 +25,9 @@ constexpr QPoint offset{14, 18};
 
 QString value_text(const ColorChoice& colors, const QString& symbol, const Rgb& value) {
   const QuantityTraits& traits = traits_of(colors.quantity());
+  if (std::isnan(value.r)) {
+    return PointerLabel::tr("%1  omitted, as the patch emits").arg(symbol);
+  }
   const bool channels = colors.scale().mode == ColorMode::true_color;
   const QString number = channels ? rgb_text(value) : number_text(colors.scale().value(value));
   return QStringLiteral("%1  %2 %3").arg(symbol, number, QString::fromUtf8(traits.unit)).trimmed();
@@ -33,7 +37,7 @@ QString value_text(const ColorChoice& colors, const QString& symbol, const Rgb& 
 QStringList value_lines(const ColorChoice& colors, const PointedPatch& pointed) {
   const QString symbol = QString::fromUtf8(traits_of(colors.quantity()).symbol);
   const Rgb& mean = at(colors.values(), pointed.patch);
-  if (!colors.linear() || !pointed.point) {
+  if (!colors.linear() || !pointed.point || std::isnan(mean.r)) {
     return {value_text(colors, symbol, mean)};
   }
   return {PointerLabel::tr("x  %1 m").arg(vector_text(*pointed.point)),

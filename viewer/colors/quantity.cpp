@@ -4,10 +4,13 @@
 #include "colors/quantity.h"
 
 #include <QCoreApplication>
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
+#include "model/run_comparison.h"
 #include "model/snapshot_values.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
@@ -77,18 +80,29 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
   if (!other) {
     return {{}, tr("Keep a run of this scene first (K): it becomes A.")};
   }
+  // Percent of the surface's level; not a number where the patch is omitted.
+  const ResultComparison comparison = compare_runs(*other, snapshot);
+  const std::vector<double>& units = comparison.units;
+  if (std::all_of(units.begin(), units.end(), [](double unit) { return unit == 0; })) {
+    return {{}, tr("A reflects no light, which differences would be relative to.")};
+  }
+  std::vector<double> percent;
+  for (const double unit : units) {
+    percent.push_back(unit > 0 ? 100 / unit : std::numeric_limits<double>::quiet_NaN());
+  }
   PatchValues result;
   for (std::size_t i = 0; i < snapshot.radiosity.size(); ++i) {
-    result.values.push_back(snapshot.radiosity[i] - other->radiosity[i]);
+    result.values.push_back(percent[i] * (snapshot.radiosity[i] - other->radiosity[i]));
   }
   result.bases = snapshot.bases ? snapshot.bases : other->bases;
   if (result.bases) {
     const auto part_of = [](const SolverSnapshot& one, std::size_t i) {
-      return one.linear_parts.empty() ? LinearPart{} : one.linear_parts[i];
+      return one.linear_terms.empty() ? LinearTerm{} : one.linear_terms[i];
     };
     for (std::size_t i = 0; i < snapshot.radiosity.size(); ++i) {
-      const LinearPart b = part_of(snapshot, i), a = part_of(*other, i);
-      result.linear_parts.push_back({b.first - a.first, b.second - a.second});
+      const LinearTerm b = part_of(snapshot, i), a = part_of(*other, i);
+      result.linear_terms.push_back(
+          {percent[i] * (b.first - a.first), percent[i] * (b.second - a.second)});
     }
   }
   return result;
@@ -96,13 +110,13 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
 
 /// The radiance is B/pi, the same in all directions.
 PatchValues diffuse_radiance(const SolverSnapshot& snapshot) {
-  constexpr double share = std::numbers::inv_pi;
-  PatchValues result{snapshot.radiosity, {}, snapshot.linear_parts, snapshot.bases};
+  constexpr double fraction = std::numbers::inv_pi;
+  PatchValues result{snapshot.radiosity, {}, snapshot.linear_terms, snapshot.bases};
   for (Rgb& value : result.values) {
-    value = share * value;
+    value = fraction * value;
   }
-  for (LinearPart& part : result.linear_parts) {
-    part = {share * part.first, share * part.second};
+  for (LinearTerm& term : result.linear_terms) {
+    term = {fraction * term.first, fraction * term.second};
   }
   return result;
 }
@@ -180,8 +194,8 @@ constexpr QuantityTraits all_traits[] = {
      .meaning =
          QT_TRANSLATE_NOOP("Quantity", "Sum over j of F_ij for each patch i; 1 in a closed scene"),
      .section = "6.1"},
-    {.quantity = Quantity::sky_share,
-     .name = QT_TRANSLATE_NOOP("Quantity", "Share of sky"),
+    {.quantity = Quantity::sky_fraction,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Fraction of sky"),
      .symbol = "sky",
      .meaning = QT_TRANSLATE_NOOP("Quantity",
                                   "Fraction of the light leaving each patch that meets no other "
@@ -191,10 +205,10 @@ constexpr QuantityTraits all_traits[] = {
      .name = QT_TRANSLATE_NOOP("Quantity", "What lights the selection"),
      .symbol = "B_i from j",
      .unit = "W/m²",
-     .meaning = QT_TRANSLATE_NOOP(
-         "Quantity",
-         "Part of the radiosity of the selected patch i that comes from the emission of each patch "
-         "j, by all light paths; the parts sum to B_i"),
+     .meaning = QT_TRANSLATE_NOOP("Quantity",
+                                  "Fraction of the radiosity of the selected patch i that comes "
+                                  "from the emission of each patch "
+                                  "j, by all light paths; the parts sum to B_i"),
      .section = "6.7",
      .has_channels = true,
      .of_selection = true,
@@ -246,11 +260,12 @@ constexpr QuantityTraits all_traits[] = {
     {.quantity = Quantity::difference,
      .name = QT_TRANSLATE_NOOP("Quantity", "Difference from A"),
      .symbol = "B − A",
-     .unit = "W/m²",
-     .meaning =
-         QT_TRANSLATE_NOOP("Quantity",
-                           "B of the current run, or of the run chosen in Kept runs, minus B of "
-                           "the kept run A"),
+     .unit = "% of level",
+     .meaning = QT_TRANSLATE_NOOP(
+         "Quantity",
+         "B of the current run, or of the run chosen in Kept runs, minus B of the kept run A, "
+         "relative to the level of its surface: the RMS of its reflected light in A, or a "
+         "thousandth of the brightest surface's where that is more. Patches that emit are omitted"),
      .has_channels = true,
      .is_signed = true},
 };
@@ -315,11 +330,11 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
       return form_factors_of(snapshot, selected, quantity == Quantity::form_factor_from);
     case Quantity::form_factor_sum:
       return {grays(snapshot.form_factor_sums), {}};
-    case Quantity::sky_share:
-      if (snapshot.sky_shares.empty()) {
-        return {{}, tr("The file does not contain the share of sky.")};
+    case Quantity::sky_fraction:
+      if (snapshot.sky_fractions.empty()) {
+        return {{}, tr("The file does not contain the fraction of sky.")};
       }
-      return {grays(snapshot.sky_shares), {}};
+      return {grays(snapshot.sky_fractions), {}};
     case Quantity::origin:
     case Quantity::response:
       return by_response(quantity, snapshot, selected, response);
@@ -353,17 +368,17 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
     case Quantity::radiosity:
       break;
   }
-  return {snapshot.radiosity, {}, snapshot.linear_parts, snapshot.bases};
+  return {snapshot.radiosity, {}, snapshot.linear_terms, snapshot.bases};
 }
 
 std::vector<Rgb> largest_corners(const PatchValues& values, const Scene& scene,
                                  const std::function<double(const Rgb&)>& size) {
   std::vector<Rgb> largest = values.values;
-  for (PatchId i = 0; i < std::ssize(values.linear_parts); ++i) {
+  for (PatchId i = 0; i < std::ssize(values.linear_terms); ++i) {
     const Rgb mean = at(largest, i);
     for (const PointId corner : scene.outline(i)) {
       const Rgb value =
-          value_at(mean, at(values.linear_parts, i), at(*values.bases, i), scene.point(corner));
+          value_at(mean, at(values.linear_terms, i), at(*values.bases, i), scene.point(corner));
       if (size(value) > size(at(largest, i))) {
         at(largest, i) = value;
       }

@@ -21,7 +21,7 @@ enum class Quantity {
   form_factor_from,
   form_factor_to,
   form_factor_sum,
-  sky_share,
+  sky_fraction,
   origin,
   response,
   fragments,
@@ -60,9 +60,9 @@ QString tip_of(Quantity quantity);
 struct PatchValues {
   std::vector<Rgb> values;  ///< one per patch, or empty; means where the quantity is linear
   QString missing = {};     ///< the reason for the user if they are empty
-  /// The linear parts of the quantity, one per patch; empty if it is constant on patches.
-  std::vector<LinearPart> linear_parts = {};
-  /// The bases of linear_parts; null if those are empty.
+  /// The linear terms of the quantity, one per patch; empty if it is constant on patches.
+  std::vector<LinearTerm> linear_terms = {};
+  /// The bases of linear_terms; null if those are empty.
   std::shared_ptr<const std::vector<LinearBasis>> bases = nullptr;
 };
 /// The value of each patch at the corner where `size` of the value is largest. Without linear

@@ -26,7 +26,7 @@ constexpr double click_radius = 6;  ///< pixels
 
 /// Position on the color bar, 0 to 1. The square root keeps the many weak directions apart, beside
 /// the few that lead to a lamp.
-double color_position(double share) { return std::sqrt(share); }
+double color_position(double fraction) { return std::sqrt(fraction); }
 
 }  // namespace
 

@@ -23,13 +23,13 @@ namespace {
 using std::numbers::pi;
 constexpr double margin_of_plot = 12;  ///< pixels
 
-/// The hue of a light, and its brightness by its share of the largest.
-QColor light_color(const Rgb& light, double share) {
+/// The hue of a light, and its brightness by its fraction of the largest.
+QColor light_color(const Rgb& light, double fraction) {
   const double largest = max_abs(light);
   if (!(largest > 0)) {
     return theme::on_dark_dim;
   }
-  const double bright = 0.35 + 0.65 * std::sqrt(std::clamp(share, 0.0, 1.0));
+  const double bright = 0.35 + 0.65 * std::sqrt(std::clamp(fraction, 0.0, 1.0));
   const auto channel = [&](double v) {
     return std::pow(std::clamp(v / largest, 0.0, 1.0), 1 / 2.2) * bright;
   };
@@ -202,9 +202,9 @@ void LobeView::draw_arriving(QPainter& painter, const Plot& plot) const {
   });
   const double width = std::clamp(plot.radius / 60, 1.2, 3.0);
   for (const Ray* ray : rays) {
-    const double share = plot.largest > 0 ? luminance(ray->light) / plot.largest : 0;
-    const QColor color = light_color(ray->light, share);
-    const QPointF end = position_of(plot, ray->direction, share);
+    const double fraction = plot.largest > 0 ? luminance(ray->light) / plot.largest : 0;
+    const QColor color = light_color(ray->light, fraction);
+    const QPointF end = position_of(plot, ray->direction, fraction);
     painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap));
     painter.drawLine(plot.center, end);
     painter.setPen(Qt::NoPen);
@@ -215,12 +215,12 @@ void LobeView::draw_arriving(QPainter& painter, const Plot& plot) const {
 
 /// The surface, farthest parts first.
 void LobeView::draw_leaving(QPainter& painter, const Plot& plot) const {
-  struct Part {
+  struct Facet {
     double depth;
     QPolygonF outline;
     QColor color;
   };
-  std::vector<Part> parts;
+  std::vector<Facet> facets;
   if (!(plot.largest > 0)) {
     return;
   }
@@ -231,30 +231,30 @@ void LobeView::draw_leaving(QPainter& painter, const Plot& plot) const {
     for (int sector = 0; sector < sectors; ++sector) {
       const Ray* corners[] = {&ray(ring, sector), &ray(ring + 1, sector),
                               &ray(ring + 1, sector + 1), &ray(ring, sector + 1)};
-      Part part{0, {}, {}};
+      Facet facet{0, {}, {}};
       Rgb mean;
       Vec3 points[4];
       for (int k = 0; k < 4; ++k) {
         const double length = luminance(corners[k]->light) / plot.largest;
         points[k] = length * turned(corners[k]->direction);
-        part.depth += points[k].z;
-        part.outline << plot.center + plot.radius * QPointF(points[k].x, -points[k].y);
+        facet.depth += points[k].z;
+        facet.outline << plot.center + plot.radius * QPointF(points[k].x, -points[k].y);
         mean += 0.25 * corners[k]->light;
       }
       // Darker where the surface turns away from the viewer.
       const Vec3 slope = cross(points[2] - points[0], points[3] - points[1]);
       const double size = norm(slope);
       const double facing = size > 0 ? std::abs(slope.z) / size : 1;
-      part.color = light_color(mean, (0.25 + 0.75 * facing) * (0.4 + 0.6 * facing));
-      parts.push_back(std::move(part));
+      facet.color = light_color(mean, (0.25 + 0.75 * facing) * (0.4 + 0.6 * facing));
+      facets.push_back(std::move(facet));
     }
   }
-  std::sort(parts.begin(), parts.end(),
-            [](const Part& a, const Part& b) { return a.depth < b.depth; });
-  for (const Part& part : parts) {
-    painter.setPen(QPen(part.color.darker(118), 0.6));
-    painter.setBrush(part.color);
-    painter.drawPolygon(part.outline);
+  std::sort(facets.begin(), facets.end(),
+            [](const Facet& a, const Facet& b) { return a.depth < b.depth; });
+  for (const Facet& facet : facets) {
+    painter.setPen(QPen(facet.color.darker(118), 0.6));
+    painter.setBrush(facet.color);
+    painter.drawPolygon(facet.outline);
   }
 }
 

@@ -125,7 +125,7 @@ double ReceivedTable::value(const ReceivedLight& light, int column) const {
       return 2 * light.pass + (light.opposite ? 1 : 0);
     case of_area:
       return light.area;
-    case of_visible_share:
+    case of_visible_fraction:
       return light.area / (patch_area_ * light.cosine);
     case of_brightest:
       return light.brightest;
@@ -135,9 +135,9 @@ double ReceivedTable::value(const ReceivedLight& light, int column) const {
 }
 
 QString ReceivedTable::text(const ReceivedLight& light, int column) const {
-  const auto percent = [](double share) {
-    const int decimals = share < 0.0995 ? 2 : share < 0.9995 ? 1 : 0;
-    return QStringLiteral("%1 %").arg(100 * share, 0, 'f', share == 0 ? 0 : decimals);
+  const auto percent = [](double fraction) {
+    const int decimals = fraction < 0.0995 ? 2 : fraction < 0.9995 ? 1 : 0;
+    return QStringLiteral("%1 %").arg(100 * fraction, 0, 'f', fraction == 0 ? 0 : decimals);
   };
   switch (column) {
     case of_direction:
@@ -147,7 +147,7 @@ QString ReceivedTable::text(const ReceivedLight& light, int column) const {
       return area_format_.text(value(light, column));
     case of_irradiance:
       return irradiance_format_.text(value(light, column));
-    case of_visible_share:
+    case of_visible_fraction:
       return percent(value(light, column));
     case of_share: {
       const double all = luminance(irradiance_);
@@ -185,15 +185,15 @@ ColumnHeader ReceivedTable::header(int column) const {
     case of_area:
       return {area_format_.header(tr("Seen, m²")),
               tr("Area of front sides that the patch sees, projected onto the plane")};
-    case of_visible_share:
-      return {tr("Seen"), tr("The same as a share of the patch's projected area; the rest "
+    case of_visible_fraction:
+      return {tr("Seen"), tr("The same as a fraction of the patch's projected area; the rest "
                              "is back sides or empty")};
     case of_irradiance:
       return {irradiance_format_.header(tr("ΔH, W/m²")),
               tr("Contribution to the irradiance H of the patch (luminance), before "
                  "normalization")};
     case of_share:
-      return {tr("Share"), tr("Share of the sum over all listed directions")};
+      return {tr("Fraction"), tr("Fraction of the sum over all listed directions")};
     default:
       return {tr("Source"), tr("Patch that contributes most")};
   }

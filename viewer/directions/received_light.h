@@ -50,7 +50,7 @@ class ReceivedTable : public FlatTable {
   enum Column {
     of_direction,
     of_area,
-    of_visible_share,
+    of_visible_fraction,
     of_irradiance,
     of_share,
     of_brightest,

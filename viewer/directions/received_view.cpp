@@ -16,7 +16,7 @@
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
@@ -37,7 +37,7 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisib
   view_->horizontalHeader()->setStretchLastSection(true);
   view_->horizontalHeader()->setSortIndicator(ReceivedTable::of_irradiance, Qt::DescendingOrder);
   view_->setSortingEnabled(true);
-  set_up_figure_table(*view_, {"8 888, −ω", "0.008888", "100 %", "0.008888", "88.8 %", ""});
+  set_up_value_table(*view_, {"8 888, −ω", "0.008888", "100 %", "0.008888", "88.8 %", ""});
 
   auto* layout = make_column(this, {}, 0);
   layout->addWidget(caption_);

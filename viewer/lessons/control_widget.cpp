@@ -182,10 +182,10 @@ void ControlWidget::follow_edits() {
   const Material now = edits_.values_of(edits_.with_kind(control_.target));
   const Rgb& value =
       control_.kind == PageControl::Kind::reflectance ? now.reflectance : now.exitance;
-  const double share =
+  const double fraction =
       ((value.r + value.g + value.b) / 3 - control_.low) / (control_.high - control_.low);
   const QSignalBlocker blocker(slider_);
-  slider_->setValue(static_cast<int>(std::lround(gray_steps * share)));
+  slider_->setValue(static_cast<int>(std::lround(gray_steps * fraction)));
   show_position(slider_->value());
 }
 

@@ -130,7 +130,7 @@ ErrorRuns errors_from_json(const json& value, const std::string& where, const js
   return runs;
 }
 
-// Whether the page may show other patches than its figures are about.
+// Whether the page may show other patches than its values are about.
 bool refines(const Lesson::Page& page) {
   return page.state.options.refine.is_set() ||
          std::any_of(page.controls.begin(), page.controls.end(),

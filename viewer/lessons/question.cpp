@@ -17,7 +17,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t most_choices = 12;
-constexpr double default_share = 0.1, default_overlap = 0.5;
+constexpr double default_fraction = 0.1, default_overlap = 0.5;
 
 constexpr Name<Question::Kind> question_kinds[] = {{"choice", Question::Kind::choice},
                                                    {"patch", Question::Kind::patch},
@@ -30,8 +30,8 @@ struct Place {
   const json& options;
   const ViewState& page;
 
-  Figure figure(const json& value, const std::string& where) const {
-    return figure_from_json(value, where, options, page);
+  LessonValue wanted(const json& value, const std::string& where) const {
+    return lesson_value_from_json(value, where, options, page);
   }
 };
 
@@ -55,8 +55,8 @@ void read_choices(Question& question, const Place& place) {
     JsonObject object(value, place.object.where("choices"));
     Question::Choice& choice = question.choices.emplace_back();
     object.read("text", choice.text);
-    if (const json* figure = object.find("value")) {
-      choice.value = place.figure(*figure, object.where("value"));
+    if (const json* wanted = object.find("value")) {
+      choice.value = place.wanted(*wanted, object.where("value"));
       if (is_per_patch(*choice.value)) {
         object.fail_at("value", "must be one number: a patch is missing");
       }
@@ -72,13 +72,12 @@ void read_choices(Question& question, const Place& place) {
   }
 }
 
-// Reads "largest", "smallest", or an object with one of `rules` and a figure.
+// Reads "largest", "smallest", or an object with one of `rules` and a value.
 void read_rule(Question& question, const Place& place, const json& answer) {
   const bool of_patches = question.kind == Question::Kind::patch;
   const std::string wanted =
-      of_patches
-          ? "must be {\"largest\": figure} or {\"smallest\": figure}"
-          : "must be \"largest\", \"smallest\", {\"nearest\": figure} or {\"equals\": figure}";
+      of_patches ? "must be {\"largest\": value} or {\"smallest\": value}"
+                 : "must be \"largest\", \"smallest\", {\"nearest\": value} or {\"equals\": value}";
   if (!of_patches && (answer == "largest" || answer == "smallest")) {
     question.rule = answer == "largest" ? Question::Rule::largest : Question::Rule::smallest;
     return;
@@ -94,7 +93,7 @@ void read_rule(Question& question, const Place& place, const json& answer) {
   } else {
     place.object.fail_at("answer", wanted);
   }
-  question.figure = place.figure(*answer.begin(), place.object.where("answer"));
+  question.wanted = place.wanted(*answer.begin(), place.object.where("answer"));
 }
 
 // Every answer is computed: one that the file states would be right whatever the program does.
@@ -102,16 +101,16 @@ void check_computed(const Question& question, JsonObject& object) {
   const bool of_choices =
       std::any_of(question.choices.begin(), question.choices.end(),
                   [](const auto& choice) { return choice.value && is_computed(*choice.value); });
-  if (!is_computed(question.figure) && !of_choices) {
-    object.fail_at("answer", "must be computed, but neither the answer nor a choice is a figure");
+  if (!is_computed(question.wanted) && !of_choices) {
+    object.fail_at("answer", "must be computed, but neither the answer nor a choice is a value");
   }
   const bool of_patches = question.kind == Question::Kind::patch;
-  if (is_per_patch(question.figure) != of_patches) {
-    object.fail_at("answer", of_patches ? "the figure must omit the patch to be found"
-                                        : "the figure must be one number: a patch is missing");
+  if (is_per_patch(question.wanted) != of_patches) {
+    object.fail_at("answer", of_patches ? "the value must omit the patch to be found"
+                                        : "the value must be one number: a patch is missing");
   }
-  const bool has_region = question.figure.kind == FigureKind::visible_area ||
-                          question.figure.kind == FigureKind::projected_area;
+  const bool has_region = question.wanted.kind == LessonValueKind::visible_area ||
+                          question.wanted.kind == LessonValueKind::projected_area;
   if (question.kind == Question::Kind::area && !has_region) {
     object.fail_at("answer", "must be a visible-area or a projected-area");
   }
@@ -125,7 +124,7 @@ void read_answer(Question& question, const Place& place) {
   if (question.kind == Question::Kind::choice || question.kind == Question::Kind::patch) {
     read_rule(question, place, *answer);
   } else {
-    question.figure = place.figure(*answer, place.object.where("answer"));
+    question.wanted = place.wanted(*answer, place.object.where("answer"));
   }
   check_computed(question, place.object);
 }
@@ -158,7 +157,7 @@ Question question_from_json(const json& value, const std::string& where, const j
   }
   read_answer(question, place);
   if (question.kind == Question::Kind::number || question.kind == Question::Kind::area) {
-    question.within = question.kind == Question::Kind::number ? default_share : default_overlap;
+    question.within = question.kind == Question::Kind::number ? default_fraction : default_overlap;
     object.read("within", question.within);
     if (!(question.within > 0 && question.within <= 1)) {
       object.fail_at("within", "must be above 0 and at most 1");

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "lessons/figure.h"
+#include "lessons/lesson_value.h"
 #include "lessons/view_state.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum::viewer {
 
-class FigureValues;
+class ComputedValues;
 class JsonObject;
 
-/// A question on a page of a lesson. What is right is computed from figures of the page's scene and
+/// A question on a page of a lesson. What is right is computed from values of the page's scene and
 /// run, never stated by the file.
 struct Question {
   enum class Kind {
@@ -27,20 +27,20 @@ struct Question {
   enum class Rule {
     largest,   ///< the choice, or patch, with the largest value
     smallest,  ///< the choice, or patch, with the smallest value
-    nearest,   ///< the choice whose value is nearest to `figure`
-    equals,    ///< choices whose value is `figure`
-    value      ///< `figure` itself
+    nearest,   ///< the choice whose value is nearest to `wanted`
+    equals,    ///< choices whose value is `wanted`
+    value      ///< `wanted` itself
   };
   struct Choice {
-    std::string text;             ///< the value is shown if it is empty
-    std::optional<Figure> value;  ///< if it is not set, the choice is right where no other is
+    std::string text;                  ///< the value is shown if it is empty
+    std::optional<LessonValue> value;  ///< if it is not set, the choice is right where no other is
   };
 
   Kind kind = Kind::choice;
   std::string ask;  ///< Markdown
   std::vector<Choice> choices;
   Rule rule = Rule::value;
-  Figure figure;
+  LessonValue wanted;
   /// How close an answer has to be: for a number, the largest relative difference; for an area, the
   /// least overlap (the common part over the union).
   double within = 0;
@@ -71,7 +71,7 @@ struct Solved {
   std::vector<double>
       values;              ///< values of choices (NaN without a value) or of patches; else empty
   std::vector<int> right;  ///< indices of the right choices, or right patches; ascending
-  double value = 0;        ///< value of Question::figure, where it is one number
+  double value = 0;        ///< value of Question::wanted, where it is one number
   std::vector<std::vector<Vec2>> region;  ///< answer to a question for an area
 };
 
@@ -88,8 +88,8 @@ Question question_from_json(const nlohmann::json& value, const std::string& wher
 bool is_of_direction(const Question& question);
 /// Whether the answer is complete: a choice, a patch, a number, or at least three corners.
 bool is_given(const Question& question, const GivenAnswer& answer);
-/// Computes what is right. @throws as FigureValues
-Solved solve_question(const Question& question, FigureValues& figures);
+/// Computes what is right. @throws as ComputedValues
+Solved solve_question(const Question& question, ComputedValues& computed);
 /// Whether a complete answer is right.
 bool is_right(const Question& question, const Solved& solved, const GivenAnswer& answer);
 /// The common part of a region and a polygon over their union, 0 to 1, sampled on a grid to about

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Finds the right answers to a question from the figures of the program, and whether a given answer
+// Finds the right answers to a question from the values of the program, and whether a given answer
 // is right.
 #include <QPolygonF>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <iterator>
 #include <limits>
 
-#include "lessons/figure_values.h"
+#include "lessons/computed_values.h"
 #include "lessons/question.h"
 
 namespace transillum::viewer {
@@ -17,23 +17,13 @@ namespace {
 
 constexpr double same = 1e-9;  // relative: values of equal patches differ by rounding
 
-bool is_of_direction(const Figure& figure) {
-  switch (figure.kind) {
-    case FigureKind::steps:
-    case FigureKind::polygons:
-    case FigureKind::projected_area:
-    case FigureKind::visible_area:
-    case FigureKind::seen:
-    case FigureKind::above:
-      return true;
-    default:
-      return std::any_of(figure.parts.begin(), figure.parts.end(),
-                         [](const Figure& part) { return is_of_direction(part); });
-  }
+bool uses_direction(const LessonValue& wanted) {
+  return is_of_direction(wanted.kind) ||
+         std::any_of(wanted.of.begin(), wanted.of.end(), uses_direction);
 }
 
-double value_or_nan(const std::optional<Figure>& figure, FigureValues& figures) {
-  return figure ? figures.value(*figure) : std::numeric_limits<double>::quiet_NaN();
+double value_or_nan(const std::optional<LessonValue>& wanted, ComputedValues& computed) {
+  return wanted ? computed.value(*wanted) : std::numeric_limits<double>::quiet_NaN();
 }
 
 // The indices of values that are as large (small, near) as any. NaN is never right.
@@ -74,10 +64,10 @@ bool operator==(const GivenAnswer& a, const GivenAnswer& b) {
 }
 
 bool is_of_direction(const Question& question) {
-  return question.kind == Question::Kind::area || is_of_direction(question.figure) ||
+  return question.kind == Question::Kind::area || uses_direction(question.wanted) ||
          std::any_of(question.choices.begin(), question.choices.end(),
                      [](const Question::Choice& choice) {
-                       return choice.value && is_of_direction(*choice.value);
+                       return choice.value && uses_direction(*choice.value);
                      });
 }
 
@@ -95,22 +85,22 @@ bool is_given(const Question& question, const GivenAnswer& answer) {
   return answer.outline.size() >= 3;
 }
 
-Solved solve_question(const Question& question, FigureValues& figures) {
+Solved solve_question(const Question& question, ComputedValues& computed) {
   Solved solved;
   if (question.kind == Question::Kind::patch) {
-    solved.values = figures.of_patches(question.figure);
+    solved.values = computed.of_patches(question.wanted);
     solved.right = best_of(solved.values, question.rule, 0);
     return solved;
   }
-  solved.value = figures.value(question.figure);
+  solved.value = computed.value(question.wanted);
   if (question.kind == Question::Kind::area) {
-    solved.region = figures.region(question.figure);
+    solved.region = computed.region(question.wanted);
   }
   if (question.kind != Question::Kind::choice) {
     return solved;
   }
   for (const Question::Choice& choice : question.choices) {
-    solved.values.push_back(value_or_nan(choice.value, figures));
+    solved.values.push_back(value_or_nan(choice.value, computed));
   }
   solved.right = best_of(solved.values, question.rule, solved.value);
   if (solved.right.empty()) {

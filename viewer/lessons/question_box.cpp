@@ -16,7 +16,7 @@
 #include <numeric>
 #include <utility>
 
-#include "lessons/figure_values.h"
+#include "lessons/computed_values.h"
 #include "support/failure_text.h"
 #include "support/list_change.h"
 #include "support/number_text.h"

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "lessons/figure_values.h"
+#include "lessons/computed_values.h"
 #include "lessons/question.h"
 #include "model/snapshot.h"
 #include "support/newest_result.h"
@@ -24,8 +24,8 @@ class QuestionSolver : public NewestResult<QuestionRequest, Solved> {
       : NewestResult(
             owner,
             [](const QuestionRequest& request, const Cancellation& cancellation) {
-              FigureValues figures(request.loaded, cancellation);
-              return solve_question(request.question, figures);
+              ComputedValues computed(request.loaded, cancellation);
+              return solve_question(request.question, computed);
             },
             std::move(deliver)) {}
 };

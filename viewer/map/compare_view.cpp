@@ -27,7 +27,7 @@
 #include "widgets/build.h"
 #include "widgets/elided.h"
 #include "widgets/engine_text.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
@@ -37,18 +37,18 @@ namespace {
 constexpr int refresh_interval_ms = 400;
 constexpr int map_height = 110;  ///< size hint, pixels
 
-QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
+QString percent_text(double fraction) { return number_text(100 * fraction) + QStringLiteral(" %"); }
 
-QString figures_text(const EngineComparison::Side& side, double exchanged) {
-  const QString figures[] = {
+QString values_text(const EngineComparison::Side& side, double exchanged) {
+  const QString values[] = {
       CompareView::tr("%1 ms").arg(number_text(1000 * side.seconds)),
       CompareView::tr("%1 pairs").arg(count_text(static_cast<std::int64_t>(side.pairs))),
       CompareView::tr("%1 m² exchanged").arg(number_text(exchanged)),
-      CompareView::tr("%1 covered").arg(percent_text(side.covered_share))};
+      CompareView::tr("%1 covered").arg(percent_text(side.covered_fraction))};
   QString text;
-  for (QString figure : figures) {
+  for (QString value : values) {
     text += (text.isEmpty() ? QString() : QStringLiteral(", ")) +
-            figure.replace(QLatin1Char(' '), QChar(QChar::Nbsp));  // lines end between figures
+            value.replace(QLatin1Char(' '), QChar(QChar::Nbsp));  // lines end between values
   }
   return text;
 }
@@ -202,7 +202,7 @@ QTableView* CompareView::make_list() {
   list_->setSelectionBehavior(QAbstractItemView::SelectRows);
   list_->setSelectionMode(QAbstractItemView::SingleSelection);
   list_->setMinimumHeight(90);
-  set_up_figure_table(*list_, {"888888", "888888"});
+  set_up_value_table(*list_, {"888888", "888888"});
   connect(list_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& index) { show_pair(index.row()); });
   connect(list_, &QTableView::activated, this, [this](const QModelIndex& index) {
@@ -241,10 +241,10 @@ PatchId CompareView::receiver_to_show() const {
 CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
   Choice choice{new ElidedComboBox,           new QSpinBox,       new MapCanvas(selection_),
                 new HemicubeView(selection_), new QStackedWidget, new QLabel};
-  choice.figures->setObjectName(QString::fromLatin1(name) + QStringLiteral("_figures"));
-  choice.figures->setWordWrap(true);
-  choice.figures->setContentsMargins(10, 4, 10, 4);
-  choice.figures->setToolTip(
+  choice.values->setObjectName(QString::fromLatin1(name) + QStringLiteral("_values"));
+  choice.values->setWordWrap(true);
+  choice.values->setContentsMargins(10, 4, 10, 4);
+  choice.values->setToolTip(
       tr("Processor time for this direction; number of pairs of patches that exchange light; "
          "projected area over which they exchange it; fraction of the receivers' projected area "
          "that sees another patch"));
@@ -285,7 +285,7 @@ QBoxLayout* CompareView::column_of(const Choice& choice) const {
   auto* column = make_column({}, 0);
   column->addLayout(row);
   column->addWidget(choice.picture, 1);
-  column->addWidget(choice.figures);
+  column->addWidget(choice.values);
   return column;
 }
 
@@ -462,7 +462,7 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
                                                      : std::vector<PairDifference>());
   by_polygon_->show(focus_.map(), comparison_, receiver_to_show());
   for (const Choice* choice : {&first_, &other_}) {
-    choice->figures->clear();
+    choice->values->clear();
   }
   if (!comparison_) {
     text_->setText(tr("Solve a scene to compare two engines on one of its directions."));
@@ -477,8 +477,8 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
                                                 QString::fromStdString(side->failure)));
     return;
   }
-  first_.figures->setText(figures_text(c.first, c.transfers.exchanged));
-  other_.figures->setText(figures_text(c.other, c.transfers.other_exchanged));
+  first_.values->setText(values_text(c.first, c.transfers.exchanged));
+  other_.values->setText(values_text(c.other, c.transfers.other_exchanged));
   text_->setText(c.eye == no_patch ? direction_text(c) : row_text(c, sent_.directions->size()));
 }
 

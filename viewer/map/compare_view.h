@@ -60,7 +60,7 @@ class CompareView : public QWidget {
     MapCanvas* map;
     HemicubeView* hemicube;
     QStackedWidget* picture;  ///< holds map and hemicube
-    QLabel* figures;
+    QLabel* values;
 
     bool is_hemicube() const;
     bool has_directions() const;

@@ -36,8 +36,8 @@ void ColorLegend::paintEvent(QPaintEvent*) {
 
 namespace {
 
-QColor color_of_share(double share) {
-  const double t = std::clamp(share / DifferencePicture::full_color_at, 0.0, 1.0);
+QColor color_of_fraction(double fraction) {
+  const double t = std::clamp(fraction / DifferencePicture::full_color_at, 0.0, 1.0);
   const auto channel = [t](int from, int to) { return from + static_cast<int>(t * (to - from)); };
   return {channel(0xff, 0xc0), channel(0xff, 0x1a), channel(0xff, 0x1a)};
 }
@@ -49,7 +49,7 @@ DifferencePicture::DifferencePicture(Selection& selection, QWidget* parent) : QW
   canvas_ = named("difference_canvas", new MapCanvas(selection));
   auto* layout = make_column(this, {}, 0);
   layout->addWidget(canvas_, 1);
-  layout->addWidget(new ColorLegend([](double t) { return color_of_share(t * full_color_at); },
+  layout->addWidget(new ColorLegend([](double t) { return color_of_fraction(t * full_color_at); },
                                     tr("0 to %1 % of a patch").arg(100 * full_color_at)));
 }
 
@@ -62,7 +62,7 @@ void DifferencePicture::show(const std::shared_ptr<const RecordedMap>& map,
   }
   auto colors = std::make_shared<std::vector<Color8>>();
   for (PatchId i = 0; i < map->loaded->scene->patch_count(); ++i) {
-    const QColor color = color_of_share(share(i));
+    const QColor color = color_of_fraction(fraction(i));
     colors->push_back({static_cast<std::uint8_t>(color.red()),
                        static_cast<std::uint8_t>(color.green()),
                        static_cast<std::uint8_t>(color.blue())});
@@ -74,7 +74,7 @@ void DifferencePicture::show(const std::shared_ptr<const RecordedMap>& map,
   canvas_->show_map(std::move(content));
 }
 
-double DifferencePicture::share(PatchId patch) const {
+double DifferencePicture::fraction(PatchId patch) const {
   if (!comparison_ || !comparison_->ok()) {
     return -1;
   }
@@ -86,8 +86,8 @@ double DifferencePicture::share(PatchId patch) const {
 
 namespace {
 
-Color8 color8_of_share(double share) {
-  return color_of(ColorMap::diverging, 0.5 + share / (2 * PairPicture::full_color_at));
+Color8 color8_of_share(double fraction) {
+  return color_of(ColorMap::diverging, 0.5 + fraction / (2 * PairPicture::full_color_at));
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ void PairPicture::show(const std::shared_ptr<const RecordedMap>& map,
   canvas_->show_map(std::move(content));
 }
 
-double PairPicture::share(PatchId source) const {
+double PairPicture::fraction(PatchId source) const {
   return has_index(shares_, source) ? at(shares_, source) : 0;
 }
 

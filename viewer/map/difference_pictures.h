@@ -32,7 +32,7 @@ class ColorLegend : public QWidget {
   QString range_;
 };
 
-/// The map V of a direction, with each patch colored by the share of its projected area that two
+/// The map V of a direction, with each patch colored by the fraction of its projected area that two
 /// engines assign to different patches. White stands for 0, red for a tenth or more.
 class DifferencePicture : public QWidget {
  public:
@@ -43,8 +43,8 @@ class DifferencePicture : public QWidget {
   /// Shows nothing unless both are set and of the same scene.
   void show(const std::shared_ptr<const RecordedMap>& map,
             std::shared_ptr<const EngineComparison> comparison);
-  /// The share of a patch, 0 to 1; -1 without a comparison.
-  double share(PatchId patch) const;
+  /// The fraction of a patch, 0 to 1; -1 without a comparison.
+  double fraction(PatchId patch) const;
   MapCanvas* canvas() const { return canvas_; }
 
  private:
@@ -59,7 +59,7 @@ class PairPicture : public QWidget {
   Q_OBJECT
 
  public:
-  static constexpr double full_color_at = 0.1;  ///< share of the pair's larger area
+  static constexpr double full_color_at = 0.1;  ///< fraction of the pair's larger area
 
   explicit PairPicture(Selection& selection, QWidget* parent = nullptr);
 
@@ -68,7 +68,7 @@ class PairPicture : public QWidget {
             std::shared_ptr<const EngineComparison> comparison, PatchId receiver);
   /// Second minus first over the larger, of the pair of the receiver and `source`, −1 to 1; 0 for
   /// equal ones.
-  double share(PatchId source) const;
+  double fraction(PatchId source) const;
   PatchId receiver() const { return receiver_; }
   MapCanvas* canvas() const { return canvas_; }
 

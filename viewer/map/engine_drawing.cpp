@@ -111,43 +111,44 @@ void draw_pixels(QPainter& painter, const PixelView& view, const MapTransform& t
 namespace {
 
 constexpr double full_color_at = 0.25;
-/// Fragments with a smaller open share get no outline and no label.
+/// Fragments with a smaller open fraction get no outline and no label.
 constexpr double hidden = 1e-6;
 
-QColor between(const QColor& from, const QColor& to, double share) {
-  const auto channel = [share](int a, int b) {
-    return static_cast<int>(std::lround(a + share * (b - a)));
+QColor between(const QColor& from, const QColor& to, double fraction) {
+  const auto channel = [fraction](int a, int b) {
+    return static_cast<int>(std::lround(a + fraction * (b - a)));
   };
   return {channel(from.red(), to.red()), channel(from.green(), to.green()),
           channel(from.blue(), to.blue())};
 }
 
-double open_share(const CorrectedMap::Part& part) {
-  return std::clamp(part.open / part.area, 0.0, 1.0);
+double open_fraction(const CorrectedMap::Fragment& fragment) {
+  return std::clamp(fragment.open / fragment.area, 0.0, 1.0);
 }
 
-QPolygonF polygon_of(const CorrectedMap& map, const CorrectedMap::Part& part,
+QPolygonF polygon_of(const CorrectedMap& map, const CorrectedMap::Fragment& fragment,
                      const MapTransform& transform) {
   QPolygonF polygon;
-  for (const Vec2& p : map.outline(part)) {
+  for (const Vec2& p : map.outline(fragment)) {
     polygon.append(transform.to_pixels(p));
   }
   return polygon;
 }
 
-QColor color_of(const CorrectedMap::Part& part, const FragmentColors& colors) {
+QColor color_of(const CorrectedMap::Fragment& fragment, const FragmentColors& colors) {
   if (colors.differences) {
-    return color_of_surplus((part.open - part.exact) / part.area);
+    return color_of_surplus((fragment.open - fragment.exact) / fragment.area);
   }
-  const Color8& c = at(colors.of_patches, part.patch);
-  return between(theme::scene_background, QColor(c[0], c[1], c[2]), 0.25 + 0.75 * open_share(part));
+  const Color8& c = at(colors.of_patches, fragment.patch);
+  return between(theme::scene_background, QColor(c[0], c[1], c[2]),
+                 0.25 + 0.75 * open_fraction(fragment));
 }
 
 }  // namespace
 
 QColor color_of_surplus(double surplus) {
-  const double share = std::min(std::abs(surplus) / full_color_at, 1.0);
-  return between(QColor(0xd8, 0xdc, 0xe0), surplus < 0 ? theme::outside : theme::inside, share);
+  const double fraction = std::min(std::abs(surplus) / full_color_at, 1.0);
+  return between(QColor(0xd8, 0xdc, 0xe0), surplus < 0 ? theme::outside : theme::inside, fraction);
 }
 
 void draw_corrected(QPainter& painter, const CorrectedMap& map, const MapTransform& transform,
@@ -155,17 +156,17 @@ void draw_corrected(QPainter& painter, const CorrectedMap& map, const MapTransfo
   painter.save();
   std::vector<QPolygonF> outlines;
   std::size_t done = 0;
-  for (const CorrectedMap::Part& part : map.parts) {
+  for (const CorrectedMap::Fragment& fragment : map.fragments) {
     if (done++ % 64 == 0) {
       cancellation.throw_if_canceled();
     }
-    const QPolygonF polygon = polygon_of(map, part, transform);
+    const QPolygonF polygon = polygon_of(map, fragment, transform);
     painter.setRenderHint(QPainter::Antialiasing, false);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(part.front_facing ? colors.back_side : QBrush(color_of(part, colors)));
+    painter.setBrush(fragment.front_facing ? colors.back_side : QBrush(color_of(fragment, colors)));
     painter.drawPolygon(polygon);
-    const bool open = !part.front_facing && part.open > hidden * part.area;
-    if (open && part.area * transform.scale * transform.scale > 60) {
+    const bool open = !fragment.front_facing && fragment.open > hidden * fragment.area;
+    if (open && fragment.area * transform.scale * transform.scale > 60) {
       outlines.push_back(polygon);
     }
   }
@@ -184,13 +185,13 @@ void draw_corrected(QPainter& painter, const CorrectedMap& map, const MapTransfo
 void label_corrected(QPainter& painter, const CorrectedMap& map, const MapTransform& transform,
                      double pixel_ratio) {
   PolygonLabels labels(painter, pixel_ratio);
-  for (const CorrectedMap::Part& part : map.parts) {
-    if (part.front_facing || part.open <= hidden * part.area) {
+  for (const CorrectedMap::Fragment& fragment : map.fragments) {
+    if (fragment.front_facing || fragment.open <= hidden * fragment.area) {
       continue;
     }
-    const QString share = QString::number(100 * open_share(part), 'f', 0);
-    labels.write(polygon_of(map, part, transform),
-                 QObject::tr("%1: %2 %").arg(part.patch).arg(share));
+    const QString fraction = QString::number(100 * open_fraction(fragment), 'f', 0);
+    labels.write(polygon_of(map, fragment, transform),
+                 QObject::tr("%1: %2 %").arg(fragment.patch).arg(fraction));
   }
 }
 

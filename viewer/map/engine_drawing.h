@@ -53,7 +53,7 @@ QColor color_of_surplus(double surplus);
 struct FragmentColors {
   const std::vector<Color8>& of_patches;  ///< front sides: darker where less is open
   const QBrush& back_side;
-  /// Front sides get color_of_surplus() of the error of the open share instead.
+  /// Front sides get color_of_surplus() of the error of the open fraction instead.
   bool differences = false;
 };
 /// Draws whole fragments over one another, the farthest first, then the outlines of those that are
@@ -61,7 +61,7 @@ struct FragmentColors {
 /// @throws Canceled
 void draw_corrected(QPainter& painter, const CorrectedMap& map, const MapTransform& transform,
                     const FragmentColors& colors, const Cancellation& cancellation);
-/// Writes patch number and open share, percent, on fragments with room for it.
+/// Writes patch number and open fraction, percent, on fragments with room for it.
 void label_corrected(QPainter& painter, const CorrectedMap& map, const MapTransform& transform,
                      double pixel_ratio);
 

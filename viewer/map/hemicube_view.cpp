@@ -78,12 +78,12 @@ void HemicubeView::work(const Task& task, const Cancellation& cancellation) {
   if (last) {
     return;
   }
-  const auto progress = [&](double share) {
-    post([this, share, number = task.number] {
+  const auto progress = [&](double fraction) {
+    post([this, fraction, number = task.number] {
       if (number != sent_.number) {
         return;
       }
-      progress_ = share;
+      progress_ = fraction;
       emit shown();
     });
   };
@@ -160,8 +160,8 @@ std::optional<std::size_t> HemicubeView::pixel_at(const QPointF& position) const
     return std::nullopt;
   }
   const int size = comparison_->image.cross();
-  const auto cell = [size](double share) {
-    return std::clamp(static_cast<int>(share * size), 0, size - 1);
+  const auto cell = [size](double fraction) {
+    return std::clamp(static_cast<int>(fraction * size), 0, size - 1);
   };
   const QPointF at = (position - cross_rect().topLeft()) / cross_rect().width();
   return comparison_->image.pixel_at(size - 1 - cell(at.x()), size - 1 - cell(at.y()));

@@ -252,10 +252,10 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   // The picture may be of an older view: move and scale it to the current one.
   const MapTransform& painted = picture_->request.transform;
   const MapTransform now = picture_->request.map == content_.map ? transform() : painted;
-  const double share = now.scale / painted.scale;
-  painter.setRenderHint(QPainter::SmoothPixmapTransform, share != 1);
-  const QPointF corner = now.middle - share * painted.middle;
-  painter.drawImage(QRectF(corner, share * picture_->request.size), picture_->image);
+  const double fraction = now.scale / painted.scale;
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, fraction != 1);
+  const QPointF corner = now.middle - fraction * painted.middle;
+  painter.drawImage(QRectF(corner, fraction * picture_->request.size), picture_->image);
   painter.setRenderHint(QPainter::Antialiasing);
   if (!failure_.isEmpty()) {
     draw_failure(painter, failure_);

@@ -24,9 +24,9 @@ bool is_outside(const QPolygonF& polygon, const QRectF& view) {
   return !polygon.boundingRect().intersects(view);
 }
 
-QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
+QColor mixed(const QColor& a, const QColor& b, double fraction_of_b) {
   const auto channel = [&](int x, int y) {
-    return static_cast<int>(std::lround(x + share_of_b * (y - x)));
+    return static_cast<int>(std::lround(x + fraction_of_b * (y - x)));
   };
   return {channel(a.red(), b.red()), channel(a.green(), b.green()), channel(a.blue(), b.blue())};
 }

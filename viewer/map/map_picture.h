@@ -35,8 +35,8 @@ struct MapTransform {
   }
 };
 
-/// How V is drawn: exactly, in the pixels of an engine with has_pixels(), or with the open shares
-/// of engine corrected. (A hemicube has a separate picture: HemicubeView.)
+/// How V is drawn: exactly, in the pixels of an engine with has_pixels(), or with the open
+/// fractions of engine corrected. (A hemicube has a separate picture: HemicubeView.)
 struct MapEngineChoice {
   std::optional<Engine> engine;              ///< nullopt draws V exactly
   PaintersOrder order = PaintersOrder::bsp;  ///< order for engine painter

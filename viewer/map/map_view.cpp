@@ -39,7 +39,9 @@ QToolButton* text_button(const QString& text, const QString& tip, bool checkable
 }
 
 /// Counts rounding errors as 0.
-QString percent_of(double share) { return QString::number(share < 1e-9 ? 0 : 100 * share, 'g', 2); }
+QString percent_of(double fraction) {
+  return QString::number(fraction < 1e-9 ? 0 : 100 * fraction, 'g', 2);
+}
 
 QString legend_entry(const QColor& color, const QString& name) {
   return QStringLiteral("<span style='color:%1'>■</span> %2").arg(color.name(), name);

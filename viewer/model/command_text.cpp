@@ -102,7 +102,7 @@ std::string map_command(const std::string& scene, const RunOptions& options,
   line.add_changes(options.input.changes);
   line.add_changes(changes);
   line.add_differences(options, [](const Option& option) {
-    return option.group == "Scene" || option.group == "Patches";
+    return option.section == "Scene" || option.section == "Patches";
   });
   line.add("direction", fmt::format("{},{},{}", omega.x, omega.y, omega.z));
   if (steps) {

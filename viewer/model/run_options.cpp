@@ -16,7 +16,7 @@ namespace {
 constexpr const char* material_changes = "changes";
 
 /// Whether files store the option: it describes the run, not the computer that wrote the file.
-bool is_stored(const Option& option) { return option.in_files && option.group != "Machine"; }
+bool is_stored(const Option& option) { return option.in_files && option.section != "Machine"; }
 
 /// Sets the options that an object has; returns their names.
 std::set<std::string> read_options(JsonObject& object, const json& value, RunOptions& options) {
@@ -52,13 +52,14 @@ bool is_run_of(const SolveOptions& in_effect, const SolveOptions& asked) {
     expected.directions = in_effect.directions;
     expected.replicas = in_effect.replicas;
     expected.tolerance = in_effect.tolerance;
+    expected.engine_options.points = in_effect.engine_options.points;
   }
   return expected == in_effect;
 }
 
 RunOptions run_options_from_json(const json& value, const std::string& where) {
   RunOptions options;
-  // What a file does not say is as it was before there was an option for it.
+  // An option that a file lacks is as it was before there was one.
   options.solve.first_shot.reset();
   JsonObject object(value, where);
   std::set<std::string> given = read_options(object, value, options);
@@ -110,11 +111,11 @@ std::optional<Rgb> channels_from(JsonObject& object, const char* key, bool below
 Lobe lobe_from(const json& value, const std::string& where) {
   JsonObject object(value, where);
   Lobe lobe;
-  const std::optional<Rgb> share = channels_from(object, "share", true);
-  if (!share) {
+  const std::optional<Rgb> fraction = channels_from(object, "share", true);
+  if (!fraction) {
     object.fail_at("share", "is missing");
   }
-  lobe.reflectance = *share;
+  lobe.reflectance = *fraction;
   const bool is_rough = object.find("roughness");
   object.read("exponent", lobe.exponent);
   if (is_rough) {

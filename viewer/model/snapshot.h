@@ -31,7 +31,7 @@ struct LoadedScene {
   std::shared_ptr<const BspTree> tree;
   std::shared_ptr<const Picker> picker;
   SceneMeasures measures;
-  double back_share = 0;  ///< BackShare::share
+  double back_fraction = 0;  ///< BackFraction::share
   std::shared_ptr<const Solution>
       stored;               ///< solution of the result file that was opened; else null
   std::string file;         ///< path of the result file
@@ -79,9 +79,9 @@ struct SolverSnapshot {
   SolveStatistics statistics;
   std::vector<Rgb> radiosity;  ///< B, running estimate, W/m², one per patch; the mean where B is
                                ///< linear on patches
-  /// The linear parts of B, one per patch; empty where B is constant on patches.
-  std::vector<LinearPart> linear_parts;
-  /// The bases of the scene's patches; null without linear_parts.
+  /// The linear terms of B, one per patch; empty where B is constant on patches.
+  std::vector<LinearTerm> linear_terms;
+  /// The bases of the scene's patches; null without linear_terms.
   std::shared_ptr<const std::vector<LinearBasis>> bases;
   std::vector<Rgb> irradiance;  ///< H of the last finished iteration, W/m², one per patch
   /// The form factors of all passes so far; null until SolveRunner::include_form_factors() was
@@ -99,11 +99,12 @@ struct SolverSnapshot {
   /// B(n), one per patch, for each iteration n that has begun; null if the memory limit was
   /// exceeded.
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
-  /// The linear parts of B(n) likewise; empty where B is constant on patches.
-  std::vector<std::shared_ptr<const std::vector<LinearPart>>> kept_linear_parts;
-  std::vector<double> form_factor_sums;  ///< one per patch; 0 before the first pass
-  std::vector<double> sky_shares;        ///< Solution::sky_shares; 0 before the first pass
-  std::vector<Rgb> sky_irradiance;       ///< Solution::sky_irradiance; empty without a sky
+  /// The linear terms of B(n) likewise; empty where B is constant on patches.
+  std::vector<std::shared_ptr<const std::vector<LinearTerm>>> kept_linear_terms;
+  std::vector<double> form_factor_sums;      ///< one per patch; 0 before the first pass
+  std::vector<double> sky_fractions;         ///< Solution::sky_fractions; 0 before the first pass
+  std::vector<Rgb> sky_irradiance;           ///< Solution::sky_irradiance; empty without a sky
+  std::vector<LinearTerm> sky_linear_parts;  ///< Solution::sky_linear_parts
   std::vector<double>
       estimate_changes;  ///< changes in the newest iteration with passes, one per pass
   std::vector<double> quadrature_errors;  ///< epsilon after each pass

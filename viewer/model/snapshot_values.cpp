@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "radiosity/analysis/power_table.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -14,7 +15,7 @@ Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
   Solution solution;
   solution.scene = snapshot.loaded->scene;
   solution.radiosity = snapshot.radiosity;
-  solution.linear_parts = snapshot.linear_parts;
+  solution.linear_terms = snapshot.linear_terms;
   solution.irradiance = snapshot.irradiance;
   solution.error = snapshot.error;
   solution.statistics = snapshot.statistics;
@@ -24,32 +25,60 @@ Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
   const bool any_pass = snapshot.passes_done > 0;
   if (any_pass) {
     solution.form_factor_sums = snapshot.form_factor_sums;
-    solution.sky_shares = snapshot.sky_shares;
+    solution.sky_fractions = snapshot.sky_fractions;
     solution.sky_irradiance = snapshot.sky_irradiance;
   } else if (snapshot.of_file) {
     solution.form_factor_sums = snapshot.loaded->stored->form_factor_sums;
-    solution.sky_shares = snapshot.loaded->stored->sky_shares;
+    solution.sky_fractions = snapshot.loaded->stored->sky_fractions;
     solution.sky_irradiance = snapshot.loaded->stored->sky_irradiance;
   }
   return solution;
 }
 
-Rgb value_at(const Rgb& mean, const LinearPart& part, const LinearBasis& basis, const Vec3& point) {
+Rgb value_at(const Rgb& mean, const LinearTerm& term, const LinearBasis& basis, const Vec3& point) {
   const auto [first, second] = basis.at(point);
-  return mean + first * part.first + second * part.second;
+  return mean + first * term.first + second * term.second;
 }
 
 Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point) {
   const Rgb& mean = at(snapshot.radiosity, i);
-  return snapshot.linear_parts.empty()
+  return snapshot.linear_terms.empty()
              ? mean
-             : value_at(mean, at(snapshot.linear_parts, i), at(*snapshot.bases, i), point);
+             : value_at(mean, at(snapshot.linear_terms, i), at(*snapshot.bases, i), point);
+}
+
+bool has_light(const SolverSnapshot& snapshot) {
+  if (snapshot.options.sky.is_set()) {
+    return true;
+  }
+  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
+    if (max_abs(material_of(snapshot, i).exitance) > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<double> escaped_share(const SolverSnapshot& snapshot) {
+  if (snapshot.statistics.iterations == 0 || snapshot.sky_fractions.empty()) {
+    return std::nullopt;
+  }
+  SurfacePower total;
+  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
+    const double area = snapshot.loaded->scene->patch(i).area;
+    total.emitted += area * material_of(snapshot, i).exitance;
+    total.escaped += (area * at(snapshot.sky_fractions, i)) * at(snapshot.radiosity, i);
+    if (!snapshot.sky_irradiance.empty()) {
+      total.from_sky += area * at(snapshot.sky_irradiance, i);
+    }
+  }
+  return transillum::escaped_share(total);
 }
 
 std::int64_t count_negative_corners(const SolverSnapshot& snapshot) {
   const Scene& scene = *snapshot.loaded->scene;
   std::int64_t count = 0;
-  for (PatchId i = 0; i < std::ssize(snapshot.linear_parts); ++i) {
+  for (PatchId i = 0; i < std::ssize(snapshot.linear_terms); ++i) {
     for (const PointId corner : scene.outline(i)) {
       const Rgb b = radiosity_at(snapshot, i, scene.point(corner));
       count += std::min({b.r, b.g, b.b}) < 0 ? 1 : 0;

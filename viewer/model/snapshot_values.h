@@ -21,11 +21,18 @@ Solution solution_of(const SolverSnapshot& snapshot, bool complete = true);
 
 /// The value at a point of a linear function on a patch.
 /// @param mean  over the patch
-Rgb value_at(const Rgb& mean, const LinearPart& part, const LinearBasis& basis, const Vec3& point);
+Rgb value_at(const Rgb& mean, const LinearTerm& term, const LinearBasis& basis, const Vec3& point);
 
 /// B at a point of patch i, W/m², which may be below 0; the mean of the patch where B is constant
 /// on patches.
 Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point);
+
+/// Whether any patch emits, with the materials of the snapshot, or a sky does.
+bool has_light(const SolverSnapshot& snapshot);
+
+/// The fraction of the light that escapes, with the materials of the snapshot, as escaped_share();
+/// none before the first iteration, or where the fraction of sky is not known.
+std::optional<double> escaped_share(const SolverSnapshot& snapshot);
 
 /// SolveStatistics::negative_corners of the snapshot.
 std::int64_t count_negative_corners(const SolverSnapshot& snapshot);

@@ -32,7 +32,7 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   radiosity_ = add_quantity(Quantity::radiosity, "patch_radiosity");
   irradiance_ = add_quantity(Quantity::irradiance, "patch_irradiance");
   form_factor_sum_ = add_quantity(Quantity::form_factor_sum, "patch_form_factor_sum");
-  sky_share_ = add_quantity(Quantity::sky_share, "patch_sky_share");
+  sky_fraction_ = add_quantity(Quantity::sky_fraction, "patch_sky_fraction");
   swatch_ = new QLabel;
   swatch_->setFixedHeight(10);
   swatch_->setToolTip(tr("Color of the patch in the scene view"));
@@ -122,12 +122,12 @@ void PatchInspector::make_coefficients() {
 }
 
 void PatchInspector::show_coefficients(PatchId patch) {
-  const bool linear = !snapshot_->linear_parts.empty();
+  const bool linear = !snapshot_->linear_terms.empty();
   coefficients_->setVisible(linear && selection_.patches().size() == 1);
   if (!linear) {
     return;
   }
-  const LinearPart& part = at(snapshot_->linear_parts, patch);
+  const LinearTerm& term = at(snapshot_->linear_terms, patch);
   const Scene& scene = *snapshot_->loaded->scene;
   Rgb lowest = at(snapshot_->radiosity, patch), highest = lowest;
   for (const PointId corner : scene.outline(patch)) {
@@ -136,8 +136,8 @@ void PatchInspector::show_coefficients(PatchId patch) {
     highest = {std::max(highest.r, b.r), std::max(highest.g, b.g), std::max(highest.b, b.b)};
   }
   mean_b_->setText(rgb_text(at(snapshot_->radiosity, patch)));
-  first_b_->setText(rgb_text(part.first));
-  second_b_->setText(rgb_text(part.second));
+  first_b_->setText(rgb_text(term.first));
+  second_b_->setText(rgb_text(term.second));
   lowest_->setText(rgb_text(lowest));
   highest_->setText(rgb_text(highest));
   const LinearBasis& basis = at(*snapshot_->bases, patch);
@@ -186,7 +186,7 @@ void PatchInspector::show_patch() {
   show_coefficients(patch);
   const Scene& scene = *snapshot_->loaded->scene;
   const Patch& p = scene.patch(patch);
-  // Written as in files, without group separators.
+  // Written as in files, without separators of thousands.
   id_->setText(QString::number(patch));
   face_->setText(QString::number(p.face));
   material_->setText(QString::fromStdString(scene.material(patch).name));
@@ -202,9 +202,9 @@ void PatchInspector::show_patch() {
   irradiance_->setText(irradiance.values.empty() ? QStringLiteral("–")
                                                  : rgb_text(at(irradiance.values, patch)));
   form_factor_sum_->setText(QString::number(at(snapshot_->form_factor_sums, patch), 'f', 6));
-  sky_share_->setText(snapshot_->sky_shares.empty()
-                          ? QStringLiteral("–")
-                          : QString::number(at(snapshot_->sky_shares, patch), 'f', 6));
+  sky_fraction_->setText(snapshot_->sky_fractions.empty()
+                             ? QStringLiteral("–")
+                             : QString::number(at(snapshot_->sky_fractions, patch), 'f', 6));
   const Color8 c = at(colors_.patch_colors(), patch);
   swatch_->setStyleSheet(
       QStringLiteral("background: %1; border: 1px solid #9aa2ac; border-radius: 2px;")

@@ -16,7 +16,7 @@
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
@@ -188,7 +188,7 @@ QVariant PatchTable::data(const QModelIndex& index, int role) const {
       if (column.kind == PatchColumn::Kind::text) {
         return text_of(column, entry);
       }
-      // Written as in files, without group separators.
+      // Written as in files, without separators of thousands.
       if (column.kind == PatchColumn::Kind::integer) {
         return QString::number(static_cast<qint64>(key_of(column, entry)));
       }
@@ -227,7 +227,7 @@ TablePage add_table_page(QTabWidget& tabs, const QString& title, const QString& 
   page.view->setSelectionMode(QAbstractItemView::SingleSelection);
   page.view->horizontalHeader()->setSortIndicator(-1, Qt::AscendingOrder);
   page.view->setSortingEnabled(true);
-  set_up_figure_table(*page.view, widest);
+  set_up_value_table(*page.view, widest);
   auto* widget = new QWidget;
   auto* layout = make_column(widget, {}, 0);
   layout->addWidget(page.caption);

@@ -83,7 +83,7 @@ struct TablePage {
   QLabel* caption;
 };
 /// @param name  of the view
-/// @param widest  as of set_up_figure_table()
+/// @param widest  as of set_up_value_table()
 TablePage add_table_page(QTabWidget& tabs, const QString& title, const QString& name,
                          const QStringList& widest);
 

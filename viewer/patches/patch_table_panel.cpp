@@ -20,14 +20,14 @@
 #include "transillum/files.h"
 #include "widgets/build.h"
 #include "widgets/dialogs.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
 namespace {
 
 constexpr int refresh_interval_ms = 400;
-constexpr int share_column = 4;  // column of the table of partners
+constexpr int fraction_column = 4;  // column of the table of partners
 
 }  // namespace
 
@@ -41,7 +41,7 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
   tabs_->setDocumentMode(true);
   all_ = add_page(tr("All patches"), "patch_table");
   partners_ = add_page(tr("Partners of selection"), "partner_table");
-  partners_.view->sortByColumn(share_column, Qt::DescendingOrder);
+  partners_.view->sortByColumn(fraction_column, Qt::DescendingOrder);
   refresh_timer_ = new QTimer(this);
   refresh_timer_->setSingleShot(true);
 

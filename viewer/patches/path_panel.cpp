@@ -20,13 +20,13 @@
 #include "transillum/files.h"
 #include "widgets/build.h"
 #include "widgets/dialogs.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
 namespace {
 
-double share_of(const LightPaths& paths, const Rgb& light) {
+double fraction_of(const LightPaths& paths, const Rgb& light) {
   const double all = luminance(paths.radiosity);
   return all > 0 ? luminance(light) / all : 0;
 }
@@ -85,9 +85,9 @@ QLayout* PathPanel::make_controls() {
 
 void PathPanel::make_table() {
   table_ = named("path_table", new QTableWidget(0, 4));
-  table_->setHorizontalHeaderLabels({tr("Share, %"), tr("B, W/m²"), tr("Bounces"), tr("Path")});
+  table_->setHorizontalHeaderLabels({tr("Fraction, %"), tr("B, W/m²"), tr("Bounces"), tr("Path")});
   const QString tips[] = {
-      tr("Part of the radiosity of the selected patch, by luminance"),
+      tr("Fraction of the radiosity of the selected patch, by luminance"),
       tr("Luminance that the path adds to the radiosity B of the selected patch"),
       tr("Number of reflections on the path, including the one by the selected patch"),
       tr("Patches from the source to the selected patch; click a row to emphasize it in the "
@@ -99,7 +99,7 @@ void PathPanel::make_table() {
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->horizontalHeader()->setStretchLastSection(true);
-  set_up_figure_table(*table_, {QStringLiteral("88.888"), {}, QStringLiteral("888"), {}});
+  set_up_value_table(*table_, {QStringLiteral("88.888"), {}, QStringLiteral("888"), {}});
   connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
     const QList<QTableWidgetItem*> items = table_->selectedItems();
     emit paths_shown(watched_ ? paths_ : nullptr, items.isEmpty() ? -1 : items.front()->row());
@@ -170,12 +170,12 @@ void PathPanel::show_paths() {
   table_->setRowCount(rows);
   // The strongest path is the first.
   const Rgb most = rows > 0 ? paths_->paths.front().contribution : Rgb();
-  const ColumnFormat share_format(100), light_format(luminance(most));
+  const ColumnFormat fraction_format(100), light_format(luminance(most));
   table_->horizontalHeaderItem(1)->setText(light_format.header(tr("B, W/m²")));
   for (int row = 0; row < rows; ++row) {
     const LightPath& path = at(paths_->paths, row);
     const QString texts[] = {
-        share_format.text(100 * share_of(*paths_, path.contribution)),
+        fraction_format.text(100 * fraction_of(*paths_, path.contribution)),
         light_format.text(luminance(path.contribution)), QString::number(path.patches.size() - 1),
         path.patches.size() > 1 ? path_text(path) : tr("emitted by the patch itself")};
     for (int column = 0; column < 4; ++column) {
@@ -203,7 +203,7 @@ void PathPanel::show_caption() {
   } else if (paths_->paths.empty()) {
     caption_->setText(tr("No light reaches patch %1.").arg(patch));
   } else {
-    const double rest = 100 * share_of(*paths_, paths_->cut_off);
+    const double rest = 100 * fraction_of(*paths_, paths_->cut_off);
     caption_->setText(tr("%1 paths carry %2 % of B of patch %3, all other paths together %4 %.")
                           .arg(paths_->paths.size())
                           .arg(100 - rest, 0, 'f', 1)
@@ -221,7 +221,7 @@ void write_paths_csv(const LightPaths& paths, std::ostream& out) {
   const auto write_line = [&](const std::string& rank, const Rgb& light,
                               const std::string& patches) {
     const auto number = [](double value) { return QString::number(value, 'g', 17).toStdString(); };
-    out << rank << ',' << number(share_of(paths, light)) << ',' << number(light.r) << ','
+    out << rank << ',' << number(fraction_of(paths, light)) << ',' << number(light.r) << ','
         << number(light.g) << ',' << number(light.b) << ',' << patches << '\n';
   };
   int rank = 0;
@@ -238,7 +238,7 @@ void write_paths_csv(const LightPaths& paths, std::ostream& out) {
 void write_paths_json(const LightPaths& paths, PatchId receiver, std::ostream& out) {
   nlohmann::json list = nlohmann::json::array();
   for (const LightPath& path : paths.paths) {
-    list.push_back({{"share", share_of(paths, path.contribution)},
+    list.push_back({{"share", fraction_of(paths, path.contribution)},
                     {"contribution", json_of(path.contribution)},
                     {"patches", path.patches}});
   }

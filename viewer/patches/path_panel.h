@@ -17,7 +17,7 @@ class QTableWidget;
 
 namespace transillum::viewer {
 
-/// The strongest light paths to the selected patch, with their shares of its B; found from the
+/// The strongest light paths to the selected patch, with their fractions of its B; found from the
 /// snapshot's form factors on a thread of its own.
 class PathPanel : public QWidget {
   Q_OBJECT
@@ -77,7 +77,7 @@ class PathPanel : public QWidget {
   NewestResult<Request, LightPaths> finder_;
 };
 
-/// One line per path: its rank from 1, share of B by luminance, contribution, patches from the
+/// One line per path: its rank from 1, fraction of B by luminance, contribution, patches from the
 /// source on. The last line is the sum of all other paths.
 void write_paths_csv(const LightPaths& paths, std::ostream& out);
 void write_paths_json(const LightPaths& paths, PatchId receiver, std::ostream& out);

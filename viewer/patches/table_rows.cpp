@@ -100,7 +100,7 @@ PatchRows rows_of_all(const SolverSnapshot& snapshot) {
   add(tr("Face"), tr("Its face in the file, counted from 0"), "face", Kind::integer,
       [&](PatchId i) { return scene.patch(i).face; });
   add_quantity(Quantity::form_factor_sum, "F_sum");
-  add_quantity(Quantity::sky_share, "sky");
+  add_quantity(Quantity::sky_fraction, "sky");
   const std::vector<int> fragments = fragment_counts(*snapshot.loaded);
   add(tr("Fragments"), tr("Number of fragments after the BSP tree"), "fragments", Kind::integer,
       [&](PatchId i) { return at(fragments, i); });
@@ -133,14 +133,14 @@ PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i) {
   rows.columns.push_back(patch_column(rows.patches));
   rows.columns.push_back(material_column(rows.patches, scene));
   add(tr("F i→j"),
-      tr("Form factor: the share of the power sent by the selected patch i that reaches j"), "F_ij",
-      Kind::number, [&](PatchId j) { return at(from, j); });
+      tr("Form factor: the fraction of the power sent by the selected patch i that reaches j"),
+      "F_ij", Kind::number, [&](PatchId j) { return at(from, j); });
   add(tr("Received, W"), tr("Power that i receives from j: A_i F_ij B_j"), "received",
       Kind::channels, received);
-  add(tr("Share, %"), tr("Share of the total that i receives, by luminance"), "share_percent",
+  add(tr("Fraction, %"), tr("Fraction of the total that i receives, by luminance"), "share_percent",
       Kind::number,
       [&](PatchId j) { return total > 0 ? 100 * luminance(received(j)) / total : 0.0; });
-  add(tr("F j→i"), tr("Form factor: the share of the power sent by j that reaches i"), "F_ji",
+  add(tr("F j→i"), tr("Form factor: the fraction of the power sent by j that reaches i"), "F_ji",
       Kind::number, [&](PatchId j) { return at(to, j); });
   add(tr("Sent, W"), tr("Power that j receives from i: A_j F_ji B_i"), "sent", Kind::channels,
       [&](PatchId j) { return scene.patch(j).area * at(to, j) * at(snapshot.radiosity, i); });
@@ -153,7 +153,9 @@ namespace {
 
 using Kind = PatchColumn::Kind;
 
-QString part_text(const char* text) { return QCoreApplication::translate("PartColumns", text); }
+QString surface_text(const char* text) {
+  return QCoreApplication::translate("SurfaceColumns", text);
+}
 
 /// A column of names: values are positions in the sorted list, so that sorting sorts by name.
 PatchColumn column_of_names(const QString& title, const QString& tip, const char* csv_name,
@@ -170,59 +172,59 @@ PatchColumn column_of_names(const QString& title, const QString& tip, const char
 
 QString with_luminance(const QString& meaning) {
   return meaning + QLatin1Char('\n') +
-         part_text("Shown and sorted by luminance; point at a row for all");
+         surface_text("Shown and sorted by luminance; point at a row for all");
 }
 
 }  // namespace
 
-QString part_text(const PartPower& part) {
-  return part.index < 0 ? part_text("(no group)") : QString::fromStdString(part.name);
+QString surface_text(const SurfacePower& surface) {
+  return surface.index < 0 ? surface_text("(no group)") : QString::fromStdString(surface.name);
 }
 
 PatchRows rows_of_parts(const PowerTable& table, bool received_known) {
   PatchRows rows;
   QStringList names;
-  for (const PartPower& part : table.parts) {
+  for (const SurfacePower& surface : table.surfaces) {
     rows.patches.push_back(static_cast<PatchId>(rows.patches.size()));
-    names << part_text(part);
+    names << surface_text(surface);
   }
-  rows.columns.push_back(
-      column_of_names(part_text("Name"), part_text("Name in the scene's file"), "name", names));
+  rows.columns.push_back(column_of_names(surface_text("Name"),
+                                         surface_text("Name in the scene's file"), "name", names));
   const auto add_number = [&](const QString& title, const QString& tip, const char* csv_name,
                               Kind kind, auto member) {
     PatchColumn column{title, tip, csv_name, kind, {}};
-    for (const PartPower& part : table.parts) {
-      column.values.push_back({static_cast<double>(part.*member), 0, 0});
+    for (const SurfacePower& surface : table.surfaces) {
+      column.values.push_back({static_cast<double>(surface.*member), 0, 0});
     }
     rows.columns.push_back(std::move(column));
   };
   const auto add_power = [&](const QString& title, const QString& tip, const char* csv_name,
-                             Rgb PartPower::*member) {
+                             Rgb SurfacePower::*member) {
     PatchColumn column{title, with_luminance(tip), csv_name, Kind::channels, {}};
-    for (const PartPower& part : table.parts) {
-      column.values.push_back(part.*member);
+    for (const SurfacePower& surface : table.surfaces) {
+      column.values.push_back(surface.*member);
     }
     rows.columns.push_back(std::move(column));
   };
-  add_number(part_text("Patches"), part_text("Number of patches"), "patches", Kind::integer,
-             &PartPower::patches);
-  add_number(part_text("Area, m²"), part_text("Sum of the areas"), "area", Kind::number,
-             &PartPower::area);
-  add_power(part_text("Emitted, W"), part_text("Power emitted: Σ A E"), "emitted",
-            &PartPower::emitted);
+  add_number(surface_text("Patches"), surface_text("Number of patches"), "patches", Kind::integer,
+             &SurfacePower::patches);
+  add_number(surface_text("Area, m²"), surface_text("Sum of the areas"), "area", Kind::number,
+             &SurfacePower::area);
+  add_power(surface_text("Emitted, W"), surface_text("Power emitted: Σ A E"), "emitted",
+            &SurfacePower::emitted);
   if (received_known) {
-    add_power(part_text("Received, W"), part_text("Power received, from all sides: Σ A H"),
-              "received", &PartPower::received);
-    add_power(part_text("Absorbed, W"), part_text("Power absorbed: Σ A (1 − ρ) H"), "absorbed",
-              &PartPower::absorbed);
+    add_power(surface_text("Received, W"), surface_text("Power received, from all sides: Σ A H"),
+              "received", &SurfacePower::received);
+    add_power(surface_text("Absorbed, W"), surface_text("Power absorbed: Σ A (1 − ρ) H"),
+              "absorbed", &SurfacePower::absorbed);
     if (max_abs(table.total.from_sky) > 0) {
-      add_power(part_text("From sky, W"),
-                part_text("The part of the power received that comes from the sky"), "from_sky",
-                &PartPower::from_sky);
+      add_power(surface_text("From sky, W"),
+                surface_text("The part of the power received that comes from the sky"), "from_sky",
+                &SurfacePower::from_sky);
     }
     if (max_abs(table.total.escaped) > 0) {
-      add_power(part_text("Escaped, W"), part_text("Power that leaves and meets no patch"),
-                "escaped", &PartPower::escaped);
+      add_power(surface_text("Escaped, W"), surface_text("Power that leaves and meets no patch"),
+                "escaped", &SurfacePower::escaped);
     }
   }
   return rows;
@@ -241,15 +243,15 @@ PatchRows rows_of_exchanges(const PowerTable& table) {
                                       // this
   QStringList senders, receivers;
   PatchColumn power{
-      part_text("Power, W"),
-      with_luminance(part_text("Power that leaves one group or material and reaches the other "
-                               "directly: Σ A F B")),
+      surface_text("Power, W"),
+      with_luminance(surface_text("Power that leaves one group or material and reaches the other "
+                                  "directly: Σ A F B")),
       "power",
       Kind::channels,
       {}};
-  PatchColumn share{
-      part_text("Share, %"),
-      part_text("Fraction of the power that the receiver gets from all patches, by luminance"),
+  PatchColumn fraction{
+      surface_text("Fraction, %"),
+      surface_text("Fraction of the power that the receiver gets from all patches, by luminance"),
       "share_percent",
       Kind::number,
       {}};
@@ -264,19 +266,20 @@ PatchRows rows_of_exchanges(const PowerTable& table) {
         continue;
       }
       rows.patches.push_back(static_cast<PatchId>(i * count + j));
-      senders << part_text(table.parts[j]);
-      receivers << part_text(table.parts[i]);
+      senders << surface_text(table.surfaces[j]);
+      receivers << surface_text(table.surfaces[i]);
       power.values.push_back(from);
-      share.values.push_back({received > 0 ? 100 * luminance(from) / received : 0, 0, 0});
+      fraction.values.push_back({received > 0 ? 100 * luminance(from) / received : 0, 0, 0});
     }
   }
+  rows.columns.push_back(column_of_names(surface_text("From"),
+                                         surface_text("Group or material that the light leaves"),
+                                         "from", senders));
   rows.columns.push_back(column_of_names(
-      part_text("From"), part_text("Group or material that the light leaves"), "from", senders));
-  rows.columns.push_back(column_of_names(part_text("To"),
-                                         part_text("Group or material that the light reaches next"),
-                                         "to", receivers));
+      surface_text("To"), surface_text("Group or material that the light reaches next"), "to",
+      receivers));
   rows.columns.push_back(std::move(power));
-  rows.columns.push_back(std::move(share));
+  rows.columns.push_back(std::move(fraction));
   return rows;
 }
 

@@ -22,12 +22,12 @@ struct PatchRows {
 PatchRows rows_of_all(const SolverSnapshot& snapshot);
 
 /// The patches that exchange light with patch i: F_ij and F_ji, the power that i receives from each
-/// (A_i F_ij B_j, W), its share of the total, and the power that i sends to each (A_j F_ji B_i, W).
-/// Requires the snapshot's form factors.
+/// (A_i F_ij B_j, W), its fraction of the total, and the power that i sends to each (A_j F_ji B_i,
+/// W). Requires the snapshot's form factors.
 PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i);
 
 /// A part for the user: its name, or "(no group)".
-QString part_text(const PartPower& part);
+QString surface_text(const SurfacePower& surface);
 
 /// Contents of a PatchTable whose rows are the parts of a power table, by their position.
 /// @param received_known  whether there are columns of received light

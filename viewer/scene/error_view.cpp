@@ -81,17 +81,17 @@ QImage picture_of(const std::vector<PatchId>& patches, const std::vector<double>
 
 // The scale ends at nearly the largest error of all runs: a single patch does not set it.
 double scale_of(const std::vector<std::vector<double>>& errors) {
-  constexpr double share = 0.95;
+  constexpr double fraction = 0.95;
   double most = 1e-12;
   for (std::vector<double> sorted : errors) {
     std::sort(sorted.begin(), sorted.end());
-    const auto place = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1));
+    const auto place = static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1));
     most = std::max(most, sorted[place]);
   }
   return most;
 }
 
-QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
+QString percent_text(double fraction) { return number_text(100 * fraction) + QStringLiteral(" %"); }
 
 }  // namespace
 
@@ -223,16 +223,16 @@ void ErrorView::measure(const Job& job, const Cancellation& cancellation) {
       Qt::QueuedConnection);
 }
 
-void ErrorView::show_progress(int number, double share) {
+void ErrorView::show_progress(int number, double fraction) {
   const auto percent = [](double value) { return static_cast<int>(100 * value); };
-  if (percent(share) == percent(share_)) {
+  if (percent(fraction) == percent(share_)) {
     return;
   }
   QMetaObject::invokeMethod(
       this,
-      [this, number, share] {
+      [this, number, fraction] {
         if (number == number_) {
-          share_ = share;
+          share_ = fraction;
           update();
         }
       },

@@ -67,7 +67,7 @@ class ErrorView : public QWidget {
   void start_if_wanted();
   void drop();
   void measure(const Job& job, const Cancellation& cancellation);
-  void show_progress(int number, double share);
+  void show_progress(int number, double fraction);
   void paint_run(QPainter& painter, const QRectF& box, std::size_t run) const;
   void paint_scale(QPainter& painter, const QRectF& box) const;
   void place_button();

@@ -71,9 +71,10 @@ vec3 dimmed(vec3 color) {
 )";
 constexpr const char* fragment_color = R"(
 //VTK::Color::Impl
-  vec3 shownColor = color_of_light(lightVSOutput.rgb);
+  float lightMark = floor(lightVSOutput.a + 0.5);
+  vec3 shownColor = lightMark > 1.5 ? lightOmittedColor : color_of_light(lightVSOutput.rgb);
   ambientColor = vec3(0.0);
-  diffuseColor = lightVSOutput.a > 0.5 ? dimmed(shownColor) : shownColor;
+  diffuseColor = mod(lightMark, 2.0) > 0.5 ? dimmed(shownColor) : shownColor;
 )";
 
 void replace_shaders(vtkShaderProperty& shaders) {
@@ -105,6 +106,7 @@ void set_scale(vtkUniforms& uniforms, const ColorScale& scale) {
   uniforms.SetUniform3f("lightWeights", weights_of(scale).data());
   uniforms.SetUniformi("lightMarksZero", scale.marks_zero ? 1 : 0);
   uniforms.SetUniform3f("lightZeroColor", from_bytes(zero_color).data());
+  uniforms.SetUniform3f("lightOmittedColor", from_bytes(omitted_color).data());
   uniforms.SetUniformi("lightLogarithmic", scale.logarithmic ? 1 : 0);
   uniforms.SetUniformf("lightLow", static_cast<float>(scale.low));
   uniforms.SetUniformf("lightHigh", static_cast<float>(scale.high));
@@ -188,9 +190,14 @@ void LinearSurface::show(const ColorChoice& colors, const std::vector<bool>& dim
     }
     const float dim = !dimmed.empty() && at(dimmed, piece.patch) ? 1 : 0;
     for (const PointId corner : scene_->corners(piece)) {
-      const Rgb value = colors.value_at(piece.patch, scene_->point(corner));
+      Rgb value = colors.value_at(piece.patch, scene_->point(corner));
+      const bool is_omitted = std::isnan(value.r);
+      if (is_omitted) {
+        value = {};
+      }
+      const float mark = dim + (is_omitted ? 2.0F : 0.0F);
       const float tuple[4] = {static_cast<float>(value.r), static_cast<float>(value.g),
-                              static_cast<float>(value.b), dim};
+                              static_cast<float>(value.b), mark};
       light_->SetTypedTuple(next++, tuple);
     }
   }

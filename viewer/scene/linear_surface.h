@@ -41,8 +41,8 @@ class LinearSurface {
 
   std::shared_ptr<const Scene> scene_;
   vtkSmartPointer<vtkPolyData> surface_;
-  vtkSmartPointer<vtkFloatArray> light_;  ///< for each point: red, green, blue, and 1 if it is
-                                          ///< dimmed
+  vtkSmartPointer<vtkFloatArray> light_;  ///< for each point: red, green, blue, and the sum of
+                                          ///< 1 if it is dimmed and 2 if it has no value
   vtkSmartPointer<vtkPolyDataMapper> mapper_;
   vtkSmartPointer<vtkActor> actor_;
   std::vector<bool> hidden_;

@@ -57,13 +57,13 @@ void start_lines(vtkPolyData& data) {
 }
 
 // The point at a fraction of the length of a path.
-Vec3 point_on(const Scene& scene, const LightPath& path, double share) {
+Vec3 point_on(const Scene& scene, const LightPath& path, double fraction) {
   const auto center = [&](std::size_t k) { return scene.patch(path.patches[k]).center; };
   double length = 0;
   for (std::size_t k = 1; k < path.patches.size(); ++k) {
     length += norm(center(k) - center(k - 1));
   }
-  double left = share * length;
+  double left = fraction * length;
   for (std::size_t k = 1; k < path.patches.size(); ++k) {
     const double step = norm(center(k) - center(k - 1));
     if (left <= step) {
@@ -137,8 +137,9 @@ void PathGlyph::label(std::size_t slot, const Scene& scene, const LightPaths& pa
   // Paths may have parts in common: their labels are at different places.
   constexpr double places[] = {0.5, 0.62, 0.38, 0.5};
   const Vec3 place = point_on(scene, paths.paths[path], at(places, slot));
-  const double share = 100 * luminance(paths.paths[path].contribution) / luminance(paths.radiosity);
-  const QString text = QStringLiteral(" %1 % ").arg(share, 0, 'g', 3);
+  const double fraction =
+      100 * luminance(paths.paths[path].contribution) / luminance(paths.radiosity);
+  const QString text = QStringLiteral(" %1 % ").arg(fraction, 0, 'g', 3);
   labels_[slot]->SetInput(text.toUtf8().constData());
   labels_[slot]->GetPositionCoordinate()->SetValue(place.x, place.y, place.z);
   labels_[slot]->VisibilityOn();

@@ -15,7 +15,7 @@
 namespace transillum::viewer {
 
 /// Light paths as lines between the centers of their patches, in front of the whole scene: the
-/// stronger, the brighter. The shares of the strongest paths, and of the emphasized path, are
+/// stronger, the brighter. The fractions of the strongest paths, and of the emphasized path, are
 /// written.
 class PathGlyph {
  public:

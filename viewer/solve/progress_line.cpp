@@ -7,10 +7,13 @@
 #include <QFileInfo>
 #include <QLabel>
 #include <QProgressBar>
+#include <climits>
 #include <utility>
 
+#include "model/snapshot_values.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
+#include "widgets/elided.h"
 
 namespace transillum::viewer {
 
@@ -21,18 +24,22 @@ QString iterations_text(int count) {
                     : ProgressLine::tr("%1 iterations").arg(count_text(count));
 }
 
-QString percent(double share) { return ProgressLine::tr("%1 %").arg(number_text(100 * share)); }
+QString percent(double fraction) {
+  return ProgressLine::tr("%1 %").arg(number_text(100 * fraction));
+}
 
-// "error of floor": the worst surface where the goal is about surfaces.
-QString error_name(const AccuracyReport& report) {
-  return report.surface.empty() ? ProgressLine::tr("error")
-                                : ProgressLine::tr("error of the worst surface, %1,")
-                                      .arg(QString::fromStdString(report.surface));
+// "error of the worst surface, floor,": where the goal is about surfaces. Names of files can be
+// longer than the window is wide.
+QString error_name(const AccuracyReport& report, int longest_name) {
+  return report.surface.empty()
+             ? ProgressLine::tr("error")
+             : ProgressLine::tr("error of the worst surface, %1,")
+                   .arg(elided_name(QString::fromStdString(report.surface), longest_name));
 }
 
 // The text on a finished solve with a goal.
-QString accuracy_text(const AccuracyReport& report) {
-  const QString passes = count_text(report.passes_made), error = error_name(report);
+QString accuracy_text(const AccuracyReport& report, int longest_name) {
+  const QString passes = count_text(report.passes_made), error = error_name(report, longest_name);
   if (report.goal.accuracy == 0) {
     return ProgressLine::tr("Time is up: %1 at most %2 after %3 passes")
         .arg(error, percent(report.error), passes);
@@ -43,6 +50,16 @@ QString accuracy_text(const AccuracyReport& report) {
   }
   return ProgressLine::tr("Good enough: %1 at most %2 (limit %3), %4 passes")
       .arg(error, percent(report.error), percent(report.goal.accuracy), passes);
+}
+
+// The same without shortening.
+QString accuracy_tip(const AccuracyReport& report) {
+  const QString text = accuracy_text(report, INT_MAX);
+  return report.is_dark ? ProgressLine::tr(
+                              "%1.\nThe error is relative to a thousandth of the brightest "
+                              "surface, as the surface is in the dark")
+                              .arg(text)
+                        : text;
 }
 
 // The name of the scene; for a result file, the names of the file and of its scene.
@@ -62,8 +79,8 @@ QString name_of(const LoadedScene& loaded) {
 ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
   scene_ = named("scene_summary", new QLabel);
   scene_->hide();
-  phase_ = named("phase", new QLabel(tr("No scene")));
-  phase_->setSizePolicy(QSizePolicy::MinimumExpanding, QSizePolicy::Preferred);
+  phase_ = named("phase", new ElidedLabel(tr("No scene")));
+  phase_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   bar_ = named("progress", new QProgressBar);
   bar_->setMinimumWidth(90);
   bar_->setMaximumWidth(260);
@@ -106,14 +123,14 @@ void ProgressLine::show_scene(const LoadedScene& loaded) {
                QString::number(loaded.seconds_bsp, 'f', 2)));
 }
 
-void ProgressLine::show_loading(const QString& phase, double share) {
+void ProgressLine::show_loading(const QString& phase, double fraction) {
   if (state_ != RunState::loading) {
     return;
   }
   phase_->setText(phase + QStringLiteral("…"));
   bar_->setVisible(true);
-  bar_->setRange(0, share < 0 ? 0 : 1000);
-  bar_->setValue(static_cast<int>(1000 * share));
+  bar_->setRange(0, fraction < 0 ? 0 : 1000);
+  bar_->setValue(static_cast<int>(1000 * fraction));
   rate_->clear();
   time_->clear();
 }
@@ -137,9 +154,12 @@ void ProgressLine::show_solve() {
     return;
   }
   const SolveProgress& progress = snapshot_->progress;
-  const bool running = state_ == RunState::running;
+  const bool running = state_ == RunState::running, finished = state_ == RunState::finished;
   const bool within_iteration = progress.direction > 0 && progress.direction < progress.passes;
   bar_->setVisible(!snapshot_->of_file);
+  // A solve that is over needs the room for its text.
+  rate_->setVisible(!finished);
+  time_->setVisible(!finished);
   if (running && progress.stage != SolveProgress::Stage::passes) {
     show_stage_of_lobes(progress);
     return;
@@ -159,9 +179,15 @@ void ProgressLine::show_solve() {
                                .arg(count_text(progress.iteration + 1),
                                     count_text(progress.direction), count_text(progress.passes))
                          : tr("%1 done").arg(iterations_text(progress.iteration));
-  if (state_ == RunState::finished && snapshot_->accuracy) {
-    phase_->setText(accuracy_text(*snapshot_->accuracy));
-  } else if (state_ == RunState::finished) {
+  const auto& accuracy = snapshot_->accuracy;
+  phase_->setToolTip(finished && accuracy ? accuracy_tip(*accuracy) : QString());
+  if (finished && !has_light(*snapshot_)) {
+    phase_->setToolTip({});
+    phase_->setText(tr("No light: B is 0 everywhere"));
+  } else if (finished && accuracy) {
+    constexpr int longest_name = 20;
+    phase_->setText(accuracy_text(*accuracy, longest_name));
+  } else if (finished) {
     phase_->setText((snapshot_->statistics.converged ? tr("Converged after %1, %2 s")
                                                      : tr("Finished after %1, %2 s"))
                         .arg(iterations_text(progress.iteration),
@@ -187,7 +213,7 @@ void ProgressLine::show_solve() {
 /// With lobes, passes are the smaller part of an iteration.
 void ProgressLine::show_stage_of_lobes(const SolveProgress& progress) {
   bar_->setRange(0, 1000);
-  bar_->setValue(static_cast<int>(1000 * progress.stage_share));
+  bar_->setValue(static_cast<int>(1000 * progress.stage_fraction));
   phase_->setText(progress.stage == SolveProgress::Stage::scaling_lobes
                       ? tr("Scaling lobes")
                       : tr("Iteration %1, reflecting").arg(count_text(progress.iteration + 1)));

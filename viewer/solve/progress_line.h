@@ -19,7 +19,7 @@ class ProgressLine : public QWidget {
   explicit ProgressLine(QWidget* parent = nullptr);
 
   void show_scene(const LoadedScene& loaded);
-  void show_loading(const QString& phase, double share);
+  void show_loading(const QString& phase, double fraction);
   void show_state(RunState state);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 

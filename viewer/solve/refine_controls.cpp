@@ -16,8 +16,9 @@ namespace {
 
 constexpr int usual_patches = 600;  // until a number is entered
 
-QString percent_text(double share) {
-  return share > 0 ? QString::number(100 * share, 'g', QLocale::FloatingPointShortest) : QString();
+QString percent_text(double fraction) {
+  return fraction > 0 ? QString::number(100 * fraction, 'g', QLocale::FloatingPointShortest)
+                      : QString();
 }
 
 }  // namespace

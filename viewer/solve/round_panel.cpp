@@ -15,13 +15,13 @@
 
 #include "support/number_text.h"
 #include "widgets/build.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
 namespace {
 
-enum Column { round_column, patches_column, figure_column, seconds_column, column_count };
+enum Column { round_column, patches_column, measure_column, seconds_column, column_count };
 
 constexpr int most_rows = 9;  // shown without scrolling
 constexpr int bar_steps = 1000;
@@ -58,7 +58,7 @@ RoundPanel::RoundPanel(QWidget* parent) : QWidget(parent) {
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   table_->setHorizontalHeaderLabels({tr("Round"), tr("Patches"), QString(), tr("Time, s")});
-  set_up_figure_table(*table_, {QString(), QString(), QString(), QString()});
+  set_up_value_table(*table_, {QString(), QString(), QString(), QString()});
   phase_ = named("round_phase", new QLabel);
   bar_ = named("round_progress", new QProgressBar);
   bar_->setRange(0, bar_steps);
@@ -97,8 +97,8 @@ void RoundPanel::show_snapshot(const SolverSnapshot& snapshot) {
 
 void RoundPanel::show_table(const SolverSnapshot& snapshot) {
   const bool jump = snapshot.refine.by == RefineBy::jump;
-  table_->horizontalHeaderItem(figure_column)->setText(jump ? tr("Jump, %") : tr("Error, %"));
-  table_->horizontalHeaderItem(figure_column)
+  table_->horizontalHeaderItem(measure_column)->setText(jump ? tr("Jump, %") : tr("Error, %"));
+  table_->horizontalHeaderItem(measure_column)
       ->setToolTip(
           jump ? tr("RMS of the jumps across edges, relative to B")
                : tr("L2 norm of the part of B that the patches cannot represent, relative to B"));
@@ -115,7 +115,7 @@ void RoundPanel::show_table(const SolverSnapshot& snapshot) {
   };
   for (int k = 0; k < done; ++k) {
     const RefinementRound& round = rounds[static_cast<std::size_t>(k)];
-    set_row(k, {count_text(k + 1), count_text(round.patches), number_text(100 * round.figure),
+    set_row(k, {count_text(k + 1), count_text(round.patches), number_text(100 * round.measure),
                 seconds_text(round.seconds)});
   }
   set_row(done, {snapshot.refinement.left ? count_text(done + 1) : tr("Solve"),
@@ -167,16 +167,16 @@ void RoundPanel::show_progress(const SolverSnapshot& snapshot) {
   const RoundsAhead ahead = rounds_ahead(snapshot.refinement.patches, snapshot.refine);
   QString text = tr("Round %1 of about %2")
                      .arg(count_text(done + 1), count_text(done + std::max(ahead.rounds, 1)));
-  double share = 0;
+  double fraction = 0;
   if (done > 0 && rounds.back().patches > 0) {
     const double per_patch = rounds.back().seconds / static_cast<double>(rounds.back().patches);
     const double needed =
         std::max(0.0, per_patch * ahead.patches - snapshot.statistics.seconds_total);
-    share = spent / std::max(spent + needed, 1e-9);
+    fraction = spent / std::max(spent + needed, 1e-9);
     text += tr(", about %1 left").arg(duration_text(needed));
   }
   phase_->setText(text);
-  bar_->setValue(static_cast<int>(bar_steps * share));
+  bar_->setValue(static_cast<int>(bar_steps * fraction));
 }
 
 }  // namespace transillum::viewer

@@ -30,6 +30,7 @@
 #include "support/number_text.h"
 #include "widgets/build.h"
 #include "widgets/engine_text.h"
+#include "widgets/scrolling.h"
 
 namespace transillum::viewer {
 
@@ -43,7 +44,7 @@ void add_choices(QComboBox& box) {
   }
 }
 
-// The slider's position is the square root of the sky's share of this.
+// The slider's position is the square root of the sky's fraction of this.
 constexpr int sky_steps = 200;
 constexpr double sky_of_slider = 100;  // W/m²
 
@@ -257,8 +258,8 @@ void SettingsPanel::add_sky_rows(QFormLayout& form) {
   sky_up_label_ = new QLabel(tr("Zenith"));
   form.addRow(sky_up_label_, sky_up_);
   connect(sky_slider_, &QSlider::valueChanged, this, [this](int step) {
-    const double share = 1.0 * step / sky_steps;
-    sky_value_->setValue(sky_of_slider * share * share);
+    const double fraction = 1.0 * step / sky_steps;
+    sky_value_->setValue(sky_of_slider * fraction * fraction);
   });
   connect(sky_value_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double value) {
     const QSignalBlocker quiet(sky_slider_);
@@ -315,10 +316,18 @@ void SettingsPanel::set_scene_up(const Vec3& up) {
   }
 }
 
-void SettingsPanel::show_escape(std::optional<double> share) {
+void SettingsPanel::show_escape(std::optional<double> fraction) {
   constexpr double rounding = 1e-9;
-  closed_ = share && *share < rounding;
+  closed_ = fraction && *fraction < rounding;
   show_sky_state();
+}
+
+bool SettingsPanel::may_have_sky() const { return sky_value_->isEnabledTo(this); }
+
+void SettingsPanel::ask_for_sky() {
+  scroll_to(sky_value_);
+  sky_value_->setFocus();
+  sky_value_->selectAll();
 }
 
 void SettingsPanel::show_sky_state() {

@@ -45,7 +45,11 @@ class SettingsPanel : public QWidget {
   void set_restart_enabled(bool enabled);
   /// Sets the fraction of the light of all patches that escapes from the open scene; not set while
   /// it is unknown. If no light escapes, no sky is seen, and its controls are disabled.
-  void show_escape(std::optional<double> share);
+  void show_escape(std::optional<double> fraction);
+  /// Whether a sky would light the open scene, as far as is known.
+  bool may_have_sky() const;
+  /// Scrolls to the exitance of the sky, to be entered.
+  void ask_for_sky();
   /// Sets the vertical of a new scene: the zenith that is proposed for a sky that needs one.
   void set_scene_up(const Vec3& up);
   /// Sets the lobes that materials of the open scene have.

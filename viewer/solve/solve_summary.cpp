@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "solve/solve_summary.h"
 
+#include "model/snapshot_values.h"
+#include "radiosity/analysis/power_table.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
@@ -13,6 +15,17 @@ namespace {
 
 constexpr double accuracy = 0.01;  ///< accuracy of the rows "Directions for 1 %"
 
+QString closure_text(const SolverSnapshot& snapshot) {
+  const SolveStatistics& s = snapshot.statistics;
+  if (!is_open(s)) {
+    return SolveSummary::tr("closed, defect %1").arg(number_text(s.closure_defect_max));
+  }
+  const auto fraction = escaped_share(snapshot);
+  return fraction
+             ? SolveSummary::tr("open: %1 % of the light escapes").arg(number_text(100 * *fraction))
+             : SolveSummary::tr("open: light escapes");
+}
+
 }  // namespace
 
 SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
@@ -22,9 +35,11 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
   transfers_ = grid->add_row(tr("Exchanges"), {}, tr("Found by the passes of the first iteration"));
   form_factors_ = grid->add_row(tr("Form factors"), {},
                                 tr("Kept in memory, so that later iterations need no passes"));
-  closure_ =
-      grid->add_row(tr("Closure defect"), {},
-                    tr("Largest fraction of a patch's projected area that is unaccounted for"));
+  closure_ = grid->add_row(
+      tr("Closure"), {},
+      tr("Closed scene: the closure defect, the largest fraction of a patch's projected area\n"
+         "that is unaccounted for. Open scene: the fraction of all light that escapes"));
+  closure_->setObjectName("summary_closure");
   escaped_ = grid->add_row(
       tr("Open to the sky"), {},
       tr("Fraction of all projected area with nothing above it; 0 in a closed scene"));
@@ -83,16 +98,13 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   form_factors_->setText(!any_iteration        ? none
                          : s.kept_form_factors ? tr("%1 kept").arg(count_text(s.form_factors))
                                                : tr("recomputed"));
-  constexpr double rounding = 1e-9;
-  closure_->setText(!any_pass              ? none
-                    : s.escaped < rounding ? number_text(s.closure_defect_max)
-                                           : tr("open scene"));
-  escaped_->setText(!any_pass              ? none
-                    : s.escaped < rounding ? tr("0, the scene is closed")
-                                           : tr("%1 %").arg(number_text(100 * s.escaped)));
-  negative_->setText(snapshot.linear_parts.empty() ? tr("constant B")
+  closure_->setText(any_pass ? closure_text(snapshot) : none);
+  escaped_->setText(!any_pass    ? none
+                    : is_open(s) ? tr("%1 %").arg(number_text(100 * s.escaped))
+                                 : tr("0, the scene is closed"));
+  negative_->setText(snapshot.linear_terms.empty() ? tr("constant B")
                                                    : count_text(s.negative_corners));
-  const GlossyFigures& g = s.glossy;
+  const GlossyStatistics& g = s.glossy;
   const auto bytes = g.radiance_bytes + g.lobe_bytes + g.transfer_bytes;
   const QString lobes =
       tr("%1 patches, %2 MB")

@@ -228,7 +228,7 @@ void StudyDialog::show_snapshot(std::shared_ptr<const StudySnapshot> snapshot) {
 void StudyDialog::show_phase() {
   progress_->setVisible(running_);
   const bool has_progress = running_ && snapshot_ && snapshot_->running;
-  progress_->setValue(has_progress ? static_cast<int>(1000 * snapshot_->share) : 0);
+  progress_->setValue(has_progress ? static_cast<int>(1000 * snapshot_->fraction) : 0);
   if (has_progress) {
     const QString what =
         snapshot_->reference
@@ -287,8 +287,7 @@ void StudyDialog::show_buttons() {
 void StudyDialog::choose_file() {
   const QString path = ask_where_to_write(
       this, tr("Save the study"),
-      tr("Plot as vector graphics (*.svg);;Plot as an image (*.png);;Figures (*.csv)"),
-      "study.svg");
+      tr("Plot as vector graphics (*.svg);;Plot as an image (*.png);;Values (*.csv)"), "study.svg");
   if (!path.isEmpty()) {
     save(path);
   }

@@ -116,11 +116,11 @@ std::optional<Rgb> kept_radiosity(const SolverSnapshot& snapshot, int iteration,
   return at(*at(kept, iteration), patch);
 }
 
-using LinearParts = std::shared_ptr<const std::vector<LinearPart>>;
+using LinearTerms = std::shared_ptr<const std::vector<LinearTerm>>;
 
-/// The linear parts of B(n); null if they were not stored.
-LinearParts kept_linear_parts(const SolverSnapshot& snapshot, int iteration) {
-  const auto& kept = snapshot.kept_linear_parts;
+/// The linear terms of B(n); null if they were not stored.
+LinearTerms kept_linear_terms(const SolverSnapshot& snapshot, int iteration) {
+  const auto& kept = snapshot.kept_linear_terms;
   return has_index(kept, iteration) ? at(kept, iteration) : nullptr;
 }
 
@@ -164,9 +164,9 @@ std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot
   if (!state.exchanges || !state.radiosity_j || !state.region) {
     return state;
   }
-  const double share = weight / (std::numbers::pi * directions_of(snapshot, focus)) *
-                       state.region->area / snapshot.loaded->scene->patch(state.i).area;
-  state.gathered = share * (snapshot.loaded->scene->reflectance(state.i) * *state.radiosity_j);
+  const double fraction = weight / (std::numbers::pi * directions_of(snapshot, focus)) *
+                          state.region->area / snapshot.loaded->scene->patch(state.i).area;
+  state.gathered = fraction * (snapshot.loaded->scene->reflectance(state.i) * *state.radiosity_j);
   return state;
 }
 
@@ -212,21 +212,21 @@ std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSn
   if (!state.radiosity_j) {
     return state;
   }
-  const double share = state.weight / (std::numbers::pi * state.directions * state.area_i);
+  const double fraction = state.weight / (std::numbers::pi * state.directions * state.area_i);
   Rgb sum;
   for (const auto& [source, area] : areas) {
-    sum += (share * area) * *kept_radiosity(snapshot, focus.position().iteration, source);
+    sum += (fraction * area) * *kept_radiosity(snapshot, focus.position().iteration, source);
   }
   if (snapshot.options.basis == Basis::linear) {
     const auto moments = moments_of_step(history, scene, k);
     state.moments = moments.at(state.j);
-    const LinearParts parts = kept_linear_parts(snapshot, focus.position().iteration);
-    if (!parts) {
+    const LinearTerms terms = kept_linear_terms(snapshot, focus.position().iteration);
+    if (!terms) {
       return state;
     }
     for (const auto& [source, moment] : moments) {
-      const LinearPart& part = at(*parts, source);
-      sum += share * (moment.of(0, 1) * part.first + moment.of(0, 2) * part.second);
+      const LinearTerm& term = at(*terms, source);
+      sum += fraction * (moment.of(0, 1) * term.first + moment.of(0, 2) * term.second);
     }
   }
   state.gathered = scene.reflectance(step.patch) * sum;

@@ -64,7 +64,7 @@ bool holds(const Condition& condition, const MapHistory& history, std::int32_t k
     case Kind::small_fragment:
       return step.row != MapRecord::no_row && step.smallest < condition.value;
     case Kind::open_receiver:
-      return step.front_facing && step.open_share() > condition.value;
+      return step.front_facing && step.open_fraction() > condition.value;
     case Kind::large_map: {
       const double before = k > 0 ? history.step(k - 1).map_size : 0;
       return before <= condition.value && step.map_size > condition.value;
@@ -95,7 +95,7 @@ QString text_of(const Condition& b) {
     case Kind::small_fragment:
       return Breakpoints::tr("A polygon of V is smaller than %1 m²").arg(number_text(b.value));
     case Kind::open_receiver:
-      return Breakpoints::tr("A receiver's closure defect is above %1").arg(number_text(b.value));
+      return Breakpoints::tr("A receiver's open part is above %1").arg(number_text(b.value));
     case Kind::large_map:
       return Breakpoints::tr("V grows beyond %1 polygons").arg(number_text(b.value));
   }

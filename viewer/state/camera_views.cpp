@@ -17,8 +17,8 @@ namespace {
 // The initial view of each built-in scene.
 struct Pose {
   const char* scene;
-  Vec3 toward_eye, up;  ///< toward_eye: direction from the target to the eye
-  double radius_share;  ///< radius of the region of interest over half the diagonal of the scene
+  Vec3 toward_eye, up;     ///< toward_eye: direction from the target to the eye
+  double radius_fraction;  ///< radius of the region of interest over half the diagonal of the scene
   double view_angle = 30;
 };
 constexpr Pose poses[] = {
@@ -72,9 +72,9 @@ ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up
 ViewPoint initial_view(const Scene& scene, double aspect) {
   const Pose& pose = pose_of(scene);
   ViewPoint view = view_of_all(scene, pose.toward_eye, pose.up, pose.view_angle, aspect);
-  if (pose.radius_share < 1) {
+  if (pose.radius_fraction < 1) {
     // Fit a sphere around the region of interest.
-    view.radius *= pose.radius_share;
+    view.radius *= pose.radius_fraction;
     const double tangent =
         std::tan(view.view_angle / 2 * std::numbers::pi / 180) * std::min(1.0, aspect);
     view.eye =

@@ -5,7 +5,6 @@
 #include "state/kept_runs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -13,7 +12,6 @@
 #include "support/list_change.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
-#include "transillum/study.h"
 
 namespace transillum::viewer {
 
@@ -28,14 +26,14 @@ std::shared_ptr<const SolverSnapshot> part_to_keep(const SolverSnapshot& snapsho
   kept->progress = snapshot.progress;
   kept->statistics = snapshot.statistics;
   kept->radiosity = snapshot.radiosity;
-  kept->linear_parts = snapshot.linear_parts;
+  kept->linear_terms = snapshot.linear_terms;
   kept->bases = snapshot.bases;
   kept->irradiance = snapshot.irradiance;
   kept->glossy = snapshot.glossy;
   kept->materials = snapshot.materials;
   kept->of_file = snapshot.of_file;
   kept->form_factor_sums = snapshot.form_factor_sums;
-  kept->sky_shares = snapshot.sky_shares;
+  kept->sky_fractions = snapshot.sky_fractions;
   kept->sky_irradiance = snapshot.sky_irradiance;
   kept->error = snapshot.error;
   // The last change of B needs the newest two iterations.
@@ -63,9 +61,9 @@ std::int64_t bytes_of(const Scene& scene) {
 
 std::int64_t bytes_of(const SolverSnapshot& snapshot) {
   std::int64_t bytes = bytes_of(snapshot.radiosity) + bytes_of(snapshot.irradiance) +
-                       bytes_of(snapshot.linear_parts) +
+                       bytes_of(snapshot.linear_terms) +
                        (snapshot.bases ? bytes_of(*snapshot.bases) : 0) +
-                       bytes_of(snapshot.form_factor_sums) + bytes_of(snapshot.sky_shares) +
+                       bytes_of(snapshot.form_factor_sums) + bytes_of(snapshot.sky_fractions) +
                        bytes_of(snapshot.sky_irradiance) + bytes_of(snapshot.error.standard_error);
   for (const auto& radiosity : snapshot.kept_radiosity) {
     bytes += radiosity ? bytes_of(*radiosity) : 0;
@@ -126,21 +124,6 @@ QString why_not_comparable(const Scene& kept, const Scene* open) {
 }
 
 }  // namespace
-
-RunDifference difference_of(const Scene& scene, const std::vector<Rgb>& b,
-                            const std::vector<Rgb>& a) {
-  RunDifference result;
-  result.rms = radiosity_error(scene, b, a).rms;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    const Rgb d = b[i] - a[i];
-    const double magnitude = std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)});
-    if (magnitude > result.largest) {
-      result.largest = magnitude;
-      result.worst = static_cast<PatchId>(i);
-    }
-  }
-  return result;
-}
 
 bool KeptRuns::keep(const SolverSnapshot& snapshot, std::int64_t bytes) {
   auto runs = runs_;

@@ -23,17 +23,6 @@ struct KeptRun {
   std::shared_ptr<const SolverSnapshot> snapshot;
 };
 
-/// The difference between B of one run and A, which is B of another run.
-struct RunDifference {
-  double rms = 0;            ///< RadiosityError::rms of B, with A as the reference
-  double largest = 0;        ///< largest magnitude of B - A in a channel, W/m²
-  PatchId worst = no_patch;  ///< the first patch with the largest difference; no_patch where
-                             ///< nothing differs
-};
-/// @param b, a  W/m², one per patch of `scene`
-RunDifference difference_of(const Scene& scene, const std::vector<Rgb>& b,
-                            const std::vector<Rgb>& a);
-
 /// The runs that the user has kept, with names, and the two of them that are compared: A, and a
 /// kept run B or the current one. Only runs of the patches of the open scene can be compared.
 ///

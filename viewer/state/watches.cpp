@@ -48,7 +48,7 @@ std::vector<double> values_of(const Watch& watch, const MapHistory& history) {
     if (watch.kind == Watch::Kind::map_size) {
       values.push_back(step.map_size);
     } else {
-      values.push_back(step.front_facing ? step.open_share() : none);
+      values.push_back(step.front_facing ? step.open_fraction() : none);
     }
   }
   return values;
@@ -59,7 +59,7 @@ QString text_of(const Watch& watch) {
     case Watch::Kind::patch_area:
       return Watches::tr("Area of patch %1 in V, m²").arg(watch.patch);
     case Watch::Kind::closure_defect:
-      return Watches::tr("Closure defect");
+      return Watches::tr("Open part");
     case Watch::Kind::map_size:
       return Watches::tr("Polygons of V");
   }

@@ -78,9 +78,10 @@ AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWi
   layout->addWidget(make_code(CodeLine::start, CodeLine::each_direction));
   layout->addWidget(heading(tr("One direction")));
   layout->addLayout(chooser);
-  local_parts_ = {make_code(CodeLine::sort, CodeLine::put_in), make_local_values()};
-  global_parts_ = {make_code(CodeLine::global_map, CodeLine::gather_region), make_region_values()};
-  for (const auto& parts : {local_parts_, global_parts_}) {
+  local_widgets_ = {make_code(CodeLine::sort, CodeLine::put_in), make_local_values()};
+  global_widgets_ = {make_code(CodeLine::global_map, CodeLine::gather_region),
+                     make_region_values()};
+  for (const auto& parts : {local_widgets_, global_widgets_}) {
     for (QWidget* part : parts) {
       layout->addWidget(part);
     }
@@ -149,8 +150,8 @@ QWidget* AlgorithmView::make_local_values() {
       symbol_tip(
           tr("Moments of the area that i sees of j: ∫ φ_a(x) φ_b(y) dp over A(j), where x and y "
              "are the points of i and j.\nRows: function a of i; columns: function b of j. "
-             "The first value is A(j). The rest of its row weights the linear part of j\nin "
-             "the mean of i, the rest of its column weights the mean of j in the linear part of i"),
+             "The first value is A(j). The rest of its row weights the linear term of j\nin "
+             "the mean of i, the rest of its column weights the mean of j in the linear term of i"),
           "6.12"));
   moments_->setObjectName("value_moments");
   values_->add_wide(moments_grid_);
@@ -211,7 +212,7 @@ void AlgorithmView::set_kind(MapKind kind) {
 void AlgorithmView::show_kind() {
   for (const MapKind shown : {MapKind::local, MapKind::global}) {
     // The code, and its values.
-    const auto& parts = shown == MapKind::local ? local_parts_ : global_parts_;
+    const auto& parts = shown == MapKind::local ? local_widgets_ : global_widgets_;
     parts.front()->setVisible(kind() == shown);
     parts.back()->setVisible(kind() == shown && !values_hidden_);
   }

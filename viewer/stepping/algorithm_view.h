@@ -53,7 +53,8 @@ class AlgorithmView : public QWidget {
   QComboBox* kind_;
   QLabel* hidden_note_;
   bool values_hidden_ = false;
-  std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the local or the global map
+  std::vector<QWidget*> local_widgets_,
+      global_widgets_;  ///< shown with the local or the global map
   ValueGrid *values_, *region_values_;
   QLabel *position_, *i_, *map_, *lists_, *j_, *weight_, *radiosity_, *gathered_;
   ValueGrid* moments_grid_;  ///< shown where B is linear on patches

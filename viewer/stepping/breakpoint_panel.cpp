@@ -38,8 +38,7 @@ constexpr Choice choices[] = {
     {Kind::pair, QT_TRANSLATE_NOOP("BreakpointPanel", "pair exchanges light"), nullptr, ""},
     {Kind::small_fragment, QT_TRANSLATE_NOOP("BreakpointPanel", "polygon smaller than"), "m²",
      "1e-9"},
-    {Kind::open_receiver, QT_TRANSLATE_NOOP("BreakpointPanel", "closure defect above"), "",
-     "1e-10"},
+    {Kind::open_receiver, QT_TRANSLATE_NOOP("BreakpointPanel", "open part above"), "", "1e-10"},
     {Kind::large_map, QT_TRANSLATE_NOOP("BreakpointPanel", "polygons of V above"), "", "1000"},
 };
 

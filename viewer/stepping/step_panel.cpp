@@ -15,7 +15,7 @@
 #include "stepping/event_table.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
@@ -62,7 +62,7 @@ StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
   QHeaderView* header = tab.view->horizontalHeader();
   header->setSectionResizeMode(QHeaderView::Interactive);
   header->setSectionResizeMode(EventTable::of_kind, QHeaderView::Stretch);
-  set_up_figure_table(*tab.view, {"88888", "88888", "", "88888", "0.008888", "8", "0.008888"});
+  set_up_value_table(*tab.view, {"88888", "88888", "", "88888", "0.008888", "8", "0.008888"});
   constexpr int header_and_row = 46;
   tab.view->setMinimumHeight(header_and_row);
 

@@ -60,7 +60,7 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, Watches& watches,
   watched_ = named("watch_chart", new WatchChart(focus, selection, watches, *lanes_));
   auto* watch = new QToolButton;
   watch->setText(tr("Watch"));
-  watch->setToolTip(tr("Draw an area, the closure defect or the size of V over the steps"));
+  watch->setToolTip(tr("Draw an area, the open part of receivers or the size of V over the steps"));
   watch->setAutoRaise(true);
   watch->setPopupMode(QToolButton::InstantPopup);
   watch->setMenu(watched_->menu());

@@ -98,8 +98,8 @@ double TimelineLanes::position(const QRectF& lane, int k, int count) {
 }
 
 int TimelineLanes::index(const QRectF& lane, double x, int count) {
-  const double share = (x - lane.left()) / lane.width();
-  return std::clamp(static_cast<int>(std::floor(share * count)), 0, std::max(count - 1, 0));
+  const double fraction = (x - lane.left()) / lane.width();
+  return std::clamp(static_cast<int>(std::floor(fraction * count)), 0, std::max(count - 1, 0));
 }
 
 // The lane of steps begins with the empty map before the first step.

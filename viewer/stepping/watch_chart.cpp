@@ -47,7 +47,7 @@ WatchChart::WatchChart(Focus& focus, Selection& selection, Watches& watches,
       menu_(std::make_unique<QMenu>()) {
   setToolTip(
       tr("Watched values over the steps of the direction, each on its own scale from 0 to "
-         "its largest value (closure defects: logarithmic, from 10⁻¹⁷ to 1). Click or drag "
+         "its largest value (open parts: logarithmic, from 10⁻¹⁷ to 1). Click or drag "
          "to go to a step."));
   make_menu();
   connect(&watches_, &Watches::changed, this, &WatchChart::show_list);
@@ -74,7 +74,7 @@ void WatchChart::make_menu() {
     choices_.push_back(action);
   };
   add("watch_area", tr("Area of the selected patch in V"), Watch::Kind::patch_area);
-  add("watch_defect", tr("Closure defect of the receiver"), Watch::Kind::closure_defect);
+  add("watch_defect", tr("Open part of the receiver"), Watch::Kind::closure_defect);
   add("watch_size", tr("Number of polygons of V"), Watch::Kind::map_size);
   const auto show_state = [this] {
     const bool room = watches_.list().size() < Watches::most;
@@ -203,10 +203,10 @@ void WatchChart::place_buttons() {
   }
   // Texts without room are cut off; the tool tips have them.
   const double room = width() - 2 * margin - gap * (count - 1);
-  const double share = std::min(1.0, room / std::max(wanted, 1));
+  const double fraction = std::min(1.0, room / std::max(wanted, 1));
   int left = margin;
   for (const Series& series : series_) {
-    const int wide = static_cast<int>(share * series.button->sizeHint().width());
+    const int wide = static_cast<int>(fraction * series.button->sizeHint().width());
     series.button->setGeometry(left, 0, wide, button_height());
     left += wide + gap;
   }
@@ -221,11 +221,11 @@ QRectF WatchChart::plot() const {
 double WatchChart::height_of(std::size_t k, double value) const {
   const Series& series = series_[k];
   const double decades = -std::log10(least_defect);
-  const double share = series.watch.kind == Watch::Kind::closure_defect
-                           ? 1 + std::log10(std::max(value, least_defect)) / decades
-                       : series.largest > 0 ? value / series.largest
-                                            : 0;
-  return plot().bottom() - std::clamp(share, 0.0, 1.0) * plot().height();
+  const double fraction = series.watch.kind == Watch::Kind::closure_defect
+                              ? 1 + std::log10(std::max(value, least_defect)) / decades
+                          : series.largest > 0 ? value / series.largest
+                                               : 0;
+  return plot().bottom() - std::clamp(fraction, 0.0, 1.0) * plot().height();
 }
 
 void WatchChart::paintEvent(QPaintEvent*) {

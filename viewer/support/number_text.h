@@ -17,7 +17,7 @@ void use_decimal_point();
 
 /// Up to four significant digits: 0.01234, 1.234 × 10⁻⁶, 19 976; "–" if not finite.
 QString number_text(double value);
-/// With thin spaces between groups of thousands: 19 976.
+/// With thin spaces between thousands: 19 976.
 QString count_text(std::int64_t value);
 /// A power of ten for an axis: 10⁻⁴.
 QString power_of_ten_text(int exponent);

@@ -30,8 +30,8 @@ double OrderBar::left_of(const TreeVisit& visit, const QRectF& bar, std::int32_t
 }
 
 std::int32_t OrderBar::step_at(const TreeVisit& visit, const QRectF& bar, double x) {
-  const double share = (x - bar.left()) / bar.width();
-  const auto step = visit.begin + std::floor(share * (visit.end - visit.begin));
+  const double fraction = (x - bar.left()) / bar.width();
+  const auto step = visit.begin + std::floor(fraction * (visit.end - visit.begin));
   return static_cast<std::int32_t>(std::clamp<double>(step, visit.begin, visit.end - 1));
 }
 

@@ -81,13 +81,13 @@ std::vector<TreeVisit> TreeOutline::path_to(std::int32_t step, const Vec3& omega
   for (std::int32_t n = tree_->root(); n != BspTree::no_node;) {
     path.push_back(visit(n, begin, omega));
     const TreeVisit& last = path.back();
-    switch (last.part_of(step)) {
-      case TreeVisit::Part::near_side:
+    switch (last.place_of(step)) {
+      case TreeVisit::Place::near_side:
         n = sides(last).near;
         break;
-      case TreeVisit::Part::plane:
+      case TreeVisit::Place::plane:
         return path;
-      case TreeVisit::Part::far_side:
+      case TreeVisit::Place::far_side:
         begin = last.plane_end;
         n = sides(last).far;
         break;

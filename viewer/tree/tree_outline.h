@@ -23,9 +23,11 @@ struct TreeVisit {
   /// [plane_end, end).
   std::int32_t begin = 0, plane_begin = 0, plane_end = 0, end = 0;
 
-  enum class Part { near_side, plane, far_side };
-  Part part_of(std::int32_t step) const {
-    return step < plane_begin ? Part::near_side : step < plane_end ? Part::plane : Part::far_side;
+  enum class Place { near_side, plane, far_side };
+  Place place_of(std::int32_t step) const {
+    return step < plane_begin ? Place::near_side
+           : step < plane_end ? Place::plane
+                              : Place::far_side;
   }
   bool holds(std::int32_t step) const { return begin <= step && step < end; }
 

@@ -189,12 +189,12 @@ QString TreePathTable::text(int row, int column) const {
       return cosine_text(v.cosine);
     case of_part: {
       const bool front_first = v.cosine >= 0;
-      switch (v.part_of(step_)) {
-        case TreeVisit::Part::near_side:
+      switch (v.place_of(step_)) {
+        case TreeVisit::Place::near_side:
           return front_first ? tr("before: front") : tr("before: back");
-        case TreeVisit::Part::plane:
+        case TreeVisit::Place::plane:
           return tr("in the plane");
-        case TreeVisit::Part::far_side:
+        case TreeVisit::Place::far_side:
           return front_first ? tr("after: back") : tr("after: front");
       }
       return {};

@@ -15,7 +15,7 @@
 #include "tree/tree_outline.h"
 #include "tree/tree_tables.h"
 #include "widgets/build.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
@@ -46,7 +46,7 @@ void TreeView::make_path_table() {
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);
   table_->horizontalHeader()->setSectionResizeMode(TreePathTable::of_order, QHeaderView::Stretch);
-  set_up_figure_table(*table_, {"patch 888 + 8", "−0.888", "before: front", "", "88 888"});
+  set_up_value_table(*table_, {"patch 888 + 8", "−0.888", "before: front", "", "88 888"});
   table_->setItemDelegateForColumn(TreePathTable::of_order, new OrderBar(focus_, selection_, this));
 
   const auto patch_at = [this](const QModelIndex& index) {

@@ -1,12 +1,19 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "widgets/elided.h"
 
-#include <QEvent>
+#include <QHelpEvent>
 #include <QStyleOptionComboBox>
 #include <QStylePainter>
 #include <QTextDocument>
+#include <QToolTip>
 
 namespace transillum::viewer {
+
+QString elided_name(const QString& name, int longest) {
+  return name.size() > longest
+             ? name.left(longest / 2) + QStringLiteral("…") + name.right((longest - 1) / 2)
+             : name;
+}
 
 void ElidedComboBox::paintEvent(QPaintEvent*) {
   QStyleOptionComboBox option;
@@ -22,6 +29,29 @@ void ElidedComboBox::paintEvent(QPaintEvent*) {
   QStylePainter painter(this);
   painter.drawComplexControl(QStyle::CC_ComboBox, option);
   painter.drawControl(QStyle::CE_ComboBoxLabel, option);
+}
+
+QSize ElidedLabel::minimumSizeHint() const {
+  constexpr int least_characters = 16;
+  return {least_characters * fontMetrics().averageCharWidth(), QLabel::minimumSizeHint().height()};
+}
+
+QString ElidedLabel::shown_text() const {
+  return fontMetrics().elidedText(text(), Qt::ElideMiddle, contentsRect().width());
+}
+
+bool ElidedLabel::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip && toolTip().isEmpty() && shown_text() != text()) {
+    QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), text(), this);
+    return true;
+  }
+  return QLabel::event(event);
+}
+
+void ElidedLabel::paintEvent(QPaintEvent*) {
+  QStylePainter painter(this);
+  painter.drawItemText(contentsRect(), Qt::AlignLeft | Qt::AlignVCenter, palette(), isEnabled(),
+                       shown_text(), foregroundRole());
 }
 
 ClauseLabel::ClauseLabel(QWidget* parent) : QLabel(parent) {

@@ -7,12 +7,29 @@
 
 namespace transillum::viewer {
 
+/// A name of at most `longest` characters; the middle of a longer one is replaced by "…".
+QString elided_name(const QString& name, int longest);
+
 /// A combo box that elides the selected text ("…") if it does not fit.
 class ElidedComboBox : public QComboBox {
  public:
   using QComboBox::QComboBox;
 
  protected:
+  void paintEvent(QPaintEvent* event) override;
+};
+
+/// One line that is elided in its middle where it does not fit; the tool tip then has all of it.
+class ElidedLabel : public QLabel {
+ public:
+  using QLabel::QLabel;
+
+  QSize minimumSizeHint() const override;
+  /// The text as shown.
+  QString shown_text() const;
+
+ protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 };
 

@@ -162,8 +162,8 @@ LogChart::Scale LogChart::scale() const {
 
 int LogChart::count_at(const QPointF& position) const {
   const Scale s = scale();
-  const double share = (position.x() - s.left) / s.width;
-  return static_cast<int>(std::clamp(std::round(1 + share * (s.x_max - 1)), 1.0, 1.0 * s.x_max));
+  const double fraction = (position.x() - s.left) / s.width;
+  return static_cast<int>(std::clamp(std::round(1 + fraction * (s.x_max - 1)), 1.0, 1.0 * s.x_max));
 }
 
 QPointF LogChart::position_of(int x) const {

@@ -32,22 +32,23 @@ namespace {
 constexpr int type_size = 13;  // pixels
 constexpr int tool_icon_size = 20;
 
-// The size of the projected text depends on its share of the screen.
+// The size of the projected text depends on its fraction of the screen.
 double projector_scale() {
   constexpr double of_full_hd = 1.4, least = 1.2, most = 2;
   const QWidget* window = QApplication::activeWindow();
   const QScreen* screen = window ? window->screen() : QGuiApplication::primaryScreen();
-  const double share = std::min(screen->size().width() / 1920.0, screen->size().height() / 1080.0);
-  return std::clamp(of_full_hd * share, least, most);
+  const double fraction =
+      std::min(screen->size().width() / 1920.0, screen->size().height() / 1080.0);
+  return std::clamp(of_full_hd * fraction, least, most);
 }
 
 Appearance current;
 std::atomic<double> line_scale = 1;
 QColor disabled_ink;
 
-QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
-  const auto mix = [share_of_b](int x, int y) {
-    return static_cast<int>(std::lround((1 - share_of_b) * x + share_of_b * y));
+QColor mixed(const QColor& a, const QColor& b, double fraction_of_b) {
+  const auto mix = [fraction_of_b](int x, int y) {
+    return static_cast<int>(std::lround((1 - fraction_of_b) * x + fraction_of_b * y));
   };
   return {mix(a.red(), b.red()), mix(a.green(), b.green()), mix(a.blue(), b.blue())};
 }

@@ -48,8 +48,11 @@ bool has_only(const CLI::App& app, const std::set<std::string>& names) {
 /// Chooses the solve of a screenshot unless options say otherwise.
 void choose_look(CommandLine& line, const CLI::App& app) {
   SolveOptions& solve = line.options.solve;
-  if (!solve.goal.is_set() && app.count("--directions") + app.count("--after") == 0) {
-    solve.directions = screenshot_directions;
+  if (app.count("--accuracy") + app.count("--seconds") + app.count("--directions") == 0) {
+    solve.goal = {};
+    if (app.count("--after") == 0) {
+      solve.directions = screenshot_directions;
+    }
   }
   const std::int64_t patches = soft_patches(line.scene);
   if (patches > 0 && has_only(app, {"SCENE", "--screenshot", "--threads", "--memory"})) {
@@ -127,9 +130,9 @@ struct Definitions {
     app.add_option("SCENE", line.scene,
                    "a scene file or a built-in scene, solved at once (default: sphere-flake); or a "
                    "result (.vtp), a session or a lesson (.json)");
-    cli::add_groups(app, options,
-                    {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
-                     "Refinement", "Sky", "Machine"});
+    cli::add_sections(app, options,
+                      {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",
+                       "Refinement", "Sky", "Machine"});
     add_window_options(app, line);
   }
 };

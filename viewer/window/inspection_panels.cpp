@@ -8,17 +8,17 @@
 
 #include "model/solver/solve_runner.h"
 #include "patches/compare_actions.h"
+#include "patches/kept_run_panel.h"
 #include "patches/material_panel.h"
-#include "patches/parts_panel.h"
 #include "patches/patch_table_panel.h"
 #include "patches/path_panel.h"
-#include "patches/run_panel.h"
 #include "patches/selection_actions.h"
+#include "patches/surface_panel.h"
 #include "patches/warning_list.h"
 #include "widgets/build.h"
 #include "widgets/scrolling.h"
 #include "window/base/dock_layouts.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 namespace transillum::viewer {
 
@@ -26,7 +26,7 @@ InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QW
     : QObject(window), undo_(state.undo), relighting_(state.relighting) {
   materials_ = new MaterialPanel(relighting_, state.selection, state.colors);
   tables_ = named("table_panel", new PatchTablePanel(state.selection));
-  parts_ = named("parts_panel", new PartsPanel(relighting_, state.selection, hidden));
+  surfaces_ = named("surface_panel", new SurfacePanel(relighting_, state.selection, hidden));
   paths_ = named("path_panel", new PathPanel(state.selection));
   warnings_ = new WarningList(state.selection);
   connect(warnings_, &WarningList::face_chosen, this, &InspectionPanels::face_chosen);
@@ -34,8 +34,9 @@ InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QW
   hidden.set_undo_stack(&undo_);
   compare_ = new CompareActions(state.colors, window, this);
   connect(compare_, &CompareActions::failed, this, &InspectionPanels::failed);
-  runs_ = new RunPanel(state.colors, state.selection, *compare_->keep(), *compare_->difference());
-  connect(runs_, &RunPanel::patch_chosen, this, &InspectionPanels::face_chosen);
+  runs_ =
+      new KeptRunPanel(state.colors, state.selection, *compare_->keep(), *compare_->difference());
+  connect(runs_, &KeptRunPanel::patch_chosen, this, &InspectionPanels::face_chosen);
   state.colors.kept_runs().set_undo_stack(&undo_);
   connect(&state.colors, &ColorChoice::form_factors_requested, &state.runner,
           &SolveRunner::include_form_factors);
@@ -49,10 +50,10 @@ InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QW
   connect(paths_, &PathPanel::paths_shown, this, &InspectionPanels::paths_shown);
   connect(paths_, &PathPanel::failed, this, &InspectionPanels::failed);
   connect(tables_, &PatchTablePanel::failed, this, &InspectionPanels::failed);
-  connect(parts_, &PartsPanel::form_factors_requested, &state.runner,
+  connect(surfaces_, &SurfacePanel::form_factors_requested, &state.runner,
           &SolveRunner::include_form_factors);
-  connect(parts_, &PartsPanel::failed, this, &InspectionPanels::failed);
-  connect(parts_, &PartsPanel::target_changed, this, [this](const std::string& target) {
+  connect(surfaces_, &SurfacePanel::failed, this, &InspectionPanels::failed);
+  connect(surfaces_, &SurfacePanel::target_changed, this, [this](const std::string& target) {
     materials_->show_target(target);
     material_dock_->show();
     material_dock_->raise();
@@ -75,9 +76,9 @@ void InspectionPanels::add_tables_to(DockLayouts& docks) {
   table_dock_ = docks.add(tr("Patches"), "table_dock", tables_,
                           {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
   connect(table_dock_, &QDockWidget::visibilityChanged, tables_, &PatchTablePanel::set_watched);
-  const QDockWidget* parts = docks.add(tr("Groups"), "parts_dock", parts_,
-                                       {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
-  connect(parts, &QDockWidget::visibilityChanged, parts_, &PartsPanel::set_watched);
+  const QDockWidget* surfaces = docks.add(tr("Surfaces"), "parts_dock", surfaces_,
+                                          {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
+  connect(surfaces, &QDockWidget::visibilityChanged, surfaces_, &SurfacePanel::set_watched);
   const QDockWidget* paths = docks.add(tr("Light paths"), "paths_dock", paths_,
                                        {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
   connect(paths, &QDockWidget::visibilityChanged, paths_, &PathPanel::set_watched);
@@ -123,17 +124,17 @@ void InspectionPanels::show_scene(const LoadedScene& loaded) {
   selecting_->show_scene(loaded.scene);
   warnings_->show_scene(loaded.scene);
   tables_->clear();
-  parts_->show_scene(loaded.scene);
+  surfaces_->show_scene(loaded.scene);
   paths_->clear();
 }
 
 void InspectionPanels::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   materials_->show_state();
   paths_->show_snapshot(snapshot);
-  parts_->show_snapshot(snapshot);
+  surfaces_->show_snapshot(snapshot);
   tables_->show_snapshot(std::move(snapshot));
 }
 
-bool InspectionPanels::busy() const { return paths_->busy() || parts_->busy(); }
+bool InspectionPanels::busy() const { return paths_->busy() || surfaces_->busy(); }
 
 }  // namespace transillum::viewer

@@ -20,10 +20,10 @@ namespace transillum::viewer {
 class CompareActions;
 class DockLayouts;
 class MaterialPanel;
-class PartsPanel;
+class SurfacePanel;
 class PatchTablePanel;
 class PathPanel;
-class RunPanel;
+class KeptRunPanel;
 class SelectionActions;
 class WarningList;
 struct SharedState;
@@ -52,7 +52,7 @@ class InspectionPanels : public QObject {
 
  signals:
   void failed(const QString& message);
-  /// Passes WarningList::face_chosen() and RunPanel::patch_chosen() on.
+  /// Passes WarningList::face_chosen() and KeptRunPanel::patch_chosen() on.
   void face_chosen();
   /// Passes PathPanel::paths_shown() on.
   void paths_shown(std::shared_ptr<const transillum::LightPaths> paths, int emphasized);
@@ -62,11 +62,11 @@ class InspectionPanels : public QObject {
   Relighting& relighting_;
   MaterialPanel* materials_;
   PatchTablePanel* tables_;
-  PartsPanel* parts_;
+  SurfacePanel* surfaces_;
   PathPanel* paths_;
   WarningList* warnings_;
   CompareActions* compare_;
-  RunPanel* runs_;
+  KeptRunPanel* runs_;
   SelectionActions* selecting_;
   QDockWidget *table_dock_ = nullptr, *material_dock_ = nullptr;
 };

@@ -189,7 +189,7 @@ int run(Application& application, const CommandLine& command_line) {
   const bool for_file = for_screenshot || !command_line.lesson_file.empty();
   SharedState state;
   MainWindow window(state, !for_file);
-  window.parts().settings.set_options(command_line.options);
+  window.views().settings.set_options(command_line.options);
   QObject::connect(&signals_of_user, &EndingSignals::received, &window,
                    [&window](int number) { end_by_signal(window, number); });
   std::unique_ptr<Screenshot> screenshot;

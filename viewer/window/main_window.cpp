@@ -112,7 +112,7 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
 
 MainWindow::~MainWindow() = default;
 
-WindowViews MainWindow::parts() {
+WindowViews MainWindow::views() {
   return {*page_, docks_, *map_view_, *algorithm_, *settings_, *lesson_panel_, *notes_};
 }
 
@@ -166,7 +166,7 @@ void MainWindow::make_whole_window_actions() {
   const WindowFrame frame = this->frame();
   solve_actions_ = new SolveActions(this);
   applier_ = new ViewStateApplier(frame, docks_, *map_view_, *algorithm_, *settings_);
-  new SolveControl(frame, *settings_, *solve_actions_, *applier_);
+  auto* control = new SolveControl(frame, *settings_, *solve_actions_, *applier_);
   session_ = new WindowSession(frame, docks_, *notes_, *applier_);
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
   memory_ = new LayoutMemory(frame, docks_, appearance_, *files_);
@@ -176,7 +176,8 @@ void MainWindow::make_whole_window_actions() {
   timeline_->play()->menu()->addAction(recorder_->animation_action());
   new LoadingNotice(frame);
   lesson_export_ = new LessonExport(frame, *lesson_panel_, [this] { return settled(); });
-  new LightOffer(frame, docks_, *settings_, inspection_->materials(), *applier_);
+  auto* light = new LightOffer(frame, docks_, *settings_, inspection_->materials(), *applier_);
+  connect(control, &SolveControl::light_missing, light, &LightOffer::show_refusal);
   new OrientationOffer(frame, *settings_, *applier_);
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
   connect(lesson_panel_, &LessonPanel::option_chosen, applier_, &ViewStateApplier::set_option);
@@ -202,7 +203,7 @@ void MainWindow::make_docks() {
   docks_.add(tr("Notes"), "notes_dock", notes_, {{teach, left, 700, true}});
   docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 495}});
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 305}});
-  docks_.add(tr("Figures"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
+  docks_.add(tr("Summary"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
   inspection_->add_materials_to(docks_);
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
                          {{teach, right, 400}, {inspect, right, 450}, {debug, right, 480}});

@@ -6,7 +6,7 @@
 #include "widgets/full_screen.h"
 #include "window/base/dock_layouts.h"
 #include "window/base/open_scene.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 #include "window/menus/appearance_actions.h"
 
 class QDockWidget;
@@ -53,7 +53,7 @@ class MainWindow : public QMainWindow {
   ~MainWindow() override;
 
   WindowFrame frame();
-  WindowViews parts();
+  WindowViews views();
   FileActions& files() { return *files_; }
   ViewStateApplier& applier() { return *applier_; }
   WorkGuard& work_guard() { return work_guard_; }

@@ -41,9 +41,9 @@ LoadingNotice::LoadingNotice(const WindowFrame& frame) : QObject(&frame.window),
   connect(&delay_, &QTimer::timeout, this, &LoadingNotice::show);
   connect(&frame_.state.runner, &SolveRunner::state_changed, this, &LoadingNotice::show_state);
   connect(&frame_.state.runner, &SolveRunner::load_progressed, this,
-          [this](const QString& phase, double share) {
+          [this](const QString& phase, double fraction) {
             phase_ = phase;
-            share_ = share;
+            share_ = fraction;
             if (!title_before_.isEmpty()) {
               show();
             }
@@ -98,10 +98,17 @@ LightOffer::LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPan
   QPushButton* button = bar->add_button("make_emit", tr("Make it emit"));
   menu_ = new QMenu(button);
   button->setMenu(menu_);
+  sky_ = bar->add_button("make_sky", tr("Sky"));
+  connect(sky_, &QPushButton::clicked, this, &LightOffer::ask_for_sky);
+  connect(&frame_.state.runner, &SolveRunner::state_changed, this, [this](RunState state) {
+    if (state == RunState::loading || state == RunState::running) {
+      refused_ = false;
+    }
+  });
   connect(menu_, &QMenu::aboutToShow, this, &LightOffer::fill_menu);
   connect(bar, &Banner::closed, this, [this] { closed_ = true; });
   connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] {
-    closed_ = false;
+    closed_ = refused_ = false;
     update();
     if (!frame_.state.relighting.edits().has_light()) {
       emit frame_.state.relighting.form_factors_requested();  // so that a light appears at once
@@ -115,17 +122,35 @@ LightOffer::LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPan
 void LightOffer::update() {
   Banner& bar = *frame_.page.light_bar();
   const auto snapshot = frame_.state.scene.snapshot();
-  const bool sky = snapshot && snapshot->options.sky.is_set();
+  const bool sky = !refused_ && snapshot && snapshot->options.sky.is_set();
   if (closed_ || sky || !frame_.state.scene.loaded() ||
       frame_.state.relighting.edits().has_light()) {
     bar.dismiss();
     return;
   }
-  bar.show_message(
-      Banner::Kind::offer,
-      frame_.state.selection.patch() == no_patch
-          ? tr("No light: the scene is shown in neutral light. Click a face to make it emit.")
-          : tr("No light: make the selected face, material or group emit."));
+  const bool may_have_sky = settings_.may_have_sky();
+  sky_->setEnabled(may_have_sky);
+  sky_->setToolTip(may_have_sky ? tr("Set the exitance of the sky, in Solve settings")
+                                : tr("No sky lights this scene: it is closed, or the engine has "
+                                     "no directions"));
+  const bool selected = frame_.state.selection.patch() != no_patch;
+  const QString state = refused_ ? tr("Not solved: without light, B is 0 everywhere.")
+                                 : tr("No light: the scene is shown in neutral light.");
+  const QString offer = selected ? tr("Make the selected face, material or group emit")
+                                 : tr("Click a face to make it emit");
+  bar.show_message(Banner::Kind::offer,
+                   (may_have_sky ? tr("%1 %2, or set a sky.") : tr("%1 %2.")).arg(state, offer));
+}
+
+void LightOffer::show_refusal() {
+  refused_ = true;
+  closed_ = false;
+  update();
+}
+
+void LightOffer::ask_for_sky() {
+  docks_.bring_to_front("settings");
+  settings_.ask_for_sky();
 }
 
 void LightOffer::fill_menu() {
@@ -251,12 +276,12 @@ void OrientationOffer::offer() {
   const auto loaded = frame_.state.scene.loaded();
   // Built-in scenes are as they are meant to be.
   const bool from_file = loaded->description && !loaded->description->files.empty();
-  if (!from_file || loaded->back_share <= BackShare::worth_a_warning) {
+  if (!from_file || loaded->back_fraction <= BackFraction::worth_a_warning) {
     state_ = State::none;
     frame_.page.orientation_bar()->dismiss();
     return;
   }
-  const QString percent = QString::number(std::lround(100 * loaded->back_share));
+  const QString percent = QString::number(std::lround(100 * loaded->back_fraction));
   if (frame_.state.scene.input().orient) {
     show(State::nothing_to_turn,
          tr("%1 % of the surface that light meets is the back of faces, even after turning faces. "

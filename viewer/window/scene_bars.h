@@ -9,7 +9,7 @@
 
 #include "support/newest_result.h"
 #include "transillum/orientation.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 class QMenu;
 class QPushButton;
@@ -38,8 +38,9 @@ class LoadingNotice : public QObject {
   QTimer delay_;       ///< a scene that loads at once needs no bar
 };
 
-/// The bar above a scene in which nothing emits. It says so, and lets the user make the selected
-/// face, its material or its group emit. It is hidden once anything emits.
+/// The bar above a scene in which nothing emits. It says so, lets the user make the selected face,
+/// its material or its group emit, and opens the control of the sky. It is hidden once anything
+/// emits.
 class LightOffer : public QObject {
   Q_OBJECT
 
@@ -48,8 +49,13 @@ class LightOffer : public QObject {
   LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPanel& settings,
              MaterialPanel& materials, ViewStateApplier& applier);
 
+  /// Says that nothing is solved without light, also if the user has closed the bar.
+  void show_refusal();
+
  private:
   void update();
+  /// Opens the control of the sky.
+  void ask_for_sky();
   void fill_menu();
   void add_target(const QString& text, const std::string& target);
   /// Gives a target an exitance, and shows its sliders.
@@ -61,7 +67,9 @@ class LightOffer : public QObject {
   MaterialPanel& materials_;
   ViewStateApplier& applier_;
   QMenu* menu_;
-  bool closed_ = false;  ///< by the user, for the open scene
+  QPushButton* sky_;
+  bool closed_ = false;   ///< by the user, for the open scene
+  bool refused_ = false;  ///< a solve, since the last one began
 };
 
 /// The bar above a scene in which more than a tenth of the surface that light meets is the back of

@@ -61,7 +61,7 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
     actions_.show_state(frame_.state.runner.state(), frame_.state.scene.at_start());
   });
   connect(&settings_, &SettingsPanel::restart_clicked, this, [this] {
-    if (may_solve_again()) {
+    if (finds_light(settings_.solve_options().sky) && may_solve_again()) {
       solve_again();
     }
   });
@@ -86,9 +86,24 @@ bool SolveControl::may_solve_again() const {
   return frame_.guard.may_lose(&frame_.window, tr("Solve again"));
 }
 
+bool SolveControl::finds_light(const Sky& sky) {
+  const bool found =
+      !frame_.state.scene.loaded() || sky.is_set() || frame_.state.relighting.edits().has_light();
+  if (!found) {
+    emit light_missing();
+  }
+  return found;
+}
+
 void SolveControl::run() {
   // Before the first direction, changed settings still take effect.
-  if (frame_.state.scene.at_start() && settings_.differ_from_effect()) {
+  const bool again = frame_.state.scene.at_start() && settings_.differ_from_effect();
+  const auto snapshot = frame_.state.scene.snapshot();
+  const Sky sky = again || !snapshot ? settings_.solve_options().sky : snapshot->options.sky;
+  if (!finds_light(sky)) {
+    return;
+  }
+  if (again) {
     solve_again();
   } else {
     frame_.state.runner.run();
@@ -162,7 +177,7 @@ bool SolveControl::may_refine(std::int64_t patches) {
 }
 
 void SolveControl::solve_with_replicas() {
-  if (!may_solve_again()) {
+  if (!finds_light(settings_.solve_options().sky) || !may_solve_again()) {
     return;
   }
   constexpr int replicas = 8;

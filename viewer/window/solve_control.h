@@ -6,7 +6,7 @@
 #include "model/requests/patch_forecast.h"
 #include "model/snapshot.h"
 #include "support/newest_result.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 namespace transillum::viewer {
 
@@ -24,8 +24,14 @@ class SolveControl : public QObject {
   SolveControl(const WindowFrame& frame, SettingsPanel& settings, SolveActions& actions,
                ViewStateApplier& applier);
 
+ signals:
+  /// A solve was refused, because nothing emits light.
+  void light_missing();
+
  private:
   void run();
+  /// Whether a solve under this sky has light; if not, emits light_missing().
+  bool finds_light(const Sky& sky);
   /// Solves with the settings of the panel; reads the scene again where its options differ.
   void solve_again();
   /// Asks about long work. @returns whether the solve may be discarded

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t page_width = 96;
 constexpr std::size_t name_width = 26;
-constexpr const char* common_group = "Options";
+constexpr const char* common_section = "Options";
 
 }  // namespace
 
@@ -22,7 +22,7 @@ std::string HelpFormat::make_help(const CLI::App* app, std::string name,
   hidden_ = shows_all
                 ? 0
                 : app->get_options([](const CLI::Option* option) {
-                       return !option->get_positional() && option->get_group() != common_group;
+                       return !option->get_positional() && option->get_group() != common_section;
                      })
                       .size();
   std::string text = Formatter::make_help(app, std::move(name), mode);
@@ -35,10 +35,10 @@ std::string HelpFormat::make_help(const CLI::App* app, std::string name,
 
 std::string HelpFormat::make_group(std::string group, bool is_positional,
                                    std::vector<const CLI::Option*> options) const {
-  if (hidden_ > 0 && !is_positional && group != common_group) {
+  if (hidden_ > 0 && !is_positional && group != common_section) {
     return {};
   }
-  const bool is_common = group == common_group;
+  const bool is_common = group == common_section;
   std::string text = Formatter::make_group(std::move(group), is_positional, std::move(options));
   return hidden_ > 0 && is_common
              ? text + "\n--help-all shows " + std::to_string(hidden_) + " more options.\n"

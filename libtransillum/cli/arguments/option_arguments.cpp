@@ -51,18 +51,15 @@ void add(CLI::App& command, GivenOptions& options, const Option& option) {
   CLI::Option* added =
       option.is_flag() ? add_flag(command, options, option) : add_value(command, options, option);
   if (!option.common) {
-    added->group(option.group);
+    added->group(option.section);
   }
   options.offered.insert(option.name);
 }
 
-/// Two options that set the same, of which only one may be given.
 void exclude_alternatives(CLI::App& command) {
-  for (const auto& [one, other] : {std::pair{"--max-patch-area", "--patches"},
-                                   {"--units", "--scale"},
-                                   {"--iterations", "--tolerance"}}) {
-    CLI::Option* first = command.get_option_no_throw(one);
-    CLI::Option* second = command.get_option_no_throw(other);
+  for (const auto& [one, other] : alternatives()) {
+    CLI::Option* first = command.get_option_no_throw(std::string("--") + one);
+    CLI::Option* second = command.get_option_no_throw(std::string("--") + other);
     if (first != nullptr && second != nullptr && first->get_excludes().count(second) == 0) {
       first->excludes(second);
     }
@@ -79,11 +76,11 @@ void add_options(CLI::App& command, GivenOptions& options,
   exclude_alternatives(command);
 }
 
-void add_groups(CLI::App& command, GivenOptions& options,
-                std::initializer_list<std::string_view> groups) {
-  for (const std::string_view group : groups) {
+void add_sections(CLI::App& command, GivenOptions& options,
+                  std::initializer_list<std::string_view> sections) {
+  for (const std::string_view section : sections) {
     for (const Option& option : transillum::options()) {
-      if (option.group == group) {
+      if (option.section == section) {
         add(command, options, option);
       }
     }
@@ -97,7 +94,7 @@ void complete(GivenOptions& options) {
     given.insert("accuracy");
   }
   set_dependent_defaults(options.run, given);
-  if (!options.run.refine.is_set()) {
+  if (!options.run.refine.is_set() && !options.run.total) {
     options.run.refine = {};
   }
   options.run.validate();

@@ -25,8 +25,8 @@ struct GivenOptions {
 void add_options(CLI::App& command, GivenOptions& options,
                  std::initializer_list<std::string_view> names);
 /// Adds the options of these groups of the table.
-void add_groups(CLI::App& command, GivenOptions& options,
-                std::initializer_list<std::string_view> groups);
+void add_sections(CLI::App& command, GivenOptions& options,
+                  std::initializer_list<std::string_view> sections);
 /// Sets the defaults that depend on other options, and refuses options that do nothing, or that
 /// exclude each other.
 /// @throws InputError

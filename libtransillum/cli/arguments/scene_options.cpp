@@ -6,14 +6,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "cli/arguments/option_values.h"
 #include "cli/messages.h"
 #include "cli/progress_display.h"
 #include "cli/reports/report_text.h"
 #include "scene/build/patch_count.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "visibility/bsp/coplanar_overlap.h"
 
 namespace transillum::cli {
 namespace {
@@ -35,22 +39,22 @@ bool is_quiet(const CLI::App& command) {
 }
 
 /// The group or material that most of the backs are of, for a message.
-std::string most_backs(const BackShare& backs) {
+std::string most_backs(const BackFraction& backs) {
   const bool by_group = !backs.groups.empty();
   const std::vector<BackCount>& counts = by_group ? backs.groups : backs.materials;
   return counts.empty() ? std::string()
-                        : fmt::format(" ({} of {} \"{}\")", share_text(counts.front().of_all),
+                        : fmt::format(" ({} of {} \"{}\")", fraction_text(counts.front().of_all),
                                       by_group ? "group" : "material", counts.front().name);
 }
 
 /// Turns parts of the scene and prints what was done, and what is still seen from behind.
-void orient_input(const RunInput& input, SceneDescription& description,
+void orient_input(const SceneInput& input, SceneDescription& description,
                   const Cancellation& cancellation) {
   ProgressDisplay display(is_quiet(*input.command));
   display.begin("turning faces");
   const OrientationReport report =
       orient(description, input.run.solve.threads, cancellation,
-             [&](double share) { display.show("turning faces", share); });
+             [&](double fraction) { display.show("turning faces", fraction); });
   display.clear();
   if (!is_quiet(*input.command)) {
     for (const std::string& sentence : report.sentences) {
@@ -60,18 +64,18 @@ void orient_input(const RunInput& input, SceneDescription& description,
   if (input.run.scene.two_sided) {
     return;
   }
-  const BackShare backs =
-      back_share(Scene(description, {}, cancellation), input.run.solve.threads, cancellation);
-  if (backs.share > BackShare::worth_a_warning) {
+  const BackFraction backs =
+      back_fraction(Scene(description, {}, cancellation), input.run.solve.threads, cancellation);
+  if (backs.fraction > BackFraction::worth_a_warning) {
     print_message(
         fmt::format("warning: {} of what light meets are backs of faces, which absorb it, also "
                     "after turning faces{} (try --two-sided)",
-                    share_text(backs.share), most_backs(backs)));
+                    fraction_text(backs.fraction), most_backs(backs)));
   }
 }
 
 /// One line that says that a sky lights nothing where all lit sides are shut in; else empty.
-std::string sky_advice(const RunInput& input, const Scene& scene, const BackShare& backs) {
+std::string sky_advice(const SceneInput& input, const Scene& scene, const BackFraction& backs) {
   // A room of two-sided faces is closed, but the sky lights it outside.
   if (backs.open > 0 || has_two_sided_faces(scene)) {
     return {};
@@ -82,12 +86,65 @@ std::string sky_advice(const RunInput& input, const Scene& scene, const BackShar
       input.run.input.orient ? ", or --orient keep" : " or --orient auto");
 }
 
+/// "face 3 (lamp)", by group if the scene has groups, else by material.
+std::string face_text(const Scene& scene, PatchId patch) {
+  const std::int32_t group = scene.patch(patch).group;
+  return fmt::format("face {} ({})", scene.patch(patch).face,
+                     group == no_group ? scene.material(patch).name : at(scene.groups(), group));
+}
+
+/// Largest number of overlaps to search for.
+constexpr std::size_t max_overlaps = 10000;
+/// Losses of a smaller fraction of a face's light are not mentioned.
+constexpr double least_loss = 1e-3;
+
+/// One line about faces of which others of their plane cover parts of patches; else empty. A patch
+/// receives only where it is not covered, but its B is the mean over all of it. Patches that are
+/// covered as a whole lose nothing.
+std::string overlap_advice(const Scene& scene, const Cancellation& cancellation) {
+  const auto overlaps = coplanar_overlaps(scene, max_overlaps, cancellation);
+  std::map<PatchId, double> covered;
+  for (const CoplanarOverlap& overlap : overlaps) {
+    covered[overlap.lower] += overlap.area;
+  }
+  std::map<std::int32_t, double> areas;
+  for (const Patch& patch : scene.patches()) {
+    areas[patch.face] += patch.area;
+  }
+  struct Loss {
+    PatchId upper, lower;
+    double fraction = 0;  // lost fraction of the light of the lower face
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, Loss> losses;
+  for (const auto& [upper, lower, area] : overlaps) {
+    const Patch& patch = scene.patch(lower);
+    const double visible = std::max(0.0, 1 - covered[lower] / patch.area);
+    losses.try_emplace({scene.patch(upper).face, patch.face}, Loss{upper, lower})
+        .first->second.fraction += area * visible / areas[patch.face];
+  }
+  std::erase_if(losses, [](const auto& loss) { return loss.second.fraction < least_loss; });
+  if (losses.empty()) {
+    return {};
+  }
+  const Loss& worst = std::max_element(losses.begin(), losses.end(), [](const auto& a, auto& b) {
+                        return a.second.fraction < b.second.fraction;
+                      })->second;
+  return fmt::format(
+      "{} loses {} of its light, because {} in the same plane covers parts of its patches{}: cut "
+      "the covered part out, move one of them, or make smaller patches",
+      face_text(scene, worst.lower), fraction_text(worst.fraction), face_text(scene, worst.upper),
+      losses.size() == 1
+          ? ""
+          : fmt::format(" ({} more such pairs, listed by `info`)", losses.size() - 1));
+}
+
 /// The options of the scene with the limit of patch areas that --patches asks for. Prints what the
 /// division will make.
-SceneOptions division(const RunInput& input, const SceneDescription& description,
+SceneOptions division(const SceneInput& input, const SceneDescription& description,
                       const Cancellation& cancellation) {
   SceneOptions options = input.run.scene;
-  if (input.run.refine.is_set() || (input.run.input.patches == 0 && options.max_patch_area == 0)) {
+  if (input.run.refine.is_set() || input.run.total ||
+      (input.run.input.patches == 0 && options.max_patch_area == 0)) {
     return options;
   }
   options.max_patch_area = 0;
@@ -120,7 +177,7 @@ std::string scene_endings() {
 
 }  // namespace
 
-void add_scene_argument(CLI::App& command, RunInput& input) {
+void add_scene_argument(CLI::App& command, SceneInput& input) {
   input.command = &command;
   command
       .add_option("SCENE", input.spec,
@@ -132,16 +189,16 @@ void add_scene_argument(CLI::App& command, RunInput& input) {
       ->type_name("");
 }
 
-void add_scene_options(CLI::App& command, RunInput& input) {
-  add_groups(command, input, {"Scene", "Patches"});
+void add_scene_options(CLI::App& command, SceneInput& input) {
+  add_sections(command, input, {"Scene", "Patches"});
 }
 
-void check_seed(const RunInput& input) {
+void check_seed(const SceneInput& input) {
   refuse_unless(is_seeded(input.run.solve.used_sampling()), *input.command, "--seed",
                 "used only with sampling random, sobol or scrambled-hammersley");
 }
 
-SceneDescription describe_input(const RunInput& input, const Cancellation& cancellation) {
+SceneDescription describe_input(const SceneInput& input, const Cancellation& cancellation) {
   SceneDescription description = describe_scene(input.spec, input.run.input.read, cancellation);
   change_materials(description, input.run.input.changes);
   if (input.run.input.orient) {
@@ -150,7 +207,7 @@ SceneDescription describe_input(const RunInput& input, const Cancellation& cance
   return description;
 }
 
-std::shared_ptr<const Scene> make_input_scene(const RunInput& input,
+std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                               const SceneDescription& description,
                                               const Cancellation& cancellation) {
   return std::make_shared<const Scene>(description, division(input, description, cancellation),
@@ -164,17 +221,17 @@ bool has_two_sided_faces(const Scene& scene) {
          }) != patches.end();
 }
 
-std::string orientation_advice(const RunInput& input, const BackShare& backs) {
-  if (backs.share <= BackShare::worth_a_warning || input.run.input.orient) {
+std::string orientation_advice(const SceneInput& input, const BackFraction& backs) {
+  if (backs.fraction <= BackFraction::worth_a_warning || input.run.input.orient) {
     return {};
   }
   return fmt::format(
       "{} of what light meets are backs of faces, which absorb it (try --orient "
       "auto)",
-      share_text(backs.share));
+      fraction_text(backs.fraction));
 }
 
-std::shared_ptr<const Scene> load_input_scene(const RunInput& input,
+std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
                                               const std::vector<std::string>& outputs,
                                               const Cancellation& cancellation, Light light) {
   const SceneDescription description = describe_input(input, cancellation);
@@ -188,8 +245,13 @@ std::shared_ptr<const Scene> load_input_scene(const RunInput& input,
         "an exitance in W/m2, such as --emission '{}=10'",
         scene->name(), suggested_light(description)));
   }
+  if (light != Light::optional) {
+    if (const std::string advice = overlap_advice(*scene, cancellation); !advice.empty()) {
+      print_message("warning: " + advice);
+    }
+  }
   if (light == Light::sky || (light == Light::required && !input.run.input.orient)) {
-    const BackShare backs = back_share(*scene, input.run.solve.threads, cancellation);
+    const BackFraction backs = back_fraction(*scene, input.run.solve.threads, cancellation);
     const std::string advice = light == Light::required ? orientation_advice(input, backs)
                                                         : sky_advice(input, *scene, backs);
     if (!advice.empty()) {

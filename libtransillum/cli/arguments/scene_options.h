@@ -16,31 +16,31 @@
 namespace transillum::cli {
 
 /// A scene and the options of a run as a command line has them.
-struct RunInput : GivenOptions {
+struct SceneInput : GivenOptions {
   std::string spec;  ///< file or built-in scene
   const CLI::App* command = nullptr;
 };
 
 /// SCENE, required.
-void add_scene_argument(CLI::App& command, RunInput& input);
+void add_scene_argument(CLI::App& command, SceneInput& input);
 /// How it is read, changed and divided.
-void add_scene_options(CLI::App& command, RunInput& input);
+void add_scene_options(CLI::App& command, SceneInput& input);
 
 /// Refuses --seed where only the sampling could use it and does not.
 /// @throws InputError
-void check_seed(const RunInput& input);
+void check_seed(const SceneInput& input);
 
 /// Which light a command needs: none, light of faces, or light of a sky.
 enum class Light { optional, required, sky };
 
 /// The scene's faces, read and changed as the options say.
 /// @throws InputError, Canceled
-SceneDescription describe_input(const RunInput& input, const Cancellation& cancellation);
+SceneDescription describe_input(const SceneInput& input, const Cancellation& cancellation);
 
 /// The scene of a description. Where faces are to be divided, prints how many patches that makes
 /// and their memory, before they are made.
 /// @throws InputError, Canceled
-std::shared_ptr<const Scene> make_input_scene(const RunInput& input,
+std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                               const SceneDescription& description,
                                               const Cancellation& cancellation);
 
@@ -48,12 +48,12 @@ std::shared_ptr<const Scene> make_input_scene(const RunInput& input,
 bool has_two_sided_faces(const Scene& scene);
 
 /// One line that names --orient auto where more than a tenth of what is seen is a back; else empty.
-std::string orientation_advice(const RunInput& input, const BackShare& backs);
+std::string orientation_advice(const SceneInput& input, const BackFraction& backs);
 
 /// describe_input(), then make_input_scene(). Checks that no output would overwrite one of the
 /// scene's files, and prints its warnings.
 /// @throws InputError, also where light is required and there is none; Canceled
-std::shared_ptr<const Scene> load_input_scene(const RunInput& input,
+std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
                                               const std::vector<std::string>& outputs,
                                               const Cancellation& cancellation,
                                               Light light = Light::optional);

@@ -43,11 +43,10 @@ void check_stored_factors(const SolveCall& call) {
   if (call.factors.empty()) {
     return;
   }
-  for (const char* option :
-       {"--directions", "--sampling", "--seed", "--rotate", "--engine", "--resolution", "--points",
-        "--order", "--one-way", "--normalize", "--scheme", "--first-shot", "--burn-in",
-        "--replicas", "--accuracy", "--seconds", "--sky", "--basis", "--memory"}) {
-    refuse_unless(false, *call.scene.command, option, "not used with --factors");
+  for (const std::string& name : call.scene.given) {
+    if (!option(name).reads_factors) {
+      throw InputError(fmt::format("--{}: not used with --factors", name));
+    }
   }
 }
 
@@ -75,8 +74,8 @@ void add_outputs(CLI::App& command, SolveCall& call) {
   add_parsed_option(command, "--by", "NAME",
                     fmt::format("print area and power emitted, received, absorbed, escaped and "
                                 "exchanged, by {}",
-                                fmt::join(names_of<PartsBy>(), " or ")),
-                    [&call](const std::string& text) { call.by = from_name<PartsBy>(text); });
+                                fmt::join(names_of<SurfaceKind>(), " or ")),
+                    [&call](const std::string& text) { call.by = from_name<SurfaceKind>(text); });
   command.add_flag("-q,--quiet", call.quiet, "no progress and no summary on standard error");
   for (const char* option : {"--exposure", "--target", "--light-map", "--series", "--series-every",
                              "--by", "--error-report"}) {
@@ -139,9 +138,7 @@ void check_refinement(const SolveCall& call) {
   if (!call.scene.run.refine.is_set()) {
     return;
   }
-  for (const char* option : {"--shard", "--factors"}) {
-    refuse_unless(false, *call.scene.command, option, "not used with --refine-by");
-  }
+  refuse_unless(!call.share, *call.scene.command, "--shard", "not used with --refine-by");
   refuse_unless(!processes().sums, *call.scene.command, "--refine-by",
                 "not available with several processes");
 }
@@ -248,13 +245,13 @@ void complete(SolveCall& call) {
 }
 
 void add_output_options(CLI::App& command, SolveCall& call) {
-  add_groups(command, call.scene, {"Machine"});
+  add_sections(command, call.scene, {"Machine"});
   add_outputs(command, call);
 }
 
 void add_solve_options(CLI::App& command, SolveCall& call) {
   add_scene_argument(command, call.scene);
-  add_groups(
+  add_sections(
       command, call.scene,
       {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches", "Refinement", "Sky"});
   command.get_option("--up")->description(

@@ -17,13 +17,13 @@
 namespace transillum::cli {
 
 struct SolveCall {
-  RunInput scene;
+  SceneInput scene;
   std::optional<Vec3> eye;  ///< --eye
   std::vector<std::string> out;
   std::string stats;
-  std::string error_report;   ///< --error-report
-  std::optional<PartsBy> by;  ///< --by
-  std::string factors;        ///< --factors
+  std::string error_report;       ///< --error-report
+  std::optional<SurfaceKind> by;  ///< --by
+  std::string factors;            ///< --factors
   ColorOutputs colors;
   CheckpointCall checkpoint;
   double checkpoint_every = 60;     ///< --checkpoint-every, s

@@ -18,7 +18,7 @@ namespace transillum::cli {
 namespace {
 
 struct BoundsCall {
-  RunInput scene;
+  SceneInput scene;
   BoundsOptions options;
   std::string out;
 };
@@ -103,7 +103,7 @@ void add_bounds_options(CLI::App& command, BoundsOptions& options) {
 
 }  // namespace
 
-Run add_bounds_command(CLI::App& program) {
+Command add_bounds_command(CLI::App& program) {
   auto call = std::make_shared<BoundsCall>();
   CLI::App& command = *program.add_subcommand(
       "bounds", "Prints how many directions an accuracy requires, guaranteed and estimated");
@@ -112,7 +112,7 @@ Run add_bounds_command(CLI::App& program) {
       ->type_name("");
   call->scene.command = &command;
   add_bounds_options(command, call->options);
-  add_groups(command, call->scene, {"Directions", "Patches"});
+  add_sections(command, call->scene, {"Directions", "Patches"});
   add_options(command, call->scene,
               {"default-reflectance", "max-reflectance", "scale", "units", "join", "photometric"});
   command

@@ -10,19 +10,19 @@ namespace transillum::cli {
 enum ExitStatus { success = 0, failure = 1, wrong_call = 2, interrupted = 130 };
 
 /// Runs a command whose options have been parsed; returns the exit status.
-using Run = std::function<int()>;
+using Command = std::function<int()>;
 
 // Each adds a command with its options and help to the program and returns what runs it.
-Run add_scene_command(CLI::App& program);
-Run add_solve_command(CLI::App& program);
-Run add_transfers_command(CLI::App& program);
-Run add_map_command(CLI::App& program);
-Run add_factors_command(CLI::App& program);
-Run add_directions_command(CLI::App& program);
-Run add_bounds_command(CLI::App& program);
-Run add_study_command(CLI::App& program);
-Run add_compare_command(CLI::App& program);
-Run add_info_command(CLI::App& program);
-Run add_merge_command(CLI::App& program);
+Command add_scene_command(CLI::App& program);
+Command add_solve_command(CLI::App& program);
+Command add_transfers_command(CLI::App& program);
+Command add_map_command(CLI::App& program);
+Command add_factors_command(CLI::App& program);
+Command add_directions_command(CLI::App& program);
+Command add_bounds_command(CLI::App& program);
+Command add_study_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
+Command add_info_command(CLI::App& program);
+Command add_merge_command(CLI::App& program);
 
 }  // namespace transillum::cli

@@ -35,45 +35,58 @@ Solution read(const std::string& file, const Cancellation& cancellation) {
   return read_result(file, cancellation);
 }
 
-std::string group_name(const Scene& scene, std::int32_t group) {
-  return group == no_group ? "(no group)" : at(scene.groups(), group);
-}
-
-std::string place_text(const Scene& scene, const RadiosityDifference& difference) {
-  const Patch& patch = scene.patch(difference.worst);
-  return fmt::format("patch {} (face {}, material {}{})", difference.worst, patch.face,
-                     scene.material(difference.worst).name,
+std::string place_text(const Scene& scene, PatchId i) {
+  const Patch& patch = scene.patch(i);
+  return fmt::format("patch {} (face {}, material {}{})", i, patch.face, scene.material(i).name,
                      patch.group == no_group ? "" : ", group " + at(scene.groups(), patch.group));
 }
 
+std::string sky_text(const std::string& difference) {
+  return difference.empty() ? "" : report_row("skies differ", difference);
+}
+
+std::string percent(double fraction) { return fmt::format("{:.4g} %", 100 * fraction); }
+
+std::string worst_text(const Scene& scene, const SurfaceDifference& worst) {
+  if (worst.worst == no_patch) {
+    return report_row("worst surface", "none: all have the same B");
+  }
+  return report_row("worst surface", fmt::format("{}: {} RMS{}", worst.name, percent(worst.rms),
+                                                 dark_text(worst.is_dark))) +
+         report_row("largest there",
+                    fmt::format("{}, {}", percent(worst.largest), place_text(scene, worst.worst))) +
+         report_row("B there, W/m2",
+                    fmt::format("{} and {}", rgb_text(worst.first, 8), rgb_text(worst.second, 8)));
+}
+
+std::string table_text(const std::vector<SurfaceDifference>& surfaces) {
+  std::size_t width = 7;
+  for (const SurfaceDifference& surface : surfaces) {
+    width = std::max(width, surface.name.size());
+  }
+  std::string text = fmt::format("\n{:<{}} {:>9} {:>11} {:>11}  {}\n", "surface", width, "patches",
+                                 "RMS", "largest", "where");
+  bool any_dark = false;
+  for (const SurfaceDifference& surface : surfaces) {
+    const std::string where =
+        surface.worst == no_patch ? std::string() : fmt::format("patch {}", surface.worst);
+    text += fmt::format("{:<{}} {:>9} {:>11} {:>11}  {}{}\n", surface.name, width, surface.patches,
+                        percent(surface.rms), percent(surface.largest), where,
+                        surface.is_dark ? " (dark)" : "");
+    any_dark = any_dark || surface.is_dark;
+  }
+  if (any_dark) {
+    text += "(dark): relative to a thousandth of the level of the brightest surface\n";
+  }
+  return text + "\n";
+}
+
 std::string comparison_text(const Scene& scene, const ResultComparison& comparison) {
-  const RadiosityDifference& whole = comparison.whole;
   std::string text = report_row("patches", fmt::format("{}", scene.patch_count()));
-  if (!comparison.sky_difference.empty()) {
-    text += report_row("skies differ", comparison.sky_difference);
-  }
-  text += report_row("RMS", fmt::format("{:.4g} of the RMS of reflected light", whole.rms));
-  text +=
-      report_row("largest", fmt::format("{:.4g} of the largest reflected light", whole.largest));
-  if (whole.worst != no_patch) {
-    text += report_row("where", place_text(scene, whole));
-    text += report_row("B there, W/m2", fmt::format("{} and {}", rgb_text(whole.first, 8),
-                                                    rgb_text(whole.second, 8)));
-  }
-  if (comparison.groups.size() < 2) {
-    return text;
-  }
-  std::size_t width = 5;
-  for (const GroupDifference& group : comparison.groups) {
-    width = std::max(width, group_name(scene, group.group).size());
-  }
-  text += fmt::format("\n{:<{}} {:>9} {:>11} {:>11}  {}\n", "group", width, "patches", "RMS",
-                      "largest", "where");
-  for (const GroupDifference& group : comparison.groups) {
-    const RadiosityDifference& d = group.difference;
-    text += fmt::format("{:<{}} {:>9} {:>11.4g} {:>11.4g}  {}\n", group_name(scene, group.group),
-                        width, group.patches, d.rms, d.largest,
-                        d.worst == no_patch ? "" : fmt::format("patch {}", d.worst));
+  text += sky_text(comparison.sky_difference);
+  text += worst_text(scene, comparison.surfaces.front());
+  if (comparison.surfaces.size() > 1) {
+    text += table_text(comparison.surfaces);
   }
   return text;
 }
@@ -82,14 +95,42 @@ std::string function_text(const FunctionDifference& difference) {
   return report_row("L2 of functions", fmt::format("{:.4g} of the L2 norm of A", difference.l2));
 }
 
-int exit_status(double worst, const CompareCall& call) {
-  if (call.tolerance && worst > *call.tolerance) {
+std::string whole_text(double rms) {
+  return report_row("RMS over all", fmt::format("{} of the RMS of reflected light", percent(rms)));
+}
+
+/// @param what differs: "the results", or a surface of them
+int exit_status(const std::string& what, double difference, const CompareCall& call) {
+  if (call.tolerance && difference > *call.tolerance) {
     flush_results();
-    print_message(fmt::format("the results differ by {:.4g}, more than the tolerance of {}", worst,
-                              *call.tolerance));
+    print_message(fmt::format("{} differ by {}, more than the tolerance of {}", what,
+                              percent(difference), percent(*call.tolerance)));
     return failure;
   }
   return success;
+}
+
+/// A hint at --functions where two results differ in their patches only; else empty.
+std::string hint(const Solution& first, const Solution& second) {
+  try {
+    if (first.scene->patch_count() != second.scene->patch_count()) {
+      compare_functions(first, second);
+      return "; --functions compares results whose patches alone differ";
+    }
+  } catch (const InputError&) {
+    // --functions refuses them, too.
+  }
+  return {};
+}
+
+double parse_tolerance(const std::string& text) {
+  const bool is_percentage = text.ends_with('%');
+  const std::string number = is_percentage ? text.substr(0, text.size() - 1) : text;
+  const double tolerance = parse_number("--tolerance", number);
+  if (tolerance < 0) {
+    throw InputError(fmt::format("--tolerance: \"{}\" is less than 0", text));
+  }
+  return is_percentage ? tolerance / 100 : tolerance;
 }
 
 int run(const CompareCall& call) {
@@ -103,21 +144,24 @@ int run(const CompareCall& call) {
     }
     difference = compare_functions(first, second);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{} and {}: {}", call.first, call.second, error.what()));
+    throw InputError(fmt::format("{} and {}: {}{}", call.first, call.second, error.what(),
+                                 call.functions ? "" : hint(first, second)));
   }
   if (call.functions) {
     print_results(report_row("patches", fmt::format("{} and {}", first.scene->patch_count(),
                                                     second.scene->patch_count())) +
-                  function_text(difference));
-    return exit_status(difference.l2, call);
+                  sky_text(sky_difference(first, second)) + function_text(difference));
+    return exit_status("the results", difference.l2, call);
   }
-  print_results(comparison_text(*first.scene, comparison) + function_text(difference));
-  return exit_status(std::max(comparison.whole.rms, comparison.whole.largest), call);
+  print_results(comparison_text(*first.scene, comparison) + function_text(difference) +
+                whole_text(comparison.rms));
+  const SurfaceDifference& worst = comparison.surfaces.front();
+  return exit_status(fmt::format("the results of surface \"{}\"", worst.name), worst.rms, call);
 }
 
 }  // namespace
 
-Run add_compare_command(CLI::App& program) {
+Command add_compare_command(CLI::App& program) {
   auto call = std::make_shared<CompareCall>();
   CLI::App& command =
       *program.add_subcommand("compare", "Compares the radiosity of two results of a scene");
@@ -126,21 +170,18 @@ Run add_compare_command(CLI::App& program) {
       ->required();
   command.add_option("B", call->second, "result file, .vtp")->type_name("B.vtp")->required();
   add_parsed_option(command, "--tolerance", "T",
-                    "exit with status 1 if the RMS or the largest difference exceeds this",
-                    [call](const std::string& text) {
-                      call->tolerance = parse_number("--tolerance", text);
-                      if (*call->tolerance < 0) {
-                        throw InputError(fmt::format("--tolerance: \"{}\" is less than 0", text));
-                      }
-                    });
+                    "exit with status 1 if the RMS of the worst surface exceeds this, as 0.01 or "
+                    "1%; with --functions, the L2 norm",
+                    [call](const std::string& text) { call->tolerance = parse_tolerance(text); });
   command.add_flag(
       "--functions", call->functions,
       "compare B as functions on the faces, also of scenes that differ in their patches "
       "only, as by --max-patch-area: the L2 norm of the difference");
   command.footer(
-      "Differences of B, relative to the reflected light of A: B - E of patches that do not emit,\n"
-      "or of all where the others reflect nothing. By group, they are relative to the group's "
-      "light.\n"
+      "Differences of B by surface: group, else material, else connected component; the worst\n"
+      "first. They are relative to the surface's own level, the RMS of its B - E in A, or to a\n"
+      "thousandth of the brightest surface's level where that is larger (dark). Patches that emit\n"
+      "are omitted, unless all do. The RMS over all patches comes last.\n"
       "With --basis linear, B of a patch is its mean, and L2 is the norm of the functions.\n"
       "Results of different scenes are refused.\n"
       "Example: transillum compare coarse.vtp fine.vtp --tolerance 0.01");

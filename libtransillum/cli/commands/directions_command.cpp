@@ -142,7 +142,7 @@ struct DirectionsCall {
   std::string out;
   CLI::Option* stats = nullptr;
   std::string stats_file;
-  RunInput scene;
+  SceneInput scene;
 
   const SolveOptions& set() const { return scene.run.solve; }
 };
@@ -201,7 +201,7 @@ int run(const DirectionsCall& call) {
 
 }  // namespace
 
-Run add_directions_command(CLI::App& program) {
+Command add_directions_command(CLI::App& program) {
   auto call = std::make_shared<DirectionsCall>();
   CLI::App& command = *program.add_subcommand(
       "directions", "Writes the points and directions of a sequence, or measures their quality");

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <ostream>
 
@@ -21,8 +22,10 @@
 namespace transillum::cli {
 namespace {
 
+using Factors = EngineTraits::Factors;
+
 struct FactorsCall {
-  RunInput scene;
+  SceneInput scene;
   GatherOptions rays;
   SensorCall sensors;
   double drop = 0;  ///< form factors below it are omitted; 0 writes all
@@ -37,21 +40,22 @@ FormFactors gather_by_rays(const FactorsCall& call, const Scene& scene,
   options.seed = call.passes().seed;
   options.threads = call.passes().threads;
   return gather_form_factors(scene, options, cancellation,
-                             [&](double share) { display.show("tracing rays", share); });
+                             [&](double fraction) { display.show("tracing rays", fraction); });
 }
 
 FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
                            const Cancellation& cancellation, ProgressDisplay& display) {
-  return hemicube_form_factors(scene, hemicube_options(call.passes()), cancellation,
-                               [&](double share) { display.show("drawing hemicubes", share); });
+  return hemicube_form_factors(
+      scene, hemicube_options(call.passes()), cancellation,
+      [&](double fraction) { display.show("drawing hemicubes", fraction); });
 }
 
 FormFactors compute_pairs(const FactorsCall& call, const Scene& scene,
                           const Cancellation& cancellation, ProgressDisplay& display) {
   display.begin("computing pairs");
-  return pair_form_factors(scene, pair_options(call.passes()), cancellation, [&](double share) {
+  return pair_form_factors(scene, pair_options(call.passes()), cancellation, [&](double fraction) {
     const double patches = scene.patch_count();
-    display.show_rate("computing pairs", share, patches * (patches - 1) / 2, "pairs");
+    display.show_rate("computing pairs", fraction, patches * (patches - 1) / 2, "pairs");
   });
 }
 
@@ -71,26 +75,32 @@ FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scen
 
 FormFactors compute_form_factors(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
                                  const Cancellation& cancellation, ProgressDisplay& display) {
-  switch (call.passes().engine) {
-    case Engine::rays:
-      return gather_by_rays(call, *scene, cancellation, display);
-    case Engine::hemicube:
-      return draw_hemicubes(call, *scene, cancellation, display);
-    case Engine::pairs:
-      return compute_pairs(call, *scene, cancellation, display);
-    default:
+  switch (traits_of(call.passes().engine).factors) {
+    case Factors::passes:
       return sum_passes(call, scene, cancellation, display);
+    case Factors::rays:
+      return gather_by_rays(call, *scene, cancellation, display);
+    case Factors::hemicubes:
+      return draw_hemicubes(call, *scene, cancellation, display);
+    case Factors::pairs:
+      return compute_pairs(call, *scene, cancellation, display);
   }
+  return {};
 }
 
 void check_options(const FactorsCall& call) {
-  const Engine engine = call.passes().engine;
-  refuse_unless(engine == Engine::rays, *call.scene.command, "--rays",
+  const Factors factors = traits_of(call.passes().engine).factors;
+  refuse_unless(factors == Factors::rays, *call.scene.command, "--rays",
                 "used only with engine rays");
-  if (engine == Engine::hemicube) {
+  const std::string conflict = conflict_of("basis", call.scene.run);
+  refuse_unless(conflict.empty(), *call.scene.command, "--basis", conflict.c_str());
+  const bool has_no_moments = std::filesystem::path(call.out).extension() == ".vf";
+  refuse_unless(!has_no_moments || call.passes().basis == Basis::constant, *call.scene.command,
+                "--basis", "linear has moments, which a .vf file cannot hold; write .npz or .mtx");
+  if (factors == Factors::hemicubes) {
     hemicube_options(call.passes()).validate();
   }
-  if (engine != Engine::rays) {
+  if (factors != Factors::rays) {
     refuse_unused(call.scene, {call.scene.run});
     return;
   }
@@ -110,7 +120,7 @@ FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactor
   DroppedFormFactors rest = drop_small_form_factors(scene, form_factors, call.drop, cancellation);
   std::string text =
       fmt::format("{} of {} form factors omitted, {:.2g} of all light; the others are rebalanced",
-                  rest.dropped, form_factors.size(), rest.share);
+                  rest.dropped, form_factors.size(), rest.fraction);
   if (rest.kept > 0) {
     text += fmt::format("; {} below {} are kept, without which their rows cannot be rebalanced",
                         rest.kept, call.drop);
@@ -194,7 +204,7 @@ void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
       .add_option("-o,--out", call->out,
                   "by its ending .csv: i,j,F for every F > 0, sorted by i, then j; .npz: sparse "
                   "matrix of SciPy; .mtx: Matrix Market; .vf: View3D (default: CSV on standard "
-                  "output)")
+                  "output); with --basis linear all but .vf also have the moments")
       ->type_name("FILE");
   add_parsed_option(command, "--drop", "F",
                     "omit form factors below F, such as 1e-6, and scale the others so that "
@@ -210,15 +220,15 @@ void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
 
 }  // namespace
 
-Run add_factors_command(CLI::App& program) {
+Command add_factors_command(CLI::App& program) {
   auto call = std::make_shared<FactorsCall>();
   CLI::App& command =
       *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
   add_scene_argument(command, call->scene);
-  add_options(command, call->scene, {"directions", "sampling", "seed", "rotate"});
+  add_options(command, call->scene, {"directions", "sampling", "seed", "rotate", "basis"});
   add_methods(command, call);
   add_scene_options(command, call->scene);
-  add_groups(command, call->scene, {"Machine"});
+  add_sections(command, call->scene, {"Machine"});
   command.get_option("--memory")
       ->description("largest memory for form factors (default: a quarter of the machine's)");
   add_outputs(command, call);

@@ -26,14 +26,14 @@ namespace transillum::cli {
 namespace {
 
 /// Fractions of area below this are rounding (ALGORITHM.md, oracle 1).
-constexpr double open_share = 1e-9;
+constexpr double open_fraction = 1e-9;
 /// Longest list in the report.
 constexpr std::size_t max_listed = 20;
 /// Largest number of overlaps to search for; coincident faces can have very many.
 constexpr std::size_t max_overlaps = 10000;
 
 struct InfoCall {
-  RunInput scene;
+  SceneInput scene;
   int directions = 0;  ///< 0 means rays only
 };
 
@@ -91,18 +91,18 @@ void print_repairs(const SceneReport& report) {
 }
 
 /// Prints backs seen, by group if the scene has groups, else by material.
-void print_backs(const BackShare& backs) {
-  if (backs.share == 0) {
+void print_backs(const BackFraction& backs) {
+  if (backs.fraction == 0) {
     print_row("seen from behind", "no face");
     return;
   }
-  print_row("seen from behind", share_text(backs.share) + " of what light meets are backs");
+  print_row("seen from behind", fraction_text(backs.fraction) + " of what light meets are backs");
   const bool by_group = !backs.groups.empty();
   const std::vector<BackCount>& counts = by_group ? backs.groups : backs.materials;
   for (std::size_t k = 0; k < std::min(counts.size(), max_listed); ++k) {
     print_results(fmt::format("  {} \"{}\": {} of what light meets of it, {} of all\n",
                               by_group ? "group" : "material", counts[k].name,
-                              share_text(counts[k].share), share_text(counts[k].of_all)));
+                              fraction_text(counts[k].fraction), fraction_text(counts[k].of_all)));
   }
   if (counts.size() > max_listed) {
     print_results(fmt::format("  and {} more\n", counts.size() - max_listed));
@@ -116,16 +116,16 @@ struct BacksOfKind {
 };
 
 /// Prints the faces seen from behind, in sums by group if the scene has groups, else by material.
-void print_backs_along_directions(const Scene& scene, const std::vector<double>& shares) {
+void print_backs_along_directions(const Scene& scene, const std::vector<double>& fractions) {
   const bool by_group = !scene.groups().empty();
   std::map<std::int32_t, BacksOfKind> kinds;
   std::set<std::int32_t> faces;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const Patch& patch = scene.patch(i);
-    if (at(shares, i) > open_share) {
+    if (at(fractions, i) > open_fraction) {
       BacksOfKind& kind = kinds[by_group ? patch.group : patch.material];
       kind.faces.insert(patch.face);
-      kind.seen += patch.area * at(shares, i);
+      kind.seen += patch.area * at(fractions, i);
       kind.whole += patch.area;
       faces.insert(patch.face);
     }
@@ -139,7 +139,7 @@ void print_backs_along_directions(const Scene& scene, const std::vector<double>&
     print_results(fmt::format("  {} \"{}\": {} face{}, {} of their backs visible\n",
                               by_group ? "group" : "material", name, kind.faces.size(),
                               kind.faces.size() == 1 ? "" : "s",
-                              share_text(kind.seen / kind.whole)));
+                              fraction_text(kind.seen / kind.whole)));
   }
 }
 
@@ -165,15 +165,15 @@ void print_overlaps(const Scene& scene, const Cancellation& cancellation) {
 
 /// Prints the findings of random rays: whether the scene is closed, and which materials are seen
 /// from behind.
-BackShare print_rays(const Scene& scene, int threads, const Cancellation& cancellation) {
+BackFraction print_rays(const Scene& scene, int threads, const Cancellation& cancellation) {
   ProgressDisplay display;
   display.begin("checking what light meets");
-  const BackShare backs = back_share(scene, threads, cancellation);
+  const BackFraction backs = back_fraction(scene, threads, cancellation);
   display.clear();
   print_row("closed", backs.open == 0
                           ? std::string("yes: no ray from a lit side leaves")
                           : fmt::format("no, {} of the rays from lit sides meet no patch",
-                                        share_text(backs.open)));
+                                        fraction_text(backs.open)));
   print_backs(backs);
   return backs;
 }
@@ -202,8 +202,8 @@ void print_directions(const std::shared_ptr<const Scene>& scene, const InfoCall&
   print_row("BSP fragments", fmt::format("{}", tree->fragments().size()));
   print_row("along directions",
             fmt::format("{} of the projected area sees no patch ({} directions)",
-                        share_text(escaped), 2 * call.directions));
-  print_backs_along_directions(*scene, solver.back_seen_shares());
+                        fraction_text(escaped), 2 * call.directions));
+  print_backs_along_directions(*scene, solver.back_seen_fractions());
 }
 
 int run(const InfoCall& call) {
@@ -212,7 +212,7 @@ int run(const InfoCall& call) {
       make_input_scene(call.scene, describe_input(call.scene, cancellation), cancellation);
   print_counts(*scene);
   print_size_and_light(*scene);
-  const BackShare backs = print_rays(*scene, call.scene.run.solve.threads, cancellation);
+  const BackFraction backs = print_rays(*scene, call.scene.run.solve.threads, cancellation);
   if (call.directions > 0) {
     print_directions(scene, call, cancellation);
   }
@@ -226,7 +226,7 @@ int run(const InfoCall& call) {
 
 }  // namespace
 
-Run add_info_command(CLI::App& program) {
+Command add_info_command(CLI::App& program) {
   auto call = std::make_shared<InfoCall>();
   CLI::App& command = *program.add_subcommand(
       "info", "Prints counts, size, emitted power, closedness and problems of a scene");

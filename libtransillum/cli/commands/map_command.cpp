@@ -25,7 +25,7 @@ namespace {
 
 struct MapCall {
   const CLI::App* command = nullptr;
-  RunInput scene;
+  SceneInput scene;
   Vec3 direction;
   PatchId receiver = no_patch;
   std::optional<std::int32_t> step;  ///< number of steps done; unset means all
@@ -148,7 +148,7 @@ int run(const MapCall& call) {
 
 }  // namespace
 
-Run add_map_command(CLI::App& program) {
+Command add_map_command(CLI::App& program) {
   auto call = std::make_shared<MapCall>();
   CLI::App& command =
       *program.add_subcommand("map", "Writes or draws the visibility map of one direction");

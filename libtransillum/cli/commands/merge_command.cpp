@@ -58,7 +58,7 @@ int merge(const MergeCall& call) {
 
 }  // namespace
 
-Run add_merge_command(CLI::App& program) {
+Command add_merge_command(CLI::App& program) {
   auto call = std::make_shared<MergeCall>();
   CLI::App& command = *program.add_subcommand(
       "merge", "Computes one result from the shards that solve --shard has written");

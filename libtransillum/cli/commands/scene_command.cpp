@@ -16,7 +16,7 @@ namespace transillum::cli {
 namespace {
 
 struct SceneCall {
-  RunInput scene;
+  SceneInput scene;
   std::string out;
 };
 
@@ -39,11 +39,11 @@ int run(const SceneCall& call) {
 
 }  // namespace
 
-Run add_scene_command(CLI::App& program) {
+Command add_scene_command(CLI::App& program) {
   auto call = std::make_shared<SceneCall>();
   CLI::App& command = *program.add_subcommand("scene", "Writes a scene as .obj and .mtl files");
   add_scene_argument(command, call->scene);
-  add_groups(command, call->scene, {"Scene"});
+  add_sections(command, call->scene, {"Scene"});
   command.add_option("-o,--out", call->out, "the .obj file; the .mtl file is written next to it")
       ->type_name("FILE.obj")
       ->required();

@@ -63,7 +63,7 @@ void check_sensor_options(const CLI::App& command, const SensorCall& call) {
   }
 }
 
-int run_sensors(const SensorCall& call, const RunInput& scene_input, const std::string& out,
+int run_sensors(const SensorCall& call, const SceneInput& scene_input, const std::string& out,
                 std::uint64_t memory, int threads) {
   const Cancellation& cancellation = cancel_on_signals();
   const std::vector<std::string> outputs = given_files({out, call.irradiance});
@@ -78,8 +78,8 @@ int run_sensors(const SensorCall& call, const RunInput& scene_input, const std::
   ProgressDisplay display;
   display.begin("points");
   const FormFactors form_factors = sensor_form_factors(
-      *scene, sensors, {.memory = memory, .threads = threads}, cancellation, [&](double share) {
-        display.show_rate("points", share, static_cast<double>(sensors.size()), "points");
+      *scene, sensors, {.memory = memory, .threads = threads}, cancellation, [&](double fraction) {
+        display.show_rate("points", fraction, static_cast<double>(sensors.size()), "points");
       });
   display.clear();
   std::vector<std::function<void()>> writers;

@@ -24,7 +24,7 @@ void check_sensor_options(const CLI::App& command, const SensorCall& call);
 /// Computes and writes them; returns the exit status.
 /// @param out file for form factors; if empty, none is written where there is a file for the
 /// irradiance; else, and for -, standard output
-int run_sensors(const SensorCall& call, const RunInput& scene_input, const std::string& out,
+int run_sensors(const SensorCall& call, const SceneInput& scene_input, const std::string& out,
                 std::uint64_t memory, int threads);
 
 }  // namespace transillum::cli

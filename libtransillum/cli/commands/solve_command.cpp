@@ -206,8 +206,7 @@ int run_solve(SolveCall& call) {
       .cancellation = cancellation,
       .display = display,
       .quiet = call.quiet,
-      // Form factors between constant functions are not what linear functions exchange.
-      .form_factors = call.by.has_value() && options.basis == Basis::constant,
+      .form_factors = call.by.has_value(),
       .has_series = !call.colors.series.empty(),
       .series = prepared.series ? &*prepared.series : nullptr,
       .series_every = call.colors.series_every,
@@ -226,14 +225,11 @@ int run_solve(SolveCall& call) {
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
   solution.eye = call.eye;
-  if (call.by && options.basis != Basis::constant) {
-    print_message("exchanges between groups are not available with --basis linear");
-  }
   for (const std::string& warning : solve_warnings(solution)) {
     print_message("warning: " + warning);
   }
   if (shared && !call.quiet) {
-    print_message(processes().figures());
+    print_message(processes().traffic());
   }
   if (is_first_process()) {
     write_outputs(call, options, solution, errors);
@@ -287,7 +283,7 @@ int run_shard(SolveCall& call) {
   return success;
 }
 
-Run add_solve_command(CLI::App& program) {
+Command add_solve_command(CLI::App& program) {
   auto call = std::make_shared<SolveCall>();
   CLI::App& command = *program.add_subcommand("solve", "Computes the radiosity of every patch");
   add_solve_options(command, *call);

@@ -35,7 +35,7 @@ void show_progress(ProgressDisplay& display, const SolveSession& session) {
   if (progress.stage != Stage::passes) {
     display.show(
         progress.stage == Stage::scaling_lobes ? "scaling lobes" : iteration + ", reflecting",
-        progress.stage_share,
+        progress.stage_fraction,
         fmt::format("{:.3g} lobes/s, {} left", progress.lobes_per_second,
                     time_text(progress.seconds_left)));
   } else if (progress.direction > 0) {
@@ -54,9 +54,9 @@ void add_to_series(const SolveJob& job, const SolveSession& session) {
     return;
   }
   const SolveProgress progress = session.progress();
-  const double share =
+  const double fraction =
       progress.direction > 0 ? progress.direction / static_cast<double>(progress.passes) : 0.0;
-  job.series->add(session.solution(), progress.iteration + share);
+  job.series->add(session.solution(), progress.iteration + fraction);
 }
 
 /// The checkpoint of a solve, if one is asked for. An error of saving is a warning: the solve is
@@ -134,7 +134,7 @@ void run_rounds(SolveSession& session, const SolveJob& job) {
     print_message(fmt::format("round {}: {} patches, {} {:.3g} % of B, {:.2g} s", number,
                               round.patches,
                               job.refine->by == RefineBy::jump ? "RMS jump" : "L2 error",
-                              100 * round.figure, round.seconds));
+                              100 * round.measure, round.seconds));
   }
 }
 
@@ -195,9 +195,9 @@ SolveRequest request_of(const SolveJob& job) {
           .refine = job.refine,
           .engine = read_shards(job),
           .sums = job.sums,
-          .preparing = [&job](Preparation preparation, double share) {
+          .preparing = [&job](Preparation preparation, double fraction) {
             job.display.show(preparation == Preparation::tree ? "building BSP tree" : "first shot",
-                             share);
+                             fraction);
           }};
 }
 
@@ -205,8 +205,8 @@ SolveRequest request_of(const SolveJob& job) {
 Solution solve_by_pairs_to(const AccuracyGoal& goal, const SolveJob& job) {
   check_form_factor_options(job.options);
   PairSolution pairs = solve_by_pairs(
-      job.scene, job.options, goal.accuracy, job.cancellation, [&](int points, double share) {
-        job.display.show(fmt::format("computing pairs, {} points", points), share);
+      job.scene, job.options, goal.accuracy, job.cancellation, [&](int points, double fraction) {
+        job.display.show(fmt::format("computing pairs, {} points", points), fraction);
       });
   AccuracyReport report;
   report.goal = goal;
@@ -219,11 +219,11 @@ Solution solve_by_pairs_to(const AccuracyGoal& goal, const SolveJob& job) {
 }
 
 MeasurementObserver measurement_display(const SolveJob& job) {
-  return [&job](Measurement what, double share) {
+  return [&job](Measurement what, double fraction) {
     job.display.show(what == Measurement::replicas  ? "measuring errors: replicas"
                      : what == Measurement::engines ? "measuring errors: engines"
                                                     : "measuring errors: divided patches",
-                     share);
+                     fraction);
   };
 }
 
@@ -327,18 +327,18 @@ Solution solve_with_stored(const std::string& file, const SolveJob& job) {
 
 Solution solve_without_directions(const SolveJob& job) {
   const SolveOptions& options = job.options;
-  if (options.goal.is_set() && options.engine == Engine::pairs) {
+  const bool hemicubes = traits_of(options.engine).factors == EngineTraits::Factors::hemicubes;
+  if (options.goal.is_set() && !hemicubes) {
     return solve_by_pairs_to(options.goal, job);
   }
-  const bool hemicubes = options.engine == Engine::hemicube;
   const char* task = hemicubes ? "drawing hemicubes" : "computing pairs";
   const double patches = job.scene->patch_count();
   double done = 0;
   job.display.begin(task);
   try {
-    return solve_by_form_factors(job.scene, options, job.cancellation, [&](double share) {
-      done = share;
-      job.display.show_rate(task, share, hemicubes ? patches : patches * (patches - 1) / 2,
+    return solve_by_form_factors(job.scene, options, job.cancellation, [&](double fraction) {
+      done = fraction;
+      job.display.show_rate(task, fraction, hemicubes ? patches : patches * (patches - 1) / 2,
                             hemicubes ? "hemicubes" : "pairs");
     });
   } catch (const Canceled&) {

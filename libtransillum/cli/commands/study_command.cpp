@@ -36,7 +36,7 @@ struct StudiedEngine {
 };
 
 struct StudyCall {
-  RunInput scene;
+  SceneInput scene;
   std::vector<int> directions{16, 64, 256, 1024};
   std::vector<Sampling> given_samplings;
   std::vector<Normalization> normalizations{Normalization::none};
@@ -296,7 +296,7 @@ int run(const StudyCall& call) {
       context.scene, context.tree, options, {reference, saver.done()},
       [&](const StudyProgress& now) {
         context.display.show(fmt::format("{}, {} passes", names[now.series], now.directions),
-                             now.share, rate_text(now.passes_per_second, now.seconds_left));
+                             now.fraction, rate_text(now.passes_per_second, now.seconds_left));
         saver.update(now.points);
       },
       context.cancellation);
@@ -457,7 +457,7 @@ void add_reference_options(CLI::App& command, StudyCall& call) {
 
 }  // namespace
 
-Run add_study_command(CLI::App& program) {
+Command add_study_command(CLI::App& program) {
   auto call = std::make_shared<StudyCall>();
   CLI::App& command =
       *program.add_subcommand("study", "Measures the error of B against the number of passes");
@@ -466,7 +466,7 @@ Run add_study_command(CLI::App& program) {
   add_error_options(command, *call);
   add_reference_options(command, *call);
   add_scene_options(command, call->scene);
-  add_groups(command, call->scene, {"Machine"});
+  add_sections(command, call->scene, {"Machine"});
   command
       .add_option("-o,--out", call->out,
                   "CSV: sampling,directions,passes,rms_error,max_error,bound,seconds, engine,"

@@ -20,7 +20,7 @@ namespace transillum::cli {
 namespace {
 
 struct TransfersCall {
-  RunInput scene;
+  SceneInput scene;
   Vec3 direction;
   std::string out;
 };
@@ -47,13 +47,13 @@ int run(const TransfersCall& call) {
 
 }  // namespace
 
-Run add_transfers_command(CLI::App& program) {
+Command add_transfers_command(CLI::App& program) {
   auto call = std::make_shared<TransfersCall>();
   CLI::App& command =
       *program.add_subcommand("transfers", "Writes the areas A(i,j,omega) of one direction");
   add_scene_argument(command, call->scene);
   add_direction_option(command, call->direction);
-  add_groups(command, call->scene, {"Engine"});
+  add_sections(command, call->scene, {"Engine"});
   add_scene_options(command, call->scene);
   add_options(command, call->scene, {"threads"});
   command

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 /// Adds the paper's values for row.rho, if its tables have them for the same accuracy and size
 /// ratio.
-void add_paper_figures(BoundsRow& row, const BoundsOptions& options, double size_ratio) {
+void add_paper_values(BoundsRow& row, const BoundsOptions& options, double size_ratio) {
   const PaperTables& paper = paper_tables();
   const auto found = std::find(paper.rho.begin(), paper.rho.end(), row.rho);
   if (found == paper.rho.end()) {
@@ -40,7 +40,7 @@ BoundsRow make_row(double rho, const BoundsOptions& options, double size_ratio,
   const double accuracy = options.accuracy;
   BoundsRow row;
   row.rho = rho;
-  add_paper_figures(row, options, size_ratio);
+  add_paper_values(row, options, size_ratio);
   row.contract = directions_to_contract(rho);
   row.homogeneous = directions_if_homogeneous(rho, accuracy);
   row.heterogeneous = directions_if_heterogeneous(rho, accuracy, size_ratio);

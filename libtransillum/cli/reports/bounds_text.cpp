@@ -21,8 +21,8 @@ std::string count_text(const std::optional<Number>& m, const char* none) {
   return m ? count_text(static_cast<double>(*m)) : none;
 }
 
-std::string percent_text(double share) {
-  return share > 1 ? std::string("> 100 %") : fmt::format("{:.3g} %", 100 * share);
+std::string percent_text(double fraction) {
+  return fraction > 1 ? std::string("> 100 %") : fmt::format("{:.3g} %", 100 * fraction);
 }
 
 std::string table_row(const std::string& rho, const std::string& paper, const std::string& formula,

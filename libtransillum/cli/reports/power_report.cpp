@@ -17,9 +17,9 @@ constexpr std::size_t most_exchanges = 20;  ///< printed; the others are summed
 bool is_gray(const Rgb& power) { return power.r == power.g && power.g == power.b; }
 
 bool is_gray(const PowerTable& table) {
-  return std::all_of(table.parts.begin(), table.parts.end(), [](const PartPower& part) {
-    return is_gray(part.emitted) && is_gray(part.received) && is_gray(part.absorbed) &&
-           is_gray(part.escaped);
+  return std::all_of(table.surfaces.begin(), table.surfaces.end(), [](const SurfacePower& surface) {
+    return is_gray(surface.emitted) && is_gray(surface.received) && is_gray(surface.absorbed) &&
+           is_gray(surface.escaped);
   });
 }
 
@@ -49,19 +49,21 @@ std::string aligned(const std::vector<Row>& rows) {
 }
 
 /// Stands for a part whose name is empty.
-const char* unnamed(PartsBy by) { return by == PartsBy::group ? "(no group)" : "(no name)"; }
-
-std::string name_of(const PartPower& part, PartsBy by) {
-  return part.name.empty() ? unnamed(by) : part.name;
+const char* unnamed(SurfaceKind by) {
+  return by == SurfaceKind::group ? "(no group)" : "(no name)";
 }
 
-struct ExchangeOfParts {
+std::string name_of(const SurfacePower& surface, SurfaceKind by) {
+  return surface.name.empty() ? unnamed(by) : surface.name;
+}
+
+struct SurfaceExchange {
   std::size_t from, to;
   Rgb power;
 };
 
-std::vector<ExchangeOfParts> strongest_first(const PowerTable& table) {
-  std::vector<ExchangeOfParts> list;
+std::vector<SurfaceExchange> strongest_first(const PowerTable& table) {
+  std::vector<SurfaceExchange> list;
   for (std::size_t to = 0; to < table.exchanged.size(); ++to) {
     for (std::size_t from = 0; from < table.exchanged.size(); ++from) {
       if (const Rgb& power = table.exchanged[to][from]; max_abs(power) > 0) {
@@ -75,14 +77,14 @@ std::vector<ExchangeOfParts> strongest_first(const PowerTable& table) {
   return list;
 }
 
-std::string exchange_text(const PowerTable& table, PartsBy by, bool gray) {
-  const std::vector<ExchangeOfParts> list = strongest_first(table);
+std::string exchange_text(const PowerTable& table, SurfaceKind by, bool gray) {
+  const std::vector<SurfaceExchange> list = strongest_first(table);
   std::vector<Row> rows{{"from", "to", "power, W"}};
   Rgb others;
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (k < most_exchanges) {
-      rows.push_back({name_of(table.parts[list[k].from], by), name_of(table.parts[list[k].to], by),
-                      power_text(list[k].power, gray)});
+      rows.push_back({name_of(table.surfaces[list[k].from], by),
+                      name_of(table.surfaces[list[k].to], by), power_text(list[k].power, gray)});
     } else {
       others += list[k].power;
     }
@@ -96,10 +98,10 @@ std::string exchange_text(const PowerTable& table, PartsBy by, bool gray) {
 
 }  // namespace
 
-std::string power_report(const PowerTable& table, PartsBy by) {
+std::string power_report(const PowerTable& table, SurfaceKind by) {
   const bool gray = is_gray(table);
   const bool sky = max_abs(table.total.from_sky) > 0;
-  std::vector<Row> rows{{names_of<PartsBy>().at(static_cast<std::size_t>(by)), "patches",
+  std::vector<Row> rows{{names_of<SurfaceKind>().at(static_cast<std::size_t>(by)), "patches",
                          "area, m2", "emitted, W", "received, W", "absorbed, W"}};
   if (sky) {
     rows.front().emplace_back("from the sky, W");
@@ -107,20 +109,20 @@ std::string power_report(const PowerTable& table, PartsBy by) {
   if (table.escape_known) {
     rows.front().emplace_back("escaped, W");
   }
-  std::vector<PartPower> parts = table.parts;
-  for (PartPower& part : parts) {
-    part.name = name_of(part, by);
+  std::vector<SurfacePower> surfaces = table.surfaces;
+  for (SurfacePower& surface : surfaces) {
+    surface.name = name_of(surface, by);
   }
-  parts.push_back(table.total);
-  for (const PartPower& part : parts) {
-    rows.push_back({part.name, fmt::to_string(part.patches), fmt::format("{:.5g}", part.area),
-                    power_text(part.emitted, gray), power_text(part.received, gray),
-                    power_text(part.absorbed, gray)});
+  surfaces.push_back(table.total);
+  for (const SurfacePower& surface : surfaces) {
+    rows.push_back({surface.name, fmt::to_string(surface.patches),
+                    fmt::format("{:.5g}", surface.area), power_text(surface.emitted, gray),
+                    power_text(surface.received, gray), power_text(surface.absorbed, gray)});
     if (sky) {
-      rows.back().push_back(power_text(part.from_sky, gray));
+      rows.back().push_back(power_text(surface.from_sky, gray));
     }
     if (table.escape_known) {
-      rows.back().push_back(power_text(part.escaped, gray));
+      rows.back().push_back(power_text(surface.escaped, gray));
     }
   }
   std::string text = aligned(rows);

@@ -16,11 +16,11 @@ std::string rgb_text(const Rgb& color, int digits) {
   return fmt::format("{:.{}g} {:.{}g} {:.{}g}", color.r, digits, color.g, digits, color.b, digits);
 }
 
-std::string share_text(double share) {
-  if (share < 1e-9) {
+std::string fraction_text(double fraction) {
+  if (fraction < 1e-9) {
     return "0 %";  // rounding
   }
-  const double percent = 100 * share;
+  const double percent = 100 * fraction;
   if (percent < 0.001) {
     return "less than 0.001 %";
   }
@@ -29,6 +29,10 @@ std::string share_text(double share) {
     return fmt::format("{:.0f} %", percent);
   }
   return percent > 9 ? fmt::format("{:.1f} %", percent) : fmt::format("{:.2g} %", percent);
+}
+
+std::string dark_text(bool is_dark) {
+  return is_dark ? " of a thousandth of the brightest surface, as it is in the dark" : "";
 }
 
 std::string time_text(double seconds) {

@@ -15,7 +15,10 @@ std::string rgb_text(const Rgb& color, int digits);
 
 /// A fraction as people read it: 0.5 -> "50 %", 0.012 -> "1.2 %", 1e-7 -> "less than 0.001 %";
 /// below 1e-9, which is rounding, "0 %".
-std::string share_text(double share);
+std::string fraction_text(double fraction);
+
+/// What the error of a surface is relative to, after the number; empty for its own level.
+std::string dark_text(bool is_dark);
 
 /// 75 s -> "1:15 min".
 std::string time_text(double seconds);

@@ -10,6 +10,7 @@
 #include "cli/arguments/scene_options.h"
 #include "cli/messages.h"
 #include "cli/reports/report_text.h"
+#include "radiosity/analysis/power_table.h"
 #include "transillum/at.h"
 
 namespace transillum::cli {
@@ -89,10 +90,6 @@ std::string passes_text(const SolveStatistics& s) {
                                           s.directions, s.threads));
 }
 
-std::string dark_text(bool is_dark) {
-  return is_dark ? " of a thousandth of the brightest surface, as it is in the dark" : "";
-}
-
 std::string error_text(const ErrorEstimate& error) {
   const Rgb half = error.quantile * error.mean_standard_error;
   std::string worst;
@@ -140,38 +137,42 @@ std::string accuracy_text(const AccuracyReport& report) {
                               dark_text(report.is_dark), report.passes_made, report.stages.size()));
 }
 
-std::string glossy_text(const GlossyFigures& figures) {
+std::string glossy_text(const GlossyStatistics& counted) {
   constexpr double mebibyte = 1 << 20;
   return report_row(
       "lobes",
       fmt::format("on {} patches, {} orientations; sums over directions off by {:.1e} "
                   "before scaling, {:.0e} after; {:.3g} MiB by direction, {:.3g} MiB of "
                   "transfers kept",
-                  figures.patches, figures.lobes, figures.sum_error, figures.sum_defect,
-                  static_cast<double>(figures.radiance_bytes + figures.lobe_bytes) / mebibyte,
-                  static_cast<double>(figures.transfer_bytes) / mebibyte));
+                  counted.patches, counted.lobes, counted.sum_error, counted.sum_defect,
+                  static_cast<double>(counted.radiance_bytes + counted.lobe_bytes) / mebibyte,
+                  static_cast<double>(counted.transfer_bytes) / mebibyte));
 }
 
 /// Patches on which the mean of B or H is below 0, as only linear functions can make it.
 std::int64_t patches_below_zero(const Solution& solution) {
   const auto is_below = [](const Rgb& value) { return std::min({value.r, value.g, value.b}) < 0; };
   std::int64_t count = 0;
-  for (std::size_t i = 0; i < solution.linear_parts.size(); ++i) {
+  for (std::size_t i = 0; i < solution.linear_terms.size(); ++i) {
     count += is_below(solution.radiosity[i]) || is_below(solution.irradiance[i]) ? 1 : 0;
   }
   return count;
 }
 
 /// Where a scene is open, the largest defect belongs to the patch that is most open, and says
-/// nothing about errors.
-std::string closure_text(const Scene& scene, const SolveStatistics& s) {
-  // Form factors without directions have errors, which row sums show too.
-  const double rounding = s.pairs > 0 || s.hemicubes > 0 ? 1e-3 : 1e-9;
-  const std::string open = share_text(s.escaped) + " of the projected area sees no patch";
-  if (s.escaped > rounding) {
+/// nothing about errors: there the row says what escapes.
+std::string closure_text(const Solution& solution) {
+  const SolveStatistics& s = solution.statistics;
+  const std::string open = fraction_text(s.escaped) + " of the projected area sees no patch";
+  if (is_open(s) && (s.iterations == 0 || solution.sky_fractions.empty())) {
     return report_row("open", open + ": light escapes there");
   }
-  if (has_two_sided_faces(scene)) {
+  if (is_open(s)) {
+    const double fraction = escaped_share(power_table(solution, SurfaceKind::group).total);
+    return report_row("open",
+                      fmt::format("{} of the light escapes; {}", fraction_text(fraction), open));
+  }
+  if (has_two_sided_faces(*solution.scene)) {
     return report_row("closed", open + ", outer sides of two-sided faces omitted");
   }
   return report_row("closure defect", fmt::format("{:.1e}; {}", s.closure_defect_max, open));
@@ -195,9 +196,10 @@ std::string solve_summary(const Solution& solution) {
                                    s.passes_made));
   }
   if (s.shot_sources > 0) {
-    text += report_row(
-        "first shot", fmt::format("{} patches, {} of the emitted power, {}", s.shot_sources,
-                                  share_text(s.shot_power_share), time_text(s.seconds_first_shot)));
+    text +=
+        report_row("first shot", fmt::format("{} patches, {} of the emitted power, {}",
+                                             s.shot_sources, fraction_text(s.shot_power_fraction),
+                                             time_text(s.seconds_first_shot)));
   }
   if (s.glossy.patches > 0) {
     text += glossy_text(s.glossy);
@@ -206,9 +208,9 @@ std::string solve_summary(const Solution& solution) {
   if (!s.iteration_records.empty() && s.iteration_records.back().unlit_area > 0) {
     text +=
         report_row("unlit", fmt::format("{} of the area: below 1e-6 of the largest reflected light",
-                                        share_text(s.iteration_records.back().unlit_area)));
+                                        fraction_text(s.iteration_records.back().unlit_area)));
   }
-  text += closure_text(*solution.scene, s);
+  text += closure_text(solution);
   if (!s.iteration_records.empty()) {
     text += report_row("energy defect", fmt::format("{:.1e}", s.energy_defect));
   }
@@ -233,7 +235,18 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
   const SolveStatistics& s = solution.statistics;
   std::vector<std::string> warnings;
   if (s.iteration_records.empty()) {
+    if (!solution.complete) {
+      warnings.push_back(fmt::format(
+          "interrupted in the first iteration, after {} passes: B lacks light that is reflected "
+          "more than once",
+          s.passes_made));
+    }
     return warnings;
+  }
+  if (!solution.complete && !s.iteration_records.back().error) {
+    warnings.push_back(
+        fmt::format("interrupted after {} iterations: B lacks the light not yet propagated, {}",
+                    s.iterations, remainder_text(s.iteration_records.back())));
   }
   const auto is_dark = [](const Rgb& value) { return max_abs(value) == 0; };
   const bool emits = std::any_of(solution.radiosity.begin(), solution.radiosity.end(),
@@ -277,7 +290,7 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
         fmt::format("the error estimate cannot be trusted: in a replica, a patch is lit directly "
                     "along only {:.2g} directions, as an average by light; {} are needed. {}",
                     met, least_light_directions,
-                    solution.linear_parts.empty()
+                    solution.linear_terms.empty()
                         ? "--first-shot 0 treats the sources separately; or give more --directions"
                         : "Give more --directions"));
   } else if (const std::size_t count = uncertain_patches(solution).size(); count > 0) {

@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t column = 8;
 
-std::string percentage_text(double share) {
-  if (!std::isfinite(share)) {
+std::string percentage_text(double fraction) {
+  if (!std::isfinite(fraction)) {
     return "-";
   }
-  return fmt::format("{:.{}g}", 100 * share, share >= 1 ? 3 : 2);
+  return fmt::format("{:.{}g}", 100 * fraction, fraction >= 1 ? 3 : 2);
 }
 
 std::string cost_text(const std::optional<StudyCost>& cost) {

@@ -23,7 +23,7 @@ std::vector<std::string> solve_warnings(const Solution& solution);
 
 /// Powers by group or material, and the strongest exchanges between them where they are known.
 /// Scenes without color get one number per cell, others three.
-std::string power_report(const PowerTable& table, PartsBy by);
+std::string power_report(const PowerTable& table, SurfaceKind by);
 
 /// A table of a study: errors, slopes, and the passes and time to reach 1 % and 0.1 %.
 std::string study_summary(const Scene& scene, const StudyOptions& options, const Study& study,

@@ -85,7 +85,7 @@ class BspTree {
   /// Builds the tree.
   /// @param scene need not outlive the constructor.
   /// @param cancellation checked during construction.
-  /// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+  /// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
   /// @param threads at most; 0: the number of cores. The tree does not depend on it.
   /// @throws Canceled
   explicit BspTree(const Scene& scene, const Cancellation& cancellation = {},

@@ -47,6 +47,13 @@ struct EngineTraits {
     hemicube,   ///< the hemicube of a patch
     none,       ///< not at all
   };
+  /// How the form factors between all patches are computed.
+  enum class Factors {
+    passes,     ///< summed over directions, by make_engine()
+    rays,       ///< summed over directions in a solve, by rays from the patches where no solve runs
+    hemicubes,  ///< hemicube_form_factors(), without directions
+    pairs,      ///< pair_form_factors(), without directions
+  };
 
   Engine value;                         ///< the engine
   const char* name;                     ///< in options and files
@@ -60,6 +67,7 @@ struct EngineTraits {
   bool takes_resolution = false;        ///< reads EngineOptions::resolution
   bool takes_points = false;            ///< reads EngineOptions::points
   bool takes_order = false;             ///< reads EngineOptions::order
+  Factors factors = Factors::passes;    ///< form factors between all patches
 };
 /// The traits of all engines, in the order of the enumeration.
 std::span<const EngineTraits> engines();

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -10,17 +11,15 @@
 
 #include "transillum/cancellation.h"
 #include "transillum/export.h"
+#include "transillum/linear_basis.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 
 namespace TRANSILLUM_API transillum {
 
 /// Default threshold of R²/A from which a source is treated as small: of 2,048 directions, fewer
 /// than one on average meets it from a point half a scene away.
 inline constexpr double small_source_ratio = 1000;
-
-/// In place of a threshold: each source whose shot is expected to take less time than the passes
-/// that would be needed to reach its accuracy.
-inline constexpr double first_shot_where_it_pays = -1;
 
 /// The threshold called `name`: `auto` (first_shot_where_it_pays), a number >= 0, or `none`.
 /// @returns nothing for `none`.
@@ -51,34 +50,57 @@ std::string name_of_first_shot(const std::optional<double>& threshold);
 /// The direct light from some sources to all patches.
 struct DirectLight {
   /// The contribution of the sources of one material.
-  struct Part {
+  struct Contribution {
     int material = 0;                ///< index into Scene::materials()
     std::vector<double> irradiance;  ///< H for an exitance of 1, one per patch
+    /// Coefficients of phi_1 and phi_2 of H for an exitance of 1; empty with Basis::constant.
+    std::vector<std::array<double, 2>> linear_terms = {};
   };
 
   std::vector<Rgb> irradiance;   ///< H, W/m², one per patch
   std::vector<Rgb> exitance;     ///< E of the sources, which has been shot; 0 for other patches
   std::vector<PatchId> sources;  ///< ascending
-  double power_share = 0;        ///< power of the sources over all power emitted
-  std::vector<Part> parts;       ///< sorted by material; empty if they would exceed 256 MiB
+  double power_fraction = 0;     ///< power of the sources over all power emitted
+  std::vector<Contribution>
+      contributions;  ///< sorted by material; empty if they would exceed 256 MiB
   /// Estimated error of `irradiance`, W/m², one per patch: the error of partly hidden pairs, which
   /// are computed by points. Empty if unknown (with_materials()).
   std::vector<Rgb> irradiance_error = {};
   std::int64_t integrated_pairs = 0;  ///< SolveStatistics::integrated_pairs
+  /// Linear parts of `irradiance`, W/m², one per patch; empty with Basis::constant.
+  std::vector<LinearTerm> linear_terms = {};
+  /// Estimated errors of `linear_terms`, of points even where nothing stands between. Empty if
+  /// unknown, and with Basis::constant.
+  std::vector<LinearTerm> linear_part_errors = {};
 };
+
+/// Options of a first shot.
+struct ShotOptions {
+  int threads = 0;  ///< 0: all cores; the result does not depend on it
+  /// linear: the linear terms of H are computed too, by points of the smaller polygon; the means
+  /// have the same bits as with constant functions
+  Basis basis = Basis::constant;
+  /// Number of points along a polygon as large as its distance from the other, where something is
+  /// between, up to EngineOptions::largest_points; 0 means default_points.
+  int points = 0;
+  static constexpr int default_points = 16;
+};
+
+/// The options by which a solve makes its first shot.
+ShotOptions shot_options(const SolveOptions& options);
 
 /// Distributes the emission of `sources` to all patches by exact form factors: of whole polygons
 /// where nothing stands between, else by points of the smaller polygon with exact shadows
 /// (decisions/0022-first-shot.md). Time grows as sources times patches times polygons between them.
 /// @param scene the scene.
 /// @param sources find_small_sources(), or any emitting patches, ascending.
-/// @param threads 0: all cores; the result does not depend on it.
+/// @param options how.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share of pairs done, in [0,1], on this
+/// @param progress if set, called at intervals with the fraction of pairs done, in [0,1], on this
 /// thread; also while one pair takes long.
 /// @throws Canceled
-DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0,
-                  const Cancellation& cancellation = {},
+DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
+                  const ShotOptions& options = {}, const Cancellation& cancellation = {},
                   const std::function<void(double)>& progress = {});
 
 /// The direct light of the same sources after a change of materials, from the parts of `light`. The

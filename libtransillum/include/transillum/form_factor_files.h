@@ -28,12 +28,13 @@ struct StoredFormFactors {
 void check_form_factor_path(const std::filesystem::path& path);
 /// Writes form factors in the format given by the extension of `path`: .csv (i,j,F), .npz (a
 /// compressed sparse row matrix as scipy.sparse.load_npz() reads it), .mtx (Matrix Market), .vf
-/// (the text form of View3D: a dense matrix).
+/// (the text form of View3D: a dense matrix). All but .vf also have FormFactors::moments, if any.
 /// @param path the file.
 /// @param scene whose areas .npz, .mtx and .vf files hold, whose polygons' hash .npz and .mtx
 /// files, and whose reflectances .vf files.
 /// @param form_factors of `scene`.
-/// @throws InputError for another extension, or where the matrix is too large for the format
+/// @throws InputError for another extension, where the matrix is too large for the format, or for
+/// moments in a .vf file
 /// @throws std::runtime_error if the file cannot be written.
 void write_form_factors(const std::filesystem::path& path, const Scene& scene,
                         const FormFactors& form_factors);

@@ -27,14 +27,14 @@ void check_form_factor_options(const SolveOptions& options);
 /// and the iteration of solve(), to the same tolerance or number of iterations.
 ///
 /// In the statistics a row of form factors counts as a pass. For engine hemicube, a pixel of a
-/// hemicube counts as a direction, `escaped` is the share of all pixels that show no front side,
+/// hemicube counts as a direction, `escaped` is the fraction of all pixels that show no front side,
 /// and `energy_defect` the error in the energy balance due to the missing reciprocity. For engine
 /// pairs, PairOptions::points is reported as the number of directions.
 /// @param scene the scene.
 /// @param options engine (hemicube or pairs), tolerance, iterations, engine_options.resolution or
 /// points (0 means the default), memory and threads apply.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws InputError where an option requires directions
 /// @throws Canceled, MemoryLimitExceeded, NotConvergent
 Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOptions& options,
@@ -72,10 +72,10 @@ struct PairSolution {
 /// @param accuracy RMS error of B over RMS of reflected light, between 0 and 1.
 /// @param cancellation checked during computation.
 /// @param progress if set, called at intervals with the number of points of the solve under way and
-/// its share done, in [0,1], on this thread.
+/// its fraction done, in [0,1], on this thread.
 /// @throws InputError, Canceled, MemoryLimitExceeded, NotConvergent
 PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                             double accuracy, const Cancellation& cancellation = {},
-                            const std::function<void(int points, double share)>& progress = {});
+                            const std::function<void(int points, double fraction)>& progress = {});
 
 }  // namespace TRANSILLUM_API transillum

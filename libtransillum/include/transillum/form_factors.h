@@ -9,15 +9,19 @@
 #include "transillum/cancellation.h"
 #include "transillum/export.h"
 #include "transillum/scene.h"
+#include "transillum/transfers.h"
 
 namespace TRANSILLUM_API transillum {
 
-/// The matrix of form factors as a sparse matrix by rows: F_ij is the share of the light leaving
+/// The matrix of form factors as a sparse matrix by rows: F_ij is the fraction of the light leaving
 /// patch i that arrives directly at the front side of patch j.
 struct FormFactors {
   std::vector<std::size_t> row_begin;  ///< first index of row i in the lists below; patches + 1
   std::vector<PatchId> source;         ///< j, ascending within a row
   std::vector<double> value;           ///< F_ij, > 0
+  /// T^ab(i,j) / A_i over all directions, beside `value`, which T^00 / A_i is; empty unless they
+  /// come from a solve with Basis::linear.
+  std::vector<TransferMoments> moments = {};
 
   /// Number of nonzero entries.
   std::size_t size() const { return value.size(); }
@@ -42,7 +46,7 @@ struct GatherOptions {
 /// @param scene the scene.
 /// @param options rays, seed and threads.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws InputError, Canceled
 FormFactors gather_form_factors(const Scene& scene, const GatherOptions& options,
                                 const Cancellation& cancellation = {},

@@ -127,7 +127,7 @@ class GlossySolver {
   /// The moved-from object may only be destroyed or assigned to.
   GlossySolver& operator=(GlossySolver&&) noexcept;
 
-  /// Called after each group of passes and each iteration, and while lobes are scaled or reflect;
+  /// Called after each batch of passes and each iteration, and while lobes are scaled or reflect;
   /// returns whether to continue, which a stage of lobes does in any case.
   using Observer = std::function<bool(const SolveProgress&)>;
   /// Iterates until the radiance settles or the observer returns false; may be called again.

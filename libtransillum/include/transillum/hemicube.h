@@ -32,7 +32,7 @@ struct HemicubeOptions {
 /// @param scene the scene.
 /// @param options resolution, memory and threads.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws InputError, Canceled; std::runtime_error where the memory limit does not suffice.
 FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& options,
                                   const Cancellation& cancellation = {},

@@ -27,9 +27,9 @@ struct LinearBasis {
   }
 };
 
-/// The linear part of the radiosity of a patch: B(x) = B + first phi_1(x) + second phi_2(x), B
+/// The linear term of the radiosity of a patch: B(x) = B + first phi_1(x) + second phi_2(x), B
 /// being its mean.
-struct LinearPart {
+struct LinearTerm {
   Rgb first;   ///< coefficient of phi_1, W/m²
   Rgb second;  ///< coefficient of phi_2, W/m²
 };

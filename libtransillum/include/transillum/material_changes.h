@@ -37,8 +37,8 @@ MaterialChange exitance_change(const std::string& text);
 /// A change of rho from a text of the same form.
 /// @throws InputError
 MaterialChange reflectance_change(const std::string& text);
-/// A change of the lobe to Phong's, from the text `NAME=K,N` or `NAME=R,G,B,N`: the share K of the
-/// light that it reflects, for all channels or for each, and the exponent N.
+/// A change of the lobe to Phong's, from the text `NAME=K,N` or `NAME=R,G,B,N`: the fraction K of
+/// the light that it reflects, for all channels or for each, and the exponent N.
 /// @throws InputError
 MaterialChange lobe_change(const std::string& text);
 

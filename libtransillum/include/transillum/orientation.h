@@ -2,9 +2,10 @@
 #pragma once
 
 // Which side of a face is lit. Files from elsewhere often have faces whose corners run the wrong
-// way round, so that light meets backs, which absorb it. back_share() measures how much of what is
-// seen in a scene is a back; plan_orientation() finds the faces to turn, and orient() turns them.
-// Both trace rays (Embree), so they see the scene as it is and need no closed or welded meshes.
+// way round, so that light meets backs, which absorb it. back_fraction() measures how much of what
+// is seen in a scene is a back; plan_orientation() finds the faces to turn, and orient() turns
+// them. Both trace rays (Embree), so they see the scene as it is and need no closed or welded
+// meshes.
 
 #include <cstdint>
 #include <functional>
@@ -27,13 +28,13 @@ struct OrientationCount {
 
 /// The findings of plan_orientation(), in counts and sentences.
 struct OrientationReport {
-  std::int64_t faces = 0;                   ///< faces in the description
-  std::int64_t parts = 0;                   ///< connected components of faces
-  std::int64_t parts_turned = 0;            ///< parts with turned faces
-  std::int64_t faces_turned = 0;            ///< faces to turn
-  std::int64_t parts_two_sided = 0;         ///< parts to make two-sided: seen on both sides
-  std::int64_t faces_two_sided = 0;         ///< faces to make two-sided
-  std::int64_t not_orientable = 0;          ///< parts without two sides, such as a Moebius strip
+  std::int64_t faces = 0;                 ///< faces in the description
+  std::int64_t components = 0;            ///< connected components of faces
+  std::int64_t components_turned = 0;     ///< components with turned faces
+  std::int64_t faces_turned = 0;          ///< faces to turn
+  std::int64_t components_two_sided = 0;  ///< components to make two-sided: seen on both sides
+  std::int64_t faces_two_sided = 0;       ///< faces to make two-sided
+  std::int64_t not_orientable = 0;        ///< components without two sides, such as a Moebius strip
   std::vector<OrientationCount> materials;  ///< materials with changes, in their order
   std::vector<OrientationCount> groups;     ///< the same for groups of faces
   std::vector<std::string> sentences;       ///< for the user, at most a few dozen
@@ -54,18 +55,18 @@ struct OrientationPlan {
 ///
 /// Two faces are connected where they alone share an edge, by equal coordinates; a connected part
 /// is turned as a whole, after its faces have been made consistent with each other. Its lit side is
-/// the one from which random walks of light reach more of the other parts and of the light. So
+/// the one from which random walks of light reach more of the other components and of the light. So
 /// closed solids are lit outside, the room that contains the rest inside, as is an emitting closed
 /// surface that is alone. An open part that is seen nearly as much on both sides becomes two-sided,
 /// unless it emits, so that no light is doubled. Parts that nothing tells about keep the
 /// orientation of most of their area. Two faces on the same points that face opposite ways are
 /// kept.
 ///
-/// Time: a few 10^6 rays at most for scenes of up to 10^5 parts, linear in the parts above.
-/// The result does not depend on the number of threads.
+/// Time: a few 10^6 rays at most for scenes of up to 10^5 components, linear in the components
+/// above. The result does not depend on the number of threads.
 /// @param description a description that Scene accepts; not changed.
 /// @param threads 0: all cores.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws InputError as the constructor of Scene; Canceled
 OrientationPlan plan_orientation(const SceneDescription& description, int threads = 0,
                                  const Cancellation& cancellation = {},
@@ -83,20 +84,20 @@ OrientationReport orient(SceneDescription& description, int threads = 0,
 
 /// How much of what is seen of a material or group is its back.
 struct BackCount {
-  std::string name;   ///< name of the material or group
-  double share = 0;   ///< fraction of what is seen of it that is its back, in [0,1]
-  double of_all = 0;  ///< its backs as a fraction of all that is seen, in [0,1]
+  std::string name;     ///< name of the material or group
+  double fraction = 0;  ///< fraction of what is seen of it that is its back, in [0,1]
+  double of_all = 0;    ///< its backs as a fraction of all that is seen, in [0,1]
 };
 
-/// Shares of back sides among what light meets in a scene and among what lit sides see.
-struct BackShare {
-  /// Share of what light meets above which the orientation of faces deserves a warning.
+/// Fractions of back sides among what light meets in a scene and among what lit sides see.
+struct BackFraction {
+  /// Fraction of what light meets above which the orientation of faces deserves a warning.
   static constexpr double worth_a_warning = 0.1;
 
   /// The fraction of backs in what light meets, in [0,1]. Where the light of all sources
   /// leaves the scene: 1, since they are turned away. Where nothing emits, most lit sides see
   /// nothing, but backs see backs: 1, since the scene is inside out.
-  double share = 0;
+  double fraction = 0;
   /// Fraction of the lines from lit sides that meet nothing, in [0,1]. Through a two-sided face, a
   /// line counts where it meets nothing on either side, so that a sealed room of two-sided faces
   /// has 0.
@@ -105,12 +106,13 @@ struct BackShare {
   std::vector<BackCount> groups;     ///< the same for groups of faces
 };
 
-/// Measures the share of backs among what light meets, by random paths from the sources that lit
+/// Measures the fraction of backs among what light meets, by random paths from the sources that lit
 /// sides reflect up to 16 times and backs absorb; from all lit sides where nothing emits. At most
 /// 2 · 10^5 rays in all, some 0.1 s and the construction of Embree's tree; the standard error of a
-/// share is below 0.006. The same for any number of threads.
+/// fraction is below 0.006. The same for any number of threads.
 /// @param threads 0: all cores.
 /// @throws Canceled
-BackShare back_share(const Scene& scene, int threads = 0, const Cancellation& cancellation = {});
+BackFraction back_fraction(const Scene& scene, int threads = 0,
+                           const Cancellation& cancellation = {});
 
 }  // namespace TRANSILLUM_API transillum

@@ -10,6 +10,7 @@
 #include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
+#include "transillum/solve_options.h"
 
 namespace TRANSILLUM_API transillum {
 
@@ -19,8 +20,9 @@ struct PairOptions {
   /// part of the one from the other; 1 … EngineOptions::largest_points. Other pairs need none.
   int points = EngineOptions::default_points;
   std::uint64_t memory = 0;  ///< limit for the form factors, bytes; 18 per nonzero entry while they
-                             ///< are assembled; 0: a quarter of the machine's
+                             ///< are assembled, with moments 162; 0: a quarter of the machine's
   int threads = 0;           ///< 0 uses all cores; the result does not depend on it
+  Basis basis = Basis::constant;  ///< linear: FormFactors::moments are computed too
 
   /// @throws InputError naming the option and its range.
   void validate() const;
@@ -37,7 +39,7 @@ struct PairOptions {
 /// @param scene the scene.
 /// @param options points, memory and threads.
 /// @param cancellation checked during computation, also within a pair.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws InputError, Canceled, MemoryLimitExceeded
 FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
                               const Cancellation& cancellation = {},
@@ -52,7 +54,7 @@ FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
 /// @param scene the scene.
 /// @param i the patch.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws Canceled
 std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
                                        const Cancellation& cancellation = {},

@@ -34,9 +34,9 @@ struct PatchRange {
 
 /// The result of one pass.
 struct Pass {
-  Transfers transfers;        ///< between all patches; once prepared, coverages of owned() only
-  std::vector<Transfer> run;  ///< exchanges as sums of them are kept; empty: they are not kept
-  // Figures over all patches, of a pass along a new direction:
+  Transfers transfers;           ///< between all patches; once prepared, coverages of owned() only
+  std::vector<Transfer> sorted;  ///< exchanges as sums of them are kept; empty: they are not kept
+  // Values over all patches, of a pass along a new direction:
   ClosureDefect closure;       ///< largest defects
   double projected = 0;        ///< projected area, m²
   double covered = 0;          ///< the part of it with a patch above, m²

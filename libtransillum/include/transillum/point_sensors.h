@@ -25,10 +25,10 @@ struct SensorOptions {
   int threads = 0;           ///< 0 uses all cores; the result does not depend on it
 };
 
-/// Form factors from sensors to all patches: row i has, per patch j that sensor i sees, the share
-/// of what sensor i receives under a uniform hemisphere that comes from the visible part of j.
-/// Exact up to rounding: the visible parts are polygons, and the integral over each is in closed
-/// form. In a closed scene a row sums to 1 where the sensor sees no back sides.
+/// Form factors from sensors to all patches: row i has, per patch j that sensor i sees, the
+/// fraction of what sensor i receives under a uniform hemisphere that comes from the visible part
+/// of j. Exact up to rounding: the visible parts are polygons, and the integral over each is in
+/// closed form. In a closed scene a row sums to 1 where the sensor sees no back sides.
 ///
 /// A sensor may be on a patch, on its lit side: patches whose plane it is in, to 1e-12 of the
 /// scene's size, do not block it. One that is behind a surface sees what is behind it.
@@ -36,7 +36,7 @@ struct SensorOptions {
 /// @param sensors points and unit normals.
 /// @param options limits.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws InputError where a sensor is not finite or its normal not a unit vector
 /// @throws Canceled, MemoryLimitExceeded
 FormFactors sensor_form_factors(const Scene& scene, std::span<const PointSensor> sensors,

@@ -41,12 +41,12 @@ struct SolveProgress {
   /// and reflect in each after its passes.
   enum class Stage { passes, scaling_lobes, reflecting };
   Stage stage = Stage::passes;  ///< the present one
-  double stage_share = 0;       ///< finished share of a stage of lobes, 0 to 1
+  double stage_fraction = 0;    ///< finished fraction of a stage of lobes, 0 to 1
   double lobes_per_second = 0;  ///< in a stage of lobes; one is a shape and orientation
 };
 
 /// The parts that a solver starts from. The solver makes each part that is null.
-struct SolverParts {
+struct SolverResources {
   std::shared_ptr<const BspTree> tree = nullptr;  ///< the scene's tree
   /// Direct light of the scene's small sources, if SolveOptions::first_shot is set.
   std::shared_ptr<const DirectLight> shot = nullptr;
@@ -74,7 +74,7 @@ class RadiositySolver {
   /// @param cancellation checked here and in advance().
   /// @throws InputError, Canceled
   RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                  SolverParts parts = {}, const Cancellation& cancellation = {});
+                  SolverResources resources = {}, const Cancellation& cancellation = {});
   ~RadiositySolver();
   /// The moved-from object may only be destroyed or assigned to.
   RadiositySolver(RadiositySolver&&) noexcept;
@@ -118,15 +118,15 @@ class RadiositySolver {
   SolveProgress progress() const;
   /// omega of each pass of an iteration, in the order of the passes.
   const std::vector<Vec3>& directions() const;
-  /// Figures of the run so far.
+  /// Statistics of the run so far.
   SolveStatistics statistics() const;
 
   /// B of the last finished iteration, W/m², one per patch; before the first: E, plus the
   /// contribution of the first shot. With Basis::linear, the mean of B over the patch.
   const std::vector<Rgb>& radiosity() const;
-  /// The linear parts of the radiosity that solution() returns, one per patch; empty with
+  /// The linear terms of the radiosity that solution() returns, one per patch; empty with
   /// Basis::constant.
-  std::vector<LinearPart> linear_parts() const;
+  std::vector<LinearTerm> linear_terms() const;
   /// B of the current iteration, W/m², estimated from the passes done so far; radiosity() between
   /// iterations.
   std::vector<Rgb> running_estimate() const;
@@ -166,16 +166,18 @@ class RadiositySolver {
   /// sum_j F_ij, one per patch, from the passes done so far; 1 within eps(M)/pi where i is
   /// enclosed.
   std::vector<double> form_factor_sums() const;
-  /// Per patch: share of the light leaving it that escapes, meeting no patch; from the passes done
-  /// so far, with the weights of form_factor_sums(). Where no backs are seen, both sum to 1 (eq.
-  /// 17).
-  std::vector<double> sky_shares() const;
+  /// Per patch: fraction of the light leaving it that escapes, meeting no patch; from the passes
+  /// done so far, with the weights of form_factor_sums(). Where no backs are seen, both sum to 1
+  /// (eq. 17).
+  std::vector<double> sky_fractions() const;
   /// Per patch: what it receives from SolveOptions::sky, W/m², from the passes done so far; empty
   /// without a sky. In the semi-iterative scheme, for the last set of directions.
   std::vector<Rgb> sky_irradiance() const;
-  /// Per patch: share of its visible area of which receivers see the back side, over all passes so
-  /// far.
-  std::vector<double> back_seen_shares() const;
+  /// Linear parts of sky_irradiance(), W/m²; empty without a sky, and with Basis::constant.
+  std::vector<LinearTerm> sky_linear_parts() const;
+  /// Per patch: fraction of its visible area of which receivers see the back side, over all passes
+  /// so far.
+  std::vector<double> back_seen_fractions() const;
   /// The error estimate from replicas: for radiosity(), or within an iteration for
   /// running_estimate().
   ErrorEstimate error_estimate() const;

@@ -41,7 +41,7 @@ const Choices& choices_of<RefineBy>();
 std::vector<double> radiosity_jumps(const Solution& solution,
                                     const Cancellation& cancellation = {});
 /// The same with other reflectances than the scene's materials have.
-/// @param reflectance by patch; with the share of its lobe, if lobes take part.
+/// @param reflectance by patch; with the fraction of its lobe, if lobes take part.
 /// @throws Canceled
 std::vector<double> radiosity_jumps(const Solution& solution, std::span<const Rgb> reflectance,
                                     const Cancellation& cancellation = {});
@@ -50,7 +50,7 @@ std::vector<double> radiosity_jumps(const Solution& solution, std::span<const Rg
 struct RefineOptions {
   RefineBy by = RefineBy::jump;  ///< criterion by which patches are divided
   std::int64_t patches = 0;      ///< N > 0: the most patches to make
-  double until = 0;              ///< RefinementRound::figure to reach, [0,1); 0: N decides alone
+  double until = 0;              ///< RefinementRound::measure to reach, [0,1); 0: N decides alone
   /// @throws InputError naming the option and its range.
   void validate() const;
 };

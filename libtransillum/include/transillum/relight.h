@@ -18,6 +18,8 @@ struct RelightOptions {
   double tolerance = 1e-6;  ///< see SolveOptions::tolerance
   /// Initial B, W/m², one per patch; E if empty. The closer to the result, the fewer iterations.
   std::span<const Rgb> start = {};
+  /// Linear parts of `start`; 0 if empty.
+  std::span<const LinearTerm> start_linear_parts = {};
   /// The first shot of the solve run that the form factors come from
   /// (RadiositySolver::direct_light()), if it made one: the same sources are shot again.
   const DirectLight* shot = nullptr;
@@ -27,6 +29,10 @@ struct RelightOptions {
   /// Irradiance of each patch from a sky, W/m², one per patch (Solution::sky_irradiance): it
   /// depends on the geometry only. Empty if there is no sky.
   std::span<const Rgb> sky_irradiance = {};
+  /// Solution::sky_linear_parts, with Basis::linear.
+  std::span<const LinearTerm> sky_linear_parts = {};
+  /// linear: functions on patches, from FormFactors::moments.
+  Basis basis = Basis::constant;
   int threads = 0;  ///< 0 uses all cores; the result does not depend on it
 };
 
@@ -35,6 +41,8 @@ struct RelightResult {
   std::vector<Rgb> radiosity;   ///< B, W/m², one per patch
   std::vector<Rgb> irradiance;  ///< H, W/m², one per patch
   int iterations = 0;           ///< iterations of eq. 11
+  /// Linear parts of B, W/m², one per patch; empty with Basis::constant.
+  std::vector<LinearTerm> linear_terms = {};
 };
 
 /// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11) with E and rho of other materials. Form factors
@@ -50,7 +58,8 @@ struct RelightResult {
 /// @param options tolerance, initial B, first shot, materials of patches and threads.
 /// @param cancellation checked between iterations.
 /// @throws InputError where a material's E or rho is out of range, a list has the wrong length, or
-/// the shot has no parts, or sources of one material in the shot now differ in E
+/// the shot has no parts, or sources of one material in the shot now differ in E, or functions are
+/// linear and the form factors or the shot were made for constant ones
 /// @throws Canceled; std::runtime_error after 10,000 iterations
 RelightResult relight(const Scene& scene, const FormFactors& form_factors,
                       const std::vector<Material>& materials, const RelightOptions& options = {},

@@ -53,7 +53,7 @@ struct RunOptions {
   SceneOptions scene = {};   ///< how faces become patches
   SceneInput input = {};     ///< how the scene is read and changed
   RefineChoice refine = {};  ///< rounds of refinement
-  bool paper = false;        ///< options that are not given are those of the paper
+  bool paper = false;        ///< options that are not given are as in the paper
   /// The accuracy limits the sum of all errors: patches are divided too, up to refine.patches.
   bool total = false;
 

@@ -37,7 +37,7 @@ enum class LobeShape {
 
 /// The glossy part of a surface's reflection; only glossy solves read it (SolveOptions::glossy).
 struct Lobe {
-  /// Share of the light from any direction that it reflects, >= 0 per channel (MTL: Ks). Where
+  /// Fraction of the light from any direction that it reflects, >= 0 per channel (MTL: Ks). Where
   /// with rho it exceeds what a surface can reflect, used_lobe() lowers it.
   Rgb reflectance;
   LobeShape shape = LobeShape::phong;  ///< shape of the distribution

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Result of a solve: radiosity, its estimated error, and figures of the run.
+// Result of a solve: radiosity, its estimated error, and statistics of the run.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ struct IterationRecord {
   /// The same bound for the dimmest tenth of the lit area, where B - E is at least 1e-6 of the
   /// largest.
   double remainder_dimmest = 0;
-  double unlit_area = 0;   ///< share of the area of reflecting patches that is not lit
+  double unlit_area = 0;   ///< fraction of the area of reflecting patches that is not lit
   double change_of_b = 0;  ///< eq. 25 of the paper: largest change of B over the largest B, with E
 };
 
@@ -51,7 +51,7 @@ struct RefinementRound {
   /// Root of the sum of squares over patches of the jump times the root of the area
   /// (RefineBy::jump), or of what the functions of a patch cannot represent (RefineBy::error);
   /// relative to the same root for the radiosity of all patches that emit nothing
-  double figure = 0;
+  double measure = 0;
   double seconds = 0;  ///< wall time of the round
 };
 
@@ -69,7 +69,7 @@ struct SurfaceError {
   double bias = 0;       ///< RMS of what iterations and the first shot may leave, relative
   double rms = 0;        ///< root of the sum of the squares of both
   double limit = 0;  ///< relative RMS error that this surface does not exceed in 95 % of all runs
-  double independent_errors = 1;  ///< as ErrorEstimate::independent_errors
+  double independent_errors = 1;  ///< see ErrorEstimate::independent_errors
 };
 
 /// The errors of the surfaces of a scene. Patches that emit are omitted, unless all do.
@@ -109,8 +109,8 @@ struct ErrorEstimate {
   SurfaceErrors irradiance;  ///< errors of H; only after a finished iteration
 };
 
-/// Figures of a solve in which lobes take part.
-struct GlossyFigures {
+/// Statistics of a solve in which lobes take part.
+struct GlossyStatistics {
   std::int64_t patches = 0;  ///< patches that have a lobe; 0 if lobes took no part
   std::int64_t lobes = 0;    ///< different ones: by shape and orientation
   /// Largest difference from 1 of the sum over the directions of a lobe that reflects everything,
@@ -118,7 +118,8 @@ struct GlossyFigures {
   double sum_error = 0;
   /// The same after scaling: rounding.
   double sum_defect = 0;
-  /// Share of the light of lobes that scaling could not put around the mirror direction, largest.
+  /// Fraction of the light of lobes that scaling could not put around the mirror direction,
+  /// largest.
   double spread = 0;
   double exponent = 0;               ///< largest exponent; of ggx, of the Phong lobe as wide
   std::uint64_t radiance_bytes = 0;  ///< memory of radiances by direction
@@ -126,7 +127,7 @@ struct GlossyFigures {
   std::uint64_t transfer_bytes = 0;  ///< memory of kept transfers; 0: computed in each iteration
 };
 
-/// Figures of a solve run. Times are wall times.
+/// Statistics of a solve run. Times are wall times.
 struct SolveStatistics {
   std::int64_t patches = 0;        ///< patches of the scene
   std::int64_t fragments = 0;      ///< fragments of the BSP tree
@@ -155,7 +156,7 @@ struct SolveStatistics {
   /// to the variance of B. 0 without direct light. Below least_light_directions per replica, the
   /// error estimate cannot be trusted.
   double light_directions = 0;
-  double escaped = 0;        ///< share of projected area with nothing above; 0 if closed
+  double escaped = 0;        ///< fraction of projected area with nothing above; 0 if closed
   double energy_defect = 0;  ///< |sum A_i H_i - sum_j s_j A_j B_j| over the second sum
                              ///< (ALGORITHM.md, oracle 4)
   /// Power absorbed, sum A_i (1 - rho_i) H_i, over the power emitted, sum A_i E_i, and received
@@ -166,8 +167,8 @@ struct SolveStatistics {
   PassCounts counts;                               ///< sum over all different directions
   std::vector<IterationRecord> iteration_records;  ///< one per iteration
   std::vector<RefinementRound> refinement;  ///< rounds that led to the scene; set by the caller
-  std::int64_t shot_sources = 0;  ///< patches whose emission was shot before the iteration
-  double shot_power_share = 0;    ///< their power over all power emitted
+  std::int64_t shot_sources = 0;   ///< patches whose emission was shot before the iteration
+  double shot_power_fraction = 0;  ///< their power over all power emitted
   /// Largest difference between the first shot and what the passes see of its sources, over what
   /// the errors of both explain; above 1, one of them is wrong. 0 without a shot, and with engines
   /// that are not exact.
@@ -176,7 +177,7 @@ struct SolveStatistics {
   /// Pairs of patches with nothing between them, in engine pairs and in the first shot, whose form
   /// factor was integrated numerically because the closed form would lose digits.
   std::int64_t integrated_pairs = 0;
-  GlossyFigures glossy;           ///< figures of a glossy solve
+  GlossyStatistics glossy;        ///< statistics of a glossy solve
   double seconds_load = 0;        ///< reading the scene; set by the caller
   double seconds_bsp = 0;         ///< building the BSP tree
   double seconds_first_shot = 0;  ///< first shot
@@ -197,22 +198,24 @@ struct Solution {
   std::vector<Rgb> radiosity;          ///< B, W/m², one per patch
   std::vector<Rgb> irradiance;         ///< H, W/m², one per patch
   ErrorEstimate error;                 ///< from replicas, if there are any
-  SolveStatistics statistics;          ///< figures of the run
+  SolveStatistics statistics;          ///< statistics of the run
   bool complete = false;  ///< false: stopped early, radiosity is the best estimate so far
   std::optional<AccuracyReport> accuracy = {};  ///< report of a solve with a goal
   /// sum_j F_ij, one per patch; empty if not known
   std::vector<double> form_factor_sums = {};
-  /// RadiositySolver::sky_shares(); with given form factors, 1 - sum_j F_ij, which counts
+  /// RadiositySolver::sky_fractions(); with given form factors, 1 - sum_j F_ij, which counts
   /// what meets back sides as escaping. Empty if not known.
-  std::vector<double> sky_shares = {};
+  std::vector<double> sky_fractions = {};
   /// RadiositySolver::sky_irradiance(); part of `irradiance`; empty without a sky
   std::vector<Rgb> sky_irradiance = {};
+  /// RadiositySolver::sky_linear_parts(); empty without a sky, and with Basis::constant
+  std::vector<LinearTerm> sky_linear_parts = {};
   Sky sky = {};  ///< SolveOptions::sky
   /// The form factors given to the solve; if null, RadiositySolver::form_factors() may have them.
   std::shared_ptr<const FormFactors> form_factors = nullptr;
-  /// RadiositySolver::linear_parts(), with Basis::linear: the mean over a patch is `radiosity`;
+  /// RadiositySolver::linear_terms(), with Basis::linear: the mean over a patch is `radiosity`;
   /// empty if B is constant on patches
-  std::vector<LinearPart> linear_parts = {};
+  std::vector<LinearTerm> linear_terms = {};
   /// Radiance by direction after a glossy solve in which lobes took part; else null. `radiosity` is
   /// then E + (rho + reflectance of the lobe) H.
   std::shared_ptr<const GlossyLight> glossy = nullptr;

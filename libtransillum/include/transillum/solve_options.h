@@ -11,7 +11,6 @@
 #include "transillum/directions.h"
 #include "transillum/engine.h"
 #include "transillum/export.h"
-#include "transillum/first_shot.h"
 #include "transillum/sky.h"
 
 namespace TRANSILLUM_API transillum {
@@ -58,11 +57,15 @@ enum class Basis {
   constant,  ///< one value per patch
   linear,    ///< a linear function on each patch (section 3; ALGORITHM.md 6.12), not continuous
              ///< across edges. Requires an engine that has_moments(), or pairs; not with
-             ///< Normalization::symmetric, Scheme::semi_iterative or a first shot
+             ///< Scheme::semi_iterative
 };
 /// Their names (choice.h).
 template <>
 const Choices& choices_of<Basis>();
+
+/// In place of a threshold: each source whose shot is expected to take less time than the passes
+/// that would be needed to reach its accuracy.
+inline constexpr double first_shot_where_it_pays = -1;
 
 /// Options of a solve run.
 struct SolveOptions {

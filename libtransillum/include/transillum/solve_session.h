@@ -36,9 +36,9 @@ struct SolveRequest {
   std::shared_ptr<const BspTree> tree = nullptr;      ///< tree of `scene`; built if null
   std::shared_ptr<const DirectLight> shot = nullptr;  ///< direct light of `scene`; shot if null
   TransferEngine engine = {};                         ///< makes the passes; options.engine if null
-  std::shared_ptr<PatchSums> sums = nullptr;          ///< SolverParts::sums
+  std::shared_ptr<PatchSums> sums = nullptr;          ///< SolverResources::sums
   bool keep_form_factors = false;  ///< calls RadiositySolver::keep_form_factors()
-  /// Called with the finished share of a preparation, 0 to 1, on any thread, one at a time.
+  /// Called with the finished fraction of a preparation, 0 to 1, on any thread, one at a time.
   std::function<void(Preparation, double)> preparing = {};
 };
 
@@ -79,7 +79,7 @@ class SolveSession {
     stage,      ///< when a stage has ended; the next one is not prepared yet
     finished,   ///< when the solve is finished
   };
-  /// Called after every pass, in order, and after every iteration; with lobes after groups of
+  /// Called after every pass, in order, and after every iteration; with lobes after batches of
   /// passes, and while lobes are scaled or reflect. On any thread, but never on two at once. It may
   /// read the session and returns false to pause.
   using Observer = std::function<bool(const SolveSession&)>;
@@ -137,7 +137,7 @@ class SolveSession {
   SolveProgress progress() const;
   /// Passes of the present stage, of all iterations.
   std::int64_t passes_done() const;
-  /// Figures of the present stage.
+  /// Statistics of the present stage.
   SolveStatistics statistics() const;
   /// omega of each pass of the newest iteration.
   const std::vector<Vec3>& directions() const;
@@ -149,8 +149,8 @@ class SolveSession {
   std::vector<Rgb> radiosity() const;
   /// RadiositySolver::running_estimate(); with lobes radiosity().
   std::vector<Rgb> running_estimate() const;
-  /// RadiositySolver::linear_parts(); empty with lobes.
-  std::vector<LinearPart> linear_parts() const;
+  /// RadiositySolver::linear_terms(); empty with lobes.
+  std::vector<LinearTerm> linear_terms() const;
   /// RadiositySolver::estimate_changes(); empty with lobes.
   std::vector<double> estimate_changes() const;
   /// RadiositySolver::error_estimate(); empty with lobes.
@@ -184,7 +184,7 @@ struct Refinement {
 };
 
 /// Refines a scene in rounds: each solves it and divides the patches that are worst, until the
-/// number of patches or the figure is reached, or nothing is left to divide. The number of patches
+/// number of patches or the measure is reached, or nothing is left to divide. The number of patches
 /// at most doubles in a round, so that each decision is made by a solve that can see it.
 /// @param scene to start from.
 /// @param options of the solves. Engines that make no passes are refused.

@@ -41,7 +41,7 @@ RadiosityError radiosity_error(const Scene& scene, const std::vector<Rgb>& b,
 /// The same for functions: `rms` is the L2 norm of the difference over the L2 norm of the
 /// reference, `max` the largest magnitude of a coefficient's difference over the largest of the
 /// reference.
-/// @param b the coefficients of each patch: its mean, or also its LinearPart.
+/// @param b the coefficients of each patch: its mean, or also its LinearTerm.
 /// @param reference three coefficients for each patch.
 RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
                               const std::vector<Rgb>& reference);
@@ -138,7 +138,7 @@ struct StudyPoint {
 struct StudyProgress {
   std::size_t series = 0;              ///< being solved
   int directions = 0;                  ///< M being solved
-  double share = 0;                    ///< share of all passes that are done, [0,1]
+  double fraction = 0;                 ///< fraction of all passes that are done, [0,1]
   double passes_per_second = 0;        ///< rate of the current solve
   double seconds_left = 0;             ///< estimated
   std::span<const StudyPoint> points;  ///< done so far, by M, then series; valid during the call

@@ -15,7 +15,7 @@ void bind_scene(pybind11::module_& module);
 void bind_solve(pybind11::module_& module);
 void bind_visibility(pybind11::module_& module);
 
-/// What options without directions and an accuracy mean.
+/// Whether options without directions and an accuracy mean the default accuracy.
 enum class Goal { none, by_default };
 
 /// Options of a solve from keywords: the names in the table of options, with underscores.

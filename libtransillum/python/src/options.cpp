@@ -23,7 +23,7 @@ std::string with(std::string name, char from, char to) {
 
 /// Whether an option belongs to a solve. Options that say how a scene is made belong to Scene.
 bool is_of_solve(const Option& option) {
-  return !option.reads_scene && option.group != "Patches" && option.group != "Refinement";
+  return !option.reads_scene && option.section != "Patches" && option.section != "Refinement";
 }
 
 /// A value as JSON. Numbers of NumPy are numbers, its arrays lists.

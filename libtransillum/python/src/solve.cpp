@@ -28,7 +28,7 @@ py::dict to_dict(const SolveProgress& progress) {
   dict["stage"] = progress.stage == SolveProgress::Stage::passes          ? "passes"
                   : progress.stage == SolveProgress::Stage::scaling_lobes ? "scaling lobes"
                                                                           : "reflecting";
-  dict["stage_share"] = progress.stage_share;
+  dict["stage_share"] = progress.stage_fraction;
   return dict;
 }
 

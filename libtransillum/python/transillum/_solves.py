@@ -76,7 +76,7 @@ class Solution:
 
     @property
     def statistics(self) -> dict[str, Any]:
-        """Figures of the solve."""
+        """Statistics of the solve."""
         return self._core.statistics
 
 
@@ -94,7 +94,7 @@ def solve(scene: Scene, *, progress: Union[Progress, None] = None, **options: An
 def form_factors(
     scene: Scene, *, progress: Union[Progress, None] = None, **options: Any
 ) -> scipy.sparse.csr_matrix:
-    """The matrix F of form factors, (N, N): F[i, j] is the share of what leaves patch i that
+    """The matrix F of form factors, (N, N): F[i, j] is the fraction of what leaves patch i that
     reaches patch j. Without a sky, B = E + rho * (F @ B); with two-way passes, and unless rows are
     normalized, A_i F[i, j] = A_j F[j, i].
 

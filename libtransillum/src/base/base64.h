@@ -15,7 +15,7 @@ namespace transillum {
 /// The bytes of a string in base64, padded.
 inline std::string to_base64(const std::string& bytes) {
   using namespace boost::archive::iterators;
-  // The end of an incomplete group is read from the zero behind the string.
+  // The end of an incomplete quadruple is read from the zero behind the string.
   using Letters = base64_from_binary<transform_width<const char*, 6, 8>>;
   std::string text(Letters(bytes.data()), Letters(bytes.data() + bytes.size()));
   text.append((3 - bytes.size() % 3) % 3, '=');

@@ -50,31 +50,31 @@ class PlaneRegion {
   /// @param box contains the polygon.
   void subtract(std::span<const Side> sides, const Box& box);
 
-  bool empty() const { return parts_.empty(); }
-  std::size_t size() const { return parts_.size(); }  ///< convex parts
+  bool empty() const { return convex_.empty(); }
+  std::size_t size() const { return convex_.size(); }  ///< convex parts
   /// Calls visit(corners) for each remaining convex part; they do not overlap.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const Part& part : parts_) {
-      visit(corners(part));
+    for (const Convex& convex : convex_) {
+      visit(corners(convex));
     }
   }
 
  private:
-  struct Part {
+  struct Convex {
     std::uint32_t begin, end;  ///< in corners_
     Box box;
   };
-  std::span<const Point> corners(const Part& part) const {
-    return {corners_.data() + part.begin, part.end - part.begin};
+  std::span<const Point> corners(const Convex& convex) const {
+    return {corners_.data() + convex.begin, convex.end - convex.begin};
   }
-  bool is_outside(const Part& part, const Side& side) const;
-  void subtract_from(Part part, std::span<const Side> sides);
-  Part kept(const Part& part, const Side& side);
+  bool is_outside(const Convex& convex, const Side& side) const;
+  void subtract_from(Convex convex, std::span<const Side> sides);
+  Convex kept(const Convex& convex, const Side& side);
 
   double tolerance_ = 0;  ///< points nearer to a line than this are treated as on it
   std::vector<Point> corners_;
-  std::vector<Part> parts_, left_;
+  std::vector<Convex> convex_, left_;
 };
 
 }  // namespace transillum

@@ -59,14 +59,9 @@ constexpr Conflict conflicts[] = {
     {"basis", is_linear, has_no_moments,
      "linear requires the moments of exchanges, which engine {engine} does not have; choose fast, "
      "local, exact or pairs"},
-    {"basis", is_linear, is_symmetric,
-     "linear is not available with symmetric normalization, whose one factor per patch cannot "
-     "correct its moments"},
     {"basis", is_linear, is_semi_iterative,
      "linear is not available with the semi-iterative scheme, whose error bounds require form "
      "factors of at least 0"},
-    {"basis", is_linear, has_shot,
-     "linear is not available with a first shot, which has no moments of its exchanges"},
     {"glossy", is_glossy, has_no_directions,
      "lobes are not available with engine hemicube or pairs, which have no directions"},
     {"glossy", is_glossy, is_one_way,
@@ -100,6 +95,11 @@ constexpr Conflict conflicts[] = {
     {"refine-by", has_rounds, has_time_limit, "rounds of refinement have no time limit"},
     {"refine-by", has_rounds, has_no_directions,
      "rounds of refinement are not available with engine {engine}, which has no directions"},
+};
+
+constexpr std::pair<const char*, const char*> all_alternatives[] = {
+    {"max-patch-area", "patches"},
+    {"units", "scale"},
 };
 
 std::string text_of(const Conflict& conflict, const SolveOptions& solve) {
@@ -164,10 +164,7 @@ std::optional<double> SolveOptions::used_first_shot() const {
   return excluded ? std::nullopt : first_shot;
 }
 
-bool combine(const RunOptions& options) {
-  return std::none_of(std::begin(conflicts), std::end(conflicts),
-                      [&](const Conflict& c) { return c.one(options) && c.other(options); });
-}
+std::span<const std::pair<const char*, const char*>> alternatives() { return all_alternatives; }
 
 void RunOptions::validate() const {
   solve.validate();
@@ -177,6 +174,15 @@ void RunOptions::validate() const {
   if (refine.is_set()) {
     refine.options().validate();
   }
+}
+
+std::string first_conflict(const RunOptions& options) {
+  for (const Conflict& conflict : conflicts) {
+    if (conflict.one(options) && conflict.other(options)) {
+      return text_of(conflict, options.solve);
+    }
+  }
+  return {};
 }
 
 std::string conflict_of(const std::string& name, const RunOptions& options) {

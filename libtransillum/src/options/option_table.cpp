@@ -12,151 +12,17 @@
 #include <utility>
 
 #include "base/memory_limit.h"
-#include "options/option_values.h"
+#include "options/option_kinds.h"
 #include "transillum/errors.h"
 #include "transillum/first_shot.h"
-#include "transillum/study.h"
 
 namespace transillum {
 namespace {
 
+using namespace option_kinds;
+
 constexpr int largest_count = 1'000'000;
 constexpr std::int64_t most_patches = 50'000'000;
-
-/// Access to a member of RunOptions by a path of members.
-template <class... Members>
-auto member(Members... members) {
-  return [=](auto& options) -> auto& { return (options.*....*members); };
-}
-template <class... Members>
-auto solve(Members... members) {
-  return member(&RunOptions::solve, members...);
-}
-
-std::string exact_text(double value) { return fmt::format("{}", value); }
-
-/// A whole number; 0 stands for `unset`, unless that is empty.
-template <class Get>
-void whole(Option& o, Get get, std::int64_t low, std::int64_t high, std::string unset = {}) {
-  o.json = Option::Json::number;
-  o.unset = unset;
-  o.zero_is_unset = !unset.empty();
-  o.parse = [=](RunOptions& options, const std::string& text) {
-    auto& value = get(options);
-    using Value = std::remove_reference_t<decltype(value)>;
-    value = !unset.empty() && text == unset
-                ? Value{0}
-                : static_cast<Value>(whole_number_from_text(text, low, high));
-  };
-  o.print = [=](const RunOptions& options) {
-    const auto value = get(options);
-    return value == 0 && !unset.empty() ? unset : fmt::to_string(value);
-  };
-}
-
-/// A number that `is_valid`; 0 stands for `unset`, unless that is empty.
-template <class Get, class IsValid>
-void real(Option& o, Get get, IsValid is_valid, const char* valid, const std::string& unset = {}) {
-  o.json = Option::Json::number;
-  o.unset = unset;
-  o.zero_is_unset = !unset.empty();
-  o.parse = [=](RunOptions& options, const std::string& text) {
-    if (!unset.empty() && text == unset) {
-      get(options) = {};
-      return;
-    }
-    const double value = number_from_text(text);
-    if (!is_valid(value)) {
-      throw InputError(fmt::format("\"{}\" is not {}", text, valid));
-    }
-    get(options) = value;
-  };
-  o.print = [=](const RunOptions& options) {
-    const double value = get(options);
-    return value == 0 && !unset.empty() ? unset : exact_text(value);
-  };
-}
-
-/// An optional value; nothing stands for `unset`.
-template <class Get, class FromText, class ToText>
-void optional(Option& o, Get get, const std::string& unset, FromText from_text, ToText to_text) {
-  o.unset = unset;
-  o.parse = [=](RunOptions& options, const std::string& text) {
-    auto& value = get(options);
-    value.reset();
-    if (text != unset) {
-      value = from_text(text);
-    }
-  };
-  o.print = [=](const RunOptions& options) {
-    const auto& value = get(options);
-    return value ? to_text(*value) : unset;
-  };
-}
-
-/// A percentage, or a number between 0 and 1.
-template <class Get>
-void percentage(Option& o, Get get) {
-  o.json = Option::Json::number;
-  o.unset = "none";
-  o.zero_is_unset = true;
-  o.parse = [=](RunOptions& options, const std::string& text) {
-    try {
-      get(options) = text == "none" ? 0 : accuracy_from_text(text);
-    } catch (const InputError&) {
-      throw InputError(fmt::format(
-          "\"{}\" is not a percentage such as 1%, or a number greater than 0 and less than 1",
-          text));
-    }
-  };
-  o.print = [=](const RunOptions& options) {
-    return get(options) == 0 ? std::string("none") : exact_text(get(options));
-  };
-}
-
-/// "fixed: the same directions in every iteration; growing: …"
-template <class Value>
-std::string meanings() {
-  const Choices& choices = choices_of<Value>();
-  std::string text;
-  for (std::size_t k = 0; k < choices.names.size(); ++k) {
-    text += fmt::format("{}{}: {}", k > 0 ? "; " : "", choices.names[k], choices.sentences[k]);
-  }
-  return text;
-}
-
-/// One of the names of an enumeration.
-template <class Get>
-void choice(Option& o, Get get) {
-  using Value = std::remove_cvref_t<decltype(get(std::declval<RunOptions&>()))>;
-  o.choices = names_of<Value>();
-  o.parse = [=](RunOptions& options, const std::string& text) {
-    get(options) = from_name<Value>(text);
-  };
-  o.print = [=](const RunOptions& options) { return name_of(get(options)); };
-}
-
-/// @param given the value that the flag gives
-template <class Get>
-void flag(Option& o, Get get, bool given = true) {
-  o.json = Option::Json::flag;
-  o.choices = {"yes", "no"};
-  o.parse = [=](RunOptions& options, const std::string& text) {
-    if (text != "yes" && text != "no") {
-      throw InputError(fmt::format("\"{}\" is neither yes nor no", text));
-    }
-    get(options) = (text == "yes") == given;
-  };
-  o.print = [=](const RunOptions& options) {
-    return std::string(get(options) == given ? "yes" : "no");
-  };
-}
-
-std::string exact_text(const Rgb& value) {
-  return value.r == value.g && value.g == value.b
-             ? exact_text(value.r)
-             : fmt::format("{},{},{}", value.r, value.g, value.b);
-}
 
 /// A change of a material, of which there may be several.
 void change(Option& o, MaterialChange (*from_text)(const std::string&)) {
@@ -176,12 +42,12 @@ bool is_positive(double value) { return value > 0; }
 class Table {
  public:
   std::vector<Option> list;
-  std::string group;
+  std::string section;
 
   Option& add(const char* name, const char* argument, const char* values, std::string help) {
     Option& o = list.emplace_back();
     o.name = name;
-    o.group = group;
+    o.section = section;
     o.argument = argument;
     o.values = values;
     o.help = std::move(help);
@@ -192,10 +58,16 @@ class Table {
     o.common = true;
     return o;
   }
+  /// Gives all options from number `first` on this property.
+  void mark(std::size_t first, bool Option::*property) {
+    for (std::size_t k = first; k < list.size(); ++k) {
+      list[k].*property = true;
+    }
+  }
 };
 
 void add_directions(Table& t) {
-  t.group = "Directions";
+  t.section = "Directions";
   Option& directions =
       t.common("directions", "M", "a number", "number of directions per iteration (one pass each)");
   whole(directions, solve(&SolveOptions::directions), 1, 1 << 24);
@@ -228,7 +100,7 @@ void add_directions(Table& t) {
 }
 
 void add_engine(Table& t) {
-  t.group = "Engine";
+  t.section = "Engine";
   const auto engine = [](auto m) { return solve(&SolveOptions::engine_options, m); };
   Option& name =
       t.common("engine", "NAME", "a name", "algorithm that computes visibility along a direction");
@@ -256,11 +128,13 @@ void add_engine(Table& t) {
 }
 
 void add_equations(Table& t) {
-  t.group = "Iteration";
+  t.section = "Iteration";
   choice(t.add("normalize", "NAME", "a name", meanings<Normalization>()),
          solve(&SolveOptions::normalize));
   choice(t.add("scheme", "NAME", "a name", meanings<Scheme>()), solve(&SolveOptions::scheme));
-  choice(t.common("basis", "NAME", "a name", meanings<Basis>()), solve(&SolveOptions::basis));
+  Option& basis = t.common("basis", "NAME", "a name", meanings<Basis>());
+  choice(basis, solve(&SolveOptions::basis));
+  basis.reads_factors = true;
   flag(t.add("glossy", "", "yes or no",
              "lobes of materials (MTL: Ks with Ns or Pr; glTF: metallic and rough) reflect too"),
        solve(&SolveOptions::glossy));
@@ -292,19 +166,23 @@ void add_equations(Table& t) {
         return static_cast<int>(whole_number_from_text(text, 0, largest_count));
       },
       [](int value) { return fmt::to_string(value); });
-  whole(t.add("iterations", "K", "a number, or none", "stop after this many iterations"),
-        solve(&SolveOptions::iterations), 1, largest_count, "none");
-  real(
+  Option& iterations =
+      t.add("iterations", "K", "a number, or none", "stop after this many iterations");
+  whole(iterations, solve(&SolveOptions::iterations), 1, largest_count, "none");
+  iterations.reads_factors = true;
+  Option& tolerance =
       t.common("tolerance", "T", "a number",
                "stop when the light not yet propagated is at most this fraction of the reflected "
                "light, of all patches and of the dimmest tenth of their area; semi-iterative: "
-               "when the estimated error of the mean, 95 % confidence, is at most that"),
-      solve(&SolveOptions::tolerance), [](double x) { return x > 0 && x < 1; },
+               "when the estimated error of the mean, 95 % confidence, is at most that");
+  real(
+      tolerance, solve(&SolveOptions::tolerance), [](double x) { return x > 0 && x < 1; },
       "greater than 0 and less than 1");
+  tolerance.reads_factors = true;
 }
 
 void add_accuracy(Table& t) {
-  t.group = "Accuracy";
+  t.section = "Accuracy";
   const auto goal = [](auto m) { return solve(&SolveOptions::goal, m); };
   percentage(t.common("accuracy", "P%|X", "a percentage or a number, or none",
                       "choose M and the replicas so that the error of B is at most this, with 95 % "
@@ -340,9 +218,10 @@ void add_accuracy(Table& t) {
   whole(t.add("most-passes", "N", "a number, or none",
               "an accuracy ends after this many passes in all; 16384 for the default accuracy"),
         goal(&AccuracyGoal::passes), 1, std::int64_t{1} << 40, "none");
-  Option& paper = t.add("paper", "", "yes or no",
-                        "what is not given is as in the paper: 1024 one-way Hammersley directions, "
-                        "constant functions, no first shot, no accuracy");
+  Option& paper =
+      t.add("paper", "", "yes or no",
+            "the paper's choices for all that is not given: 1024 one-way Hammersley directions, "
+            "constant functions, no first shot, no accuracy");
   flag(paper, member(&RunOptions::paper), true);
   paper.in_files = false;
   Option& replicas = t.add("replicas", "R", "a number",
@@ -352,7 +231,7 @@ void add_accuracy(Table& t) {
 }
 
 void add_sky(Table& t) {
-  t.group = "Sky";
+  t.section = "Sky";
   Option& sky =
       t.common("sky", "E[,E,E]", "one number or three, W/m2, or none",
                "light that leaves an open scene meets a sky: irradiance of an unobstructed "
@@ -375,6 +254,7 @@ void add_sky(Table& t) {
   model.lists_choices = true;
   Option& up = t.add("up", "X,Y,Z", "a direction x,y,z", "the zenith of the sky cie-overcast");
   up.json = Option::Json::numbers;
+  up.reads_factors = true;  // result files have it, too
   up.parse = [](RunOptions& o, const std::string& text) {
     const Vec3 direction = direction_from_text(text), given = point_from_text(text);
     // A unit vector keeps its bits.
@@ -387,7 +267,8 @@ void add_sky(Table& t) {
 }
 
 void add_patches(Table& t) {
-  t.group = "Patches";
+  t.section = "Patches";
+  const std::size_t first = t.list.size();
   flag(t.common("two-sided", "", "yes or no",
                 "every face emits and receives on both sides: two opposite patches per face"),
        member(&RunOptions::scene, &SceneOptions::two_sided));
@@ -413,7 +294,8 @@ void add_patches(Table& t) {
     const std::int64_t number = by_area ? o.input.patches : o.refine.patches;
     return number == 0 ? "none" : fmt::to_string(number);
   };
-  t.group = "Refinement";
+  t.mark(first, &Option::reads_factors);
+  t.section = "Refinement";
   Option& by = t.add("refine-by", "NAME", "a name, or none",
                      "divide faces in rounds, worst patches first, until there are as many patches "
                      "as asked for; jump: where B jumps across edges; error: where a solve with "
@@ -434,7 +316,7 @@ void add_patches(Table& t) {
 
 /// Marks those that only a scene's file has.
 void add_reading(Table& t) {
-  t.group = "Scene";
+  t.section = "Scene";
   const std::size_t first = t.list.size();
   const auto read = [](auto m) { return member(&RunOptions::input, &SceneInput::read, m); };
   real(t.add("default-reflectance", "R", "a number",
@@ -510,13 +392,13 @@ void add_reading(Table& t) {
                "it reflects (or R,G,B,N) and the exponent N of Phong's cosine; may be given "
                "several times"),
          lobe_change);
-  for (std::size_t k = first; k < t.list.size(); ++k) {
-    t.list[k].reads_scene = true;
-  }
+  t.mark(first, &Option::reads_scene);
+  t.mark(first, &Option::reads_factors);
 }
 
 void add_machine(Table& t) {
-  t.group = "Machine";
+  t.section = "Machine";
+  const std::size_t first = t.list.size();
   Option& memory =
       t.add("memory", "SIZE", "a size such as 2G or 800M",
             "memory for stored form factors; beyond it they are recomputed in each iteration, "
@@ -536,6 +418,8 @@ void add_machine(Table& t) {
       t.common("threads", "N", "a number", "number of threads; results do not depend on it");
   whole(threads, solve(&SolveOptions::threads), 1, 4096, "all");
   threads.default_text = "all cores";
+  threads.reads_factors = true;
+  t.mark(first, &Option::of_machine);
 }
 
 std::vector<Option> all_options() {
@@ -579,104 +463,6 @@ std::string Option::help_text() const {
   const std::string value = default_value();
   const bool tells = !value.empty() && value != "none" && !(is_flag() && value == "no");
   return tells ? fmt::format("{} (default {})", text, value) : text;
-}
-
-/// The choices of the paper.
-constexpr std::pair<const char*, const char*> paper_choices[] = {
-    {"directions", "1024"}, {"sampling", "hammersley"}, {"one-way", "yes"},
-    {"basis", "constant"},  {"first-shot", "none"},     {"accuracy", "none"}};
-
-/// The accuracy where nothing else is given, and the most passes that it takes.
-constexpr double default_accuracy = 0.01;
-constexpr std::int64_t default_most_passes = 16384;
-
-void set_default_accuracy(RunOptions& options, const std::set<std::string>& given) {
-  for (const char* excluding : {"accuracy", "seconds", "directions", "replicas", "iterations"}) {
-    if (given.count(excluding) > 0) {
-      return;
-    }
-  }
-  RunOptions accurate = options;
-  accurate.solve.goal.accuracy = default_accuracy;
-  if (given.count("most-passes") == 0) {
-    accurate.solve.goal.passes = default_most_passes;
-  }
-  if (takes_directions(options.solve.engine) && combine(accurate)) {
-    options = accurate;
-  }
-}
-
-void set_dependent_defaults(RunOptions& options, const std::set<std::string>& given) {
-  SolveOptions& solve = options.solve;
-  if (options.paper) {
-    for (const auto& [name, value] : paper_choices) {
-      const bool is_other = given.count(name) > 0 ||
-                            (given.count("accuracy") > 0 && name == std::string("directions"));
-      if (!is_other) {
-        option(name).parse(options, value);
-      }
-    }
-  } else {
-    set_default_accuracy(options, given);
-  }
-  // Its error decreases as 1 / sqrt(iterations): the default tolerance would take days.
-  const bool stops = solve.iterations > 0 || solve.tolerance != SolveOptions{}.tolerance;
-  solve.averaged_iterations =
-      traits_of(solve.scheme).renews_directions && !stops ? default_averaged_iterations : 0;
-  if (solve.sampling == default_sampling(solve.two_way)) {
-    solve.sampling.reset();
-  }
-  if (options.refine.is_set() || options.total) {
-    options.input.patches = 0;
-  }
-}
-
-std::vector<std::pair<std::string, std::string>> differences_from_default(const RunOptions& asked) {
-  RunOptions options = asked;
-  if (!options.refine.is_set() && !options.total) {
-    options.refine = {};
-  }
-  std::vector<std::pair<std::string, std::string>> differences;
-  const auto make = [&] {
-    RunOptions made;
-    std::set<std::string> given;
-    for (const auto& [name, text] : differences) {
-      option(name).parse(made, text);
-      given.insert(name);
-    }
-    set_dependent_defaults(made, given);
-    return made;
-  };
-  RunOptions made = make();
-  std::set<std::string> given;
-  // An option that is given may change the default of another.
-  for (bool added = true; added;) {
-    added = false;
-    for (const Option& o : transillum::options()) {
-      const std::string text = o.print(options);
-      if (given.count(o.name) == 0 && text != o.print(made) &&
-          why_unused(o.name, {options}).empty()) {
-        differences.emplace_back(o.name, text);
-        given.insert(o.name);
-        added = true;
-      }
-    }
-    made = make();
-  }
-  // What others imply is not needed.
-  const auto is_asked = [&] {
-    const RunOptions again = make();
-    return std::all_of(transillum::options().begin(), transillum::options().end(),
-                       [&](const Option& o) { return o.print(again) == o.print(made); });
-  };
-  for (std::size_t k = differences.size(); k-- > 0;) {
-    const auto difference = differences[k];
-    differences.erase(differences.begin() + static_cast<std::ptrdiff_t>(k));
-    if (!is_asked()) {
-      differences.insert(differences.begin() + static_cast<std::ptrdiff_t>(k), difference);
-    }
-  }
-  return differences;
 }
 
 std::uint64_t default_memory_limit() { return memory_limit(0); }

@@ -2,7 +2,7 @@
 //
 // Options that only some runs read.
 #include <algorithm>
-#include <string_view>
+#include <iterator>
 
 #include "options/option_table.h"
 
@@ -41,7 +41,7 @@ bool has_rounds(const RunOptions& run) { return run.refine.is_set(); }
 
 /// An option that only some runs read; all runs read the others.
 struct Use {
-  std::string_view option;
+  const char* option;
   bool (*used)(const RunOptions&);
   const char* why_not;
 };
@@ -72,11 +72,31 @@ constexpr Use uses[] = {
     {"refine-until", has_rounds, "used only with --refine-by"},
 };
 
+/// Why a first shot where it pays is not taken in any of these runs.
+std::string why_no_first_shot(const std::vector<RunOptions>& runs) {
+  std::string why;
+  for (RunOptions run : runs) {
+    if (!run.solve.first_shot || run.solve.used_first_shot()) {
+      return {};
+    }
+    run.solve.first_shot = 0;
+    why = takes_directions(run.solve.engine) ? first_conflict(run) : without_directions;
+  }
+  return why;
+}
+
 }  // namespace
 
 std::string why_unused(const std::string& name, const std::vector<RunOptions>& runs) {
+  if (name == "first-shot") {
+    return why_no_first_shot(runs);
+  }
+  // option() throws for a misspelled name, which would never be found.
+  static const bool all_exist = std::all_of(std::begin(uses), std::end(uses), [](const Use& use) {
+    return option(use.option).name == use.option;
+  });
   for (const Use& use : uses) {
-    if (use.option == name && std::none_of(runs.begin(), runs.end(), use.used)) {
+    if (all_exist && use.option == name && std::none_of(runs.begin(), runs.end(), use.used)) {
       return use.why_not;
     }
   }

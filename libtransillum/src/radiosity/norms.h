@@ -11,6 +11,15 @@
 
 namespace transillum {
 
+/// Sum of the areas of all patches, m².
+inline double total_area(const Scene& scene) {
+  double area = 0;
+  for (const Patch& patch : scene.patches()) {
+    area += patch.area;
+  }
+  return area;
+}
+
 /// Largest magnitude over patches and channels.
 inline double max_norm(const std::vector<Rgb>& values) {
   double largest = 0;

@@ -19,9 +19,9 @@
 namespace transillum {
 namespace {
 
-/// Patches with less than this share of the largest reflected light are reported as unlit.
+/// Patches with less than this fraction of the largest reflected light are reported as unlit.
 constexpr double least_light = 1e-6;
-constexpr double dimmest_share = 0.1;  ///< share of the lit area
+constexpr double dimmest_fraction = 0.1;  ///< fraction of the lit area
 
 constexpr double Rgb::*channels[] = {&Rgb::r, &Rgb::g, &Rgb::b};
 
@@ -84,8 +84,8 @@ RemainderBound::RemainderBound(ReflectedLight light, std::vector<double> area,
       reflectance_(std::move(reflectance)),
       per_patch_(per_patch) {}
 
-RemainderBound::Part RemainderBound::dimmest(Part lit, const std::vector<Rgb>& reflected,
-                                             double Rgb::*channel) const {
+RemainderBound::Unknowns RemainderBound::dimmest(Unknowns lit, const std::vector<Rgb>& reflected,
+                                                 double Rgb::*channel) const {
   double area = 0;
   for (const std::size_t u : lit) {
     area += area_[u];
@@ -95,7 +95,7 @@ RemainderBound::Part RemainderBound::dimmest(Part lit, const std::vector<Rgb>& r
            std::pair(std::abs(reflected[v].*channel), v);
   });
   std::size_t count = 0;
-  for (double taken = 0; count < lit.size() && taken < dimmest_share * area; ++count) {
+  for (double taken = 0; count < lit.size() && taken < dimmest_fraction * area; ++count) {
     taken += area_[lit[count]];
   }
   lit.resize(count);
@@ -103,12 +103,12 @@ RemainderBound::Part RemainderBound::dimmest(Part lit, const std::vector<Rgb>& r
 }
 
 template <class BoundOf>
-void RemainderBound::describe_parts(IterationRecord& record, const std::vector<Rgb>& b,
-                                    BoundOf bound_of) const {
+void RemainderBound::describe_unknowns(IterationRecord& record, const std::vector<Rgb>& b,
+                                       BoundOf bound_of) const {
   const std::vector<char> measured = light_.measured(b);
   const std::vector<Rgb> reflected = light_.of(b);
   const double least = least_light * max_norm(reflected);
-  Part all;
+  Unknowns all;
   double area = 0, unlit = 0;
   for (std::size_t u = 0; u < b.size(); u += per_patch_) {
     if (measured[u] == 0) {
@@ -122,9 +122,9 @@ void RemainderBound::describe_parts(IterationRecord& record, const std::vector<R
   }
   record.unlit_area = ratio_or_zero(unlit, area);
   record.remainder = record.remainder_dimmest = 0;
-  const auto power_of = [&](const Part& part, double Rgb::*channel) {
+  const auto power_of = [&](const Unknowns& unknowns, double Rgb::*channel) {
     double power = 0;
-    for (const std::size_t u : part) {
+    for (const std::size_t u : unknowns) {
       power += area_[u] * std::abs(reflected[u].*channel);
     }
     return power;
@@ -134,7 +134,7 @@ void RemainderBound::describe_parts(IterationRecord& record, const std::vector<R
     most = std::max(most, power_of(all, channel));
   }
   for (const auto channel : channels) {
-    Part lit;
+    Unknowns lit;
     for (const std::size_t u : all) {
       if (std::abs(reflected[u].*channel) > least) {
         lit.push_back(u);
@@ -143,7 +143,7 @@ void RemainderBound::describe_parts(IterationRecord& record, const std::vector<R
     // A channel that is unlit everywhere is compared with the brightest one.
     const double power = lit.empty() ? most : power_of(all, channel);
     record.remainder = std::max(record.remainder, relative(bound_of(all, channel), power));
-    const Part dim = dimmest(std::move(lit), reflected, channel);
+    const Unknowns dim = dimmest(std::move(lit), reflected, channel);
     record.remainder_dimmest = std::max(record.remainder_dimmest,
                                         relative(bound_of(dim, channel), power_of(dim, channel)));
   }
@@ -154,13 +154,13 @@ void RemainderBound::describe(IterationRecord& record, const std::vector<Rgb>& b
                               double largest_change) const {
   record.change = relative_change(b, changes);
   record.change_of_b = ratio_or_zero(max_norm(changes), max_norm(b));
-  describe_parts(record, b, [&](const Part& part, double Rgb::*channel) {
+  describe_unknowns(record, b, [&](const Unknowns& unknowns, double Rgb::*channel) {
     double power = 0, largest = largest_change, reflecting = 0;
     for (std::size_t u = 0; u < changes.size(); ++u) {
       power += area_[u] * std::abs(changes[u].*channel);
       largest = std::max(largest, std::abs(changes[u].*channel));
     }
-    for (const std::size_t u : part) {
+    for (const std::size_t u : unknowns) {
       reflecting += area_[u] * reflectance_[u].*channel;
     }
     return std::min(contraction * distance_to_limit(power, contraction),
@@ -170,9 +170,9 @@ void RemainderBound::describe(IterationRecord& record, const std::vector<Rgb>& b
 
 void RemainderBound::describe(IterationRecord& record, const std::vector<Rgb>& b,
                               const std::vector<Rgb>& left) const {
-  describe_parts(record, b, [&](const Part& part, double Rgb::*channel) {
+  describe_unknowns(record, b, [&](const Unknowns& unknowns, double Rgb::*channel) {
     double power = 0;
-    for (const std::size_t u : part) {
+    for (const std::size_t u : unknowns) {
       power += area_[u] * std::abs(left[u].*channel);
     }
     return power;

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What relative figures are relative to: reflected light, B - E. E of a small lamp exceeds all
+// What relative values are relative to: reflected light, B - E. E of a small lamp exceeds all
 // reflected light a million times, and would hide any error (decisions/0079-reflected-light.md).
 #pragma once
 
@@ -76,12 +76,13 @@ class RemainderBound {
 
  private:
   /// Unknowns: the means of the patches of some part of the scene.
-  using Part = std::vector<std::size_t>;
+  using Unknowns = std::vector<std::size_t>;
   /// @param bound_of bound of the power that a part is missing in a channel, W
   template <class BoundOf>
-  void describe_parts(IterationRecord& record, const std::vector<Rgb>& b, BoundOf bound_of) const;
+  void describe_unknowns(IterationRecord& record, const std::vector<Rgb>& b,
+                         BoundOf bound_of) const;
   /// The part of `lit` with the least reflected light, a tenth of its area.
-  Part dimmest(Part lit, const std::vector<Rgb>& reflected, double Rgb::*channel) const;
+  Unknowns dimmest(Unknowns lit, const std::vector<Rgb>& reflected, double Rgb::*channel) const;
 
   ReflectedLight light_;
   std::vector<double> area_;

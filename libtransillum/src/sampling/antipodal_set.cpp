@@ -29,7 +29,7 @@ constexpr int repulsion_steps = 20;
 constexpr double reach = 2, list_radius = 2.4;
 /// Displacement per step by a point one spacing away, in spacings. From 0.1 on, steps overshoot.
 constexpr double step_length = 0.04;
-/// Larger sets keep the lattice: only a share of 1/sqrt(M) of the directions is near the seam.
+/// Larger sets keep the lattice: only a fraction of 1/sqrt(M) of the directions is near the seam.
 constexpr std::size_t max_repelled = 1 << 16;
 /// Steps that make means of harmonics and of projected areas exact, each of which disturbs the
 /// other a little.

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Spherical-cap discrepancy. Notation: a cap is {omega: n·omega >= height} with unit center n; its
-// area is (1 - height)/2 of the sphere, its excess its share of the directions minus that area.
+// area is (1 - height)/2 of the sphere, its excess its fraction of the directions minus that area.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

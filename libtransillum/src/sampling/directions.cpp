@@ -56,10 +56,10 @@ Rotation random_rotation(std::uint64_t seed) {
   const auto uniform = [seed](std::uint64_t k) {
     return static_cast<double>(mixed(seed + k * golden_step) >> 11) * 0x1p-53;
   };
-  const double share = uniform(1);
+  const double fraction = uniform(1);
   const double a = 2 * std::numbers::pi * uniform(2), b = 2 * std::numbers::pi * uniform(3);
-  const double x = std::sqrt(1 - share) * std::sin(a), y = std::sqrt(1 - share) * std::cos(a);
-  const double z = std::sqrt(share) * std::sin(b), w = std::sqrt(share) * std::cos(b);
+  const double x = std::sqrt(1 - fraction) * std::sin(a), y = std::sqrt(1 - fraction) * std::cos(a);
+  const double z = std::sqrt(fraction) * std::sin(b), w = std::sqrt(fraction) * std::cos(b);
   return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
           {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
           {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};

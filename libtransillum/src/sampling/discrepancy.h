@@ -10,15 +10,15 @@
 namespace transillum {
 
 /// Star discrepancy D* of points of the unit square (eq. 3): the largest difference, over all boxes
-/// [0,u] x [0,v] with or without their upper sides, between the share of points in the box and its
-/// area. Exact; 0 without points. O(M^1.5): 0.1 s for 10,000 points.
+/// [0,u] x [0,v] with or without their upper sides, between the fraction of points in the box and
+/// its area. Exact; 0 without points. O(M^1.5): 0.1 s for 10,000 points.
 /// @throws Canceled
 double star_discrepancy(std::span<const DirectionSample> samples,
                         const Cancellation& cancellation = {});
 
 /// The spherical-cap discrepancy of a set, or a lower bound.
 struct CapDiscrepancy {
-  double value = 0;    ///< largest difference, over caps, between share of directions and of area
+  double value = 0;  ///< largest difference, over caps, between fraction of directions and of area
   bool exact = false;  ///< false: only caps about some centers were examined; a lower bound
 };
 

@@ -54,9 +54,9 @@ void evaluate(const Vec3& a, int degree, Harmonics& r) {
     }
     Complex last{}, current = at(r, index(m, m));
     for (int l = m + 1; l <= degree; ++l) {
-      const double slope = (2 * l - 1) * a.z, share = at(recursion_factors, index(l, m));
-      const Complex next{(slope * current.re - last.re) * share,
-                         (slope * current.im - last.im) * share};
+      const double slope = (2 * l - 1) * a.z, fraction = at(recursion_factors, index(l, m));
+      const Complex next{(slope * current.re - last.re) * fraction,
+                         (slope * current.im - last.im) * fraction};
       last = current;
       current = at(r, index(l, m)) = next;
     }

@@ -40,10 +40,13 @@ constexpr double expected_exponent = 1;
 constexpr double usual_growth = 8, largest_growth = 12;
 /// Directions of a stage from which on a solve that diverges is not tried with more.
 constexpr int enough_to_converge = 1 << 14;
-/// Share of the time left that a stage is made for.
-constexpr double time_share = 0.85;
-/// Share of the goal from which on missing iterations are made, instead of more passes.
-constexpr double iteration_share = 0.25;
+/// Fraction of the time left that a stage is made for.
+constexpr double time_fraction = 0.85;
+/// Fraction of the goal from which on missing iterations are made, instead of more passes.
+constexpr double iteration_fraction = 0.25;
+/// The same for the error of the first shot, which more points decrease.
+constexpr double shot_fraction = 0.5;
+constexpr int more_points = 4;
 
 /// The same levels and names, and errors of 0.
 ErrorEstimate without_errors(const ErrorEstimate& error) {
@@ -74,6 +77,16 @@ double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorE
   return ratio_or_zero(error.quantile * largest, max_norm(reflected_light(scene, b)));
 }
 
+/// The part of error_for() that a bias of B makes.
+/// @param error of `solver`
+double error_of_bias(const AccuracyGoal& goal, const ErrorSurfaces& surfaces,
+                     const RadiositySolver& solver, const ErrorEstimate& error,
+                     const std::vector<Rgb>& bias) {
+  ErrorEstimate missing = without_errors(error);
+  include_bias(missing, solver.scene(), surfaces, solver.radiosity(), bias);
+  return error_for(goal, solver.scene(), solver.radiosity(), missing);
+}
+
 /// The part of error_for() that further iterations can take away: a bound of what they would
 /// change.
 /// @param error of `solver`
@@ -92,9 +105,7 @@ double error_of_iteration(const AccuracyGoal& goal, const ErrorSurfaces& surface
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     at(left, i) = to_limit * scene.reflectance(i);
   }
-  ErrorEstimate missing = without_errors(error);
-  include_bias(missing, scene, surfaces, b, left);
-  return error_for(goal, scene, b, missing);
+  return error_of_bias(goal, surfaces, solver, error, left);
 }
 
 }  // namespace
@@ -203,16 +214,26 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   // a patch, where it is dark.
   const double missing_iterations =
       error_of_iteration(goal, surfaces_, solver, statistics, estimate);
-  if (goal.accuracy > 0 && missing_iterations > iteration_share * goal.accuracy &&
-      std::isfinite(missing_iterations) && solved.directions * per_pass <= time_share * left) {
+  if (goal.accuracy > 0 && missing_iterations > iteration_fraction * goal.accuracy &&
+      std::isfinite(missing_iterations) && solved.directions * per_pass <= time_fraction * left) {
     const IterationRecord& last = statistics.iteration_records.back();
     const double reached = std::max(last.remainder, last.remainder_dimmest);
     if (!is_rounding(last) && reached > 0) {
-      stage_.tolerance = 0.5 * iteration_share * goal.accuracy / missing_iterations *
+      stage_.tolerance = 0.5 * iteration_fraction * goal.accuracy / missing_iterations *
                          std::min(stage_.tolerance, reached);
       passes_before_ = 0;
       return Next::stage;
     }
+  }
+  // No number of passes makes the first shot more accurate.
+  int& points = stage_.engine_options.points;
+  const int used_points = points > 0 ? points : ShotOptions::default_points;
+  if (goal.accuracy > 0 && used_points < EngineOptions::largest_points &&
+      error_of_bias(goal, surfaces_, solver, estimate,
+                    bias_of_shot(solver.scene(), *solver.direct_light())) >
+          shot_fraction * goal.accuracy) {
+    points = std::min(more_points * used_points, EngineOptions::largest_points);
+    return Next::stage;
   }
   // Error ~ 1/sqrt(number of replicas); a new stage makes all its passes, but gains more.
   const double missing = report_.error / goal.accuracy;
@@ -262,7 +283,7 @@ double AccuracyPlan::growth() const {
 
 AccuracyPlan::Next AccuracyPlan::grow(double factor, double seconds_per_pass, double seconds_left) {
   const double before = stage_.directions, per_replica = before / stage_.replicas;
-  const double fits = time_share * seconds_left / seconds_per_pass;
+  const double fits = time_fraction * seconds_left / seconds_per_pass;
   const double allowed = passes_left();
   const double wanted = std::min({factor * before, fits, double(max_directions), allowed});
   if (wanted < 1.1 * before) {
@@ -323,8 +344,8 @@ void AccuracyPlan::visit_state(Archive& archive, Self& self) {
     report.surface.assign(surface.begin(), surface.end());
   }
   archive(report.error, report.reached, report.trusted, report.passes_made, self.stage_.directions,
-          self.stage_.replicas, self.stage_.tolerance, self.light_directions_, self.seconds_,
-          self.passes_before_);
+          self.stage_.replicas, self.stage_.tolerance, self.stage_.engine_options.points,
+          self.light_directions_, self.seconds_, self.passes_before_);
 }
 
 void AccuracyPlan::save(std::ostream& out) const {

@@ -36,8 +36,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int added_replicas = 4;
 constexpr int most_directions_per_replica = 1 << 22;
-/// Least share of the patches to divide.
-constexpr double least_share = 1e-3;
+/// Least fraction of the patches to divide.
+constexpr double least_fraction = 1e-3;
 
 class Measuring {
  public:
@@ -71,9 +71,9 @@ class Measuring {
                    const std::vector<double>& noise);
   void add_up();
 
-  void observe(Measurement what, double share) const {
+  void observe(Measurement what, double fraction) const {
     if (observer_) {
-      observer_(what, share);
+      observer_(what, fraction);
     }
   }
   std::vector<PatchId> patches_to_divide(std::int64_t most_patches);
@@ -195,33 +195,33 @@ void Measuring::measure_method() {
   measurements.exact_queries = solve_.solution.statistics.counts.exact_queries;
 }
 
-/// All patches, or where these are too many, of each surface a share spread evenly over it.
+/// All patches, or where these are too many, of each surface a fraction spread evenly over it.
 std::vector<PatchId> Measuring::patches_to_divide(std::int64_t most_patches) {
   const auto count = static_cast<double>(scene_.patch_count());
-  double share = std::min(1.0, (static_cast<double>(most_patches) - count) / (3 * count));
+  double fraction = std::min(1.0, (static_cast<double>(most_patches) - count) / (3 * count));
   const int unknowns = solve_.options.basis == Basis::linear ? 3 : 1;
-  for (; share >= least_share; share /= 2) {
+  for (; fraction >= least_fraction; fraction /= 2) {
     try {
-      check_memory(scene_.name(), static_cast<std::int64_t>(count * (1 + 3 * share)),
+      check_memory(scene_.name(), static_cast<std::int64_t>(count * (1 + 3 * fraction)),
                    solve_.options.replicas, unknowns);
       break;
     } catch (const std::runtime_error&) {
-      if (share < 2 * least_share) {
+      if (fraction < 2 * least_fraction) {
         throw;
       }
     }
   }
-  if (share < least_share) {
+  if (fraction < least_fraction) {
     throw InputError(fmt::format("errors: {} patches leave no room to divide some; at most {}",
                                  scene_.patch_count(), most_patches));
   }
-  report_.measurements.divided_share = share;
+  report_.measurements.divided_fraction = fraction;
   std::vector<double> filled(surfaces_.surfaces.size(), 0.5);
   std::vector<PatchId> chosen;
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-    bool is_chosen = share == 1;
+    bool is_chosen = fraction == 1;
     if (const std::int32_t s = surfaces_.of(i); !is_chosen && s != Surfaces::none) {
-      at(filled, s) += share;
+      at(filled, s) += fraction;
       is_chosen = at(filled, s) >= 1;
       at(filled, s) -= is_chosen ? 1 : 0;
     }
@@ -268,7 +268,7 @@ void Measuring::measure_patches(std::int64_t most_patches) {
 std::vector<double> Measuring::noise_of_division(const SurfaceErrors& fine) const {
   const SurfaceErrors& whole = solve_.solution.error.surfaces;
   std::vector<double> noise(report_.surfaces.size());
-  const bool known = report_.measurements.divided_share == 1 &&
+  const bool known = report_.measurements.divided_fraction == 1 &&
                      fine.surfaces.size() == noise.size() && whole.surfaces.size() == noise.size();
   for (std::size_t s = 0; known && s < noise.size(); ++s) {
     const double parts = fine.surfaces[s].spread * fine.surfaces[s].unit;
@@ -310,7 +310,7 @@ void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchI
     surface.divided_all = error(left_within * within_error, left_shift * shift_error);
   }
   // The surface's mean square is the best guess for patches that were not divided.
-  for (PatchId i = 0; report_.measurements.divided_share < 1 && i < scene_.patch_count(); ++i) {
+  for (PatchId i = 0; report_.measurements.divided_fraction < 1 && i < scene_.patch_count(); ++i) {
     const std::int32_t s = surfaces_.of(i);
     if (s != Surfaces::none && !std::binary_search(chosen.begin(), chosen.end(), i)) {
       const SurfaceCauses& surface = at(report_.surfaces, s);

@@ -16,7 +16,7 @@ MeasuredSolve measured_solve(const SolveSession& session);
 
 /// A measurement under way.
 enum class Measurement { replicas, divided, engines };
-using MeasurementObserver = std::function<void(Measurement, double share)>;
+using MeasurementObserver = std::function<void(Measurement, double fraction)>;
 
 /// Measures the errors of a solve. Time: mostly the time of a solve with every patch divided, by
 /// the same directions, which is about five times the time of the solve itself. Where so many

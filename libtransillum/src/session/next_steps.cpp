@@ -79,7 +79,7 @@ std::vector<NextStep> next_steps(const ErrorReport& report, const MeasuredSolve&
   steps[3].kind = NextStep::Kind::iterations;
   steps[3].tolerance *= smaller_tolerance;
   steps[3].to = total - errors.iterations * (1 - smaller_tolerance);
-  constexpr double least_gain = 0.02;  // share of the error; less is not worth a solve
+  constexpr double least_gain = 0.02;  // fraction of the error; less is not worth a solve
   std::erase_if(steps, [&](const NextStep& s) { return !(s.to < (1 - least_gain) * s.from); });
   std::stable_sort(steps.begin(), steps.end(),
                    [](const NextStep& a, const NextStep& b) { return a.gain() > b.gain(); });

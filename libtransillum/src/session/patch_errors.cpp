@@ -24,15 +24,15 @@ struct Projection {
 void add_to(Projection& projection, const Solution& fine, PatchId k, const LinearBasis* own,
             const LinearBasis* basis, double whole_area) {
   const Patch& patch = fine.scene->patch(k);
-  const double share = patch.area / whole_area;
+  const double fraction = patch.area / whole_area;
   const Rgb& mean = at(fine.radiosity, k);
   projection.square += square_integral(fine, k);
-  projection.coefficients[0] += share * mean;
+  projection.coefficients[0] += fraction * mean;
   if (basis == nullptr) {
     return;
   }
   const auto at_center = basis->at(own->center);
-  const LinearPart& part = at(fine.linear_parts, k);
+  const LinearTerm& term = at(fine.linear_terms, k);
   for (std::size_t a = 0; a < 2; ++a) {
     // The function of the whole in terms of those of the part: phi = value + s1 psi_1 + s2 psi_2.
     // Their gradients need not be orthogonal: psi_1 is constant across the longest edge.
@@ -43,14 +43,14 @@ void add_to(Projection& projection, const Solution& fine, PatchId k, const Linea
     const double s1 = (g1 * h22 - g2 * h12) / determinant;
     const double s2 = (g2 * h11 - g1 * h12) / determinant;
     projection.coefficients[a + 1] +=
-        share * (at_center[a] * mean + s1 * part.first + s2 * part.second);
+        fraction * (at_center[a] * mean + s1 * term.first + s2 * term.second);
   }
 }
 
 /// Per patch of `whole`.
 std::vector<Projection> projections(const Scene& whole, const DividedScene& divided,
                                     const Solution& fine) {
-  const bool linear = !fine.linear_parts.empty();
+  const bool linear = !fine.linear_terms.empty();
   const std::vector<LinearBasis> own = linear ? linear_bases(*divided.scene)
                                               : std::vector<LinearBasis>(),
                                  bases = linear ? linear_bases(whole) : std::vector<LinearBasis>();
@@ -65,20 +65,20 @@ std::vector<Projection> projections(const Scene& whole, const DividedScene& divi
 
 /// The coefficients of B on patch i.
 std::array<Rgb, 3> coefficients(const Solution& solution, PatchId i) {
-  if (solution.linear_parts.empty()) {
+  if (solution.linear_terms.empty()) {
     return {at(solution.radiosity, i), {}, {}};
   }
-  const LinearPart& part = at(solution.linear_parts, i);
-  return {at(solution.radiosity, i), part.first, part.second};
+  const LinearTerm& term = at(solution.linear_terms, i);
+  return {at(solution.radiosity, i), term.first, term.second};
 }
 
 }  // namespace
 
 double square_integral(const Solution& solution, PatchId i) {
   double sum = sum_of_squares(at(solution.radiosity, i));
-  if (!solution.linear_parts.empty()) {
-    const LinearPart& part = at(solution.linear_parts, i);
-    sum += sum_of_squares(part.first) + sum_of_squares(part.second);
+  if (!solution.linear_terms.empty()) {
+    const LinearTerm& term = at(solution.linear_terms, i);
+    sum += sum_of_squares(term.first) + sum_of_squares(term.second);
   }
   return solution.scene->patch(i).area * sum;
 }

@@ -24,8 +24,8 @@ namespace {
 
 /// Number of patches after a round, over that before it, at most.
 constexpr double growth = 2;
-/// Share of the sum of all squares that is not worth dividing for: where a few patches have all the
-/// rest, the others are left alone, though there would be room.
+/// Fraction of the sum of all squares that is not worth dividing for: where a few patches have all
+/// the rest, the others are left alone, though there would be room.
 constexpr double negligible = 1e-3;
 
 /// Integral of |B|² over all patches that emit nothing; over all if each emits.
@@ -122,7 +122,7 @@ void RefineOptions::validate() const {
   }
   if (!(until >= 0 && until < 1)) {
     throw InputError(
-        fmt::format("refinement: the figure to reach is {}, but must be >= 0 and < 1", until));
+        fmt::format("refinement: the measure to reach is {}, but must be >= 0 and < 1", until));
   }
 }
 
@@ -178,14 +178,14 @@ const RefinementRound& RefinementPlan::assess(const Solution& solution, double s
   const double sum = std::accumulate(squares_.begin(), squares_.end(), 0.0);
   RefinementRound& round = rounds_.emplace_back();
   round.patches = refined_->patch_count();
-  round.figure = sum > 0 ? std::sqrt(sum / square_integral(solution)) : 0;
+  round.measure = sum > 0 ? std::sqrt(sum / square_integral(solution)) : 0;
   round.seconds = seconds_ + seconds + seconds_since(start);
   return round;
 }
 
 bool RefinementPlan::divide_worst(const Cancellation& cancellation) {
   // Jumps and errors below the tolerance may be left over by the iteration.
-  if (rounds_.back().figure <= std::max(refine_.until, options_.tolerance)) {
+  if (rounds_.back().measure <= std::max(refine_.until, options_.tolerance)) {
     finish();
     return false;
   }

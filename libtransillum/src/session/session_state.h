@@ -24,6 +24,7 @@ struct [[gnu::visibility("hidden")]] SolveSession::Impl {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;      ///< null: not built yet
   std::shared_ptr<const DirectLight> shot;  ///< null if there is none, or if it is not shot yet
+  int shot_points = 0;                      ///< by which it was shot
   std::optional<AccuracyPlan> plan;         ///< plan for a goal
   std::optional<RunningSolver> solver;      ///< solver of the present stage; nothing: not prepared
   std::optional<AccuracyPlan::Next> next;   ///< after this stage, which has ended

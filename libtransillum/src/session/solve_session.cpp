@@ -53,6 +53,7 @@ void SolveSession::Impl::begin(const std::shared_ptr<const Scene>& solved) {
   scene = solved;
   tree = scene == request.scene ? request.tree : nullptr;
   shot = scene == request.scene ? request.shot : nullptr;
+  shot_points = request.options.engine_options.points;
   seconds_bsp = seconds_first_shot = seconds_before = 0;
   if (called) {
     called = Clock::now();
@@ -69,7 +70,7 @@ void SolveSession::Impl::build_tree() {
   const auto start = Clock::now();
   std::function<void(double)> report;
   if (request.preparing) {
-    report = [this](double share) { request.preparing(Preparation::tree, share); };
+    report = [this](double fraction) { request.preparing(Preparation::tree, fraction); };
     report(0);
   }
   tree = std::make_shared<const BspTree>(*scene, cancellation, report, request.options.threads);
@@ -77,20 +78,23 @@ void SolveSession::Impl::build_tree() {
 }
 
 void SolveSession::Impl::shoot_first() {
-  const SolveOptions& options = request.options;
+  const SolveOptions& options = plan ? plan->stage() : request.options;
   const std::optional<double> threshold = options.used_first_shot();
-  if (shot || !threshold) {
+  const int points = options.engine_options.points;
+  if (!threshold || (shot && shot_points == points)) {
     return;
   }
   const auto start = Clock::now();
   std::function<void(double)> report;
   if (request.preparing) {
-    report = [this](double share) { request.preparing(Preparation::first_shot, share); };
+    report = [this](double fraction) { request.preparing(Preparation::first_shot, fraction); };
     report(0);
   }
   shot = std::make_shared<const DirectLight>(shoot(
-      *scene, first_shot_sources(*scene, *threshold, expected_directions(options), cancellation),
-      options.threads, cancellation, report));
+      *scene,
+      first_shot_sources(*scene, *threshold, expected_directions(request.options), cancellation),
+      shot_options(options), cancellation, report));
+  shot_points = points;
   seconds_first_shot = seconds_since(start);
 }
 
@@ -310,8 +314,8 @@ std::vector<Rgb> SolveSession::radiosity() const { return impl_->solver->radiosi
 std::vector<Rgb> SolveSession::running_estimate() const {
   return diffuse() != nullptr ? diffuse()->running_estimate() : radiosity();
 }
-std::vector<LinearPart> SolveSession::linear_parts() const {
-  return diffuse() != nullptr ? diffuse()->linear_parts() : std::vector<LinearPart>();
+std::vector<LinearTerm> SolveSession::linear_terms() const {
+  return diffuse() != nullptr ? diffuse()->linear_terms() : std::vector<LinearTerm>();
 }
 std::vector<double> SolveSession::estimate_changes() const {
   return diffuse() != nullptr ? diffuse()->estimate_changes() : std::vector<double>();

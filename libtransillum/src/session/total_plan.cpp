@@ -24,22 +24,22 @@ namespace transillum {
 namespace {
 
 /// Share of the total that directions may have.
-constexpr double directions_share = 1.0 / 3;
-/// While patches are too large, directions need not be better than this share of their error.
-constexpr double early_share = 0.1;
+constexpr double directions_fraction = 1.0 / 3;
+/// While patches are too large, directions need not be better than this fraction of their error.
+constexpr double early_fraction = 0.1;
 /// Error of directions of the first stage.
 constexpr double first_directions = 0.03;
 /// Share of what is left for patches that they may take, so that an estimate that is a little too
 /// small takes no further stage.
 constexpr double caution = 0.9;
-/// Least share of the total that is asked of directions.
-constexpr double least_directions_share = 0.05;
+/// Least fraction of the total that is asked of directions.
+constexpr double least_directions_fraction = 0.05;
 
 /// The error that the patches of a surface may have.
 double allowed_for_patches(const CauseErrors& errors, double total) {
   const double others =
-      std::min(errors.directions, directions_share * total) + errors.iterations + errors.method;
-  return caution * std::max(directions_share * total, total - others);
+      std::min(errors.directions, directions_fraction * total) + errors.iterations + errors.method;
+  return caution * std::max(directions_fraction * total, total - others);
 }
 
 class TotalPlan {
@@ -50,7 +50,7 @@ class TotalPlan {
         goal_(goal),
         observers_(observers),
         cancellation_(cancellation),
-        directions_(std::max(directions_share * goal.total, first_directions)) {}
+        directions_(std::max(directions_fraction * goal.total, first_directions)) {}
 
   TotalSolve run() {
     for (bool last = false; !last;) {
@@ -152,7 +152,7 @@ bool TotalPlan::divide_worst() {
   for (const SurfaceCauses& surface : outcome_.report.surfaces) {
     expected = std::max(expected, std::sqrt(left_within) * surface.errors.patches);
   }
-  directions_ = std::max(directions_share * goal_.total, early_share * expected);
+  directions_ = std::max(directions_fraction * goal_.total, early_fraction * expected);
   return false;
 }
 
@@ -160,7 +160,7 @@ bool TotalPlan::ask_more_of_directions(const CauseErrors& worst) {
   const double others = worst.total() - worst.directions;
   const double asked = std::min(caution * (goal_.total - others), 0.9 * directions_);
   const auto& accuracy = outcome_.solve.solution.accuracy;
-  if (asked < least_directions_share * goal_.total || (accuracy && !accuracy->reached)) {
+  if (asked < least_directions_fraction * goal_.total || (accuracy && !accuracy->reached)) {
     return end(TotalEnd::directions);
   }
   directions_ = asked;
@@ -193,7 +193,7 @@ std::vector<PatchId> patches_to_divide(const Scene& scene, const ErrorReport& re
                                        const std::vector<std::string>& kept) {
   const Surfaces surfaces = find_surfaces(scene, Measured::reflecting, kept);
   struct Candidate {
-    double square;  ///< share of the squared error of its surface
+    double square;  ///< fraction of the squared error of its surface
     PatchId patch;
   };
   std::vector<std::vector<Candidate>> by_surface(report.surfaces.size());

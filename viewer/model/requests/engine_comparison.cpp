@@ -110,14 +110,16 @@ Transfers find_transfers(const EngineRequest& request, EngineComparison::Side& s
   }
   const double start = thread_seconds();
   const std::vector<double> row = [&] {
-    switch (side.engine) {
-      case Engine::hemicube:
+    switch (traits_of(side.engine).factors) {
+      case EngineTraits::Factors::hemicubes:
         return row_by_hemicube(request, side.resolution, cancellation);
-      case Engine::pairs:
+      case EngineTraits::Factors::pairs:
         return row_by_pairs(request, cancellation);
-      default:
-        return row_by_directions(request, engine(), cancellation);
+      case EngineTraits::Factors::passes:
+      case EngineTraits::Factors::rays:
+        break;
     }
+    return row_by_directions(request, engine(), cancellation);
   }();
   side.seconds = thread_seconds() - start;
   return as_transfers(request, row);
@@ -143,7 +145,7 @@ Transfers run_engine(const EngineRequest& request, EngineComparison::Side& side,
       covered += coverage.covered;
     }
   }
-  side.covered_share = projected > 0 ? covered / projected : 0;
+  side.covered_fraction = projected > 0 ? covered / projected : 0;
   return transfers;
 }
 

@@ -16,11 +16,11 @@ namespace transillum::viewer {
 struct EngineComparison {
   struct Side {
     Engine engine = Engine::fast;
-    int resolution = 0;        ///< EngineOptions::resolution
-    double seconds = 0;        ///< processor time of the direction or row, one thread
-    std::size_t pairs = 0;     ///< number of pairs of patches that exchange light
-    double covered_share = 0;  ///< covered over projected area of all receivers, 0 to 1
-    std::string failure;       ///< why the engine gave no result; empty on success
+    int resolution = 0;           ///< EngineOptions::resolution
+    double seconds = 0;           ///< processor time of the direction or row, one thread
+    std::size_t pairs = 0;        ///< number of pairs of patches that exchange light
+    double covered_fraction = 0;  ///< covered over projected area of all receivers, 0 to 1
+    std::string failure;          ///< why the engine gave no result; empty on success
   };
   std::shared_ptr<const LoadedScene> loaded;
   Vec3 direction;

@@ -22,11 +22,11 @@ PowerTables power_tables(const std::shared_ptr<const SolverSnapshot>& snapshot) 
     materials = snapshot->materials->materials;
     patch_materials = snapshot->materials->of_patch;
   }
-  const auto table = [&](PartsBy by) {
+  const auto table = [&](SurfaceKind by) {
     return power_table(solution, by, snapshot->form_factors.get(), materials, patch_materials);
   };
-  tables.groups = table(PartsBy::group);
-  tables.materials = table(PartsBy::material);
+  tables.groups = table(SurfaceKind::group);
+  tables.materials = table(SurfaceKind::material);
   return tables;
 }
 

@@ -31,7 +31,10 @@ RelightResult Relighting::relit(const Request& request, const Cancellation& canc
   RelightOptions options;
   options.tolerance = request.tolerance;
   options.start = request.start;
+  options.start_linear_parts = request.start_linear_parts;
   options.sky_irradiance = request.sky;
+  options.sky_linear_parts = request.sky_linear_parts;
+  options.basis = request.basis;
   options.shot = request.shot.get();
   options.patch_materials = request.materials->of_patch;
   return relight(*request.scene, *request.form_factors, request.materials->materials, options,
@@ -51,7 +54,8 @@ QString Relighting::reason_unavailable() const {
   if (!snapshot_) {
     return tr("Open a scene to change its light.");
   }
-  if (snapshot_->shot && !snapshot_->shot->sources.empty() && snapshot_->shot->parts.empty()) {
+  if (snapshot_->shot && !snapshot_->shot->sources.empty() &&
+      snapshot_->shot->contributions.empty()) {
     return tr(
         "The first shot, stored per material, exceeds the memory limit: solve without it to change "
         "the light.");
@@ -70,11 +74,6 @@ QString Relighting::method_note() const {
   }
   if (snapshot_->glossy) {
     return tr("Changed light is computed from the kept transfers, by direction.");
-  }
-  if (snapshot_->options.basis == Basis::linear) {
-    return tr(
-        "Changed light is constant on each patch: the stored form factors belong to constant "
-        "functions.");
   }
   if (snapshot_->options.scheme == Scheme::semi_iterative) {
     return tr(
@@ -119,7 +118,10 @@ void Relighting::request_light() {
                       .shot = snapshot_->shot,
                       .materials = edits_.materials(),
                       .start = light_ ? light_->radiosity : snapshot_->radiosity,
+                      .start_linear_parts = light_ ? light_->linear_terms : snapshot_->linear_terms,
                       .sky = snapshot_->sky_irradiance,
+                      .sky_linear_parts = snapshot_->sky_linear_parts,
+                      .basis = snapshot_->options.basis,
                       .tolerance = snapshot_->options.tolerance});
 }
 
@@ -142,9 +144,7 @@ std::shared_ptr<const SolverSnapshot> Relighting::lit(
   }
   auto lit = std::make_shared<SolverSnapshot>(*snapshot_);
   lit->radiosity = light_->radiosity;
-  lit->linear_parts.clear();  // the form factors belong to constant functions
-  lit->bases = nullptr;
-  lit->kept_linear_parts.clear();
+  lit->linear_terms = light_->linear_terms;
   lit->irradiance = light_->irradiance;
   lit->materials = materials_;
   return lit;

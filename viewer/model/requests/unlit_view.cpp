@@ -42,7 +42,7 @@ UnlitView unlit_view(const UnlitRequest& request, const Cancellation& cancellati
           pixel * (x + 0.5 - 0.5 * width) * right + pixel * (0.5 * height - y - 0.5) * above - back;
       const auto hit = request.snapshot->loaded->picker->first_lit_hit(request.eye, ray);
       view.patches.push_back(hit ? hit->patch : no_patch);
-      if (!request.snapshot->linear_parts.empty()) {
+      if (!request.snapshot->linear_terms.empty()) {
         view.points.push_back(hit ? hit->point : Vec3{});
       }
     }
@@ -74,7 +74,7 @@ QImage UnlitView::picture(double exposure, QRgb background) const {
   return image;
 }
 
-double UnlitView::white_share(double exposure) const {
+double UnlitView::white_fraction(double exposure) const {
   double white = 0, all = 0;
   for (PatchId i = 0; i < snapshot->loaded->scene->patch_count(); ++i) {
     if (max_abs(material_of(*snapshot, i).exitance) > 0) {

@@ -24,7 +24,7 @@ struct UnlitView {
   QImage picture(double exposure, QRgb background) const;
   /// The fraction of the area of patches that do not emit whose mean is clipped to white in a
   /// channel.
-  double white_share(double exposure) const;
+  double white_fraction(double exposure) const;
 };
 
 /// From where a snapshot is seen.

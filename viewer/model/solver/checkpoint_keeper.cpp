@@ -10,7 +10,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double soon_share = 1.0 / 12;
+constexpr double soon_fraction = 1.0 / 12;
 
 void remove(const std::string& file) {
   std::error_code ignored;
@@ -68,7 +68,7 @@ void CheckpointKeeper::begin(std::shared_ptr<const Scene> scene, const SolveOpti
 void CheckpointKeeper::save_if_due(const SolveSession& session, bool in_pause) {
   const std::lock_guard lock(mutex_);
   const bool soon = in_pause || session.progress().direction == 0;
-  const double interval = soon ? soon_share * interval_ : interval_;
+  const double interval = soon ? soon_fraction * interval_ : interval_;
   const std::chrono::duration<double> age = std::chrono::steady_clock::now() - since_;
   if (file_.empty() || !scene_ || session.diffuse() == nullptr || age.count() < interval) {
     return;

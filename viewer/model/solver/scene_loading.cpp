@@ -49,8 +49,9 @@ SceneDescription describe(const std::string& spec, const SceneInput& input,
   SceneDescription description = describe_scene(spec, input.read, cancellation);
   change_materials(description, input.changes);
   if (input.orient) {
-    const OrientationReport report = orient(
-        description, 0, cancellation, [&](double share) { progress(tr("Turning faces"), share); });
+    const OrientationReport report = orient(description, 0, cancellation, [&](double fraction) {
+      progress(tr("Turning faces"), fraction);
+    });
     for (const std::string& sentence : report.sentences) {
       description.notes.push_back("orientation: " + sentence);
     }
@@ -69,14 +70,14 @@ void examine(LoadedScene& loaded, const Cancellation& cancellation) {
 std::function<void(Preparation, double)> phase_reporter(LoadProgress progress) {
   constexpr qint64 report_interval_ms = 50;
   return [progress = std::move(progress), since_report = QElapsedTimer()](Preparation what,
-                                                                          double share) mutable {
-    if (share > 0 && since_report.isValid() && since_report.elapsed() < report_interval_ms) {
+                                                                          double fraction) mutable {
+    if (fraction > 0 && since_report.isValid() && since_report.elapsed() < report_interval_ms) {
       return;
     }
     since_report.start();
     progress(
         what == Preparation::tree ? tr("Building the BSP tree") : tr("Computing the first shot"),
-        share);
+        fraction);
   };
 }
 
@@ -96,13 +97,14 @@ std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, const R
         describe(spec, options.input, progress, cancellation));
     loaded->scene = make_scene(*loaded->description, options, cancellation);
   }
-  loaded->back_share = back_share(*loaded->scene, 0, cancellation).share;
+  loaded->back_fraction = back_fraction(*loaded->scene, 0, cancellation).fraction;
   examine(*loaded, cancellation);
   loaded->seconds_load = seconds(timer);
   timer.start();
   const auto preparing = phase_reporter(progress);
-  loaded->tree = std::make_shared<BspTree>(
-      *loaded->scene, cancellation, [&](double share) { preparing(Preparation::tree, share); });
+  loaded->tree = std::make_shared<BspTree>(*loaded->scene, cancellation, [&](double fraction) {
+    preparing(Preparation::tree, fraction);
+  });
   loaded->seconds_bsp = seconds(timer);
   return loaded;
 }
@@ -117,7 +119,7 @@ std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
   loaded->scene = session.scene();
   loaded->description = whole->description;
   loaded->tree = session.tree();
-  loaded->back_share = whole->back_share;
+  loaded->back_fraction = whole->back_fraction;
   loaded->seconds_load = whole->seconds_load;
   loaded->seconds_bsp = session.statistics().seconds_bsp;
   loaded->whole = whole;

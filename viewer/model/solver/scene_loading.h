@@ -17,7 +17,7 @@ namespace transillum::viewer {
 
 /// Called on any thread, one at a time, with the name of the present task and its finished
 /// fraction, 0 to 1; negative if unknown.
-using LoadProgress = std::function<void(const QString& phase, double share)>;
+using LoadProgress = std::function<void(const QString& phase, double fraction)>;
 
 /// Passes preparations of a solve on to `progress`, not too often.
 std::function<void(Preparation, double)> phase_reporter(LoadProgress progress);

@@ -26,16 +26,17 @@ SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const Lo
   }
   snapshot.statistics = std::move(solution.statistics);
   snapshot.radiosity = std::move(solution.radiosity);
-  snapshot.linear_parts = std::move(solution.linear_parts);
+  snapshot.linear_terms = std::move(solution.linear_terms);
   snapshot.irradiance = std::move(solution.irradiance);
   snapshot.error = std::move(solution.error);
   snapshot.form_factor_sums = std::move(solution.form_factor_sums);
-  snapshot.sky_shares = std::move(solution.sky_shares);
+  snapshot.sky_fractions = std::move(solution.sky_fractions);
   snapshot.sky_irradiance = std::move(solution.sky_irradiance);
+  snapshot.sky_linear_parts = std::move(solution.sky_linear_parts);
   // Empty before the first pass.
   snapshot.form_factor_sums.resize(snapshot.radiosity.size());
   if (!snapshot.of_file) {
-    snapshot.sky_shares.resize(snapshot.radiosity.size());
+    snapshot.sky_fractions.resize(snapshot.radiosity.size());
   }
   if (diffuse != nullptr) {
     snapshot.shot = diffuse->direct_light();
@@ -57,6 +58,18 @@ constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
 template <class Value>
 std::shared_ptr<const std::vector<Value>> shared(std::vector<Value> values) {
   return std::make_shared<const std::vector<Value>>(std::move(values));
+}
+
+/// The linear terms of B(0): what the first shot brings. E has none.
+std::vector<LinearTerm> parts_of_start(const SolveSession& session) {
+  const Scene& scene = *session.scene();
+  std::vector<LinearTerm> parts(scene.patches().size());
+  const std::vector<LinearTerm>& shot = session.diffuse()->direct_light()->linear_terms;
+  for (std::size_t i = 0; i < shot.size(); ++i) {
+    const Rgb& rho = scene.reflectance(static_cast<PatchId>(i));
+    parts[i] = {rho * shot[i].first, rho * shot[i].second};
+  }
+  return parts;
 }
 
 }  // namespace
@@ -97,12 +110,12 @@ void SolveHistory::store_radiosity(const SolveSession& session) {
   if (!linear) {
     return;
   }
-  linear_parts_.resize(iteration + 1);
+  linear_terms_.resize(iteration + 1);
   if (iteration == 0) {
-    // B(0) is E; the solver's parts may already belong to the estimate.
-    linear_parts_[0] = shared(std::vector<LinearPart>(patches));
+    // The solver's parts may already belong to the estimate.
+    linear_terms_[0] = shared(parts_of_start(session));
   } else if (progress.direction == 0) {
-    linear_parts_[iteration] = shared(session.linear_parts());
+    linear_terms_[iteration] = shared(session.linear_terms());
   }
 }
 
@@ -144,14 +157,14 @@ void SolveHistory::write_to(SolverSnapshot& snapshot) {
   snapshot.directions = directions_.back();
   snapshot.kept_passes = passes_;
   snapshot.kept_radiosity = radiosity_;
-  snapshot.kept_linear_parts = linear_parts_;
+  snapshot.kept_linear_terms = linear_terms_;
   snapshot.errors = errors_;
   snapshot.estimate_iteration = snapshot.progress.iteration;
   if (snapshot.estimate_changes.empty() && snapshot.progress.iteration > 0) {
     snapshot.estimate_changes = changes_;
     snapshot.estimate_iteration = changes_iteration_;
   }
-  if (!snapshot.linear_parts.empty()) {
+  if (!snapshot.linear_terms.empty()) {
     if (!bases_) {
       bases_ = shared(linear_bases(*snapshot.loaded->scene));
     }

@@ -32,7 +32,7 @@ class SolveHistory {
   /// To be called after each pass and iteration, and when a replica was added.
   void update(const SolveSession& session);
   /// Sets the history of a snapshot whose other values are set, and the members that follow from
-  /// linear parts.
+  /// linear terms.
   void write_to(SolverSnapshot& snapshot);
 
  private:
@@ -44,7 +44,7 @@ class SolveHistory {
   std::vector<std::shared_ptr<const std::vector<Vec3>>> directions_;
   std::vector<int> passes_;
   std::vector<std::shared_ptr<const std::vector<Rgb>>> radiosity_;
-  std::vector<std::shared_ptr<const std::vector<LinearPart>>> linear_parts_;
+  std::vector<std::shared_ptr<const std::vector<LinearTerm>>> linear_terms_;
   std::vector<ErrorBand> errors_;
 
   int replicas_ = 1;             // the number of replicas whose directions are in

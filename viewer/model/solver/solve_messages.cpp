@@ -60,8 +60,8 @@ void SolveMessages::deliver_snapshot() {
   emit snapshot_ready(newest);
 }
 
-void SolveMessages::post_load_progress(const QString& phase, double share) {
-  post([this, phase, share] { emit load_progressed(phase, share); });
+void SolveMessages::post_load_progress(const QString& phase, double fraction) {
+  post([this, phase, fraction] { emit load_progressed(phase, fraction); });
 }
 
 void SolveMessages::post_current_failure(const QString& no_memory) {

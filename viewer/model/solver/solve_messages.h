@@ -28,7 +28,7 @@ class SolveMessages : public QObject {
   /// Posts the open scene, or its new patches. Snapshots of what it replaces are dropped.
   void post_scene(std::shared_ptr<const LoadedScene> loaded);
   void post_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
-  void post_load_progress(const QString& phase, double share);
+  void post_load_progress(const QString& phase, double fraction);
   /// Posts the exception that is being handled, unless it is Canceled; to be called in a catch
   /// block.
   /// @param no_memory message for std::bad_alloc; failure_text() if it is empty
@@ -41,7 +41,7 @@ class SolveMessages : public QObject {
   void patches_changed(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
   void snapshot_ready(std::shared_ptr<const transillum::viewer::SolverSnapshot> snapshot);
   /// @param share  finished fraction, 0 to 1; negative if unknown
-  void load_progressed(const QString& phase, double share);
+  void load_progressed(const QString& phase, double fraction);
   /// @param bad_input  the user can correct it (exit status 2)
   void failed(const QString& message, bool bad_input);
 

@@ -15,12 +15,12 @@ namespace transillum::viewer {
 namespace {
 
 /// Runs a part of the loop without the lock, and posts its failure.
-template <class Part>
-void run_unlocked(std::unique_lock<std::mutex>& lock, SolveMessages& messages, const Part& part) {
+template <class Work>
+void run_unlocked(std::unique_lock<std::mutex>& lock, SolveMessages& messages, const Work& work) {
   lock.unlock();
   try {
     try {
-      part();
+      work();
     } catch (...) {
       messages.post_current_failure();
     }
@@ -84,7 +84,7 @@ void SolveRunner::stop() {
   } else {
     solve_cancellation_.cancel();
     if (!restart_request_) {
-      restart_request_ = run_;
+      restart_request_ = choice_;
     }
   }
   replace_goal({});
@@ -151,8 +151,8 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
     loading_ = false;
   } else if (restart_request_) {
     solve_cancellation_ = Cancellation();
-    run_ = *std::exchange(restart_request_, std::nullopt);
-    run_unlocked(lock, *this, [&, run = run_, cancellation = solve_cancellation_] {
+    choice_ = *std::exchange(restart_request_, std::nullopt);
+    run_unlocked(lock, *this, [&, run = choice_, cancellation = solve_cancellation_] {
       worker_.start(run, cancellation);
     });
     if (!worker_.has_started() && !open_request_ && !restart_request_) {
@@ -185,7 +185,7 @@ void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellat
       // From here on, stop() stops the solve of the new scene.
       solve_cancellation_ = cancellation;
       loading_ = false;
-      run_ = prepared.run;
+      choice_ = prepared.choice;
       relight_request_.reset();
       replace_goal(request.then);
     }

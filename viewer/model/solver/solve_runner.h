@@ -80,16 +80,16 @@ class SolveRunner : public SolveMessages {
   std::mutex mutex_;  // guards all down to solve_cancellation_
   std::condition_variable wake_;
   std::optional<OpenRequest> open_request_;
-  std::optional<SolveWorker::Run> restart_request_;
+  std::optional<SolveWorker::Choice> restart_request_;
   std::optional<std::shared_ptr<const PatchMaterials>> relight_request_;
   bool form_factors_requested_ = false;
   Goal goal_;
   std::uint64_t goal_number_ = 0;
   bool quit_ = false;
   bool loading_ = false;
-  SolveWorker::Run run_;             // the present or failed one
+  SolveWorker::Choice choice_;       // the present or failed one
   Cancellation load_cancellation_;   // cancels the running or the last load
-  Cancellation solve_cancellation_;  // cancels run_
+  Cancellation solve_cancellation_;  // cancels choice_
 
   SolveWorker worker_{*this};
   std::thread thread_;

@@ -19,22 +19,22 @@ SolveWorker::Prepared SolveWorker::load(const std::string& spec, const RunOption
                  {options.solve, options.refine}, cancellation);
 }
 
-SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& whole, Run run,
-                                           const Cancellation& cancellation) {
+SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& whole,
+                                           Choice choice, const Cancellation& cancellation) {
   if (whole->stored) {
-    run.refine = {};
+    choice.refine = {};
   }
-  SolveRequest request{.scene = whole->scene, .options = run.solve, .tree = whole->tree};
-  if (run.refine.is_set()) {
-    request.refine = run.refine.options();
+  SolveRequest request{.scene = whole->scene, .options = choice.solve, .tree = whole->tree};
+  if (choice.refine.is_set()) {
+    request.refine = choice.refine.options();
   }
   request.keep_form_factors = true;
   request.preparing = phase_reporter(report_);
   SolveSession session(std::move(request), cancellation);
-  checkpoints_.resume(session, run.solve);
+  checkpoints_.resume(session, choice.solve);
   session.prepare();
   auto loaded = with_patches_of(session, whole, cancellation);
-  return {std::move(run), std::move(loaded), std::move(session), cancellation};
+  return {std::move(choice), std::move(loaded), std::move(session), cancellation};
 }
 
 void SolveWorker::open(Prepared prepared) {
@@ -46,13 +46,13 @@ void SolveWorker::open(Prepared prepared) {
   post_snapshot();
 }
 
-void SolveWorker::start(Run run, const Cancellation& cancellation) {
+void SolveWorker::start(Choice choice, const Cancellation& cancellation) {
   if (!loaded_) {
     return;
   }
-  unstarted_ = run;
+  unstarted_ = choice;
   cancellation_ = cancellation;
-  Prepared prepared = prepare(whole_of(loaded_), std::move(run), cancellation);
+  Prepared prepared = prepare(whole_of(loaded_), std::move(choice), cancellation);
   if (prepared.session.glossy() != nullptr && materials_) {
     set_materials(prepared.session);
   }
@@ -63,8 +63,8 @@ void SolveWorker::start(Run run, const Cancellation& cancellation) {
 
 void SolveWorker::replace_session(Prepared prepared) {
   history_ = SolveHistory(prepared.session);
-  checkpoints_.begin(prepared.loaded->scene, prepared.run.solve);
-  run_ = std::move(prepared.run);
+  checkpoints_.begin(prepared.loaded->scene, prepared.choice.solve);
+  choice_ = std::move(prepared.choice);
   session_ = std::move(prepared.session);
   cancellation_ = prepared.cancellation;
   unstarted_.reset();
@@ -168,12 +168,12 @@ void SolveWorker::prepare_stage() {
   // A round has its own tree, even if no patch was divided before the last round.
   const auto is_round = [this] { return session_->tree() != loaded_->tree; };
   if (is_round()) {
-    checkpoints_.resume(*session_, run_.solve);
+    checkpoints_.resume(*session_, choice_.solve);
   }
   session_->prepare();
   if (is_round()) {
     take_patches(with_patches_of(*session_, whole_of(loaded_), cancellation_));
-    checkpoints_.begin(loaded_->scene, run_.solve);
+    checkpoints_.begin(loaded_->scene, choice_.solve);
     stage_result_ = nullptr;
   }
   history_ = SolveHistory(*session_);
@@ -187,7 +187,7 @@ bool SolveWorker::observe() {
   checkpoints_.save_if_due(*session_);
   // The end of a stage: the next stage replaces its patches, or perhaps its values.
   const bool is_end =
-      session_->progress().finished && (session_->in_rounds() || run_.solve.goal.seconds > 0);
+      session_->progress().finished && (session_->in_rounds() || choice_.solve.goal.seconds > 0);
   // Snapshots take at most a fifth of the solver's time.
   const double interval_ms =
       std::max<double>(refresh_interval_.load(std::memory_order_relaxed), 5 * snapshot_cost_ms_);
@@ -243,8 +243,8 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   history_.update(session);
   form_factors_.update(session);
   auto snapshot = std::make_shared<SolverSnapshot>(snapshot_of(session, loaded_));
-  snapshot->refine = run_.refine;
-  if (run_.refine.is_set()) {
+  snapshot->refine = choice_.refine;
+  if (choice_.refine.is_set()) {
     snapshot->refinement = {session.refined_scene()->patch_count(), session.in_rounds()};
   }
   snapshot->materials = session.glossy() != nullptr ? materials_ : nullptr;
@@ -253,7 +253,7 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
     snapshot->directions = std::make_shared<const std::vector<Vec3>>(session.directions());
   }
   form_factors_.write_to(*snapshot);
-  if (run_.solve.goal.seconds > 0 && session.progress().finished) {
+  if (choice_.solve.goal.seconds > 0 && session.progress().finished) {
     stage_result_ = snapshot;
   }
   return snapshot;

@@ -27,13 +27,13 @@ namespace transillum::viewer {
 class SolveWorker {
  public:
   /// The options of a run.
-  struct Run {
+  struct Choice {
     SolveOptions solve;
     RefineChoice refine;
   };
   /// A run that can begin.
   struct Prepared {
-    Run run;
+    Choice choice;
     std::shared_ptr<const LoadedScene> loaded;  ///< with the patches of the first round
     SolveSession session;
     Cancellation cancellation;  ///< cancels the session
@@ -51,7 +51,7 @@ class SolveWorker {
   void open(Prepared prepared);
   /// Replaces the solve of the open scene by a new one, whose session is canceled already.
   /// @throws InputError, Canceled: advance() then tries again; the old picture stays.
-  void start(Run run, const Cancellation& cancellation);
+  void start(Choice choice, const Cancellation& cancellation);
   /// Whether the last start() has succeeded.
   bool has_started() const { return !unstarted_; }
   /// Solves for other materials, from the present light, where lobes take part.
@@ -73,7 +73,7 @@ class SolveWorker {
   CheckpointKeeper& checkpoints() { return checkpoints_; }
 
  private:
-  Prepared prepare(const std::shared_ptr<const LoadedScene>& whole, Run run,
+  Prepared prepare(const std::shared_ptr<const LoadedScene>& whole, Choice choice,
                    const Cancellation& cancellation);
   void replace_session(Prepared prepared);
   void prepare_stage();
@@ -87,8 +87,8 @@ class SolveWorker {
   std::shared_ptr<const SolverSnapshot> make_snapshot();
 
   SolveMessages& messages_;
-  const LoadProgress report_ = [this](const QString& phase, double share) {
-    messages_.post_load_progress(phase, share);
+  const LoadProgress report_ = [this](const QString& phase, double fraction) {
+    messages_.post_load_progress(phase, fraction);
   };
   CheckpointKeeper checkpoints_;
   KeptFormFactors form_factors_;
@@ -98,12 +98,12 @@ class SolveWorker {
   std::shared_ptr<const LoadedScene> loaded_;        // null if no scene is open
   std::shared_ptr<const PatchMaterials> materials_;  // where lobes take part; null for the
                                                      // materials of the scene
-  Run run_;                                          // options of session_
+  Choice choice_;                                    // options of session_
   std::optional<SolveSession> session_;
-  std::optional<Run> unstarted_;  // to be started; session_ is canceled
-  Cancellation cancellation_;     // cancels session_ or unstarted_
-  bool failed_ = false;           // session_ cannot be continued
-  SolveHistory history_;          // history of the present stage
+  std::optional<Choice> unstarted_;  // to be started; session_ is canceled
+  Cancellation cancellation_;        // cancels session_ or unstarted_
+  bool failed_ = false;              // session_ cannot be continued
+  SolveHistory history_;             // history of the present stage
   /// The end of the last stage, if the goal has a time limit.
   std::shared_ptr<const SolverSnapshot> stage_result_;
 

@@ -56,7 +56,7 @@ void StudyRunner::run(const Request& request, const Cancellation& cancellation) 
           newest.running = true;
           newest.under_way = now.series;
           newest.directions = now.directions;
-          newest.share = now.share;
+          newest.fraction = now.fraction;
           newest.passes_per_second = now.passes_per_second;
           newest.seconds_left = now.seconds_left;
           newest.study.points.assign(now.points.begin(), now.points.end());
@@ -89,7 +89,7 @@ std::vector<Rgb> StudyRunner::reference_radiosity(const Request& request,
         newest.running = newest.reference = true;
         newest.directions = now.direction;
         newest.passes = now.passes;
-        newest.share = static_cast<double>(now.direction) / now.passes;
+        newest.fraction = static_cast<double>(now.direction) / now.passes;
         newest.passes_per_second = now.passes_per_second;
         newest.seconds_left = now.seconds_left;
         post(std::move(newest));

@@ -25,7 +25,7 @@ struct StudySnapshot {
   std::size_t under_way = 0;  ///< index of the series being computed
   int directions = 0;         ///< M being computed, or finished passes of the reference
   int passes = 0;             ///< all passes of the reference
-  double share = 0;           ///< finished fraction of the work, 0 to 1
+  double fraction = 0;        ///< finished fraction of the work, 0 to 1
   double passes_per_second = 0, seconds_left = 0;
 };
 

@@ -40,10 +40,10 @@ Widths usual_widths_of(Layout layout) {
 
 // A larger font needs wider sides, but the scene must keep enough width.
 Widths widths_of(Layout layout, int window_width) {
-  constexpr double most_share = 0.64;
+  constexpr double most_fraction = 0.64;
   const Widths usual = usual_widths_of(layout);
   const double sum = usual.left + usual.right;
-  const double factor = std::clamp(most_share * window_width / sum, 1.0, theme::scale());
+  const double factor = std::clamp(most_fraction * window_width / sum, 1.0, theme::scale());
   return {static_cast<int>(factor * usual.left), static_cast<int>(factor * usual.right)};
 }
 
@@ -202,15 +202,15 @@ void DockLayouts::follow_type() {
 }
 
 void DockLayouts::fit_bottom() {
-  constexpr double share = 0.18, most_share = 0.24;
+  constexpr double fraction = 0.18, most_fraction = 0.24;
   for (const Dock& dock : docks_) {
     for (const Place& place : dock.places) {
       if (place.layout == current_ && place.area == Qt::BottomDockWidgetArea &&
           !dock.widget->isHidden()) {
-        const double usual = std::min(theme::scale() * place.height, share * window_.height());
+        const double usual = std::min(theme::scale() * place.height, fraction * window_.height());
         // In a low window, the panels above need the room more.
         const double wanted = dock.widget->widget()->sizeHint().height();
-        const bool has_room = wanted < most_share * window_.height();
+        const bool has_room = wanted < most_fraction * window_.height();
         window_.resizeDocks({dock.widget},
                             {static_cast<int>(has_room ? std::max(usual, wanted) : usual)},
                             Qt::Vertical);
@@ -366,9 +366,10 @@ void DockLayouts::show_alone(const std::string& panel) {
     }
   }
   bring_to_front(panel);
-  constexpr double share = 0.62;  // the scene needs less width than it has beside two columns of
-                                  // panels
-  window_.resizeDocks({found->widget}, {static_cast<int>(share * window_.width())}, Qt::Horizontal);
+  constexpr double fraction = 0.62;  // the scene needs less width than it has beside two columns of
+                                     // panels
+  window_.resizeDocks({found->widget}, {static_cast<int>(fraction * window_.width())},
+                      Qt::Horizontal);
   emit alone(alone_);
 }
 

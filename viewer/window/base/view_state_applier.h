@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lessons/view_state.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 namespace transillum::viewer {
 

@@ -152,7 +152,7 @@ void ColorExportDialog::show_state() {
     const QSignalBlocker quiet(exposure_);
     exposure_->setValue(view_->automatic_exposure);
   }
-  const double percent = 100 * view_->white_share(exposure());
+  const double percent = 100 * view_->white_fraction(exposure());
   note_->setText(tr("White from B = %1 W/m² on: %2 % of the area that does not emit")
                      .arg(number_text(1 / exposure()), QString::number(percent, 'f', 1)));
   const double ratio = devicePixelRatioF();

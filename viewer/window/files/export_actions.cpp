@@ -108,8 +108,8 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
       &E::choose_map);
   add("export_charts", tr("Convergence charts…"), tr("Write the charts as vectors (SVG) or PNG"),
       &E::choose_charts);
-  add("export_figures", tr("Convergence figures…"), tr("Write the data of the charts as CSV"),
-      &E::choose_figures);
+  add("export_values", tr("Convergence values…"), tr("Write the data of the charts as CSV"),
+      &E::choose_values);
   save_scene_ =
       make_action(this, "save_scene", tr("Save scene…"),
                   tr("Write the scene with its changed materials and turned faces as OBJ and MTL"));
@@ -218,7 +218,7 @@ void ExportActions::write_charts(const QString& path) const {
                            {1.0 * charts_.width(), 1.0 * charts_.height()});
 }
 
-void ExportActions::write_chart_figures(const QString& path) const {
+void ExportActions::write_chart_values(const QString& path) const {
   const auto snapshot = frame_.state.scene.snapshot();
   if (!snapshot) {
     throw std::runtime_error("there is nothing to write yet");
@@ -307,9 +307,9 @@ void ExportActions::choose_charts() {
                name_with("-convergence.svg"), [this](const QString& path) { write_charts(path); });
 }
 
-void ExportActions::choose_figures() {
-  write_chosen(tr("Convergence figures"), tr("Tables (*.csv)"), name_with("-convergence.csv"),
-               [this](const QString& path) { write_chart_figures(path); });
+void ExportActions::choose_values() {
+  write_chosen(tr("Convergence values"), tr("Tables (*.csv)"), name_with("-convergence.csv"),
+               [this](const QString& path) { write_chart_values(path); });
 }
 
 }  // namespace transillum::viewer

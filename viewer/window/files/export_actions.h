@@ -9,7 +9,7 @@
 
 #include "support/newest_result.h"
 #include "transillum/files.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 class QAction;
 class QMenu;
@@ -22,7 +22,7 @@ class ConvergenceView;
 /// Writes a picture whole or not at all. @throws std::runtime_error
 void write_png(const QString& path, const QImage& image);
 
-/// Exports from the window: pictures, vector graphics, results, figures. All files are written
+/// Exports from the window: pictures, vector graphics, results, values. All files are written
 /// whole or not at all; the functions throw std::runtime_error where one cannot be written.
 class ExportActions : public QObject {
   Q_OBJECT
@@ -56,7 +56,7 @@ class ExportActions : public QObject {
   /// Writes the convergence charts as vectors.
   void write_charts(const QString& path) const;
   /// Writes the data of the charts: chart,x,change,quadrature_error.
-  void write_chart_figures(const QString& path) const;
+  void write_chart_values(const QString& path) const;
 
  private:
   void add(const char* name, const QString& text, const QString& tip,
@@ -67,7 +67,7 @@ class ExportActions : public QObject {
   void choose_colors();
   void choose_map();
   void choose_charts();
-  void choose_figures();
+  void choose_values();
   /// A file name that begins with the name of the open scene.
   QString name_with(const char* ending) const;
   template <class Write>

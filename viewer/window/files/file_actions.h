@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 #include "window/files/reading.h"
 
 class QAction;

@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "support/request_worker.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 class QAction;
 class QLabel;

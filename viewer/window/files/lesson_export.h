@@ -8,7 +8,7 @@
 
 #include "lessons/lesson_html.h"
 #include "lessons/question_solver.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 class QAction;
 class QProgressDialog;

@@ -6,7 +6,7 @@
 #include <QString>
 #include <QTimer>
 
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 namespace transillum::viewer {
 

@@ -4,7 +4,7 @@
 #include <QObject>
 
 #include "lessons/session_file.h"
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 class QPlainTextEdit;
 

@@ -3,7 +3,7 @@
 
 #include <QObject>
 
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 class QAction;
 class QMenu;

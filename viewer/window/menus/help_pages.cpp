@@ -73,7 +73,7 @@ void add_keys(const QMenu& menu, std::vector<KeyUse>& keys) {
 }
 
 // The uses of the pointer, and the keys that belong to one view; no action has them.
-KeyGroup pointer_group() {
+KeySection pointer_section() {
   const auto tr = [](const char* text) { return QMainWindow::tr(text); };
   return {
       tr("Pointer"),
@@ -85,14 +85,14 @@ KeyGroup pointer_group() {
        {tr("Timeline"), tr("drag: go to a step; Shift+drag: step by step; arrow keys: one step, "
                            "with Ctrl one direction")},
        {tr("Kept runs"), tr("F2 or double-click: rename; Del: remove")},
-       {tr("Groups"), tr("Return: select the patches of the row; E: make it emit; R: reflect")},
+       {tr("Surfaces"), tr("Return: select the patches of the row; E: make it emit; R: reflect")},
        {tr("Directions"), tr("drag: rotate the sphere; click: go to a direction")}}};
 }
 
-QString html(const KeyGroup& group) {
+QString html(const KeySection& section) {
   QString rows = QStringLiteral("<h3>%1</h3><table cellspacing=0 cellpadding=3>")
-                     .arg(group.menu.toHtmlEscaped());
-  for (const KeyUse& key : group.keys) {
+                     .arg(section.menu.toHtmlEscaped());
+  for (const KeyUse& key : section.keys) {
     rows += QStringLiteral(
                 "<tr><td style='white-space: pre'><b>%1</b>&nbsp;&nbsp;</td>"
                 "<td style='color: %3'>%2</td></tr>")
@@ -104,32 +104,32 @@ QString html(const KeyGroup& group) {
 
 }  // namespace
 
-std::vector<KeyGroup> keys_of(const QMainWindow& window) {
-  std::vector<KeyGroup> groups;
+std::vector<KeySection> keys_of(const QMainWindow& window) {
+  std::vector<KeySection> sections;
   for (const QAction* action : window.menuBar()->actions()) {
     if (!action->menu()) {
       continue;
     }
-    KeyGroup group{plain(action->text()), {}};
-    add_keys(*action->menu(), group.keys);
-    if (!group.keys.empty()) {
-      groups.push_back(std::move(group));
+    KeySection section{plain(action->text()), {}};
+    add_keys(*action->menu(), section.keys);
+    if (!section.keys.empty()) {
+      sections.push_back(std::move(section));
     }
   }
-  return groups;
+  return sections;
 }
 
 QString key_page(const QMainWindow& window) {
-  std::vector<KeyGroup> groups = keys_of(window);
-  groups.push_back(pointer_group());
+  std::vector<KeySection> sections = keys_of(window);
+  sections.push_back(pointer_section());
   std::size_t rows = 0, placed_rows = 0;
-  for (const KeyGroup& group : groups) {
-    rows += group.keys.size() + 2;
+  for (const KeySection& section : sections) {
+    rows += section.keys.size() + 2;
   }
   QString columns[2];
-  for (const KeyGroup& group : groups) {
-    columns[2 * placed_rows < rows ? 0 : 1] += html(group);
-    placed_rows += group.keys.size() + 2;
+  for (const KeySection& section : sections) {
+    columns[2 * placed_rows < rows ? 0 : 1] += html(section);
+    placed_rows += section.keys.size() + 2;
   }
   return QStringLiteral(
              "<table width='100%'><tr><td width='50%' valign='top'>%1</td>"

@@ -25,13 +25,13 @@ struct KeyUse {
   QString text;
   bool enabled = true;  ///< whether the action of the key is enabled now
 };
-struct KeyGroup {
+struct KeySection {
   QString menu;
   std::vector<KeyUse> keys;
 };
 
 /// All keys of the window's menus, in the order of the menus; read from the actions.
-std::vector<KeyGroup> keys_of(const QMainWindow& window);
+std::vector<KeySection> keys_of(const QMainWindow& window);
 /// All keys as a page of HTML in two columns, with the functions of the pointer.
 QString key_page(const QMainWindow& window);
 /// Shows that page in a non-modal dialog.

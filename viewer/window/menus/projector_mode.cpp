@@ -86,9 +86,9 @@ void ProjectorMode::arrange() {
   if (!projecting_) {
     return;
   }
-  constexpr double page_share = 0.4;
+  constexpr double page_fraction = 0.4;
   const int width = frame_.window.width();
-  const int page_width = static_cast<int>(page_share * width);
+  const int page_width = static_cast<int>(page_fraction * width);
   QList<QDockWidget*> docks{dock("lesson")};
   QList<int> widths{page_width};
   if (auto* large = qobject_cast<QDockWidget*>(projected_.value(2))) {

@@ -5,7 +5,7 @@
 #include <QObject>
 #include <string>
 
-#include "window/base/window_parts.h"
+#include "window/base/window_views.h"
 
 class QDockWidget;
 class QWidget;

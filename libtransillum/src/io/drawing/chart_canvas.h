@@ -35,7 +35,7 @@ class ChartCanvas {
   /// `text`, shortened with an ellipsis if it is wider than `room`; empty if there is no room.
   std::string elided(const std::string& text, double room, const ChartText& look);
   /// Draws a line of text.
-  /// @param at  middle of its height, and of its width the share `align` from its begin
+  /// @param at  middle of its height, and of its width the fraction `align` from its begin
   /// @param upward  turned by 90 degrees, to be read from below
   void draw(const std::string& text, const ChartPoint& at, double align, const ChartText& look,
             bool upward = false);

@@ -28,11 +28,11 @@ double line_of(double size) { return 1.2 * size; }
 double width_of(const ChartArea& area) { return area.right - area.left; }
 double height_of(const ChartArea& area) { return area.bottom - area.top; }
 
-/// The share of an axis that is below `value`; NaN for values that cannot be shown.
-double share_of(const ChartAxis& axis, double value) {
+/// The fraction of an axis that is below `value`; NaN for values that cannot be shown.
+double fraction_of(const ChartAxis& axis, double value) {
   const auto at = [&](double v) { return axis.logarithmic ? std::log10(v) : v; };
-  const double share = (at(value) - at(axis.low)) / (at(axis.high) - at(axis.low));
-  return std::isfinite(share) ? share : not_shown;
+  const double fraction = (at(value) - at(axis.low)) / (at(axis.high) - at(axis.low));
+  return std::isfinite(fraction) ? fraction : not_shown;
 }
 
 LineChart with_clean_texts(LineChart chart) {
@@ -190,7 +190,7 @@ void ChartPainter::keep_labels_apart(ChartAxis& axis, double length, bool across
   double free = HUGE_VAL, last_line = HUGE_VAL;
   std::vector<ChartTick> kept;
   for (auto tick = axis.ticks.rbegin(); tick != axis.ticks.rend(); ++tick) {
-    const double at = length * share_of(axis, tick->value);
+    const double at = length * fraction_of(axis, tick->value);
     if (!(at > -0.5 && at < length + 0.5)) {
       continue;
     }
@@ -214,11 +214,11 @@ void ChartPainter::keep_labels_apart(ChartAxis& axis, double length, bool across
 
 // The limits keep all coordinates in the range of Cairo's.
 double ChartPainter::x_of(double value) const {
-  return std::clamp(plot_.left + share_of(chart_.x, value) * width_of(plot_), -1e6, 1e6);
+  return std::clamp(plot_.left + fraction_of(chart_.x, value) * width_of(plot_), -1e6, 1e6);
 }
 
 double ChartPainter::y_of(double value) const {
-  return std::clamp(plot_.bottom - share_of(chart_.y, value) * height_of(plot_), -1e6, 1e6);
+  return std::clamp(plot_.bottom - fraction_of(chart_.y, value) * height_of(plot_), -1e6, 1e6);
 }
 
 void ChartPainter::draw_title() {

@@ -32,23 +32,24 @@ class Canvas {
       : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {}
 
   void fill(std::span<const Vec2> outline, const Color8& color) {
-    cover(outline, [&](std::size_t pixel, float share) {
+    cover(outline, [&](std::size_t pixel, float fraction) {
       Pixel& target = pixels_[pixel];
-      target.covered += share;
-      target.r += share * static_cast<float>(color.r);
-      target.g += share * static_cast<float>(color.g);
-      target.b += share * static_cast<float>(color.b);
+      target.covered += fraction;
+      target.r += fraction * static_cast<float>(color.r);
+      target.g += fraction * static_cast<float>(color.g);
+      target.b += fraction * static_cast<float>(color.b);
     });
   }
 
   /// Fills a polygon of the receiver's projection: background below all that fill() draws.
   void fill_window(std::span<const Vec2> outline) {
-    cover(outline, [&](std::size_t pixel, float share) { pixels_[pixel].window += share; });
+    cover(outline, [&](std::size_t pixel, float fraction) { pixels_[pixel].window += fraction; });
   }
 
   /// Fills a difference: above all but lines.
   void fill_difference(std::span<const Vec2> outline) {
-    cover(outline, [&](std::size_t pixel, float share) { pixels_[pixel].difference += share; });
+    cover(outline,
+          [&](std::size_t pixel, float fraction) { pixels_[pixel].difference += fraction; });
   }
 
   void draw_edges(std::span<const Vec2> outline, double line_width) {
@@ -62,8 +63,8 @@ class Canvas {
     if (!(length > 0)) {
       return;
     }
-    const double share = line_width / 2 / length;
-    const Vec2 aside{share * (a.y - b.y), share * (b.x - a.x)};
+    const double fraction = line_width / 2 / length;
+    const Vec2 aside{fraction * (a.y - b.y), fraction * (b.x - a.x)};
     const std::array<Vec2, 4> bar{
         Vec2{a.x + aside.x, a.y + aside.y}, Vec2{b.x + aside.x, b.y + aside.y},
         Vec2{b.x - aside.x, b.y - aside.y}, Vec2{a.x - aside.x, a.y - aside.y}};
@@ -103,8 +104,8 @@ class Canvas {
            static_cast<std::size_t>(x);
   }
 
-  /// Calls add(pixel index, share) for each pixel that a convex polygon touches and the share of it
-  /// covered. A pixel's share may come in several calls.
+  /// Calls add(pixel index, share) for each pixel that a convex polygon touches and the fraction of
+  /// it covered. A pixel's share may come in several calls.
   template <typename Add>
   void cover(std::span<const Vec2> outline, Add add) const {
     double top = HUGE_VAL, bottom = -HUGE_VAL;

@@ -79,7 +79,7 @@ std::vector<ChartSeries> styles_of(const std::vector<StudySeries>& series) {
 }
 
 /// 0.001 -> "0.1 %".
-std::string percent_text(double share) { return fmt::format("{:.12g} %", 100 * share); }
+std::string percent_text(double fraction) { return fmt::format("{:.12g} %", 100 * fraction); }
 
 std::string slope_text(double slope) {
   std::string number = fmt::format("{:.2f}", slope);

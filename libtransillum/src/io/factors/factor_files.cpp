@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/text_file.h"
 #include "io/factors/factor_formats.h"
@@ -169,6 +170,33 @@ FormFactors sorted_factors(const std::string& name, PatchId patches,
     form_factors.row_begin.push_back(form_factors.size());
   }
   return form_factors;
+}
+
+void add_moments(const std::string& name, std::span<const double> values,
+                 const std::vector<FactorEntry>& entries, FormFactors& form_factors) {
+  constexpr std::size_t each = std::tuple_size_v<decltype(TransferMoments::value)>;
+  if (values.size() != each * entries.size()) {
+    throw InputError(fmt::format("{}: {} moments for {} form factors, not {} for each", name,
+                                 values.size(), entries.size(), each));
+  }
+  bool in_order = form_factors.size() == entries.size();
+  for (std::size_t k = 0; in_order && k < entries.size(); ++k) {
+    const auto row = static_cast<std::size_t>(entries[k].i);
+    in_order = form_factors.source[k] == entries[k].j && form_factors.row_begin[row] <= k &&
+               k < form_factors.row_begin[row + 1];
+  }
+  if (!in_order) {
+    throw InputError(fmt::format(
+        "{}: form factors with moments must be above 0 and in order, one for a pair", name));
+  }
+  form_factors.moments.resize(entries.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!std::isfinite(values[k])) {
+      throw InputError(fmt::format("{}: a moment of patches {} and {} is not finite", name,
+                                   entries[k / each].i, entries[k / each].j));
+    }
+    form_factors.moments[k / each].value[k % each] = values[k];
+  }
 }
 
 void check_form_factors(const Scene& scene, const StoredFormFactors& stored) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,13 @@ struct FactorEntry {
   PatchId i, j;
   double value;
 };
+/// Adds moments to the matrix of `entries`.
+/// @param values T^ab / A_i at 9 k + 3 a + b, k being an index of `entries`
+/// @throws InputError where their number differs, one is not finite, or `entries` are not in the
+/// order of the matrix
+void add_moments(const std::string& name, std::span<const double> values,
+                 const std::vector<FactorEntry>& entries, FormFactors& form_factors);
+
 /// The matrix of the entries: sorted, entries of one place added up, zeros omitted.
 /// @throws InputError where a value is not finite or less than 0
 /// @throws Canceled

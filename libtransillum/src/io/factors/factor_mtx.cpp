@@ -3,13 +3,15 @@
 // Form factors in the coordinate form of Matrix Market: a head line, comments (%), a line with
 // rows, columns and number of entries, then a line per entry; numbers of rows and columns start at
 // 1. Comments, which other programs skip, have the areas, `%area A` per patch, and the hash of the
-// polygons, `%polygons HASH`.
+// polygons, `%polygons HASH`, and for linear functions a line `%moments` per entry, in their order.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "base/text_file.h"
 #include "io/factors/factor_formats.h"
@@ -72,6 +74,31 @@ void read_head(MtxLines& lines) {
   }
 }
 
+constexpr std::size_t moments_in_line = 8;
+
+void read_moments(const MtxLines& lines, std::string_view text,
+                  std::vector<std::string_view>& words, std::vector<double>& moments) {
+  split_words(text, words, moments_in_line + 1);
+  if (words.size() != moments_in_line) {
+    lines.refuse(fmt::format("a line of moments must have {} numbers", moments_in_line));
+  }
+  for (const std::string_view word : words) {
+    moments.push_back(lines.number(word));
+  }
+}
+
+/// The moments of all lines, the value of its entry before those of each.
+std::vector<double> with_first(const std::vector<FactorEntry>& entries,
+                               const std::vector<double>& moments) {
+  std::vector<double> all;
+  for (std::size_t k = 0; k < moments.size() / moments_in_line; ++k) {
+    all.push_back(k < entries.size() ? entries[k].value : 0.0);
+    const auto first = moments.begin() + static_cast<std::ptrdiff_t>(moments_in_line * k);
+    all.insert(all.end(), first, first + static_cast<std::ptrdiff_t>(moments_in_line));
+  }
+  return all;
+}
+
 }  // namespace
 
 void write_factors_mtx(std::ostream& out, const Scene& scene, const FormFactors& form_factors) {
@@ -82,6 +109,9 @@ void write_factors_mtx(std::ostream& out, const Scene& scene, const FormFactors&
   text.add("%polygons {}\n", hash_of_polygons(scene));
   for (const Patch& patch : scene.patches()) {
     text.add("%area {}\n", patch.area);
+  }
+  for (const TransferMoments& moments : form_factors.moments) {
+    text.add("%moments {}\n", fmt::join(std::span(moments.value).subspan(1), " "));
   }
   text.add("{} {} {}\n", scene.patch_count(), scene.patch_count(), form_factors.size());
   for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
@@ -99,9 +129,14 @@ StoredFormFactors read_factors_mtx(const std::string& name, std::string_view tex
   std::vector<std::string_view> words;
   std::int64_t patches = 0, expected = 0;
   std::vector<FactorEntry> entries;
+  std::vector<double> moments;  // 8 numbers a pair: T^00 is the form factor
   while (const auto line = lines.next()) {
     if (line->starts_with("%area ")) {
       stored.areas.push_back(lines.number(trimmed(line->substr(6))));
+      continue;
+    }
+    if (line->starts_with("%moments ")) {
+      read_moments(lines, line->substr(9), words, moments);
       continue;
     }
     if (line->starts_with("%polygons ")) {
@@ -136,6 +171,9 @@ StoredFormFactors read_factors_mtx(const std::string& name, std::string_view tex
     lines.refuse(fmt::format("the file has {} entries, not {}", entries.size(), expected));
   }
   stored.form_factors = sorted_factors(name, static_cast<PatchId>(patches), entries, cancellation);
+  if (!moments.empty()) {
+    add_moments(name, with_first(entries, moments), entries, stored.form_factors);
+  }
   return stored;
 }
 

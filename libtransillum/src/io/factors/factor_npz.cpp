@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Form factors as SciPy's compressed sparse rows (scipy.sparse.save_npz): a ZIP archive of the
-// arrays indices, indptr, format, shape and data. `area` and `polygons` are added; SciPy does not
-// mind.
+// arrays indices, indptr, format, shape and data. `area`, `polygons` and `moments` are added; SciPy
+// does not mind.
 #include <fmt/format.h>
 
 #include <limits>
@@ -76,6 +76,13 @@ void write_factors_npz(std::ostream& out, const Scene& scene, const FormFactors&
   add_array<double>(zip, "area", "<f8", areas);
   const std::string polygons = hash_of_polygons(scene);
   zip.add("polygons.npy", npy_head(fmt::format("|S{}", polygons.size()), "()"), polygons);
+  if (!form_factors.moments.empty()) {
+    std::vector<double> moments;
+    for (const TransferMoments& of_pair : form_factors.moments) {
+      moments.insert(moments.end(), of_pair.value.begin(), of_pair.value.end());
+    }
+    add_array<double>(zip, "moments", "<f8", moments);
+  }
   zip.finish();
 }
 
@@ -110,6 +117,9 @@ StoredFormFactors read_factors_npz(const std::string& name, std::string_view byt
     }
   }
   StoredFormFactors stored{name, sorted_factors(name, patches, list, cancellation), {}, {}};
+  if (file.has("moments")) {
+    add_moments(name, file.array("moments").numbers(), list, stored.form_factors);
+  }
   if (file.has("area")) {
     stored.areas = file.array("area").numbers();
   }

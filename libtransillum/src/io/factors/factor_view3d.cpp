@@ -23,6 +23,9 @@ void write_factors_view3d(std::ostream& out, const Scene& scene, const FormFacto
                     "most {}; write .npz or .mtx",
                     scene.patch_count(), most_patches));
   }
+  if (!form_factors.moments.empty()) {
+    throw InputError("a .vf file has no moments of linear functions; write .npz or .mtx");
+  }
   TextBuffer text(out);
   text.add("{:<30}\n", fmt::format("View3D 3.2 0 0 0 {}", scene.patch_count()));
   for (PatchId i = 0; i < scene.patch_count(); ++i) {

@@ -66,7 +66,7 @@ Color8 color_of(const Scene& scene, const VisibilityMap::Polygon& polygon,
 }
 
 MapLayout fit_map(const VisibilityMap& map, double width, double height) {
-  constexpr double margin = 0.03, least_share = 0.3;
+  constexpr double margin = 0.03, least_fraction = 0.3;
   Box box;
   for (const Vec2& p : map.corners) {
     box.add(p);
@@ -76,8 +76,8 @@ MapLayout fit_map(const VisibilityMap& map, double width, double height) {
   }
   const double size = std::max(box.x1 - box.x0, box.y1 - box.y0);
   // Even for an empty or very narrow map, the picture has a minimum width.
-  const double wide = size > 0 ? std::max(box.x1 - box.x0, least_share * size) : 1;
-  const double high = size > 0 ? std::max(box.y1 - box.y0, least_share * size) : least_share;
+  const double wide = size > 0 ? std::max(box.x1 - box.x0, least_fraction * size) : 1;
+  const double high = size > 0 ? std::max(box.y1 - box.y0, least_fraction * size) : least_fraction;
   const double border = margin * std::max(width, height);
   MapLayout layout;
   layout.transform.scale = std::min((width - 2 * border) / wide, (height - 2 * border) / high);
@@ -108,7 +108,7 @@ double line_width(const VisibilityMap& map, double scale) {
   return std::clamp(0.02 * side, 0.1, 0.8);
 }
 
-double difference_share(const VisibilityMap& map) {
+double difference_fraction(const VisibilityMap& map) {
   const double shown = total_area(map.window.empty() ? map.polygons : map.window);
   return shown > 0 ? total_area(map.pixels.differences) / shown : 0;
 }

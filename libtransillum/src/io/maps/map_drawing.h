@@ -69,9 +69,9 @@ double total_area(const std::vector<VisibilityMap::Polygon>& polygons);
 /// of the borders between pixels. @param scale pixels per meter
 double line_width(const VisibilityMap& map, double scale);
 
-/// Area in which a map in pixels differs from the exact one, as a share of the receiver's
+/// Area in which a map in pixels differs from the exact one, as a fraction of the receiver's
 /// projection or, without a receiver, of the map.
-double difference_share(const VisibilityMap& map);
+double difference_fraction(const VisibilityMap& map);
 
 /// Where a label is drawn, pixels.
 struct PlacedLabel {

@@ -328,7 +328,7 @@ class SvgFigure {
     }
     if (!map_.pixels.differences.empty()) {
       entry(map_colors::difference,
-            fmt::format("differs ({:.2g} %)", 100 * difference_share(map_)).c_str(), 0);
+            fmt::format("differs ({:.2g} %)", 100 * difference_fraction(map_)).c_str(), 0);
     }
   }
 

@@ -72,7 +72,7 @@ OrderedJson measurements_json(const ErrorMeasurements& m) {
   return {{"replicas", m.replicas},
           {"replicas_added", m.replicas_added},
           {"divided_patches", m.divided_patches},
-          {"divided_share", m.divided_share},
+          {"divided_fraction", m.divided_fraction},
           {"divided_seconds", m.divided_seconds},
           {"compared_directions", m.compared_directions},
           {"compared_with", name_of(m.reference)},
@@ -195,8 +195,9 @@ void write_measurements(std::ostream& out, const ErrorMeasurements& m) {
       "exact arithmetic: {}.</td></tr>\n</table>\n",
       m.replicas, m.replicas_added ? ", for which the solve was repeated" : "",
       with_separators(m.divided_patches),
-      m.divided_share < 1 ? error_percentage(m.divided_share) : "each", duration(m.divided_seconds),
-      name_of(m.reference), m.compared_directions, lost_text(m), with_separators(m.exact_queries));
+      m.divided_fraction < 1 ? error_percentage(m.divided_fraction) : "each",
+      duration(m.divided_seconds), name_of(m.reference), m.compared_directions, lost_text(m),
+      with_separators(m.exact_queries));
 }
 
 void write_page(std::ostream& out, const ErrorReport& report, const MeasuredSolve& solve) {

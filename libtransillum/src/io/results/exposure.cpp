@@ -19,7 +19,7 @@ namespace {
 /// The value that the largest channel of B does not exceed on 98 % of the area.
 /// @param emitting whether patches that emit count too
 double bright(const Solution& solution, bool emitting) {
-  constexpr double share = 0.98;
+  constexpr double fraction = 0.98;
   std::vector<std::pair<double, double>> values;  // B, and area
   double area = 0;
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
@@ -32,7 +32,7 @@ double bright(const Solution& solution, bool emitting) {
   double below = 0;
   for (const auto& [value, of_patch] : values) {
     below += of_patch;
-    if (below >= share * area) {
+    if (below >= fraction * area) {
       return value;
     }
   }

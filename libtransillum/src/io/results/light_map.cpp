@@ -62,8 +62,8 @@ std::array<float, 2> LightMap::coordinates(const Chart& chart, const Vec3& point
   const Vec3 to = point - chart.origin;
   const auto texel = [](std::size_t square_number, double value, double begin, double size) {
     constexpr double inside = square - 2;
-    const double share = size > 0 ? std::clamp((value - begin) / size, 0.0, 1.0) : 0.5;
-    return static_cast<double>(square * square_number) + 1 + inside * share;
+    const double fraction = size > 0 ? std::clamp((value - begin) / size, 0.0, 1.0) : 0.5;
+    return static_cast<double>(square * square_number) + 1 + inside * fraction;
   };
   // The picture's rows go down, t goes up.
   const double x = texel(chart.column, dot(to, chart.s), chart.begin_s, chart.length_s);
@@ -77,7 +77,7 @@ std::array<float, 2> LightMap::coordinates(const Chart& chart, const Vec3& point
 /// linear filtering gives the function within it, but for rounding and where it is below 0 or
 /// above 1.
 Rgb LightMap::at_texel(PatchId i, std::size_t x, std::size_t y) const {
-  if (solution_.linear_parts.empty()) {
+  if (solution_.linear_terms.empty()) {
     return at(solution_.radiosity, i);
   }
   constexpr double inside = square - 2;
@@ -87,8 +87,8 @@ Rgb LightMap::at_texel(PatchId i, std::size_t x, std::size_t y) const {
   const Vec3 point = box.origin + (box.begin_s + s * box.length_s) * box.s +
                      (box.begin_t + t * box.length_t) * box.t;
   const auto [first, second] = linear_basis(*solution_.scene, i).at(point);
-  const LinearPart& part = at(solution_.linear_parts, i);
-  return at(solution_.radiosity, i) + first * part.first + second * part.second;
+  const LinearTerm& term = at(solution_.linear_terms, i);
+  return at(solution_.radiosity, i) + first * term.first + second * term.second;
 }
 
 std::string LightMap::png() const {

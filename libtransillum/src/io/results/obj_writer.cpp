@@ -64,8 +64,8 @@ void write_materials(std::ostream& stream, const std::vector<Material>& material
     text.add("newmtl {}\nKd {} {} {}\nKe {} {} {}\n", names[m], rho.r, rho.g, rho.b, e.r, e.g, e.b);
     const Lobe& lobe = materials[m].lobe;
     if (lobe.present()) {
-      const Rgb& share = lobe.reflectance;
-      text.add("Ks {} {} {}\n", share.r, share.g, share.b);
+      const Rgb& fraction = lobe.reflectance;
+      text.add("Ks {} {} {}\n", fraction.r, fraction.g, fraction.b);
       const bool phong = lobe.shape == LobeShape::phong;
       text.add("{} {}\n", phong ? "Ns" : "Pr", phong ? lobe.exponent : lobe.roughness);
     }

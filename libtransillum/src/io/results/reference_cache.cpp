@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "io/content_hash.h"
+#include "options/option_table.h"
 #include "transillum/files.h"
 #include "transillum/study.h"
 
@@ -26,40 +27,21 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Adds the options that change B: not the memory nor the number of threads.
-void add_options(ContentHash& hash, const SolveOptions& options) {
-  hash.add(options.directions);
-  hash.add(name_of(options.used_sampling()));
-  hash.add(options.seed);
-  hash.add(options.rotation ? std::to_string(*options.rotation) : std::string("none"));
-  hash.add(name_of(options.engine));
-  hash.add(options.engine_options.lines_per_patch);
-  hash.add(static_cast<int>(options.engine_options.gridded));
-  hash.add(options.seed);
-  hash.add(options.engine_options.resolution);
-  hash.add(name_of(options.engine_options.order));
-  hash.add(static_cast<int>(options.two_way));
-  hash.add(name_of(options.normalize));
-  hash.add(name_of(options.scheme));
-  hash.add(options.burn_in.value_or(-1));
-  hash.add(options.averaged_iterations);
-  hash.add(options.replicas);
-  hash.add(options.iterations);
-  constexpr double no_shot = -2;  // no value that the option can have
-  hash.add(options.used_first_shot().value_or(no_shot));
-  hash.add(options.tolerance);
-  if (options.basis != Basis::constant) {
-    hash.add(name_of(options.basis));
+void add_options(ContentHash& hash, const SolveOptions& solve) {
+  for (const Option& option : options()) {
+    if (!option.of_machine) {
+      hash.add(option.name);
+      hash.add(option.print({.solve = solve}));
+    }
   }
-  if (options.sky.is_set()) {
-    hash.add(options.sky.exitance);
-    hash.add(name_of(options.sky.model));
-    hash.add(options.sky.up);
-  }
+  // No options of a command line.
+  hash.add(solve.engine_options.lines_per_patch);
+  hash.add(static_cast<int>(solve.engine_options.gridded));
+  hash.add(solve.averaged_iterations);
 }
 
-std::string key_of(const Scene& scene, const SolveOptions& options,
-                   ContentHash::Method method = ContentHash::Method::xxh3) {
-  ContentHash hash(method);
+std::string key_of(const Scene& scene, const SolveOptions& options) {
+  ContentHash hash;
   hash.add(std::string(TRANSILLUM_VERSION));
   hash.add(static_cast<int>(std::endian::native == std::endian::little));
   hash.add_shape(scene);
@@ -75,7 +57,7 @@ std::string first_line(const std::string& key) {
 }
 
 std::string digits_of(const std::string& key, const std::vector<Rgb>& radiosity) {
-  ContentHash hash(ContentHash::method_of(key));
+  ContentHash hash;
   hash.add(key);
   for (const Rgb& b : radiosity) {
     hash.add(b);
@@ -133,14 +115,8 @@ std::optional<std::vector<Rgb>> ReferenceCache::find(const Scene& scene,
   }
   const std::size_t per_patch = options.basis == Basis::linear ? 3 : 1;
   const std::size_t values = per_patch * static_cast<std::size_t>(scene.patch_count());
-  std::optional<std::vector<Rgb>> radiosity;
-  for (const auto method : {ContentHash::Method::xxh3, ContentHash::Method::md5}) {
-    const std::string key = key_of(scene, options, method);
-    if ((radiosity = read_reference(folder_ / file_name(key), key, values))) {
-      break;
-    }
-  }
-  return radiosity;
+  const std::string key = key_of(scene, options);
+  return read_reference(folder_ / file_name(key), key, values);
 }
 
 void ReferenceCache::store(const Scene& scene, const SolveOptions& options,

@@ -53,8 +53,8 @@ class PatchColors {
  public:
   PatchColors(const Solution& solution, PatchId i, double exposure)
       : mean_(at(solution.radiosity, i)), exposure_(exposure) {
-    if (!solution.linear_parts.empty()) {
-      part_ = at(solution.linear_parts, i);
+    if (!solution.linear_terms.empty()) {
+      term_ = at(solution.linear_terms, i);
       basis_ = linear_basis(*solution.scene, i);
     }
   }
@@ -63,13 +63,13 @@ class PatchColors {
       return color_of(mean_, exposure_);
     }
     const auto [first, second] = basis_->at(point);
-    return color_of(mean_ + first * part_.first + second * part_.second, exposure_);
+    return color_of(mean_ + first * term_.first + second * term_.second, exposure_);
   }
 
  private:
   Rgb mean_;
   double exposure_;
-  LinearPart part_;
+  LinearTerm term_;
   std::optional<LinearBasis> basis_;  ///< nothing: B is constant on patches
 };
 

@@ -73,13 +73,13 @@ Camera camera_of(const Scene& scene, const Vec3& eye, const DisplayOptions& disp
 class ShownLight {
  public:
   explicit ShownLight(const Solution& solution)
-      : means_(solution.radiosity), parts_(solution.linear_parts) {
+      : means_(solution.radiosity), linear_terms_(solution.linear_terms) {
     if (solution.glossy) {
       means_ = solution.glossy->radiance_toward(*solution.eye);
       for (Rgb& value : means_) {
         value = std::numbers::pi * value;
       }
-    } else if (!parts_.empty()) {
+    } else if (!linear_terms_.empty()) {
       bases_ = linear_bases(*solution.scene);
     }
   }
@@ -89,14 +89,14 @@ class ShownLight {
     Rgb light = at(means_, i);
     if (!bases_.empty()) {
       const auto [first, second] = at(bases_, i).at(point);
-      light += first * at(parts_, i).first + second * at(parts_, i).second;
+      light += first * at(linear_terms_, i).first + second * at(linear_terms_, i).second;
     }
     return light;
   }
 
  private:
   std::vector<Rgb> means_;
-  const std::vector<LinearPart>& parts_;
+  const std::vector<LinearTerm>& linear_terms_;
   std::vector<LinearBasis> bases_;
 };
 

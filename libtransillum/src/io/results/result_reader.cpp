@@ -15,7 +15,7 @@
 #include <type_traits>
 
 #include "base/text_file.h"
-#include "io/results/result_figures.h"
+#include "io/results/result_values.h"
 #include "io/text.h"
 #include "scene/read/vtk/vtp_file.h"
 #include "transillum/at.h"
@@ -36,13 +36,13 @@ class ResultReader {
       file_.fail("must contain polygons only");
     }
     Solution solution;
-    visit_figures(solution, [this](const char* name, auto& value) { read_figure(name, value); });
+    visit_values(solution, [this](const char* name, auto& value) { read_value(name, value); });
     solution.scene = make_scene();
     solution.statistics.patches = solution.scene->patch_count();
     solution.radiosity = colors("B");
     solution.irradiance = colors("H");
-    solution.form_factor_sums = shares("F_sum");
-    solution.sky_shares = shares("sky");
+    solution.form_factor_sums = fractions("F_sum");
+    solution.sky_fractions = fractions("sky");
     if (file_.has("CellData", "H_sky")) {
       solution.sky_irradiance = colors("H_sky");
     }
@@ -54,7 +54,7 @@ class ResultReader {
     if (file_.has("CellData", "B1")) {
       const std::vector<Rgb> first = colors("B1"), second = colors("B2");
       for (std::size_t i = 0; i < first.size(); ++i) {
-        solution.linear_parts.push_back({first[i], second[i]});
+        solution.linear_terms.push_back({first[i], second[i]});
       }
     }
     return solution;
@@ -62,7 +62,7 @@ class ResultReader {
 
  private:
   template <class Number>
-  void read_figure(const char* name, Number& value) const {
+  void read_value(const char* name, Number& value) const {
     if (!file_.has("FieldData", name)) {
       return;
     }
@@ -125,7 +125,7 @@ class ResultReader {
   }
 
   /// One number >= 0 per patch; empty: the file does not say.
-  std::vector<double> shares(const char* name) const {
+  std::vector<double> fractions(const char* name) const {
     if (!file_.has("CellData", name)) {
       return {};
     }
@@ -262,7 +262,7 @@ class ResultReader {
     std::vector<std::int32_t> materials;
     add_materials(description, materials);
     bool two_sided = false;
-    read_figure("two_sided", two_sided);
+    read_value("two_sided", two_sided);
     const Outlines outlines = read_outlines();
     const std::vector<std::int32_t> faces = read_faces();
     description.groups = strings("groups");

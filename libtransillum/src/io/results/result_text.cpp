@@ -40,15 +40,15 @@ std::string csv_cell(const std::string& name) {
   return cell + '"';
 }
 
-/// Writes H, row sum of F and share of the sky where they are known, group and material.
+/// Writes H, row sum of F and fraction of the sky where they are known, group and material.
 void add_light_and_names(TextBuffer& text, const Solution& solution, PatchId i) {
   const Scene& scene = *solution.scene;
   add_color(text, at(solution.irradiance, i), ',');
   if (!solution.form_factor_sums.empty()) {
     text.add(",{}", at(solution.form_factor_sums, i));
   }
-  if (!solution.sky_shares.empty()) {
-    text.add(",{}", at(solution.sky_shares, i));
+  if (!solution.sky_fractions.empty()) {
+    text.add(",{}", at(solution.sky_fractions, i));
   }
   const std::int32_t group = scene.patch(i).group;
   text.add(",{},{}", group == no_group ? std::string() : csv_cell(at(scene.groups(), group)),
@@ -67,11 +67,11 @@ std::string lobes_header(const Solution& solution, bool eye) {
          (eye ? ",L_r,L_g,L_b" : "");
 }
 
-/// Writes the linear part of B, and the functions by which it is multiplied.
-void add_linear_part(TextBuffer& text, const Solution& solution, PatchId i) {
-  const LinearPart& part = at(solution.linear_parts, i);
-  add_color(text, part.first, ',');
-  add_color(text, part.second, ',');
+/// Writes the linear term of B, and the functions by which it is multiplied.
+void add_linear_term(TextBuffer& text, const Solution& solution, PatchId i) {
+  const LinearTerm& term = at(solution.linear_terms, i);
+  add_color(text, term.first, ',');
+  add_color(text, term.second, ',');
   const LinearBasis basis = linear_basis(*solution.scene, i);
   for (const Vec3& v : {basis.center, basis.gradient[0], basis.gradient[1]}) {
     text.add(",{},{},{}", v.x, v.y, v.z);
@@ -109,8 +109,8 @@ void write_result_csv(std::ostream& out, const Solution& solution) {
       "face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b{},H_r,H_g,H_b{}{},group,"
       "material{}{}\n",
       errors.empty() ? "" : ",SE_r,SE_g,SE_b", solution.form_factor_sums.empty() ? "" : ",F_sum",
-      solution.sky_shares.empty() ? "" : ",sky",
-      solution.linear_parts.empty()
+      solution.sky_fractions.empty() ? "" : ",sky",
+      solution.linear_terms.empty()
           ? ""
           : ",B1_r,B1_g,B1_b,B2_r,B2_g,B2_b,c_x,c_y,c_z,g1_x,g1_y,g1_z,g2_x,g2_y,g2_z",
       lobes_header(solution, !seen.empty()));
@@ -120,8 +120,8 @@ void write_result_csv(std::ostream& out, const Solution& solution) {
       add_color(text, at(errors, i), ',');
     }
     add_light_and_names(text, solution, i);
-    if (!solution.linear_parts.empty()) {
-      add_linear_part(text, solution, i);
+    if (!solution.linear_terms.empty()) {
+      add_linear_term(text, solution, i);
     }
     if (solution.glossy) {
       add_color(text, used_lobe(solution.scene->material(i)).reflectance, ',');
@@ -143,7 +143,7 @@ void write_result_ply(std::ostream& out, const Solution& solution, const Display
   text.add("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
            corner_count(scene));
   text.add("property uchar red\nproperty uchar green\nproperty uchar blue\n");
-  const bool linear = !solution.linear_parts.empty();
+  const bool linear = !solution.linear_terms.empty();
   if (linear) {
     text.add("property double B_r\nproperty double B_g\nproperty double B_b\n");
   }

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Results as VTK PolyData. data/FILES.md lists the arrays; result_reader.cpp reads them back.
-#include "io/results/result_figures.h"
+#include "io/results/result_values.h"
 #include "io/results/result_writers.h"
 #include "io/vtp_writer.h"
 #include "transillum/at.h"
@@ -57,9 +57,9 @@ void add_patch_values(VtpArrays& fields, const Solution& solution) {
   add_colors(fields, "E", count, [&](PatchId i) { return scene.exitance(i); });
   add_colors(fields, "rho", count, [&](PatchId i) { return scene.reflectance(i); });
   add_colors(fields, "B", count, [&](PatchId i) { return at(solution.radiosity, i); });
-  if (!solution.linear_parts.empty()) {
-    add_colors(fields, "B1", count, [&](PatchId i) { return at(solution.linear_parts, i).first; });
-    add_colors(fields, "B2", count, [&](PatchId i) { return at(solution.linear_parts, i).second; });
+  if (!solution.linear_terms.empty()) {
+    add_colors(fields, "B1", count, [&](PatchId i) { return at(solution.linear_terms, i).first; });
+    add_colors(fields, "B2", count, [&](PatchId i) { return at(solution.linear_terms, i).second; });
   }
   if (!solution.error.standard_error.empty()) {
     add_colors(fields, "standard_error", count,
@@ -70,8 +70,8 @@ void add_patch_values(VtpArrays& fields, const Solution& solution) {
     add_numbers(fields, "F_sum", count,
                 [&](PatchId i) { return at(solution.form_factor_sums, i); });
   }
-  if (!solution.sky_shares.empty()) {
-    add_numbers(fields, "sky", count, [&](PatchId i) { return at(solution.sky_shares, i); });
+  if (!solution.sky_fractions.empty()) {
+    add_numbers(fields, "sky", count, [&](PatchId i) { return at(solution.sky_fractions, i); });
   }
   if (!solution.sky_irradiance.empty()) {
     add_colors(fields, "H_sky", count, [&](PatchId i) { return at(solution.sky_irradiance, i); });
@@ -123,7 +123,7 @@ void add_solve_values(VtpArrays& fields, const Solution& solution) {
   add_field(fields, "two_sided", scene.options().two_sided ? 1.0 : 0.0);
   add_field(fields, "max_patch_area", scene.options().max_patch_area);
   add_sky(fields, solution.sky);
-  visit_figures(solution, [&](const char* name, const auto& value) {
+  visit_values(solution, [&](const char* name, const auto& value) {
     add_field(fields, name, static_cast<double>(value));
   });
   if (solution.glossy && solution.eye) {
@@ -139,7 +139,7 @@ void add_solve_values(VtpArrays& fields, const Solution& solution) {
 
 void write_result_vtp(std::ostream& out, const Solution& solution) {
   VtpPolygons mesh;
-  if (solution.linear_parts.empty()) {
+  if (solution.linear_terms.empty()) {
     add_geometry(mesh, *solution.scene);
   } else {
     add_unshared_geometry(mesh, solution);

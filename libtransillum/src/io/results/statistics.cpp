@@ -81,23 +81,23 @@ Json accuracy_json(const std::optional<AccuracyReport>& report) {
           {"stages", stages}};
 }
 
-/// Figures about lobes; null where none took part.
-Json glossy_json(const GlossyFigures& figures) {
-  if (figures.patches == 0) {
+/// Values about lobes; null where none took part.
+Json glossy_json(const GlossyStatistics& counted) {
+  if (counted.patches == 0) {
     return {};
   }
-  return {{"patches", figures.patches},
-          {"lobes", figures.lobes},
-          {"sum_error", figures.sum_error},
-          {"sum_defect", figures.sum_defect},
-          {"spread", figures.spread},
-          {"exponent", figures.exponent},
-          {"radiance_bytes", figures.radiance_bytes},
-          {"lobe_bytes", figures.lobe_bytes},
-          {"transfer_bytes", figures.transfer_bytes}};
+  return {{"patches", counted.patches},
+          {"lobes", counted.lobes},
+          {"sum_error", counted.sum_error},
+          {"sum_defect", counted.sum_defect},
+          {"spread", counted.spread},
+          {"exponent", counted.exponent},
+          {"radiance_bytes", counted.radiance_bytes},
+          {"lobe_bytes", counted.lobe_bytes},
+          {"transfer_bytes", counted.transfer_bytes}};
 }
 
-/// Figures that are known only after an iteration are null without one.
+/// Values that are known only after an iteration are null without one.
 Json statistics_json(const SolveStatistics& statistics) {
   const bool stepped = statistics.iterations > 0;
   Json json;
@@ -115,7 +115,7 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["kept_form_factors"] = statistics.kept_form_factors;
   json["glossy"] = glossy_json(statistics.glossy);
   json["first_shot"] = {{"sources", statistics.shot_sources},
-                        {"power_share", statistics.shot_power_share},
+                        {"power_share", statistics.shot_power_fraction},
                         {"disagreement", statistics.shot_disagreement},
                         {"disagreement_patch", statistics.shot_disagreement_patch}};
   json["converged"] = statistics.converged;
@@ -141,7 +141,7 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["change_of_b"] = list_of(steps, [](const IterationRecord& s) { return s.change_of_b; });
   json["step_seconds"] = list_of(steps, [](const IterationRecord& s) { return s.seconds; });
   json["refinement"] = list_of(statistics.refinement, [](const RefinementRound& round) {
-    return Json{{"patches", round.patches}, {"figure", round.figure}, {"seconds", round.seconds}};
+    return Json{{"patches", round.patches}, {"figure", round.measure}, {"seconds", round.seconds}};
   });
   const PassCounts& counts = statistics.counts;
   json["counters"] = {{"pairs", counts.pairs},

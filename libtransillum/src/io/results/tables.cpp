@@ -9,8 +9,8 @@
 namespace transillum {
 namespace {
 
-/// A remainder below this share of the projected area is rounding (ALGORITHM.md, oracle 1).
-constexpr double rounding_share = 1e-12;
+/// A remainder below this fraction of the projected area is rounding (ALGORITHM.md, oracle 1).
+constexpr double rounding_fraction = 1e-12;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void write_transfers_csv(std::ostream& out, const Transfers& transfers) {
     }
     const double projected = transfers.forward[i].projected;
     const double rest = projected - received;
-    if (rest > rounding_share * projected) {
+    if (rest > rounding_fraction * projected) {
       fmt::print(out, "{},-1,{}\n", receiver, rest);
     }
     for (auto t = first; t != next; ++t) {
@@ -36,10 +36,15 @@ void write_transfers_csv(std::ostream& out, const Transfers& transfers) {
 }
 
 void write_form_factors_csv(std::ostream& out, const FormFactors& form_factors) {
-  out << "i,j,F\n";
+  const bool linear = !form_factors.moments.empty();
+  out << (linear ? "i,j,F,F01,F02,F10,F11,F12,F20,F21,F22\n" : "i,j,F\n");
   for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
     for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
-      fmt::print(out, "{},{},{}\n", i, form_factors.source[k], form_factors.value[k]);
+      fmt::print(out, "{},{},{}", i, form_factors.source[k], form_factors.value[k]);
+      for (std::size_t m = 1; linear && m < form_factors.moments[k].value.size(); ++m) {
+        fmt::print(out, ",{}", form_factors.moments[k].value[m]);
+      }
+      out << '\n';
     }
   }
 }

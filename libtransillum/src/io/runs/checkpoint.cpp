@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* checkpoint_kind = "checkpoint";
 /// Longest share of the time that saving may take.
-constexpr double cost_share = 0.01;
+constexpr double cost_fraction = 0.01;
 
 /// Takes part in saving, where nothing is written.
 void save_nowhere(const RadiositySolver& solver) {
@@ -134,7 +134,7 @@ bool Checkpoint::save_if_due(const SolveSession& session, double interval) {
 }
 
 bool Checkpoint::is_due(double interval) const {
-  const double least = interval > 0 ? impl_->seconds_of_last / cost_share : 0;
+  const double least = interval > 0 ? impl_->seconds_of_last / cost_fraction : 0;
   return seconds_since(impl_->saved) >= std::max(interval, least);
 }
 

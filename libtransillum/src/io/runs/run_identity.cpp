@@ -5,6 +5,7 @@
 
 #include "io/content_hash.h"
 #include "io/results/result_writers.h"
+#include "options/option_table.h"
 
 namespace transillum {
 namespace {
@@ -35,8 +36,11 @@ std::string text_of(const Json& value) {
 
 Json run_options(const SolveOptions& options, const SceneOptions& scene_options) {
   Json json = options_json({.solve = options, .scene = scene_options});
-  json.erase("memory");
-  json.erase("threads");
+  for (const Option& option : transillum::options()) {
+    if (option.of_machine) {
+      json.erase(option.name);
+    }
+  }
   json.erase("glossy");  // glossy solves have no checkpoints and no shards
   const EngineOptions& engine = options.engine_options;
   json["lines"] = engine.lines_per_patch;

@@ -10,9 +10,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
 #include <vector>
 
+#include "radiosity/analysis/result_comparison.h"
 #include "radiosity/channel_sums.h"
+#include "radiosity/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 
@@ -27,7 +30,7 @@ class RadiosityFunction {
     for (std::size_t k = 0; k < scene_.pieces().size(); ++k) {
       pieces_of_[scene_.patch(scene_.pieces()[k].patch).face].push_back(k);
     }
-    if (!solution.linear_parts.empty()) {
+    if (!solution.linear_terms.empty()) {
       bases_ = linear_bases(scene_);
     }
   }
@@ -36,8 +39,8 @@ class RadiosityFunction {
     Rgb b = at(solution_.radiosity, i);
     if (!bases_.empty()) {
       const auto [first, second] = at(bases_, i).at(point);
-      const LinearPart& part = at(solution_.linear_parts, i);
-      b += first * part.first + second * part.second;
+      const LinearTerm& term = at(solution_.linear_terms, i);
+      b += first * term.first + second * term.second;
     }
     return b;
   }
@@ -95,14 +98,6 @@ class RadiosityFunction {
   std::vector<LinearBasis> bases_;
 };
 
-double area_of(const Scene& scene) {
-  double area = 0;
-  for (const Patch& patch : scene.patches()) {
-    area += patch.area;
-  }
-  return area;
-}
-
 /// Integrals of squares.
 struct Squares {
   double difference = 0, reference = 0;
@@ -123,7 +118,7 @@ struct Squares {
 }  // namespace
 
 FunctionDifference compare_functions(const Solution& reference, const Solution& other) {
-  const double area = area_of(*reference.scene), other_area = area_of(*other.scene);
+  const double area = total_area(*reference.scene), other_area = total_area(*other.scene);
   if (!(std::abs(area - other_area) <= 1e-9 * area)) {
     throw InputError(fmt::format(
         "the results are of different scenes: their patches have {} and {} m2", area, other_area));
@@ -147,6 +142,13 @@ FunctionDifference compare_functions(const Solution& reference, const Solution& 
         if (near == no_patch) {
           throw InputError(fmt::format(
               "the results are of different scenes: face {} has patches in one only", patch.face));
+        }
+        const std::string material =
+            other_is_finer ? material_difference(*coarse.scene, near, *fine.scene, piece.patch)
+                           : material_difference(*fine.scene, piece.patch, *coarse.scene, near);
+        if (!material.empty()) {
+          throw InputError(fmt::format("the results are of different scenes: face {} has {}",
+                                       patch.face, material));
         }
         const Rgb one = of_fine.at_point(piece.patch, point), two = of_coarse.at_point(near, point);
         const double difference = weight * sum_of_squares(one - two);

@@ -20,8 +20,8 @@ struct FunctionDifference {
 /// lies in one patch of the other.
 /// @param reference what differences are relative to.
 /// @param other a result of the same faces.
-/// @throws InputError where the total areas differ, or a face of the finer result has no patches in
-/// the other.
+/// @throws InputError where the total areas differ, a face of the finer result has no patches in
+/// the other, or E or rho of a face differ.
 FunctionDifference compare_functions(const Solution& reference, const Solution& other);
 
 }  // namespace transillum

@@ -5,6 +5,7 @@
 #include "radiosity/analysis/power_table.h"
 
 #include "base/choice.h"
+#include "radiosity/ratio.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/glossy.h"
@@ -19,8 +20,8 @@ struct Division {
   std::vector<std::size_t> of_patch;  ///< index in `names`
 };
 
-Division divide(const Scene& scene, PartsBy by) {
-  const bool groups = by == PartsBy::group;
+Division divide(const Scene& scene, SurfaceKind by) {
+  const bool groups = by == SurfaceKind::group;
   const std::size_t named = groups ? scene.groups().size() : scene.materials().size();
   const auto key = [&](PatchId i) {
     const std::int32_t index = groups ? scene.patch(i).group : scene.patch(i).material;
@@ -31,10 +32,10 @@ Division divide(const Scene& scene, PartsBy by) {
     used[key(i)] = true;
   }
   Division division;
-  std::vector<std::size_t> part(named + 1);
+  std::vector<std::size_t> surface(named + 1);
   for (std::size_t k = 0; k <= named; ++k) {
     if (used[k]) {
-      part[k] = division.names.size();
+      surface[k] = division.names.size();
       division.indices.push_back(k == named ? no_group : static_cast<std::int32_t>(k));
       division.names.push_back(k == named ? std::string()
                                : groups   ? scene.groups()[k]
@@ -42,37 +43,37 @@ Division divide(const Scene& scene, PartsBy by) {
     }
   }
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    division.of_patch.push_back(part[key(i)]);
+    division.of_patch.push_back(surface[key(i)]);
   }
   return division;
 }
 
-void add(PartPower& to, const PartPower& part) {
-  to.patches += part.patches;
-  to.area += part.area;
-  to.emitted += part.emitted;
-  to.received += part.received;
-  to.from_sky += part.from_sky;
-  to.absorbed += part.absorbed;
-  to.escaped += part.escaped;
+void add(SurfacePower& to, const SurfacePower& surface) {
+  to.patches += surface.patches;
+  to.area += surface.area;
+  to.emitted += surface.emitted;
+  to.received += surface.received;
+  to.from_sky += surface.from_sky;
+  to.absorbed += surface.absorbed;
+  to.escaped += surface.escaped;
 }
 
-PartPower power_of(const Solution& solution, PatchId i, const Material& material) {
+SurfacePower power_of(const Solution& solution, PatchId i, const Material& material) {
   const double area = solution.scene->patch(i).area;
   const Rgb h = at(solution.irradiance, i);
   const Rgb reflected = solution.statistics.glossy.patches > 0
                             ? material.reflectance + used_lobe(material).reflectance
                             : material.reflectance;
-  PartPower power{.patches = 1,
-                  .area = area,
-                  .emitted = area * material.exitance,
-                  .received = area * h,
-                  .absorbed = area * ((Rgb{1, 1, 1} - reflected) * h)};
+  SurfacePower power{.patches = 1,
+                     .area = area,
+                     .emitted = area * material.exitance,
+                     .received = area * h,
+                     .absorbed = area * ((Rgb{1, 1, 1} - reflected) * h)};
   if (!solution.sky_irradiance.empty()) {
     power.from_sky = area * at(solution.sky_irradiance, i);
   }
-  if (!solution.sky_shares.empty()) {
-    power.escaped = (area * at(solution.sky_shares, i)) * at(solution.radiosity, i);
+  if (!solution.sky_fractions.empty()) {
+    power.escaped = (area * at(solution.sky_fractions, i)) * at(solution.radiosity, i);
   }
   return power;
 }
@@ -83,13 +84,23 @@ void add_exchanges(const Solution& solution, const Division& division,
   if (form_factors.row_begin.size() != patches + 1) {
     throw InputError("the form factors belong to another scene: the number of patches differs");
   }
+  const bool linear = !solution.linear_terms.empty();
+  if (linear && form_factors.moments.size() != form_factors.size()) {
+    throw InputError("the form factors have no moments for the linear functions of the solution");
+  }
   exchanged.assign(division.names.size(), std::vector<Rgb>(division.names.size()));
   for (std::size_t i = 0; i < patches; ++i) {
     const double area = solution.scene->patches()[i].area;
     std::vector<Rgb>& row = exchanged[division.of_patch[i]];
     for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
       const PatchId j = form_factors.source[k];
-      row[at(division.of_patch, j)] += (area * form_factors.value[k]) * at(solution.radiosity, j);
+      Rgb& power = row[at(division.of_patch, j)];
+      power += (area * form_factors.value[k]) * at(solution.radiosity, j);
+      if (linear) {
+        const TransferMoments& moments = form_factors.moments[k];
+        const LinearTerm& surface = at(solution.linear_terms, j);
+        power += area * (moments.of(0, 1) * surface.first + moments.of(0, 2) * surface.second);
+      }
     }
   }
 }
@@ -98,35 +109,45 @@ void add_exchanges(const Solution& solution, const Division& division,
 
 namespace {
 
-constexpr std::array kinds_of_parts{
-    Choice{PartsBy::group, "group"},
-    Choice{PartsBy::material, "material"},
+constexpr std::array kinds_of_surfaces{
+    Choice{SurfaceKind::group, "group"},
+    Choice{SurfaceKind::material, "material"},
 };
 
 }  // namespace
 
 template <>
-const Choices& choices_of<PartsBy>() {
-  return texts_of<kinds_of_parts>("kind of parts");
+const Choices& choices_of<SurfaceKind>() {
+  return texts_of<kinds_of_surfaces>("kind of surfaces");
 }
 
-PowerTable power_table(const Solution& solution, PartsBy by, const FormFactors* form_factors,
+double escaped_share(const SurfacePower& total) {
+  const Rgb all = total.emitted + total.from_sky;
+  return ratio_or_zero(total.escaped.r + total.escaped.g + total.escaped.b, all.r + all.g + all.b);
+}
+
+bool is_open(const SolveStatistics& statistics) {
+  const bool by_directions = statistics.pairs == 0 && statistics.hemicubes == 0;
+  return statistics.escaped > (by_directions ? 1e-9 : 1e-3);
+}
+
+PowerTable power_table(const Solution& solution, SurfaceKind by, const FormFactors* form_factors,
                        std::span<const Material> materials,
                        std::span<const std::int32_t> patch_materials) {
   const Division division = divide(*solution.scene, by);
   PowerTable table;
-  table.escape_known = !solution.sky_shares.empty();
-  for (std::size_t part = 0; part < division.names.size(); ++part) {
-    table.parts.push_back({.name = division.names[part], .index = division.indices[part]});
+  table.escape_known = !solution.sky_fractions.empty();
+  for (std::size_t surface = 0; surface < division.names.size(); ++surface) {
+    table.surfaces.push_back({.name = division.names[surface], .index = division.indices[surface]});
   }
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     const Material& material =
         materials.empty() ? solution.scene->material(i) : at(materials, at(patch_materials, i));
-    add(table.parts[at(division.of_patch, i)], power_of(solution, i, material));
+    add(table.surfaces[at(division.of_patch, i)], power_of(solution, i, material));
   }
   table.total.name = "total";
-  for (const PartPower& part : table.parts) {
-    add(table.total, part);
+  for (const SurfacePower& surface : table.surfaces) {
+    add(table.total, surface);
   }
   if (form_factors != nullptr) {
     add_exchanges(solution, division, *form_factors, table.exchanged);

@@ -13,16 +13,16 @@
 namespace transillum {
 
 /// The kind of the rows of a power table.
-enum class PartsBy {
+enum class SurfaceKind {
   group,     ///< groups of faces
   material,  ///< materials
 };
 /// Their names (choice.h).
 template <>
-const Choices& choices_of<PartsBy>();
+const Choices& choices_of<SurfaceKind>();
 
 /// Sums over the patches of a group, of a material or of all. Powers are in W, per channel.
-struct PartPower {
+struct SurfacePower {
   std::string name = {};     ///< name of the group or material; empty: the patches of no group
   std::int32_t index = -1;   ///< in Scene::groups() or Scene::materials(); -1: no group, or all
   std::int64_t patches = 0;  ///< number
@@ -31,20 +31,29 @@ struct PartPower {
   Rgb received = {};         ///< sum A_i H_i, of all light
   Rgb from_sky = {};         ///< the part of it that comes from the sky
   Rgb absorbed = {};         ///< sum A_i (1 - rho_i) H_i
-  Rgb escaped = {};          ///< sum A_i B_i times the share that meets no patch; 0 if not known
+  Rgb escaped = {};          ///< sum A_i B_i times the fraction that meets no patch; 0 if not known
 };
+
+/// Fraction of the light that escapes: the escaped power over the emitted and that from the sky,
+/// all channels together; 0 without light.
+/// @param total over all patches
+double escaped_share(const SurfacePower& total);
+
+/// Whether light escapes from the scene: more than rounding, or the errors of form factors without
+/// directions, explains.
+bool is_open(const SolveStatistics& statistics);
 
 /// Powers by group or by material.
 ///
 /// Up to the tolerance of the solve, and the error of row sums (eq. 17) where they are not
 /// normalized, emitted + from_sky = absorbed + escaped in total, if no light meets a back side.
 struct PowerTable {
-  std::vector<PartPower> parts;  ///< parts with patches, in the order of the scene; the patches of
-                                 ///< no group come last
-  PartPower total;               ///< over all patches; its name is "total"
-  bool escape_known = false;     ///< Solution::sky_shares is known
+  std::vector<SurfacePower> surfaces;  ///< parts with patches, in the order of the scene; the
+                                       ///< patches of no group come last
+  SurfacePower total;                  ///< over all patches; its name is "total"
+  bool escape_known = false;           ///< Solution::sky_fractions is known
   /// Entry [i][j]: power that leaves part j and arrives directly at part i, sum A_k F_kl B_l over
-  /// their patches, W; empty without form factors.
+  /// their patches, with linear functions sum_b T^0b(k,l) b_lb, W; empty without form factors.
   std::vector<std::vector<Rgb>> exchanged;
 };
 
@@ -55,8 +64,9 @@ struct PowerTable {
 /// @param materials E and rho that the solution has, where they differ from the scene's
 /// (relight()); if empty, the scene's apply.
 /// @param patch_materials index into `materials` for each patch; read with `materials` only.
-/// @throws InputError where the form factors are of another number of patches.
-PowerTable power_table(const Solution& solution, PartsBy by,
+/// @throws InputError where the form factors are of another number of patches, or have no moments
+/// for a solution with linear functions.
+PowerTable power_table(const Solution& solution, SurfaceKind by,
                        const FormFactors* form_factors = nullptr,
                        std::span<const Material> materials = {},
                        std::span<const std::int32_t> patch_materials = {});

@@ -14,7 +14,7 @@
 namespace transillum {
 namespace {
 
-/// Patches that come nearer than this share of their size touch.
+/// Patches that come nearer than this fraction of their size touch.
 constexpr double touching = 1e-6;
 /// Cosine of the angle below which two patches are of one plane.
 constexpr double same_plane = 1 - 1e-9;
@@ -85,7 +85,7 @@ class Irradiance {
  public:
   Irradiance(const Solution& solution, std::span<const Rgb> reflectance)
       : solution_(solution), reflectance_(reflectance) {
-    if (!solution.linear_parts.empty()) {
+    if (!solution.linear_terms.empty()) {
       bases_ = linear_bases(*solution.scene);
     }
   }
@@ -94,8 +94,8 @@ class Irradiance {
     Rgb h = at(solution_.irradiance, i);
     if (!bases_.empty()) {
       const auto [first, second] = at(bases_, i).at(point);
-      const LinearPart& part = at(solution_.linear_parts, i);
-      const Rgb slope = first * part.first + second * part.second;
+      const LinearTerm& term = at(solution_.linear_terms, i);
+      const Rgb slope = first * term.first + second * term.second;
       const Rgb& rho = at(reflectance_, i);
       // Where nothing is reflected, B tells nothing about how H varies.
       h.r += rho.r > 0 ? slope.r / rho.r : 0;

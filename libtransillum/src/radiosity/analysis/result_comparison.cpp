@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numeric>
-#include <utility>
+#include <tuple>
 #include <vector>
 
-#include "radiosity/reflected_light.h"
+#include "radiosity/error/surface_errors.h"
+#include "radiosity/error/surfaces.h"
+#include "radiosity/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 
@@ -21,11 +21,6 @@ namespace transillum {
 namespace {
 
 std::string text_of(const Rgb& c) { return fmt::format("{} {} {}", c.r, c.g, c.b); }
-
-std::string two_values(PatchId i, const std::string& what, const std::string& one,
-                       const std::string& other) {
-  return fmt::format("patch {} has {} {} in one and {} in the other", i, what, one, other);
-}
 
 std::string outline_difference(const Scene& one, const Scene& other, PatchId i) {
   const auto a = one.outline(i), b = other.outline(i);
@@ -35,60 +30,24 @@ std::string outline_difference(const Scene& one, const Scene& other, PatchId i) 
   for (std::size_t k = 0; k < a.size(); ++k) {
     const Vec3 &p = one.point(a[k]), &q = other.point(b[k]);
     if (p != q) {
-      return two_values(i, fmt::format("corner {} at", k), fmt::format("{} {} {}", p.x, p.y, p.z),
-                        fmt::format("{} {} {}", q.x, q.y, q.z));
+      return fmt::format("patch {} has corner {} at {} {} {} in one and {} {} {} in the other", i,
+                         k, p.x, p.y, p.z, q.x, q.y, q.z);
     }
   }
   return {};
 }
 
-/// |value| over `unit`; 0 / 0 is 0.
-double relative(double value, double unit) {
-  if (value == 0) {
-    return 0;
-  }
-  return unit > 0 ? value / unit : std::numeric_limits<double>::infinity();
-}
+}  // namespace
 
-/// Sums over some patches.
-class DifferenceSums {
- public:
-  /// @param unit largest |B|, which squares are scaled by: squares of very large or very small
-  /// radiosities are out of range
-  explicit DifferenceSums(double unit) : scale_(unit > 0 ? 1 / unit : 1) {}
-
-  /// @param reflected light of the first result
-  void add(PatchId i, const Rgb& first, const Rgb& second, const Rgb& reflected) {
-    const Rgb difference = second - first;
-    squares_ += sum_of_squares(difference);
-    reference_squares_ += sum_of_squares(reflected);
-    reference_ = std::max(reference_, max_abs(reflected));
-    if (max_abs(difference) > largest_) {
-      largest_ = max_abs(difference);
-      result_.worst = i;
-      result_.first = first;
-      result_.second = second;
+std::string material_difference(const Scene& one, PatchId i, const Scene& other, PatchId j) {
+  for (const auto& [name, a, b] : {std::tuple{"E", one.exitance(i), other.exitance(j)},
+                                   {"rho", one.reflectance(i), other.reflectance(j)}}) {
+    if (a != b) {
+      return fmt::format("{} {} in one and {} in the other", name, text_of(a), text_of(b));
     }
   }
-  RadiosityDifference result() const {
-    RadiosityDifference result = result_;
-    result.rms = std::sqrt(relative(squares_, reference_squares_));
-    result.largest = relative(largest_, reference_);
-    return result;
-  }
-
- private:
-  double sum_of_squares(const Rgb& value) const {
-    const Rgb scaled = scale_ * value;
-    return scaled.r * scaled.r + scaled.g * scaled.g + scaled.b * scaled.b;
-  }
-
-  double scale_;
-  double squares_ = 0, reference_squares_ = 0, reference_ = 0, largest_ = 0;
-  RadiosityDifference result_;
-};
-
-}  // namespace
+  return {};
+}
 
 std::string scene_difference(const Scene& one, const Scene& other) {
   if (one.patch_count() != other.patch_count()) {
@@ -99,11 +58,8 @@ std::string scene_difference(const Scene& one, const Scene& other) {
     if (std::string outline = outline_difference(one, other, i); !outline.empty()) {
       return outline;
     }
-    if (one.exitance(i) != other.exitance(i)) {
-      return two_values(i, "E", text_of(one.exitance(i)), text_of(other.exitance(i)));
-    }
-    if (one.reflectance(i) != other.reflectance(i)) {
-      return two_values(i, "rho", text_of(one.reflectance(i)), text_of(other.reflectance(i)));
+    if (std::string material = material_difference(one, i, other, i); !material.empty()) {
+      return fmt::format("patch {} has {}", i, material);
     }
   }
   return {};
@@ -144,49 +100,108 @@ std::string sky_difference(const Solution& one, const Solution& other) {
 
 namespace {
 
-/// Over the patches of `part` that do not emit, or all of `part` where those reflect nothing.
-RadiosityDifference difference_of(const std::vector<PatchId>& part, const Solution& first,
-                                  const Solution& second) {
-  std::vector<Rgb> exitance, b;
-  double unit = 0;
-  for (const PatchId i : part) {
-    exitance.push_back(first.scene->exitance(i));
-    b.push_back(at(first.radiosity, i));
-    unit = std::max({unit, max_abs(b.back()), max_abs(at(second.radiosity, i))});
+PatchLight light_of(const Solution& solution) {
+  PatchLight light{{}, solution.radiosity};
+  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+    light.exitance.push_back(solution.scene->exitance(i));
   }
-  const ReflectedLight light(std::move(exitance), 1);
-  const std::vector<char> measured = light.measured(b);
-  DifferenceSums sums(unit);
-  for (std::size_t k = 0; k < part.size(); ++k) {
-    if (measured[k] != 0) {
-      sums.add(part[k], b[k], at(second.radiosity, part[k]), light.of(k, b[k]));
+  return light;
+}
+
+/// The surfaces of a scene, without patches that emit in either result, unless all do.
+Surfaces compared_surfaces(const Scene& scene, const PatchLight& first, const PatchLight& second) {
+  Surfaces all = find_surfaces(scene, Measured::reflecting);
+  Surfaces result;
+  std::vector<std::int32_t> places(all.surfaces.size(), Surfaces::none);
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const std::int32_t of = all.of(i);
+    const bool emits = max_abs(at(first.exitance, i)) > 0 || max_abs(at(second.exitance, i)) > 0;
+    if (of == Surfaces::none || emits) {
+      result.of_patch.push_back(Surfaces::none);
+      continue;
     }
+    std::int32_t& place = at(places, of);
+    if (place == Surfaces::none) {
+      place = static_cast<std::int32_t>(result.surfaces.size());
+      result.surfaces.push_back({.name = at(all.surfaces, of).name});
+    }
+    Surfaces::Surface& surface = at(result.surfaces, place);
+    ++surface.patches;
+    surface.area += scene.patch(i).area;
+    result.of_patch.push_back(place);
   }
-  return sums.result();
+  return result.surfaces.empty() ? all : result;
+}
+
+/// All compared patches as one surface.
+Surfaces as_one(const Surfaces& surfaces) {
+  Surfaces whole;
+  whole.surfaces.emplace_back();
+  for (const Surfaces::Surface& surface : surfaces.surfaces) {
+    whole.surfaces.front().patches += surface.patches;
+    whole.surfaces.front().area += surface.area;
+  }
+  for (const std::int32_t of : surfaces.of_patch) {
+    whole.of_patch.push_back(of == Surfaces::none ? of : 0);
+  }
+  return whole;
+}
+
+/// |value| over `unit`; 0 / 0 is 0.
+double relative(double value, double unit) {
+  if (value == 0) {
+    return 0;
+  }
+  return unit > 0 ? value / unit : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
+
+ResultComparison compare_light(const Scene& scene, const PatchLight& first,
+                               const PatchLight& second) {
+  const Surfaces surfaces = compared_surfaces(scene, first, second);
+  const std::vector<Rgb> reflected = difference(first.radiosity, first.exitance);
+  const std::vector<Rgb> differences = difference(second.radiosity, first.radiosity);
+  const SurfaceErrors errors = surface_differences(surfaces, reflected, differences);
+  ResultComparison result;
+  for (const SurfaceError& of : errors.surfaces) {
+    result.surfaces.push_back({.name = of.name,
+                               .patches = of.patches,
+                               .level = of.level,
+                               .unit = of.unit,
+                               .is_dark = of.is_dark,
+                               .rms = of.rms});
+  }
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const std::int32_t of = surfaces.of(i);
+    if (of == Surfaces::none) {
+      result.units.push_back(0);
+      continue;
+    }
+    SurfaceDifference& surface = at(result.surfaces, of);
+    result.units.push_back(surface.unit);
+    const double size = relative(max_abs(at(differences, i)), surface.unit);
+    if (size > surface.largest) {
+      surface.largest = size;
+      surface.worst = i;
+      surface.first = at(first.radiosity, i);
+      surface.second = at(second.radiosity, i);
+    }
+  }
+  std::stable_sort(
+      result.surfaces.begin(), result.surfaces.end(),
+      [](const SurfaceDifference& a, const SurfaceDifference& b) { return a.rms > b.rms; });
+  result.rms = surface_differences(as_one(surfaces), reflected, differences).limit;
+  return result;
+}
 
 ResultComparison compare_results(const Solution& first, const Solution& second) {
   const Scene& scene = *first.scene;
   if (const std::string difference = scene_difference(scene, *second.scene); !difference.empty()) {
     throw InputError("the results are of different scenes: " + difference);
   }
-  std::vector<PatchId> all(scene.patches().size());
-  std::iota(all.begin(), all.end(), 0);
-  const std::size_t groups = scene.groups().size();
-  std::vector<std::vector<PatchId>> parts(groups + 1);  // the last: no group
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const std::int32_t group = scene.patch(i).group;
-    parts[group == no_group ? groups : static_cast<std::size_t>(group)].push_back(i);
-  }
-  ResultComparison comparison{difference_of(all, first, second), {}, sky_difference(first, second)};
-  for (std::size_t g = 0; g < parts.size(); ++g) {
-    if (!parts[g].empty()) {
-      comparison.groups.push_back({g == groups ? no_group : static_cast<std::int32_t>(g),
-                                   std::ssize(parts[g]), difference_of(parts[g], first, second)});
-    }
-  }
+  ResultComparison comparison = compare_light(scene, light_of(first), light_of(second));
+  comparison.sky_difference = sky_difference(first, second);
   return comparison;
 }
 

@@ -10,32 +10,37 @@
 
 namespace transillum {
 
-/// The difference of B over some patches, without those that emit unless all do.
-struct RadiosityDifference {
-  /// RMS of the differences over the RMS of the reflected light of the first result, over channels
-  /// and the patches where that is measured (reflected_light()); 0 where nothing differs, infinite
-  /// where only the first is dark.
+/// How much two results differ on one surface. Relative differences are relative to `unit`.
+struct SurfaceDifference {
+  std::string name;          ///< as SurfaceError::name
+  std::int64_t patches = 0;  ///< number of patches that are compared
+  double level = 0;          ///< RMS of the reflected light of the first result, W/m²
+  /// `level`, or 1/1000 of the level of the brightest surface where that is larger, W/m²
+  double unit = 0;
+  bool is_dark = false;  ///< `level` is below 1/1000 of the level of the brightest surface
+  /// RMS of the differences of B over patches and channels, relative; 0 where nothing differs,
+  /// infinite where only the first result is dark everywhere
   double rms = 0;
-  /// Largest |difference| of a channel over the largest reflected light of the first result.
-  double largest = 0;
+  double largest = 0;        ///< largest |difference| of a channel, relative
   PatchId worst = no_patch;  ///< the patch with the largest difference; no_patch: nothing differs
-  Rgb first;                 ///< its B in the first result, W/m²
-  Rgb second;                ///< its B in the second result, W/m²
+  Rgb first = {};            ///< its B in the first result, W/m²
+  Rgb second = {};           ///< its B in the second result, W/m²
 };
 
-/// The difference over one group of patches.
-struct GroupDifference {
-  std::int32_t group = no_group;   ///< index into Scene::groups(), or no_group
-  std::int64_t patches = 0;        ///< in the group
-  RadiosityDifference difference;  ///< relative to the reflected light of the group
-};
-
-/// How two results of one scene differ.
+/// How two results of one scene differ. Patches that emit in either are omitted, unless all do.
 struct ResultComparison {
-  RadiosityDifference whole;            ///< over all patches
-  std::vector<GroupDifference> groups;  ///< by Scene::groups() of the first, then the patches of
-                                        ///< none; groups without patches are omitted
-  std::string sky_difference = {};      ///< transillum::sky_difference()
+  std::vector<SurfaceDifference> surfaces;  ///< the largest RMS first; not empty
+  /// RMS of all differences over the RMS of all reflected light of the first result
+  double rms = 0;
+  /// By patch: `unit` of its surface, W/m²; 0 for patches that are omitted.
+  std::vector<double> units;
+  std::string sky_difference = {};  ///< transillum::sky_difference()
+};
+
+/// What is compared of a result, W/m², one per patch.
+struct PatchLight {
+  std::vector<Rgb> exitance;   ///< E
+  std::vector<Rgb> radiosity;  ///< B
 };
 
 /// The first difference of two scenes in number, corners, E or rho of their patches, as "patch 3
@@ -43,13 +48,24 @@ struct ResultComparison {
 /// bit. Names, materials and groups may differ.
 std::string scene_difference(const Scene& one, const Scene& other);
 
+/// The difference of patch i of one scene and patch j of another in E or rho, as "E 1 1 1 in one
+/// and 2 2 2 in the other"; empty where both are the same.
+std::string material_difference(const Scene& one, PatchId i, const Scene& other, PatchId j);
+
 /// How the skies of two solves differ, as "one has a sky of 1 1 1 W/m2, uniform, and the other has
 /// none"; empty where they are the same. A result of unknown sky (from a file of an older version)
 /// is the same as any other.
 std::string sky_difference(const Solution& one, const Solution& other);
 
+/// Compares the B of two results for the patches of one scene, whose materials may differ.
+/// @param scene gives the surfaces; its materials, which patches reflect.
+/// @param first what differences are relative to.
+/// @param second the other one.
+ResultComparison compare_light(const Scene& scene, const PatchLight& first,
+                               const PatchLight& second);
+
 /// Compares the B of two results of the same scene. Skies may differ.
-/// @param first the reference of relative differences.
+/// @param first what differences are relative to.
 /// @param second the other one.
 /// @throws InputError with scene_difference() where the scenes differ.
 ResultComparison compare_results(const Solution& first, const Solution& second);

@@ -66,11 +66,11 @@ std::string engine_text(Engine engine, int resolution) {
 }
 
 /// Runs the solves of a study one after the other; measures errors and time, reports progress.
-class StudyRun {
+class StudySolves {
  public:
-  StudyRun(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
-           const StudyOptions& options, std::span<const Rgb> reference,
-           const StudyObserver& observer, const Cancellation& cancellation)
+  StudySolves(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
+              const StudyOptions& options, std::span<const Rgb> reference,
+              const StudyObserver& observer, const Cancellation& cancellation)
       : scene_(std::move(scene)),
         tree_(std::move(tree)),
         options_(options),
@@ -168,13 +168,13 @@ class StudyRun {
     SolveOptions solve = options_.solve_options(options_.series[series], 1);
     solve.rotation = std::nullopt;
     const Solution solution =
-        solve_by_form_factors(scene_, solve, cancellation_, [&](double share) {
-          done_passes_ = before + share * static_cast<double>(point.passes);
+        solve_by_form_factors(scene_, solve, cancellation_, [&](double fraction) {
+          done_passes_ = before + fraction * static_cast<double>(point.passes);
           report(series, static_cast<int>(point.passes));
         });
     point.directions = solution.statistics.directions;
     const RadiosityError error =
-        error_of(coefficients_of(solution.radiosity, solution.linear_parts));
+        error_of(coefficients_of(solution.radiosity, solution.linear_terms));
     point.rms_error = error.rms;
     point.max_error = error.max;
     point.seconds = processor_seconds() - start;
@@ -199,11 +199,11 @@ class StudyRun {
     });
     done_passes_ = before + expected;
     const RadiosityError error =
-        error_of(coefficients_of(solver.radiosity(), solver.linear_parts()));
-    const double share = 1.0 / options_.rotations;
-    point.rms_error += share * error.rms * error.rms;
+        error_of(coefficients_of(solver.radiosity(), solver.linear_terms()));
+    const double fraction = 1.0 / options_.rotations;
+    point.rms_error += fraction * error.rms * error.rms;
     point.max_error = std::max(point.max_error, error.max);
-    point.seconds += share * (processor_seconds() - start);
+    point.seconds += fraction * (processor_seconds() - start);
     const double iterations =
         traits_of(options.scheme).renews_directions ? solver.progress().iteration : 1;
     return m * iterations;
@@ -226,7 +226,7 @@ class StudyRun {
     StudyProgress now;
     now.series = series;
     now.directions = m;
-    now.share = done_passes_ / all_passes_;
+    now.fraction = done_passes_ / all_passes_;
     now.points = points_;
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     if (seconds > 0 && done_passes_ > skipped_passes_) {
@@ -260,10 +260,7 @@ RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
                               const std::vector<Rgb>& reference) {
   const std::size_t patches = scene.patches().size(), per_patch = b.size() / patches;
   constexpr std::size_t functions = 3;
-  double area = 0;
-  for (const Patch& patch : scene.patches()) {
-    area += patch.area;
-  }
+  const double area = total_area(scene);
   const ReflectedLight light(scene, functions);
   std::vector<Rgb> values(reference.size());
   for (std::size_t u = 0; u < values.size(); ++u) {
@@ -377,9 +374,9 @@ double expected_iterations_with_passes(const SolveOptions& options, double rho_m
     return options.iterations;
   }
   // Until the start counts for a thousandth.
-  constexpr double share = 1e-3;
+  constexpr double fraction = 1e-3;
   const double burn_in =
-      options.burn_in ? *options.burn_in : std::ceil(iterations_to(share, rho_max).value_or(0));
+      options.burn_in ? *options.burn_in : std::ceil(iterations_to(fraction, rho_max).value_or(0));
   return burn_in + options.averaged_iterations;
 }
 
@@ -399,7 +396,6 @@ SolveOptions StudyOptions::reference(int passes) const {
   options.threads = solve.threads;
   if (of_functions()) {
     options.basis = Basis::linear;
-    return options;  // a linear basis has no first shot
   }
   for (const StudySeries& one : series) {
     if (!one.first_shot) {
@@ -442,7 +438,7 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
     }
     return true;
   });
-  return coefficients_of(solver.radiosity(), solver.linear_parts());
+  return coefficients_of(solver.radiosity(), solver.linear_terms());
 }
 
 Study run_study(const std::shared_ptr<const Scene>& scene,
@@ -458,7 +454,7 @@ Study run_study(const std::shared_ptr<const Scene>& scene,
   std::vector<int> ascending = options.directions;
   std::sort(ascending.begin(), ascending.end());
   Study study;
-  StudyRun run(scene, tree, options, start.reference, observer, cancellation);
+  StudySolves run(scene, tree, options, start.reference, observer, cancellation);
   try {
     for (const int m : ascending) {
       for (std::size_t series = 0; series < options.series.size(); ++series) {

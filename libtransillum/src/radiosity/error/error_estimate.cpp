@@ -29,9 +29,9 @@ Rgb standard_error_of(std::size_t count, double scale, ValueOf value_of) {
     const Rgb off = scale * (value_of(r) - mean);
     squares += off * off;
   }
-  const double share = 1 / (n * (n - 1));
-  return (1 / scale) * Rgb{std::sqrt(share * squares.r), std::sqrt(share * squares.g),
-                           std::sqrt(share * squares.b)};
+  const double fraction = 1 / (n * (n - 1));
+  return (1 / scale) * Rgb{std::sqrt(fraction * squares.r), std::sqrt(fraction * squares.g),
+                           std::sqrt(fraction * squares.b)};
 }
 
 /// Unknowns per patch in a list of their values.
@@ -74,8 +74,8 @@ DeviationProducts scalar_products(const std::vector<Rgb>& b, const std::vector<c
   return products;
 }
 
-/// What H is off by where B is off by `bias`, W/m²; where nothing is reflected, as much as
-/// elsewhere on average.
+/// The bias of H where the bias of B is `bias`, W/m²; where nothing is reflected, the mean over the
+/// other patches.
 std::vector<Rgb> bias_of_irradiance(const Scene& scene, const std::vector<Rgb>& bias) {
   const std::size_t per_patch = unknowns_per_patch(scene, bias);
   std::vector<Rgb> result(bias.size());

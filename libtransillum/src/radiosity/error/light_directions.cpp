@@ -44,8 +44,8 @@ UnmetLight light_between(const Scene& scene, PatchId receiver, const LightSource
       continue;
     }
     const double distance = std::sqrt(square);
-    const double share = j.area * toward * from / (std::numbers::pi * square * square);
-    between.light += std::min(share, 1.0) * scene.reflectance(receiver) * scene.exitance(k);
+    const double owned = j.area * toward * from / (std::numbers::pi * square * square);
+    between.light += std::min(owned, 1.0) * scene.reflectance(receiver) * scene.exitance(k);
     facing = std::max(facing, i.area * toward / distance);
     seen += j.area * from / distance;
     nearest = std::min(nearest, square);
@@ -63,7 +63,7 @@ std::vector<PatchId> uncertain_patches(const Solution& solution) {
   const std::vector<LightSource> sources = light_sources(scene);
   std::vector<PatchId> uncertain;
   constexpr double all_shot = 0.999;
-  if (error.replicas == 0 || statistics.shot_power_share > all_shot ||
+  if (error.replicas == 0 || statistics.shot_power_fraction > all_shot ||
       sources.size() * scene.patches().size() > most_pairs) {
     return uncertain;
   }
@@ -140,7 +140,7 @@ void LightDirections::add(const std::vector<Transfer>& exchanges) {
   lit_.clear();
 }
 
-void LightDirections::complete(const PatchShare& share) { share.complete(lights_); }
+void LightDirections::complete(const OwnedPatches& owned) { owned.complete(lights_); }
 
 /// The variance of what a pair contributes to B is proportional to w squares = w sum² / n.
 double LightDirections::mean() const {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "radiosity/exchange/patch_share.h"
+#include "radiosity/exchange/owned_patches.h"
 #include "transillum/first_shot.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
@@ -22,7 +22,7 @@ class LightDirections {
   /// Adds a pass along a direction that is new.
   void add(const std::vector<Transfer>& exchanges);
   /// Completes the sums of all patches; to be called before mean().
-  void complete(const PatchShare& share);
+  void complete(const OwnedPatches& owned);
   /// With n = (sum c)² / sum c² directions per pair of patch and source, the mean of n, each
   /// weighted by what the pair contributes to the variance of B. 0 without light.
   double mean() const;

@@ -30,8 +30,8 @@ constexpr double negligible = 0.02;
 
 }  // namespace
 
-ShotCheck::ShotCheck(const Scene& scene, const DirectLight& shot, const PatchShare& share)
-    : scene_(scene), shot_(shot), share_(share) {
+ShotCheck::ShotCheck(const Scene& scene, const DirectLight& shot, const OwnedPatches& owned)
+    : scene_(scene), shot_(shot), owned_(owned) {
   if (shot.sources.empty() || shot.irradiance_error.empty()) {
     return;
   }
@@ -71,9 +71,9 @@ void ShotCheck::add(const Transfers& transfers) {
   }
   lit_.clear();
   for (const PatchId j : shot_.sources) {
-    const std::size_t first = share_.first(), k = static_cast<std::size_t>(j);
+    const std::size_t first = owned_.first(), k = static_cast<std::size_t>(j);
     Row& row = rows_[k];
-    if (k >= first && k < share_.last()) {
+    if (k >= first && k < owned_.last()) {
       const double facing = exitance_[k] * (transfers.forward[k - first].projected +
                                             transfers.backward[k - first].projected);
       row.sent += row.sends_now;
@@ -86,7 +86,7 @@ void ShotCheck::add(const Transfers& transfers) {
   }
 }
 
-void ShotCheck::complete() { share_.complete(rows_); }
+void ShotCheck::complete() { owned_.complete(rows_); }
 
 /// The most light that a patch can receive along a direction, W.
 double ShotCheck::most_of(PatchId i) const {
@@ -130,7 +130,7 @@ ShotCheck::Disagreement ShotCheck::of_power() const {
     const double squares =
         row.sent_squares - 2 * ratio * row.sent_facing + ratio * ratio * row.facing_squares;
     // Part by gaps that no direction happens to meet.
-    const auto mixed = [](double share) { return std::max(0.0, share * (1 - share)); };
+    const auto mixed = [](double owned) { return std::max(0.0, owned * (1 - owned)); };
     const double unseen = std::max(mixed(ratio), mixed(shot)) * row.facing_squares;
     seen += weight * ratio;
     deviation += weight * std::sqrt(std::max(squares, unseen)) / row.facing;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "radiosity/exchange/patch_share.h"
+#include "radiosity/exchange/owned_patches.h"
 #include "transillum/first_shot.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
@@ -17,7 +17,7 @@ namespace transillum {
 class ShotCheck {
  public:
   /// Keeps references to both.
-  ShotCheck(const Scene& scene, const DirectLight& shot, const PatchShare& share);
+  ShotCheck(const Scene& scene, const DirectLight& shot, const OwnedPatches& owned);
 
   /// Adds a pass along a direction that is new; it serves its opposite too.
   void add(const Transfers& transfers);
@@ -60,7 +60,7 @@ class ShotCheck {
 
   const Scene& scene_;
   const DirectLight& shot_;
-  PatchShare share_;
+  OwnedPatches owned_;
   std::int64_t passes_ = 0;
   double power_ = 0;              ///< power of all sources, W
   double largest_exitance_ = 0;   ///< W/m²

@@ -38,7 +38,7 @@ double probability_above(const SurfaceErrors& errors, const SurfaceError& surfac
 }
 
 void set_limits(SurfaceErrors& errors) {
-  errors.worst = -1;
+  errors.worst = errors.surfaces.empty() ? -1 : 0;
   double largest = -1;
   for (std::size_t s = 0; s < errors.surfaces.size(); ++s) {
     SurfaceError& surface = errors.surfaces[s];

@@ -17,7 +17,7 @@
 namespace transillum {
 namespace {
 
-constexpr double least_fraction = 0.01;  ///< of the measured area, for a surface of its own
+constexpr double least_fraction = 0.01;  ///< fraction of the measured area
 
 /// Names by key, and the key of each patch.
 struct Division {

@@ -28,8 +28,8 @@ struct Surfaces {
 
 /// Which patches are measured.
 enum class Measured {
-  reflecting,  ///< those that reflect and do not emit; where there are none, all
-  receiving,   ///< those that do not emit; where there are none, all
+  reflecting,  ///< patches that reflect and do not emit; all patches where there are none
+  receiving,   ///< patches that do not emit; all patches where there are none
 };
 
 /// The surfaces with measured patches. Surfaces with less than 1 % of the measured area count

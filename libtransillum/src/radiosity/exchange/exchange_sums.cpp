@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Sums of exchanged areas in compressed rows. Passes wait in lists and are merged when as many
-// exchanges wait as there are sums. Input: the exchanges of each pass, from make_run().
+// exchanges wait as there are sums. Input: the exchanges of each pass, from sort().
 #include "radiosity/exchange/exchange_sums.h"
 
 #include <algorithm>
@@ -14,53 +14,52 @@
 
 namespace transillum {
 
-ExchangeSums::ExchangeSums(const PatchShare& share, bool two_way, std::uint64_t budget,
+ExchangeSums::ExchangeSums(const OwnedPatches& owned, bool two_way, std::uint64_t budget,
                            const Cancellation& cancellation)
-    : share_(share),
-      patches_(static_cast<std::size_t>(share.patches)),
+    : owned_(owned),
+      patches_(static_cast<std::size_t>(owned.patches)),
       two_way_(two_way),
       budget_(budget),
       cancellation_(cancellation),
       sums_(empty_rows()),
       place_(patches_, 0) {}
 
-std::size_t ExchangeSums::size_of_share() const {
-  if (share_.is_all()) {
+std::size_t ExchangeSums::size_of_owned() const {
+  if (owned_.is_all()) {
     return size();
   }
-  std::size_t size = sums_.begin[share_.last()] - sums_.begin[share_.first()];
-  for (const Run& run : waiting_) {
-    size +=
-        static_cast<std::size_t>(std::count_if(run.begin(), run.end(), [this](const Transfer& t) {
-          return share_.owned.contains(t.receiver);
-        }));
+  std::size_t size = sums_.begin[owned_.last()] - sums_.begin[owned_.first()];
+  for (const Sorted& sorted : waiting_) {
+    size += static_cast<std::size_t>(
+        std::count_if(sorted.begin(), sorted.end(),
+                      [this](const Transfer& t) { return owned_.range.contains(t.receiver); }));
   }
   return size;
 }
 
 void ExchangeSums::prepare_to_save() {
-  if (!share_.is_all()) {
+  if (!owned_.is_all()) {
     merge();
   }
 }
 
-ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges) const {
+ExchangeSums::Sorted ExchangeSums::sort(const std::vector<Transfer>& exchanges) const {
   if (!two_way_) {
-    Run run;
-    run.reserve(exchanges.size());
-    std::copy_if(exchanges.begin(), exchanges.end(), std::back_inserter(run),
-                 [this](const Transfer& t) { return share_.owned.contains(t.receiver); });
-    return run;
+    Sorted sorted;
+    sorted.reserve(exchanges.size());
+    std::copy_if(exchanges.begin(), exchanges.end(), std::back_inserter(sorted),
+                 [this](const Transfer& t) { return owned_.range.contains(t.receiver); });
+    return sorted;
   }
   if (exchanges.size() < patches_ / 16) {
-    Run run;
-    run.reserve(exchanges.size());
+    Sorted sorted;
+    sorted.reserve(exchanges.size());
     for (const Transfer& t : exchanges) {
-      run.push_back({std::min(t.receiver, t.source), std::max(t.receiver, t.source), t.area});
+      sorted.push_back({std::min(t.receiver, t.source), std::max(t.receiver, t.source), t.area});
     }
-    std::stable_sort(run.begin(), run.end(),
+    std::stable_sort(sorted.begin(), sorted.end(),
                      [](const Transfer& a, const Transfer& b) { return a.receiver < b.receiver; });
-    return run;
+    return sorted;
   }
   // Counting sort by the lower patch.
   std::vector<std::uint32_t> next(patches_ + 1, 0);
@@ -68,20 +67,20 @@ ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges)
     ++next[static_cast<std::size_t>(std::min(t.receiver, t.source)) + 1];
   }
   std::partial_sum(next.begin(), next.end(), next.begin());
-  Run run(exchanges.size());
+  Sorted sorted(exchanges.size());
   for (const Transfer& t : exchanges) {
     const auto [low, high] = std::minmax(t.receiver, t.source);
-    run[at(next, low)++] = {low, high, t.area};
+    sorted[at(next, low)++] = {low, high, t.area};
   }
-  return run;
+  return sorted;
 }
 
-void ExchangeSums::add(Run run) {
+void ExchangeSums::add(Sorted sorted) {
   if (overrun_) {
     return;
   }
-  waiting_size_ += run.size();
-  waiting_.push_back(std::move(run));
+  waiting_size_ += sorted.size();
+  waiting_.push_back(std::move(sorted));
   // While passes are merged, the new sums and their inputs exist at the same time.
   const bool crowded = 2 * size() * sizeof(Transfer) > budget_;
   // A merge traverses all sums, so it is deferred until as many exchanges are waiting.
@@ -128,10 +127,11 @@ void ExchangeSums::merge() {
     for (std::size_t k = first; k < source.size(); ++k) {
       at(place_, source[k]) = static_cast<std::uint32_t>(k - first);
     }
-    for (auto& run : rest) {
+    for (auto& sorted : rest) {
       std::size_t taken = 0;
-      for (; taken < run.size() && static_cast<std::size_t>(run[taken].receiver) == row; ++taken) {
-        const Transfer& t = run[taken];
+      for (; taken < sorted.size() && static_cast<std::size_t>(sorted[taken].receiver) == row;
+           ++taken) {
+        const Transfer& t = sorted[taken];
         // A place left by an earlier row points beyond this one, or to another source in it.
         std::uint32_t& place = at(place_, t.source);
         const std::size_t k = first + place;
@@ -143,7 +143,7 @@ void ExchangeSums::merge() {
           area.push_back(t.area);
         }
       }
-      run = run.subspan(taken);
+      sorted = sorted.subspan(taken);
     }
   }
   begin.push_back(source.size());
@@ -160,8 +160,8 @@ bool ExchangeSums::is_valid() const {
   return begin.size() == patches_ + 1 && begin.front() == 0 &&
          std::is_sorted(begin.begin(), begin.end()) && begin.back() == source.size() &&
          source.size() == area.size() && std::all_of(source.begin(), source.end(), exists) &&
-         std::all_of(waiting_.begin(), waiting_.end(), [&](const Run& run) {
-           return std::all_of(run.begin(), run.end(), [&](const Transfer& t) {
+         std::all_of(waiting_.begin(), waiting_.end(), [&](const Sorted& sorted) {
+           return std::all_of(sorted.begin(), sorted.end(), [&](const Transfer& t) {
              return exists(t.receiver) && exists(t.source);
            });
          });

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "radiosity/exchange/patch_share.h"
+#include "radiosity/exchange/owned_patches.h"
 #include "radiosity/state_archive.h"
 #include "transillum/cancellation.h"
 #include "transillum/transfers.h"
@@ -21,19 +21,19 @@ namespace transillum {
 class ExchangeSums {
  public:
   /// Exchanges of one pass by rising receiver; sources in any order.
-  using Run = std::vector<Transfer>;
+  using Sorted = std::vector<Transfer>;
 
   /// @param budget limit of the sums, bytes, also while passes are merged into them. Passes under
   /// way, two per thread, and a few numbers per patch come on top.
   /// @param share rows that are summed; rows of other patches are incomplete
-  ExchangeSums(const PatchShare& share, bool two_way, std::uint64_t budget,
+  ExchangeSums(const OwnedPatches& owned, bool two_way, std::uint64_t budget,
                const Cancellation& cancellation);
 
   /// Sorts the exchanges of a pass by the rows of the sums. Any thread may call it at any time.
-  Run make_run(const std::vector<Transfer>& exchanges) const;
+  Sorted sort(const std::vector<Transfer>& exchanges) const;
 
   /// Adds a pass. Once the budget is exceeded, everything is dropped and overrun() stays true.
-  void add(Run run);
+  void add(Sorted sorted);
   bool overrun() const { return overrun_; }
   /// Drops everything, as if the budget were exceeded.
   void drop();
@@ -45,7 +45,7 @@ class ExchangeSums {
   std::size_t size() const { return sums_.source.size() + waiting_size_; }
 
   /// The part of size() that is in rows of the share.
-  std::size_t size_of_share() const;
+  std::size_t size_of_owned() const;
   /// To be called before saving: merges passes whose sums are to be gathered.
   void prepare_to_save();
 
@@ -81,7 +81,7 @@ class ExchangeSums {
   Rows empty_rows() const { return {std::vector<std::size_t>(patches_ + 1, 0), {}, {}}; }
   void transpose();
 
-  PatchShare share_;
+  OwnedPatches owned_;
   std::size_t patches_;
   bool two_way_;
   std::uint64_t budget_;
@@ -89,7 +89,7 @@ class ExchangeSums {
   bool overrun_ = false;
   Rows sums_;
   /// Passes not yet merged, in order.
-  std::vector<Run> waiting_;
+  std::vector<Sorted> waiting_;
   std::size_t waiting_size_ = 0;
   /// Receives the next sums; kept because allocating it costs as much as merging.
   Rows spare_;

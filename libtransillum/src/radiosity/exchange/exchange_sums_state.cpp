@@ -10,21 +10,21 @@
 namespace transillum {
 
 void ExchangeSums::save(StateOutput& archive) const {
-  const auto first = sums_.begin[share_.first()], last = sums_.begin[share_.last()];
+  const auto first = sums_.begin[owned_.first()], last = sums_.begin[owned_.last()];
   std::vector<std::size_t> sizes;
-  for (std::size_t row = share_.first(); row < share_.last(); ++row) {
+  for (std::size_t row = owned_.first(); row < owned_.last(); ++row) {
     sizes.push_back(sums_.begin[row + 1] - sums_.begin[row]);
   }
-  sizes = share_.gather(std::move(sizes));
+  sizes = owned_.gather(std::move(sizes));
   std::vector<std::size_t> begin{0};
   for (const std::size_t size : sizes) {
     begin.push_back(begin.back() + size);
   }
-  const auto budgets = static_cast<std::uint64_t>(share_.sums->size());
+  const auto budgets = static_cast<std::uint64_t>(owned_.sums->size());
   archive(budget_ > ~std::uint64_t{0} / budgets ? budget_ : budget_ * budgets, overrun_, begin);
   const auto put = [&](const auto& list) {
     archive(std::uint64_t{begin.back()});
-    share_.sums->gather(
+    owned_.sums->gather(
         std::as_bytes(std::span(list).subspan(first, last - first)),
         [&archive](std::span<const std::byte> part) { archive.block(part.data(), part.size()); });
   };
@@ -37,14 +37,14 @@ void ExchangeSums::restore(StateInput& archive) {
   std::uint64_t saved_budget = 0, count = 0;
   std::vector<std::size_t> begin;
   archive(saved_budget, overrun_, begin, count);
-  if (share_.is_all()) {
+  if (owned_.is_all()) {
     budget_ = saved_budget;
   }
   archive.require(begin.size() == patches_ + 1 && begin.front() == 0 &&
                   std::is_sorted(begin.begin(), begin.end()) && begin.back() == count &&
                   count <= archive.left() / sizeof(PatchId));
   const auto is_needed = [this](PatchId i, PatchId j) {
-    return share_.owned.contains(i) || (two_way_ && share_.owned.contains(j));
+    return owned_.range.contains(i) || (two_way_ && owned_.range.contains(j));
   };
   std::vector<bool> needed(static_cast<std::size_t>(count));
   sums_ = {{0}, {}, {}};
@@ -75,9 +75,9 @@ void ExchangeSums::restore(StateInput& archive) {
   }
   archive(waiting_);
   waiting_size_ = 0;
-  for (Run& run : waiting_) {
-    std::erase_if(run, [&](const Transfer& t) { return !is_needed(t.receiver, t.source); });
-    waiting_size_ += run.size();
+  for (Sorted& sorted : waiting_) {
+    std::erase_if(sorted, [&](const Transfer& t) { return !is_needed(t.receiver, t.source); });
+    waiting_size_ += sorted.size();
   }
   archive.require(is_valid());
 }

@@ -67,8 +67,8 @@ class PipelineOrder {
     };
   }
   /// Runs the pipeline; what its filters did has happened before this returns or throws.
-  template <class Run>
-  void around(Run run) {
+  template <class Work>
+  void around(Work run) {
     struct AtEnd {
       const PipelineOrder& order;
       ~AtEnd() { order.acquire_all(); }

@@ -2,11 +2,16 @@
 #include "radiosity/exchange/unknowns.h"
 
 #include "transillum/at.h"
+#include "transillum/errors.h"
 
 namespace transillum {
 
 Unknowns::Unknowns(const Scene& scene, Basis basis, const DirectLight& shot)
     : per_patch(basis == Basis::linear ? 3 : 1) {
+  const bool is_shot = !shot.sources.empty();
+  if (per_patch > 1 && is_shot && shot.linear_terms.empty()) {
+    throw InputError("the first shot was made for constant functions: it has no linear parts");
+  }
   const std::size_t all = per_patch * scene.patches().size();
   area.reserve(all);
   exitance.reserve(all);
@@ -19,7 +24,11 @@ Unknowns::Unknowns(const Scene& scene, Basis basis, const DirectLight& shot)
       exitance.push_back(a == 0 ? scene.exitance(i) : Rgb{});
       reflectance.push_back(scene.reflectance(i));
       shot_exitance.push_back(a == 0 ? at(shot.exitance, i) : Rgb{});
-      shot_irradiance.push_back(a == 0 ? at(shot.irradiance, i) : Rgb{});
+    }
+    shot_irradiance.push_back(at(shot.irradiance, i));
+    if (per_patch > 1) {
+      const LinearTerm part = is_shot ? at(shot.linear_terms, i) : LinearTerm();
+      shot_irradiance.insert(shot_irradiance.end(), {part.first, part.second});
     }
   }
 }

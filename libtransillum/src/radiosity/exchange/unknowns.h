@@ -23,8 +23,9 @@ struct Unknowns {
   std::vector<double> area;                         ///< measure of its patch: ∫ phi_a², m²
   std::vector<Rgb> exitance;                        ///< E_i for phi_0, 0 for the others
   std::vector<Rgb> reflectance;                     ///< reflectance of its patch
-  std::vector<Rgb> shot_exitance, shot_irradiance;  ///< DirectLight's, of phi_0
+  std::vector<Rgb> shot_exitance, shot_irradiance;  ///< DirectLight's
 
+  /// @throws InputError where functions are linear and `shot` has no linear terms
   Unknowns(const Scene& scene, Basis basis, const DirectLight& shot);
 
   std::size_t count() const { return area.size(); }

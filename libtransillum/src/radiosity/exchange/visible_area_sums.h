@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "radiosity/exchange/patch_share.h"
+#include "radiosity/exchange/owned_patches.h"
 #include "radiosity/exchange/unknowns.h"
 #include "transillum/at.h"
 #include "transillum/transfers.h"
@@ -30,10 +30,10 @@ struct VisibleAreaSums {
         uncovered(patches),
         per_patch(unknowns_per_patch) {}
   /// @param share the patches of the coverages; the sums of others are right after complete()
-  void add(const Transfers& transfers, bool two_way, const PatchShare& share) {
-    for (std::size_t i = share.first(); i < share.last(); ++i) {
-      const Coverage& forward = transfers.forward[i - share.first()];
-      const Coverage& backward = transfers.backward[i - share.first()];
+  void add(const Transfers& transfers, bool two_way, const OwnedPatches& owned) {
+    for (std::size_t i = owned.first(); i < owned.last(); ++i) {
+      const Coverage& forward = transfers.forward[i - owned.first()];
+      const Coverage& backward = transfers.backward[i - owned.first()];
       projected[i] += forward.projected;
       uncovered[i] += forward.uncovered();
       if (two_way) {
@@ -52,9 +52,9 @@ struct VisibleAreaSums {
       }
     });
   }
-  void complete(const PatchShare& share) {
+  void complete(const OwnedPatches& owned) {
     for (std::vector<double>* areas : {&rows, &columns, &projected, &uncovered}) {
-      share.complete(*areas);
+      owned.complete(*areas);
     }
   }
   /// For StateOutput and StateInput.

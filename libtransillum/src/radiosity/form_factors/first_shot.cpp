@@ -5,6 +5,7 @@
 #include "transillum/first_shot.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <set>
@@ -14,6 +15,7 @@
 #include "radiosity/channel_sums.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/form_factors/pair_matrix.h"
+#include "radiosity/linear_solution.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pairs/patch_exchange.h"
@@ -22,27 +24,32 @@ namespace transillum {
 namespace {
 
 /// One part of zeros per material of the sources; none where they would take too much memory.
-std::vector<DirectLight::Part> empty_parts(const Scene& scene,
-                                           const std::vector<PatchId>& sources) {
+std::vector<DirectLight::Contribution> empty_contributions(const Scene& scene,
+                                                           const std::vector<PatchId>& sources,
+                                                           Basis basis) {
   constexpr std::size_t max_bytes = std::size_t{256} << 20;
   std::set<int> materials;
   for (const PatchId j : sources) {
     materials.insert(scene.patch(j).material);
   }
   const auto patches = scene.patches().size();
-  std::vector<DirectLight::Part> parts;
-  if (materials.size() * patches * sizeof(double) > max_bytes) {
-    return parts;
+  std::vector<DirectLight::Contribution> contributions;
+  const bool linear = basis == Basis::linear;
+  if (materials.size() * patches * sizeof(double) * (linear ? linear_unknowns : 1) > max_bytes) {
+    return contributions;
   }
   for (const int m : materials) {
-    parts.push_back({m, std::vector<double>(patches)});
+    contributions.push_back({m, std::vector<double>(patches),
+                             std::vector<std::array<double, 2>>(linear ? patches : 0)});
   }
-  return parts;
+  return contributions;
 }
 
-auto part_of(std::vector<DirectLight::Part>& parts, int material) {
-  return std::lower_bound(parts.begin(), parts.end(), material,
-                          [](const DirectLight::Part& part, int m) { return part.material < m; });
+auto contribution_of(std::vector<DirectLight::Contribution>& contributions, int material) {
+  return std::lower_bound(contributions.begin(), contributions.end(), material,
+                          [](const DirectLight::Contribution& contribution, int m) {
+                            return contribution.material < m;
+                          });
 }
 
 /// Counts pairs of patches, checks the cancellation and reports progress, also within a pair: one
@@ -93,34 +100,66 @@ class ErrorSum {
   Rgb sum_, root_;
 };
 
+/// Computes the linear term of the irradiance of a patch.
+class LinearPartSum {
+ public:
+  /// @param weight exitance of the source, over the area of the patch
+  void add(const PatchExchange& exchange, const Rgb& weight) {
+    for (std::size_t a = 0; a < 2; ++a) {
+      sums_[a] += exchange.moments[a] * weight;
+      errors_[a].add(exchange.moment_errors[a] * weight);
+    }
+  }
+  LinearTerm sum() const { return {sums_[0], sums_[1]}; }
+  LinearTerm error() const { return {errors_[0].largest(), errors_[1].largest()}; }
+
+ private:
+  std::array<Rgb, 2> sums_;
+  std::array<ErrorSum, 2> errors_;
+};
+
 /// Computes the irradiance of patch i from all sources.
 void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, ShotProgress& progress,
              IntegratedPairs& integrated, DirectLight& light) {
   const auto row = static_cast<std::size_t>(i);
   const double unit = 1 / scene.patch(i).area;
+  const bool linear = !light.linear_terms.empty();
+  const LinearBasis basis = linear ? linear_basis(scene, i) : LinearBasis();
   Rgb power;
   ErrorSum errors;
+  LinearPartSum linear_part;
   for (const PatchId j : light.sources) {
     progress.check();
     progress.add_pair();
     if (j == i) {
       continue;
     }
-    const PatchExchange found = exchange(i, j, [&] { progress.check(); });
+    const PatchExchange found = exchange(
+        i, j, [&] { progress.check(); }, linear ? &basis : nullptr);
     const double area = found.area;
     power += area * scene.exitance(j);
     integrated += found.integrated ? 1 : 0;
     errors.add(unit * found.error * scene.exitance(j));
-    const auto part = part_of(light.parts, scene.patch(j).material);
-    if (part != light.parts.end()) {
-      part->irradiance[row] += unit * area;
+    const auto contribution = contribution_of(light.contributions, scene.patch(j).material);
+    if (contribution != light.contributions.end()) {
+      contribution->irradiance[row] += unit * area;
+      for (std::size_t a = 0; linear && a < 2; ++a) {
+        contribution->linear_terms[row][a] += unit * found.moments[a];
+      }
+    }
+    if (linear) {
+      linear_part.add(found, unit * scene.exitance(j));
     }
   }
   light.irradiance[row] = unit * power;
   light.irradiance_error[row] = errors.largest();
+  if (linear) {
+    light.linear_terms[row] = linear_part.sum();
+    light.linear_part_errors[row] = linear_part.error();
+  }
 }
 
-/// Sets the exitance of the sources and their share of all emitted power.
+/// Sets the exitance of the sources and their fraction of all emitted power.
 /// @param exitance of a patch
 template <class Exitance>
 void count_power(const Scene& scene, Exitance exitance, DirectLight& light) {
@@ -132,16 +171,17 @@ void count_power(const Scene& scene, Exitance exitance, DirectLight& light) {
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     total += scene.patch(i).area * sum(exitance(i));
   }
-  light.power_share = total > 0 ? shot / total : 0;
+  light.power_fraction = total > 0 ? shot / total : 0;
 }
 
 /// E of the sources of a part, which has one irradiance for all of them.
 template <class Exitance>
-Rgb exitance_of_part(const DirectLight::Part& part, const std::vector<PatchId>& sources,
-                     const Scene& scene, Exitance exitance) {
+Rgb exitance_of_contribution(const DirectLight::Contribution& contribution,
+                             const std::vector<PatchId>& sources, const Scene& scene,
+                             Exitance exitance) {
   std::optional<Rgb> common;
   for (const PatchId i : sources) {
-    if (scene.patch(i).material != part.material) {
+    if (scene.patch(i).material != contribution.material) {
       continue;
     }
     if (common && !(*common == exitance(i))) {
@@ -156,16 +196,31 @@ Rgb exitance_of_part(const DirectLight::Part& part, const std::vector<PatchId>& 
 
 }  // namespace
 
-DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads,
-                  const Cancellation& cancellation, const std::function<void(double)>& progress) {
+ShotOptions shot_options(const SolveOptions& options) {
+  return {
+      .threads = options.threads, .basis = options.basis, .points = options.engine_options.points};
+}
+
+DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
+                  const ShotOptions& options, const Cancellation& cancellation,
+                  const std::function<void(double)>& progress) {
+  const Basis basis = options.basis;
   const auto patches = scene.patches().size();
-  DirectLight light{std::vector<Rgb>(patches),   std::vector<Rgb>(patches), sources, 0,
-                    empty_parts(scene, sources), std::vector<Rgb>(patches)};
+  DirectLight light{.irradiance = std::vector<Rgb>(patches),
+                    .exitance = std::vector<Rgb>(patches),
+                    .sources = sources,
+                    .contributions = empty_contributions(scene, sources, basis),
+                    .irradiance_error = std::vector<Rgb>(patches)};
+  if (basis == Basis::linear) {
+    light.linear_terms.resize(patches);
+    light.linear_part_errors.resize(patches);
+  }
   if (sources.empty()) {
     return light;
   }
-  const ExchangeFinder exchange(scene, cancellation);
-  WorkerThreads workers(thread_count(threads));
+  const ExchangeFinder exchange(scene, cancellation,
+                                options.points > 0 ? options.points : ShotOptions::default_points);
+  WorkerThreads workers(thread_count(options.threads));
   ShotProgress shot(static_cast<double>(patches) * static_cast<double>(sources.size()),
                     cancellation, progress);
   IntegratedPairs integrated{0};
@@ -190,18 +245,26 @@ DirectLight with_materials(const DirectLight& light, const Scene& scene,
   if (patch_materials.empty() && materials.size() != scene.materials().size()) {
     throw InputError("the materials belong to another scene: their number differs");
   }
-  if (light.parts.empty() && !light.sources.empty()) {
+  if (light.contributions.empty() && !light.sources.empty()) {
     throw InputError("the first shot is not stored per material: that would take too much memory");
   }
-  DirectLight other{std::vector<Rgb>(patches), std::vector<Rgb>(patches), light.sources, 0, {}};
+  DirectLight other{.irradiance = std::vector<Rgb>(patches),
+                    .exitance = std::vector<Rgb>(patches),
+                    .sources = light.sources,
+                    .contributions = {},
+                    .linear_terms = std::vector<LinearTerm>(light.linear_terms.size())};
   const auto exitance_of = [&](PatchId i) {
     return at(materials, patch_materials.empty() ? scene.patch(i).material : at(patch_materials, i))
         .exitance;
   };
-  for (const DirectLight::Part& part : light.parts) {
-    const Rgb exitance = exitance_of_part(part, light.sources, scene, exitance_of);
+  for (const DirectLight::Contribution& contribution : light.contributions) {
+    const Rgb exitance = exitance_of_contribution(contribution, light.sources, scene, exitance_of);
     for (std::size_t i = 0; i < patches; ++i) {
-      other.irradiance[i] += part.irradiance[i] * exitance;
+      other.irradiance[i] += contribution.irradiance[i] * exitance;
+    }
+    for (std::size_t i = 0; i < other.linear_terms.size(); ++i) {
+      other.linear_terms[i].first += contribution.linear_terms[i][0] * exitance;
+      other.linear_terms[i].second += contribution.linear_terms[i][1] * exitance;
     }
   }
   count_power(scene, exitance_of, other);

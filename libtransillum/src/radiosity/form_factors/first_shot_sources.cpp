@@ -11,6 +11,7 @@
 
 #include "base/bit_mixing.h"
 #include "radiosity/light_sources.h"
+#include "radiosity/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/first_shot.h"
@@ -40,7 +41,7 @@ std::vector<PatchId> patches_of(const std::vector<LightSource>& sources, auto is
 /// What it saves: along a direction, light from the source falls on its shadow on all surfaces. To
 /// meet a patch as often as the light of all surfaces together does, which is what remains to the
 /// passes, they would have to be as many times more as the source is smaller; less so for a source
-/// of little of the light. Errors fall as M^(-3/4) (section 4 of the paper: jumps), so the share
+/// of little of the light. Errors fall as M^(-3/4) (section 4 of the paper: jumps), so the fraction
 /// counts to the power 4/3.
 ///
 /// What it costs: the mean over some pairs of patches, by counting.
@@ -52,9 +53,7 @@ class ShotBalance {
         cancellation_(cancellation),
         directions_(directions),
         power_(total_power(sources)) {
-    for (const Patch& patch : scene.patches()) {
-      area_ += patch.area;
-    }
+    area_ = total_area(scene);
   }
 
   bool pays(const LightSource& source) {
@@ -71,8 +70,8 @@ class ShotBalance {
   double saved_passes(const LightSource& source) const {
     const double patch = std::sqrt(area_ / scene_.patch_count());
     const double met = std::pow(std::sqrt(source.area) + patch, 2) / area_;
-    const double share = std::pow(source.power / power_, 4.0 / 3);
-    return directions_ * (share / (3 * met) - 1);
+    const double fraction = std::pow(source.power / power_, 4.0 / 3);
+    return directions_ * (fraction / (3 * met) - 1);
   }
 
   /// In passes; stops counting above `limit`.
@@ -149,9 +148,9 @@ std::string name_of_first_shot(const std::optional<double>& threshold) {
 }
 
 std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
-  constexpr double min_share = 1e-4;
+  constexpr double min_fraction = 1e-4;
   const std::vector<LightSource> sources = light_sources(scene);
-  const double least = min_share * total_power(sources);
+  const double least = min_fraction * total_power(sources);
   const double square = scene.bounds().diagonal() * scene.bounds().diagonal();
   return patches_of(sources, [&](const LightSource& source) {
     return square >= ratio * source.area && source.power >= least;

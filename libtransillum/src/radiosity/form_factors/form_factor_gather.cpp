@@ -96,8 +96,8 @@ Float3 single(const Vec3& a) {
 
 /// A triangle of a patch to sample: points corner + u·a + v·b with u + v <= 1.
 struct SampledTriangle {
-  float share_below;  ///< share of the patch's area in the triangles before this one
-  float share;
+  float fraction_below;  ///< fraction of the patch's area in the triangles before this one
+  float fraction;
   Float3 corner, a, b;
 };
 
@@ -169,20 +169,20 @@ class RowGatherer {
       }
     }
     for (SampledTriangle& triangle : triangles_) {
-      triangle.share_below /= static_cast<float>(total);
-      triangle.share /= static_cast<float>(total);
+      triangle.fraction_below /= static_cast<float>(total);
+      triangle.fraction /= static_cast<float>(total);
     }
   }
 
-  /// A point of the patch. `s` selects the triangle; its position within the triangle's share is
+  /// A point of the patch. `s` selects the triangle; its position within the triangle's fraction is
   /// used again as a coordinate.
   Float3 point(float s, float t) const {
     std::size_t k = triangles_.size() - 1;
-    while (k > 0 && s < triangles_[k].share_below) {
+    while (k > 0 && s < triangles_[k].fraction_below) {
       --k;
     }
     const SampledTriangle& triangle = triangles_[k];
-    const float root = std::sqrt(std::min((s - triangle.share_below) / triangle.share, 1.0F));
+    const float root = std::sqrt(std::min((s - triangle.fraction_below) / triangle.fraction, 1.0F));
     const float a = root * (1 - t), b = root * t;
     return {triangle.corner.x + a * triangle.a.x + b * triangle.b.x,
             triangle.corner.y + a * triangle.a.y + b * triangle.b.y,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "radiosity/linear_solution.h"
 #include "scene/build/description_check.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -15,6 +16,10 @@ void check_form_factor_input(const Scene& scene, const FormFactors& form_factors
   const auto patches = scene.patches().size();
   if (form_factors.row_begin.size() != patches + 1) {
     throw InputError("the form factors belong to another scene: the number of patches differs");
+  }
+  if (!form_factors.moments.empty() && form_factors.moments.size() != form_factors.size()) {
+    throw InputError(fmt::format("{} moments for {} form factors", form_factors.moments.size(),
+                                 form_factors.size()));
   }
   if (patch_materials.empty() && materials.size() != scene.materials().size()) {
     throw InputError("the materials belong to another scene: their number differs");
@@ -32,6 +37,16 @@ void check_form_factor_input(const Scene& scene, const FormFactors& form_factors
   for (const Material& material : materials) {
     check_material(material, "");
   }
+}
+
+std::size_t unknowns_of_patch(const FormFactors& form_factors, Basis basis) {
+  if (basis == Basis::constant) {
+    return 1;
+  }
+  if (form_factors.moments.size() != form_factors.size()) {
+    throw InputError("the form factors have no moments for linear functions");
+  }
+  return linear_unknowns;
 }
 
 void check_receiver(const Scene& scene, PatchId patch) {

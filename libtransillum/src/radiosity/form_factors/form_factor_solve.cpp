@@ -9,6 +9,7 @@
 #include "base/for_each_index.h"
 #include "base/seconds_since.h"
 #include "radiosity/form_factors/jacobi.h"
+#include "radiosity/linear_solution.h"
 #include "radiosity/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -22,20 +23,28 @@ NotConvergent divergence() {
           Remedy::none};
 }
 
-/// sum_j F_ij B_j
-Rgb gather(const FormFactors& form_factors, std::size_t row, const std::vector<Rgb>& b) {
-  Rgb gathered;
-  for (std::size_t k = form_factors.row_begin[row]; k < form_factors.row_begin[row + 1]; ++k) {
-    gathered += form_factors.value[k] * at(b, form_factors.source[k]);
-  }
-  return gathered;
-}
-
 void check_start(const Scene& scene, const RelightOptions& options) {
-  if (!options.start.empty() && options.start.size() != scene.patches().size()) {
+  if ((!options.start.empty() && options.start.size() != scene.patches().size()) ||
+      (!options.start_linear_parts.empty() &&
+       options.start_linear_parts.size() != options.start.size())) {
     throw InputError(
         "the initial radiosity belongs to another scene: the number of patches differs");
   }
+}
+
+/// The unknowns of means and linear terms.
+/// @param parts empty: 0
+std::vector<Rgb> unknowns_of(std::span<const Rgb> means, std::span<const LinearTerm> parts,
+                             std::size_t per_patch) {
+  std::vector<Rgb> unknowns;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    unknowns.push_back(means[i]);
+    if (per_patch > 1) {
+      const LinearTerm part = parts.empty() ? LinearTerm() : parts[i];
+      unknowns.insert(unknowns.end(), {part.first, part.second});
+    }
+  }
+  return unknowns;
 }
 
 }  // namespace
@@ -75,30 +84,56 @@ void JacobiIteration::for_each_row(const Cancellation& cancellation, Visit visit
   });
 }
 
-void JacobiIteration::shoot_first(const DirectLight& shot, const Cancellation& cancellation) {
-  correction_.resize(b.size());
-  for_each_row(cancellation, [&](std::size_t i) {
-    correction_[i] = shot.irradiance[i] - gather(form_factors_, i, shot.exitance);
-  });
+Rgb JacobiIteration::gather(std::size_t unknown, const std::vector<Rgb>& values) const {
+  const FormFactors& f = form_factors_;
+  const std::size_t row = unknown / per_patch_, a = unknown % per_patch_;
+  Rgb gathered;
+  for (std::size_t k = f.row_begin[row]; k < f.row_begin[row + 1]; ++k) {
+    if (per_patch_ == 1) {
+      gathered += f.value[k] * at(values, f.source[k]);
+      continue;
+    }
+    const std::size_t first = per_patch_ * static_cast<std::size_t>(f.source[k]);
+    for (std::size_t c = 0; c < per_patch_; ++c) {
+      gathered += f.moments[k].of(a, c) * values[first + c];
+    }
+  }
+  return gathered;
 }
 
-void JacobiIteration::add_sky(std::span<const Rgb> irradiance) {
+void JacobiIteration::shoot_first(const DirectLight& shot, const Cancellation& cancellation) {
+  if (per_patch_ > 1 && shot.linear_terms.empty()) {
+    throw InputError("the first shot was made for constant functions: it has no linear parts");
+  }
+  const std::vector<Rgb> received = unknowns_of(shot.irradiance, shot.linear_terms, per_patch_);
+  const std::vector<Rgb> sent = unknowns_of(shot.exitance, {}, per_patch_);
+  correction_.resize(b.size());
+  for_each_row(cancellation,
+               [&](std::size_t u) { correction_[u] = received[u] - gather(u, sent); });
+}
+
+void JacobiIteration::add_sky(std::span<const Rgb> irradiance,
+                              std::span<const LinearTerm> linear_terms) {
   if (irradiance.empty()) {
     return;
   }
-  if (irradiance.size() != b.size()) {
+  const std::size_t patches = scene_.patches().size();
+  if (irradiance.size() != patches || (per_patch_ > 1 && linear_terms.size() != patches)) {
     throw InputError(
         "the light of the sky belongs to another scene: the number of patches differs");
   }
   correction_.resize(b.size());
-  for (std::size_t i = 0; i < b.size(); ++i) {
+  for (std::size_t i = 0; i < patches; ++i) {
     const Rgb& light = irradiance[i];
     if (!is_finite(Vec3{light.r, light.g, light.b}) || std::min({light.r, light.g, light.b}) < 0) {
       throw InputError(
           fmt::format("the light of the sky on patch {} is {} {} {}, not finite and at least 0", i,
                       light.r, light.g, light.b));
     }
-    correction_[i] += light;
+  }
+  const std::vector<Rgb> received = unknowns_of(irradiance, linear_terms, per_patch_);
+  for (std::size_t u = 0; u < received.size(); ++u) {
+    correction_[u] += received[u];
   }
 }
 
@@ -127,7 +162,7 @@ void JacobiIteration::run(int limit, double tolerance, const Cancellation& cance
     const auto start = Clock::now();
     std::vector<Rgb> next(b.size());
     for_each_row(cancellation, [&](std::size_t i) {
-      h[i] = gather(form_factors_, i, b);
+      h[i] = gather(i, b);
       if (!correction_.empty()) {
         h[i] += correction_[i];
       }
@@ -172,19 +207,24 @@ RelightResult relight(const Scene& scene, const FormFactors& form_factors,
                       const Cancellation& cancellation) {
   check_form_factor_input(scene, form_factors, materials, options.patch_materials);
   check_start(scene, options);
+  const std::size_t per_patch = unknowns_of_patch(form_factors, options.basis);
   JacobiIteration iteration(scene, form_factors, materials, options.threads,
-                            options.patch_materials);
+                            options.patch_materials, per_patch);
   if (options.shot && !options.shot->sources.empty()) {
     iteration.shoot_first(with_materials(*options.shot, scene, materials, options.patch_materials),
                           cancellation);
   }
-  iteration.add_sky(options.sky_irradiance);
+  iteration.add_sky(options.sky_irradiance, options.sky_linear_parts);
   if (!options.start.empty()) {
-    iteration.b.assign(options.start.begin(), options.start.end());
+    iteration.b = unknowns_of(options.start, options.start_linear_parts, per_patch);
   }
   iteration.run_to(options.tolerance, cancellation);
-  return {std::move(iteration.b), std::move(iteration.h),
-          static_cast<int>(iteration.records.size())};
+  std::vector<LinearTerm> linear_terms;
+  if (per_patch > 1) {
+    linear_terms = linear_terms_of(iteration.b);
+  }
+  return {means_of(std::move(iteration.b), per_patch), means_of(std::move(iteration.h), per_patch),
+          static_cast<int>(iteration.records.size()), std::move(linear_terms)};
 }
 
 }  // namespace transillum

@@ -21,6 +21,10 @@ void check_form_factor_input(const Scene& scene, const FormFactors& form_factors
                              const std::vector<Material>& materials,
                              std::span<const std::int32_t> patch_materials);
 
+/// The unknowns of a patch, 1 or 3.
+/// @throws InputError where functions are linear and the form factors have no moments
+std::size_t unknowns_of_patch(const FormFactors& form_factors, Basis basis);
+
 /// @throws InputError unless `patch` is one of the scene's.
 void check_receiver(const Scene& scene, PatchId patch);
 
@@ -41,7 +45,7 @@ struct JacobiIteration {
   /// @param materials E and rho: one per material of the scene, in its order
   /// @param threads 0: all cores
   /// @param patch_materials index into `materials` for each patch; empty: Patch::material
-  /// @param per_patch unknowns of a patch; `form_factors` are those of all unknowns
+  /// @param per_patch unknowns of a patch; 3 require FormFactors::moments
   JacobiIteration(const Scene& scene, const FormFactors& form_factors,
                   std::span<const Material> materials, int threads,
                   std::span<const std::int32_t> patch_materials = {}, std::size_t per_patch = 1);
@@ -55,8 +59,9 @@ struct JacobiIteration {
   /// @throws Canceled
   void shoot_first(const DirectLight& shot, const Cancellation& cancellation);
   /// From now on adds to H what each patch receives from a sky; nothing if empty.
-  /// @throws InputError where there is not one value >= 0 per patch
-  void add_sky(std::span<const Rgb> irradiance);
+  /// @param linear_terms of `irradiance`, one per patch with linear functions
+  /// @throws InputError where there is not one mean >= 0 per patch
+  void add_sky(std::span<const Rgb> irradiance, std::span<const LinearTerm> linear_terms = {});
   /// Iterates up to `limit` iterations in total, or until the light not yet propagated is at most
   /// `tolerance` of the reflected light (IterationRecord::remainder, remainder_dimmest).
   /// @throws Canceled; NotConvergent where B exceeds the range of numbers
@@ -66,7 +71,9 @@ struct JacobiIteration {
   void run_to(double tolerance, const Cancellation& cancellation);
 
  private:
-  /// Calls visit(i) for every patch i, on several threads.
+  /// sum_v F_uv B_v
+  Rgb gather(std::size_t unknown, const std::vector<Rgb>& values) const;
+  /// Calls visit(u) for every unknown u, on several threads.
   template <class Visit>
   void for_each_row(const Cancellation& cancellation, Visit visit) const;
 

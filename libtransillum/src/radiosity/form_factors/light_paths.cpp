@@ -32,9 +32,9 @@ void check(const Scene& scene, PatchId receiver, const LightPathOptions& options
   if (options.count < 1 || options.count > 1'000'000) {
     throw InputError(fmt::format("number of paths: {} is not in 1 … 1000000", options.count));
   }
-  if (!(options.smallest_share > 0 && options.smallest_share < 1)) {
+  if (!(options.smallest_fraction > 0 && options.smallest_fraction < 1)) {
     throw InputError(
-        fmt::format("smallest share: {} is not between 0 and 1", options.smallest_share));
+        fmt::format("smallest share: {} is not between 0 and 1", options.smallest_fraction));
   }
   if (!options.start.empty() && options.start.size() != scene.patches().size()) {
     throw InputError(
@@ -62,7 +62,7 @@ class Search {
 
   LightPaths run(PatchId receiver, const Cancellation& cancellation) {
     result_.radiosity = at(b_, receiver);
-    smallest_ = options_.smallest_share * luminance(result_.radiosity);
+    smallest_ = options_.smallest_fraction * luminance(result_.radiosity);
     push({receiver, -1, {1, 1, 1}});
     while (!unfinished_.empty()) {
       cancellation.throw_if_canceled();

@@ -13,9 +13,10 @@ namespace transillum {
 
 /// Options of find_light_paths().
 struct LightPathOptions {
-  int count = 100;               ///< most paths to return, 1 … 1,000,000
-  double smallest_share = 1e-6;  ///< share of B, by luminance, below which paths are cut off; > 0
-  double tolerance = 1e-9;       ///< tolerance of B, as in RelightOptions
+  int count = 100;  ///< most paths to return, 1 … 1,000,000
+  double smallest_fraction =
+      1e-6;                 ///< fraction of B, by luminance, below which paths are cut off; > 0
+  double tolerance = 1e-9;  ///< tolerance of B, as in RelightOptions
   /// Initial B for the solve, W/m², one per patch; E if empty.
   std::span<const Rgb> start = {};
   /// Index into the materials given for each patch; if empty, Patch::material applies.

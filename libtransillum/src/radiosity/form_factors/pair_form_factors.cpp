@@ -3,7 +3,7 @@
 // The matrix of engine pairs. Input: the exchange of each pair of patches, once; for linear
 // functions its moments.
 //
-// Notation: n unknowns a patch, 1 or 3; T^ab as in pair_matrix.h.
+// Notation: n functions a patch, 1 or 3; T^ab as in ALGORITHM.md 5.9.
 #include "transillum/pair_form_factors.h"
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include "base/memory_limit.h"
 #include "radiosity/form_factors/form_factor_rows.h"
 #include "radiosity/form_factors/pair_matrix.h"
+#include "radiosity/linear_solution.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/linear_basis.h"
@@ -55,7 +56,8 @@ class UpperRows {
   IntegratedPairs& integrated_;
 };
 
-/// Both triangles of the matrix, of unknowns.
+/// Both triangles of the matrix.
+/// @param upper of UpperRows, with n functions a patch
 FormFactors both_ways(const Scene& scene, const FormFactors& upper, std::size_t n) {
   const std::size_t patches = scene.patches().size();
   const auto for_each_pair = [&](auto visit) {
@@ -72,18 +74,21 @@ FormFactors both_ways(const Scene& scene, const FormFactors& upper, std::size_t 
   });
   FormFactors all;
   all.row_begin.push_back(0);
-  for (std::size_t u = 0; u < n * patches; ++u) {
-    all.row_begin.push_back(all.row_begin.back() + n * pairs[u / n]);
+  for (const std::size_t count : pairs) {
+    all.row_begin.push_back(all.row_begin.back() + count);
   }
   all.source.resize(all.row_begin.back());
   all.value.resize(all.row_begin.back());
+  all.moments.resize(n > 1 ? all.row_begin.back() : 0);
   std::vector<std::size_t> end(all.row_begin.begin(), all.row_begin.end() - 1);
   const auto append = [&](std::size_t i, std::size_t j, auto exchange) {
-    for (std::size_t a = 0; a < n; ++a) {
+    const std::size_t k = end[i]++;
+    const double area = scene.patches()[i].area;
+    all.source[k] = static_cast<PatchId>(j);
+    all.value[k] = exchange(0, 0) / area;
+    for (std::size_t a = 0; a < n && n > 1; ++a) {
       for (std::size_t b = 0; b < n; ++b) {
-        const std::size_t k = end[n * i + a]++;
-        all.source[k] = static_cast<PatchId>(n * j + b);
-        all.value[k] = exchange(a, b) / scene.patches()[i].area;
+        all.moments[k].of(a, b) = exchange(a, b) / area;
       }
     }
   };
@@ -113,14 +118,14 @@ FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
                               const Cancellation& cancellation,
                               const std::function<void(double)>& progress) {
   IntegratedPairs ignored{0};
-  return pair_matrix(scene, options, Basis::constant, cancellation, progress, ignored);
+  return pair_matrix(scene, options, cancellation, progress, ignored);
 }
 
-FormFactors pair_matrix(const Scene& scene, const PairOptions& options, Basis basis,
+FormFactors pair_matrix(const Scene& scene, const PairOptions& options,
                         const Cancellation& cancellation,
                         const std::function<void(double)>& progress, IntegratedPairs& integrated) {
   options.validate();
-  const bool linear = basis == Basis::linear;
+  const bool linear = options.basis == Basis::linear;
   const std::size_t n = linear ? linear_unknowns : 1;
   const ExchangeFinder exchange(scene, cancellation, options.points);
   const auto bases = linear ? linear_bases(scene) : std::vector<LinearBasis>();

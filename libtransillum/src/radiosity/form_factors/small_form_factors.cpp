@@ -172,10 +172,17 @@ class Balance {
         const double scale = scales_[i] * (symmetric_ ? at(scales_, f_.source[k]) : 1.0);
         result.form_factors.source.push_back(f_.source[k]);
         result.form_factors.value.push_back(scale * f_.value[k]);
+        if (!f_.moments.empty()) {
+          TransferMoments moments = f_.moments[k];
+          for (double& value : moments.value) {
+            value *= scale;
+          }
+          result.form_factors.moments.push_back(moments);
+        }
       }
       result.form_factors.row_begin.push_back(result.form_factors.size());
     }
-    result.share = all > 0 ? moved / all : 0;
+    result.fraction = all > 0 ? moved / all : 0;
     result.kept = tiny_ - result.dropped;
     for (const double error : errors_) {
       result.row_error = std::max(result.row_error, std::abs(error));

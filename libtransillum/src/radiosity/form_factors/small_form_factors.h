@@ -13,9 +13,9 @@ namespace transillum {
 struct DroppedFormFactors {
   FormFactors form_factors;  ///< the remaining form factors, rebalanced
   std::size_t dropped = 0;   ///< number of omitted entries
-  /// Sum of A_i F_ij over the dropped entries, over the sum of all: the share of light that was
+  /// Sum of A_i F_ij over the dropped entries, over the sum of all: the fraction of light that was
   /// moved to other pairs.
-  double share = 0;
+  double fraction = 0;
   /// Number of entries below the threshold that are kept, without which their rows cannot be
   /// balanced.
   std::size_t kept = 0;

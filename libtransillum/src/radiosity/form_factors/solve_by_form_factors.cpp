@@ -27,14 +27,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Computes the form factors, of all unknowns if the basis is linear, and sets the figures that
+bool is_by_hemicubes(const SolveOptions& options) {
+  return traits_of(options.engine).factors == EngineTraits::Factors::hemicubes;
+}
+
+/// Computes the form factors, with their moments if the basis is linear, and sets the values that
 /// differ between the engines.
 FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options,
                                  const Cancellation& cancellation,
                                  const std::function<void(double)>& progress,
                                  SolveStatistics& statistics) {
   const std::int64_t patches = scene.patch_count();
-  if (options.engine == Engine::hemicube) {
+  if (is_by_hemicubes(options)) {
     const HemicubeOptions hemicubes = hemicube_options(options);
     statistics.hemicubes = patches;
     statistics.directions = 3 * hemicubes.resolution * hemicubes.resolution;
@@ -44,40 +48,28 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
   statistics.pairs = patches * (patches - 1) / 2;
   statistics.directions = pairs.points;
   IntegratedPairs integrated{0};
-  FormFactors form_factors =
-      pair_matrix(scene, pairs, options.basis, cancellation, progress, integrated);
+  FormFactors form_factors = pair_matrix(scene, pairs, cancellation, progress, integrated);
   statistics.integrated_pairs = integrated;
   return form_factors;
 }
 
-/// Sums of the rows over the sources' phi_0: for phi_0 the share of what leaves a patch that meets
-/// others, for phi_1 and phi_2 what closure makes 0.
+/// Sums of the rows over the sources' phi_0: for phi_0 the fraction of what leaves a patch that
+/// meets others, for phi_1 and phi_2 what closure makes 0.
 std::vector<double> row_sums(const FormFactors& form_factors, std::size_t per_patch) {
   std::vector<double> sums;
   for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
-    double sum = 0;
-    for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1];
-         k += per_patch) {
-      sum += form_factors.value[k];
+    for (std::size_t a = 0; a < per_patch; ++a) {
+      double sum = 0;
+      for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
+        sum += a == 0 ? form_factors.value[k] : form_factors.moments[k].of(a, 0);
+      }
+      sums.push_back(sum);
     }
-    sums.push_back(sum);
   }
   return sums;
 }
 
-/// The values of phi_0 among the values of all unknowns.
-template <class Value>
-std::vector<Value> means_of(std::vector<Value> values, std::size_t per_patch) {
-  if (per_patch > 1) {
-    for (std::size_t i = 0; per_patch * i < values.size(); ++i) {
-      values[i] = values[per_patch * i];
-    }
-    values.resize(values.size() / per_patch);
-  }
-  return values;
-}
-
-/// Sets the figures that are sums over rows of F: closure, escaped, energy and rho_max.
+/// Sets the values that are sums over rows of F: closure, escaped, energy and rho_max.
 /// @param sums of row_sums()
 void add_power(const Scene& scene, const std::vector<double>& sums,
                const JacobiIteration& iteration, SolveStatistics& statistics) {
@@ -113,35 +105,10 @@ void add_power(const Scene& scene, const std::vector<double>& sums,
       ratio_or_zero(absorbed.r + absorbed.g + absorbed.b, emitted.r + emitted.g + emitted.b);
 }
 
-std::vector<LinearPart> linear_parts_of(const std::vector<Rgb>& coefficients) {
-  std::vector<LinearPart> parts;
-  for (std::size_t u = 0; u < coefficients.size(); u += linear_unknowns) {
-    parts.push_back({coefficients[u + 1], coefficients[u + 2]});
-  }
-  return parts;
-}
-
-/// The form factors of constant functions, T^00 / A_i.
-FormFactors factors_of_means(const FormFactors& of_unknowns) {
-  FormFactors means;
-  means.row_begin.push_back(0);
-  for (std::size_t u = 0; u + 1 < of_unknowns.row_begin.size(); u += linear_unknowns) {
-    for (std::size_t k = of_unknowns.row_begin[u]; k < of_unknowns.row_begin[u + 1];
-         k += linear_unknowns) {
-      means.source.push_back(of_unknowns.source[k] / static_cast<PatchId>(linear_unknowns));
-      means.value.push_back(of_unknowns.value[k]);
-    }
-    means.row_begin.push_back(means.source.size());
-  }
-  return means;
-}
-
-/// The iteration with `form_factors`, of all unknowns if the basis is linear; sets all but what
-/// computing them took.
+/// The iteration with `form_factors`; sets all but what computing them took.
 Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
                  const SolveOptions& options, const Cancellation& cancellation) {
-  const bool linear = options.basis == Basis::linear;
-  const std::size_t per_patch = linear ? linear_unknowns : 1;
+  const std::size_t per_patch = unknowns_of_patch(form_factors, options.basis);
   Solution solution;
   SolveStatistics& statistics = solution.statistics;
   const auto start = Clock::now();
@@ -153,12 +120,11 @@ Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
   const std::vector<double> sums = row_sums(form_factors, per_patch);
   solution.form_factor_sums = means_of(sums, per_patch);
   for (const double sum : solution.form_factor_sums) {
-    solution.sky_shares.push_back(std::max(0.0, 1 - sum));
+    solution.sky_fractions.push_back(std::max(0.0, 1 - sum));
   }
   add_power(*scene, sums, iteration, statistics);
-  if (linear) {
-    solution.linear_parts = linear_parts_of(iteration.b);
-    form_factors = factors_of_means(form_factors);
+  if (per_patch > 1) {
+    solution.linear_terms = linear_terms_of(iteration.b);
   }
   statistics.patches = statistics.fragments = scene->patch_count();
   statistics.iterations = static_cast<int>(iteration.records.size());
@@ -193,8 +159,8 @@ void refuse_directions(const SolveOptions& options, const std::string& who) {
 /// Relative RMS difference of B, of the worst surface or of all together; with linear functions, of
 /// all coefficients.
 double difference(const Solution& a, const Solution& b, AccuracyOf of) {
-  const std::vector<Rgb> first = coefficients_of(a.radiosity, a.linear_parts);
-  const std::vector<Rgb> second = coefficients_of(b.radiosity, b.linear_parts);
+  const std::vector<Rgb> first = coefficients_of(a.radiosity, a.linear_terms);
+  const std::vector<Rgb> second = coefficients_of(b.radiosity, b.linear_terms);
   if (of == AccuracyOf::rms) {
     return radiosity_error(*a.scene, first, second).rms;
   }
@@ -215,7 +181,7 @@ HemicubeOptions hemicube_options(const SolveOptions& options) {
 }
 
 PairOptions pair_options(const SolveOptions& options) {
-  PairOptions pairs{.memory = options.memory, .threads = options.threads};
+  PairOptions pairs{.memory = options.memory, .threads = options.threads, .basis = options.basis};
   if (options.engine_options.points > 0) {
     pairs.points = options.engine_options.points;
   }
@@ -230,12 +196,12 @@ void check_form_factor_options(const SolveOptions& options) {
   refuse_directions(options, "engine " + name_of(options.engine) + " has");
   const AccuracyGoal& goal = options.goal;
   const bool of_pairs = goal.of == AccuracyOf::rms || goal.of == AccuracyOf::surfaces;
-  if (goal.is_set() && (options.engine != Engine::pairs || !of_pairs || goal.seconds > 0)) {
+  if (goal.is_set() && (is_by_hemicubes(options) || !of_pairs || goal.seconds > 0)) {
     throw InputError(
         "accuracy: engine hemicube has none to choose, and engine pairs estimates "
         "only the errors of surfaces and the RMS error, without a time limit");
   }
-  if (options.engine == Engine::hemicube) {
+  if (is_by_hemicubes(options)) {
     hemicube_options(options).validate();
   } else {
     pair_options(options).validate();
@@ -247,15 +213,15 @@ Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOp
                                const std::function<void(double)>& progress) {
   check_form_factor_options(options);
   const auto start = Clock::now();
-  SolveStatistics figures;
-  FormFactors form_factors = compute_form_factors(*scene, options, cancellation, progress, figures);
+  SolveStatistics counted;
+  FormFactors form_factors = compute_form_factors(*scene, options, cancellation, progress, counted);
   const double seconds_transfers = seconds_since(start);
   Solution solution = iterate(std::move(scene), std::move(form_factors), options, cancellation);
   SolveStatistics& statistics = solution.statistics;
-  statistics.hemicubes = figures.hemicubes;
-  statistics.pairs = figures.pairs;
-  statistics.integrated_pairs = figures.integrated_pairs;
-  statistics.directions = figures.directions;
+  statistics.hemicubes = counted.hemicubes;
+  statistics.pairs = counted.pairs;
+  statistics.integrated_pairs = counted.integrated_pairs;
+  statistics.directions = counted.directions;
   statistics.passes = static_cast<int>(statistics.patches);
   statistics.passes_made = statistics.patches;
   statistics.seconds_transfers = seconds_transfers;
@@ -267,9 +233,6 @@ Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors
                                  const SolveOptions& options, const Cancellation& cancellation) {
   options.validate();
   refuse_directions(options, "given form factors have");
-  if (options.basis != Basis::constant) {
-    throw InputError("given form factors have no moments for linear functions");
-  }
   if (options.goal.is_set()) {
     throw InputError("accuracy: given form factors have none to choose");
   }
@@ -282,7 +245,7 @@ Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors
 
 PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                             double accuracy, const Cancellation& cancellation,
-                            const std::function<void(int points, double share)>& progress) {
+                            const std::function<void(int points, double fraction)>& progress) {
   if (!(accuracy > 0 && accuracy < 1)) {
     throw InputError(fmt::format("accuracy: {} is not between 0 and 1", accuracy));
   }
@@ -292,9 +255,9 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
   int& points = step.engine_options.points;
   points = points > 0 ? points : EngineOptions::default_points / 8;
   const auto solved = [&] {
-    return solve_by_form_factors(scene, step, cancellation, [&](double share) {
+    return solve_by_form_factors(scene, step, cancellation, [&](double fraction) {
       if (progress) {
-        progress(points, share);
+        progress(points, fraction);
       }
     });
   };

@@ -14,25 +14,25 @@ DirectionalExchanges::DirectionalExchanges(std::vector<char> glossy, int passes,
       passes_(static_cast<std::size_t>(passes)),
       sums_(static_cast<PatchId>(glossy_.size()), true, budget, cancellation) {}
 
-DirectionalExchanges::Run DirectionalExchanges::make_run(const Transfers& transfers) const {
-  Run run;
+DirectionalExchanges::Sorted DirectionalExchanges::sort(const Transfers& transfers) const {
+  Sorted sorted;
   std::vector<Transfer> diffuse;
   for (const Transfer& t : transfers.exchanges) {
     const bool directional = at(glossy_, t.receiver) != 0 || at(glossy_, t.source) != 0;
-    (directional ? run.directional : diffuse).push_back(t);
+    (directional ? sorted.directional : diffuse).push_back(t);
   }
-  run.directional.shrink_to_fit();
-  run.diffuse = sums_.make_run(diffuse);
-  return run;
+  sorted.directional.shrink_to_fit();
+  sorted.diffuse = sums_.sort(diffuse);
+  return sorted;
 }
 
-void DirectionalExchanges::add(int pass, Run run) {
+void DirectionalExchanges::add(int pass, Sorted sorted) {
   if (dropped_) {
     return;
   }
-  directional_ += std::ssize(run.directional);
-  passes_[static_cast<std::size_t>(pass)] = std::move(run.directional);
-  sums_.add(std::move(run.diffuse));
+  directional_ += std::ssize(sorted.directional);
+  passes_[static_cast<std::size_t>(pass)] = std::move(sorted.directional);
+  sums_.add(std::move(sorted.diffuse));
   // While sums are merged, they exist twice.
   const std::uint64_t merging = sums_.size() * sizeof(Transfer);
   if (sums_.overrun() || bytes() + merging > budget_) {

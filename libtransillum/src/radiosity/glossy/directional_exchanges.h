@@ -15,9 +15,9 @@ namespace transillum {
 class DirectionalExchanges {
  public:
   /// A pass, prepared.
-  struct Run {
+  struct Sorted {
     std::vector<Transfer> directional;
-    ExchangeSums::Run diffuse;
+    ExchangeSums::Sorted diffuse;
   };
 
   /// @param glossy by patch
@@ -26,9 +26,9 @@ class DirectionalExchanges {
                        const Cancellation& cancellation);
 
   /// Splits the exchanges of a pass. Any thread may call it at any time.
-  Run make_run(const Transfers& transfers) const;
+  Sorted sort(const Transfers& transfers) const;
   /// Adds a pass; drops everything where that exceeds the limit. In the order of the passes.
-  void add(int pass, Run run);
+  void add(int pass, Sorted sorted);
   /// To be called after the last pass.
   void finish();
 

@@ -15,7 +15,7 @@ struct GlossyLight::Data {
   std::shared_ptr<const Scene> scene;
   std::vector<Vec3> directions;             ///< omega of each pass
   std::vector<std::int32_t> index_of;       ///< by patch: which glossy patch it is, or -1
-  std::vector<Rgb> shares;                  ///< by glossy patch: k
+  std::vector<Rgb> fractions;               ///< by glossy patch: k
   std::shared_ptr<const LobeTables> lobes;  ///< null until they are scaled
   std::vector<Rgb> lambertian;              ///< by patch: radiance without the lobe, W/(m² sr)
   std::vector<Rgb> arriving;                ///< by glossy patch and pass: Phi

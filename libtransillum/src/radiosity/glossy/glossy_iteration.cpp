@@ -2,7 +2,7 @@
 //
 // Iterations of a glossy solve: L(n+1) from what L(n) brings along each direction.
 //
-// Notation: i a patch; g a glossy patch; H irradiance; k share that a lobe reflects; Phi what
+// Notation: i a patch; g a glossy patch; H irradiance; k fraction that a lobe reflects; Phi what
 // arrives by direction, cosine included.
 #include "radiosity/glossy/glossy_iteration.h"
 
@@ -73,7 +73,7 @@ void GlossySolver::Impl::check_radiance_memory(std::size_t patches, std::size_t 
 }
 
 void GlossySolver::Impl::forget_passes() {
-  statistics = std::make_unique<PassStatistics>(*input.scene, true, *input.shot, input.share(), 1);
+  statistics = std::make_unique<PassStatistics>(*input.scene, true, *input.shot, input.owned(), 1);
   std::vector<char> directional(input.patch_count());
   for (std::size_t i = 0; i < directional.size(); ++i) {
     directional[i] = light->index_of[i] >= 0 ? 1 : 0;
@@ -91,9 +91,9 @@ void GlossySolver::Impl::forget_passes() {
 
 void GlossySolver::Impl::start(Start from) {
   auto data = std::make_shared<GlossyLight::Data>(*light);
-  data->shares.clear();
+  data->fractions.clear();
   for (const PatchId i : glossy) {
-    data->shares.push_back(used_lobe(material(static_cast<std::size_t>(i))).reflectance);
+    data->fractions.push_back(used_lobe(material(static_cast<std::size_t>(i))).reflectance);
   }
   records.clear();
   last_change = 0;
@@ -124,10 +124,10 @@ Rgb GlossySolver::Impl::lambertian_of(std::size_t i, const Rgb& received) const 
 
 LobeReport GlossySolver::Impl::report_of(SolveProgress::Stage now, const Observer& observer) {
   stage = now;
-  stage_share = stage_seconds = 0;
+  stage_fraction = stage_seconds = 0;
   const auto begin = Clock::now();
-  return [this, begin, &observer](double share, std::size_t lobes) {
-    stage_share = share;
+  return [this, begin, &observer](double fraction, std::size_t lobes) {
+    stage_fraction = fraction;
     stage_lobes = lobes;
     stage_seconds = seconds_since(begin);
     if (observer) {
@@ -152,7 +152,7 @@ void GlossySolver::Impl::make_lobes(WorkerThreads& workers, const Observer& obse
       report_of(SolveProgress::Stage::scaling_lobes, observer));
   if (has_light) {
     const std::vector<Rgb> none(glossy.size());  // changes are of no interest
-    data->lobes->reflect({data->arriving, data->shares, none, none}, data->reflected, workers,
+    data->lobes->reflect({data->arriving, data->fractions, none, none}, data->reflected, workers,
                          input.requested, {});
   }
   old_lobes = data->lobes;
@@ -212,7 +212,7 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers, const Observer
   next->scene = light->scene;
   next->directions = light->directions;
   next->index_of = light->index_of;
-  next->shares = light->shares;
+  next->fractions = light->fractions;
   next->lobes = light->lobes;
   next->reflected = light->reflected;
   next->lambertian.resize(input.patch_count());
@@ -240,7 +240,7 @@ void GlossySolver::Impl::finish_iteration(WorkerThreads& workers, const Observer
     }
   }
   const LobeTables::Change of_lobes =
-      next->lobes->reflect({incoming, next->shares, before, after}, next->reflected, workers,
+      next->lobes->reflect({incoming, next->fractions, before, after}, next->reflected, workers,
                            input.requested, report_of(SolveProgress::Stage::reflecting, observer));
   irradiance.swap(received);
   from_sky.swap(sky_light);

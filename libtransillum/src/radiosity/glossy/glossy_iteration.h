@@ -44,7 +44,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   SolverTiming timing;
   double iteration_seconds = 0;
   SolveProgress::Stage stage = SolveProgress::Stage::passes;
-  double stage_share = 0, stage_seconds = 0;
+  double stage_fraction = 0, stage_seconds = 0;
   std::size_t stage_lobes = 0;
   double reflection_seconds = 0;  ///< time in the last iteration
 
@@ -78,7 +78,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   struct PassLight {
     std::vector<Rgb> gathered;
     Pass pass;  ///< for statistics, if the direction is new
-    DirectionalExchanges::Run run;
+    DirectionalExchanges::Sorted sorted;
   };
   bool gather_passes(WorkerThreads& workers, const Observer& observer, bool one_pass);
   PassLight make(int k, bool from_kept) const;

@@ -46,7 +46,7 @@ Rgb GlossyLight::radiance(PatchId i, const Vec3& toward) const {
   }
   const auto k = static_cast<std::size_t>(g);
   return lambertian +
-         data_->shares[k] * data_->lobes->reflected_toward(arriving(i).data(), k, toward);
+         data_->fractions[k] * data_->lobes->reflected_toward(arriving(i).data(), k, toward);
 }
 
 std::vector<Rgb> GlossyLight::radiance_toward(const Vec3& eye, int threads) const {

@@ -51,7 +51,7 @@ GlossySolver::Impl::PassLight GlossySolver::Impl::make(int k, bool from_kept) co
   gather(pass_made.transfers.exchanges, k, made.gathered);
   if (k >= known_passes) {
     if (kept->available()) {
-      made.run = kept->make_run(pass_made.transfers);
+      made.sorted = kept->sort(pass_made.transfers);
     }
     pass_made.closure = closure_defect(pass_made.transfers, *input.scene);
     pass_made.exchanges = std::ssize(pass_made.transfers.exchanges);
@@ -112,7 +112,7 @@ void GlossySolver::Impl::add_new(int k, PassLight& made) {
     }
   }
   if (kept->available()) {
-    kept->add(k, std::move(made.run));
+    kept->add(k, std::move(made.sorted));
   }
   known_passes = k + 1;
 }

@@ -121,11 +121,11 @@ SolveProgress GlossySolver::Impl::progress() const {
     return now;
   }
   now.stage = stage;
-  now.stage_share = stage_share;
+  now.stage_fraction = stage_fraction;
   now.passes_per_second = now.seconds_left = 0;
-  if (stage_share > 0 && stage_seconds > 0) {
-    now.lobes_per_second = stage_share * static_cast<double>(stage_lobes) / stage_seconds;
-    now.seconds_left = stage_seconds * (1 - stage_share) / stage_share;
+  if (stage_fraction > 0 && stage_seconds > 0) {
+    now.lobes_per_second = stage_fraction * static_cast<double>(stage_lobes) / stage_seconds;
+    now.seconds_left = stage_seconds * (1 - stage_fraction) / stage_fraction;
   }
   return now;
 }
@@ -149,9 +149,9 @@ SolveStatistics GlossySolver::Impl::solve_statistics() const {
   double absorbed = 0, emitted = 0;
   for (std::size_t i = 0; i < irradiance.size(); ++i) {
     const double area = scene.patches()[i].area;
-    const Rgb kept_share =
+    const Rgb kept_fraction =
         Rgb{1, 1, 1} - material(i).reflectance - used_lobe(material(i)).reflectance;
-    absorbed += area * sum(kept_share * irradiance[i]);
+    absorbed += area * sum(kept_fraction * irradiance[i]);
     emitted +=
         area * sum(from_sky.empty() ? material(i).exitance : material(i).exitance + from_sky[i]);
   }
@@ -159,14 +159,14 @@ SolveStatistics GlossySolver::Impl::solve_statistics() const {
   result.rho_max = rho_max();
   result.predicted_contraction =
       contraction_bound(result.rho_max, quadrature_error_bound(result.directions));
-  GlossyFigures& figures = result.glossy;
-  figures.patches = std::ssize(glossy);
+  GlossyStatistics& counted = result.glossy;
+  counted.patches = std::ssize(glossy);
   if (light->lobes != nullptr) {
-    light->lobes->write_to(figures);
+    light->lobes->write_to(counted);
   }
-  figures.radiance_bytes =
+  counted.radiance_bytes =
       3 * light->arriving.size() * sizeof(Rgb) + (seen.size() + sky_seen.size()) * sizeof(double);
-  figures.transfer_bytes = kept_finished ? kept->bytes() : 0;
+  counted.transfer_bytes = kept_finished ? kept->bytes() : 0;
   result.seconds_bsp = input.seconds_bsp;
   result.seconds_transfers = timing.seconds_transfers;
   result.seconds_iterate = timing.seconds_iterate;
@@ -198,7 +198,7 @@ Solution GlossySolver::solution() const {
       const double exact = areas.passes * s.input.scene->patches()[i].area / 2;
       const double whole = rows ? areas.projected[i] : exact;
       solution.form_factor_sums.push_back(ratio_or_zero(areas.rows[i], whole));
-      solution.sky_shares.push_back(ratio_or_zero(areas.uncovered[i], whole));
+      solution.sky_fractions.push_back(ratio_or_zero(areas.uncovered[i], whole));
     }
     solution.sky_irradiance = s.from_sky;
   }

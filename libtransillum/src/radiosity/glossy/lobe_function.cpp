@@ -161,9 +161,9 @@ double LobeFunction::value(const Vec3& a, const Vec3& b, const Vec3& normal) con
 Lobe used_lobe(const Material& material) {
   constexpr double nearly_all = 1 - 1e-6;
   Lobe lobe = material.lobe;
-  const auto lower = [](double& share, double rho) {
-    if (rho + share > nearly_all) {
-      share = std::max(ReadOptions::default_max_reflectance - rho, 0.0);
+  const auto lower = [](double& fraction, double rho) {
+    if (rho + fraction > nearly_all) {
+      fraction = std::max(ReadOptions::default_max_reflectance - rho, 0.0);
     }
   };
   lower(lobe.reflectance.r, material.reflectance.r);

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Lobes on a set of directions (decisions/0074-lobes-scaled-on-the-set.md): scaling, so that each
-// reflects its share exactly and stays reciprocal, and reflection.
+// reflects its fraction exactly and stays reciprocal, and reflection.
 //
 // Notation: p, q passes, whose direction above the surface is meant; w = 4 pi / (2M), the solid
 // angle of a direction; c cosines with the normal; g a glossy patch.
@@ -71,7 +71,7 @@ std::function<void(double)> with_size(const LobeReport& report, std::size_t tabl
   if (!report) {
     return {};
   }
-  return [&report, tables](double share) { report(share, tables); };
+  return [&report, tables](double fraction) { report(fraction, tables); };
 }
 
 double largest_of(const std::vector<double>& values) {
@@ -258,7 +258,7 @@ void LobeTables::scale(LobeTable& table, const Hemisphere& above, bool keep_rows
     table.spread[p] = std::max(1 - sum[p], 0.0);
     total += weight() * cosine[p] * table.spread[p];
   }
-  table.spread_share = largest_of(table.spread);
+  table.spread_fraction = largest_of(table.spread);
   double all = 0;
   for (std::size_t p = 0; p < count; ++p) {
     table.spread[p] = total > 0 ? table.spread[p] / std::sqrt(total) : 0.0;
@@ -301,7 +301,7 @@ LobeTables::Change LobeTables::reflect(const Light& light, std::vector<Rgb>& ref
         const double* sum = sums.data() + 3 * (p - first);
         Rgb& to = reflected[g * count + p];
         const Rgb before = to + light.lambertian_before[g];
-        to = weight() * (light.shares[g] *
+        to = weight() * (light.fractions[g] *
                          (table.scale[p] * Rgb{sum[0], sum[1], sum[2]} + table.spread[p] * spread));
         const Rgb after = to + light.lambertian_after[g];
         change.change = std::max(change.change, max_abs(after - before));
@@ -338,14 +338,14 @@ Rgb LobeTables::reflected_toward(const Rgb* arriving, std::size_t g, const Vec3&
   return all > 0 ? 1 / all * sum : Rgb{};
 }
 
-void LobeTables::write_to(GlossyFigures& figures) const {
-  figures.lobes = std::ssize(tables_);
+void LobeTables::write_to(GlossyStatistics& counted) const {
+  counted.lobes = std::ssize(tables_);
   for (const LobeTable& table : tables_) {
-    figures.sum_error = std::max(figures.sum_error, table.sum_error);
-    figures.sum_defect = std::max(figures.sum_defect, table.sum_defect);
-    figures.spread = std::max(figures.spread, table.spread_share);
-    figures.exponent = std::max(figures.exponent, kernels_[table.kernel].exponent());
-    figures.lobe_bytes += (table.scale.size() + table.spread.size()) * sizeof(double);
+    counted.sum_error = std::max(counted.sum_error, table.sum_error);
+    counted.sum_defect = std::max(counted.sum_defect, table.sum_defect);
+    counted.spread = std::max(counted.spread, table.spread_fraction);
+    counted.exponent = std::max(counted.exponent, kernels_[table.kernel].exponent());
+    counted.lobe_bytes += (table.scale.size() + table.spread.size()) * sizeof(double);
   }
 }
 

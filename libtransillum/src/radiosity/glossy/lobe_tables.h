@@ -20,11 +20,11 @@ namespace transillum {
 struct LobeTable {
   std::size_t kernel = 0;  ///< index of its shape
   Vec3 normal;
-  std::vector<double> scale = {}, spread = {};             ///< by pass
-  double sum_error = 0, sum_defect = 0, spread_share = 0;  ///< see GlossyFigures
+  std::vector<double> scale = {}, spread = {};                ///< by pass
+  double sum_error = 0, sum_defect = 0, spread_fraction = 0;  ///< see GlossyStatistics
 };
 
-/// Reports on long work: the finished share, 0 to 1, and the number of tables in
+/// Reports on long work: the finished fraction, 0 to 1, and the number of tables in
 /// all. On the calling thread.
 using LobeReport = std::function<void(double, std::size_t)>;
 
@@ -47,8 +47,8 @@ class LobeTables {
 
   /// By glossy patch.
   struct Light {
-    std::span<const Rgb> arriving;  ///< and then by pass
-    std::span<const Rgb> shares;    ///< k
+    std::span<const Rgb> arriving;   ///< and then by pass
+    std::span<const Rgb> fractions;  ///< k
     /// Radiance without the lobe.
     std::span<const Rgb> lambertian_before, lambertian_after;
   };
@@ -63,8 +63,8 @@ class LobeTables {
   /// The mean of what arrives at patch `g`, weighted by its lobe toward any direction above it.
   Rgb reflected_toward(const Rgb* arriving, std::size_t g, const Vec3& toward) const;
 
-  /// Adds figures about the lobes.
-  void write_to(GlossyFigures& figures) const;
+  /// Adds values about the lobes.
+  void write_to(GlossyStatistics& counted) const;
 
  private:
   void add_patches(std::span<const LobePatch> patches);

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Decides which side of each part of a scene is lit, and counts what has to be changed. Input: the
-// connected components (face_parts.h) and what random walks from both of their sides reach
-// (part_exposure.h). Reasons for the rules: decisions/0047-orientation.md.
+// connected components (connected_components.h) and what random walks from both of their sides
+// reach (component_exposure.h). Reasons for the rules: decisions/0047-orientation.md.
 #include "transillum/orientation.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "geometry/box_tree.h"
-#include "radiosity/orientation/part_exposure.h"
+#include "radiosity/orientation/component_exposure.h"
 #include "scene/build/warnings.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -19,21 +19,23 @@
 namespace transillum {
 namespace {
 
-/// Both sides of a part are seen if walks from one reach at least this fraction of what walks from
-/// the other reach.
+/// Both sides of a component are seen if walks from one reach at least this fraction of what walks
+/// from the other reach.
 constexpr double alike = 0.5;
-/// The same for parts that emit, whose light a second side would double.
+/// The same for components that emit, whose light a second side would double.
 constexpr double alike_if_it_emits = 0.8;
-/// Share of the walks below which meeting another part tells nothing about an open part.
+/// Fraction of the walks below which meeting another component tells nothing about an open
+/// component.
 constexpr double least_meetings = 0.02;
-/// Share of the walks below which nothing is inside a closed part: rays that rounding lets through.
+/// Fraction of the walks below which nothing is inside a closed component: rays that rounding lets
+/// through.
 constexpr double leaking = 0.002;
 
-/// Area of parts within the bounding box of a closed part, relative to its own area, from which on
-/// it may be a room among others.
+/// Area of components within the bounding box of a closed component, relative to its own area, from
+/// which on it may be a room among others.
 constexpr double contents = 0.05;
 
-/// The decision about a part: `kept` with the orientation of most of its area.
+/// The decision about a component: `kept` with the orientation of most of its area.
 enum class Verdict { kept, opposite, two_sided };
 
 /// `kept` or `opposite`, whichever side has more; `otherwise` if they are alike.
@@ -44,12 +46,12 @@ Verdict larger(double front, double back, double limit, Verdict otherwise) {
   return front > back ? Verdict::kept : Verdict::opposite;
 }
 
-/// How much of the scene a side is exposed to: other parts by their area, and light.
+/// How much of the scene a side is exposed to: other components by their area, and light.
 double exposed(const SideExposure& side) { return side.other_area + side.lit; }
 
-/// A room is lit inside: it contains other parts, and outside there are none, or few. All other
-/// closed parts are solids.
-/// @param contained area of the parts within its bounding box, m².
+/// A room is lit inside: it contains other components, and outside there are none, or few. All
+/// other closed components are solids.
+/// @param contained area of the components within its bounding box, m².
 bool is_room(const SideExposure& inside, const SideExposure& outside, double contained, double area,
              bool has_light) {
   const double weight = has_light ? 1 : 0;  // without light, every outside is open to the sky
@@ -59,21 +61,21 @@ bool is_room(const SideExposure& inside, const SideExposure& outside, double con
                                                alike * (inside.other_area + weight * inside.lit)));
 }
 
-Verdict verdict_on(const SurfacePart& part, const PartExposure& exposure, bool alone, bool emits,
-                   double contained, bool has_light) {
+Verdict verdict_on(const ConnectedComponent& component, const ComponentExposure& exposure,
+                   bool alone, bool emits, double contained, bool has_light) {
   const auto& [front, back] = exposure;
-  if (!part.orientable) {
+  if (!component.orientable) {
     return Verdict::two_sided;
   }
   const bool meets = std::max(front.met_other, back.met_other) >= least_meetings;
-  if (alone || (!part.closed && !meets)) {
+  if (alone || (!component.closed && !meets)) {
     // Only its own light could tell: a room has its lamp inside.
     return emits ? larger(front.own_area, back.own_area, alike, Verdict::kept) : Verdict::kept;
   }
-  if (part.closed) {
-    const bool outward = part.volume > 0;
-    const bool room = outward ? is_room(back, front, contained, part.area, has_light)
-                              : is_room(front, back, contained, part.area, has_light);
+  if (component.closed) {
+    const bool outward = component.volume > 0;
+    const bool room = outward ? is_room(back, front, contained, component.area, has_light)
+                              : is_room(front, back, contained, component.area, has_light);
     return outward != room ? Verdict::kept : Verdict::opposite;
   }
   return emits ? larger(exposed(front), exposed(back), alike_if_it_emits, Verdict::kept)
@@ -99,19 +101,20 @@ class Planner {
   Planner(const SceneDescription& description, const Cancellation& cancellation)
       : description_(description),
         scene_(one_sided(description, cancellation)),
-        parts_(find_parts(scene_, cancellation)) {}
+        components_(find_connected_components(scene_, cancellation)) {}
 
   OrientationPlan plan(int threads, const Cancellation& cancellation,
                        const std::function<void(double)>& progress) {
     const EmbreeScene embree(scene_, cancellation);
-    const auto exposure = measure_exposure(scene_, embree, parts_, threads, cancellation, progress);
+    const auto exposure =
+        measure_exposure(scene_, embree, components_, threads, cancellation, progress);
     find_emitting();
     verdicts_.reserve(exposure.size());
     const bool alone = is_alone();
     const std::vector<double> contained = contained_areas();
     for (std::size_t p = 0; p < exposure.size(); ++p) {
-      verdicts_.push_back(verdict_on(parts_.parts[p], exposure[p], alone, emits_[p], contained[p],
-                                     scene_.has_light()));
+      verdicts_.push_back(verdict_on(components_.components[p], exposure[p], alone, emits_[p],
+                                     contained[p], scene_.has_light()));
     }
     set_faces();
     count();
@@ -120,18 +123,19 @@ class Planner {
   }
 
  private:
-  /// Whether the scene has one part and nothing else.
+  /// Whether the scene has one component and nothing else.
   bool is_alone() const {
-    return parts_.parts.size() == 1 &&
-           std::all_of(parts_.first.begin(), parts_.first.end(),
-                       [this](PatchId i) { return at(parts_.part, i) == 0; });
+    return components_.components.size() == 1 &&
+           std::all_of(components_.first.begin(), components_.first.end(),
+                       [this](PatchId i) { return at(components_.component, i) == 0; });
   }
 
-  /// By closed part: the area of the other parts whose bounding boxes are within its own, m².
+  /// By closed component: the area of the other components whose bounding boxes are within its own,
+  /// m².
   std::vector<double> contained_areas() const {
     std::vector<Bounds> boxes;
-    for (const SurfacePart& part : parts_.parts) {
-      boxes.push_back(part.bounds);
+    for (const ConnectedComponent& component : components_.components) {
+      boxes.push_back(component.bounds);
     }
     const BoxTree tree(boxes);
     std::vector<double> areas(boxes.size());
@@ -147,10 +151,10 @@ class Planner {
         const Vec3 above = boxes[p].high - box.high, below = box.low - boxes[p].low;
         const double least = std::min({above.x, above.y, above.z, below.x, below.y, below.z});
         if (static_cast<std::size_t>(other) != p && least >= 0) {
-          areas[p] += at(parts_.parts, other).area;
+          areas[p] += at(components_.components, other).area;
         }
       };
-      if (parts_.parts[p].closed) {
+      if (components_.components[p].closed) {
         tree.for_each(reaches, visit);
       }
     }
@@ -158,10 +162,11 @@ class Planner {
   }
 
   void find_emitting() {
-    emits_.assign(parts_.parts.size(), false);
+    emits_.assign(components_.components.size(), false);
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      if (max_abs(scene_.exitance(i)) > 0 && at(parts_.part, i) != SurfaceParts::none) {
-        at(emits_, at(parts_.part, i)) = true;
+      if (max_abs(scene_.exitance(i)) > 0 &&
+          at(components_.component, i) != ConnectedComponents::none) {
+        at(emits_, at(components_.component, i)) = true;
       }
     }
   }
@@ -173,15 +178,15 @@ class Planner {
       plan_.numbers.push_back(description_.number_of(f));
     }
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      const PatchId first = at(parts_.first, i);
-      const std::int32_t part = at(parts_.part, first);
-      if (part == SurfaceParts::none ||
+      const PatchId first = at(components_.first, i);
+      const std::int32_t component = at(components_.component, first);
+      if (component == ConnectedComponents::none ||
           description_.is_two_sided(static_cast<std::size_t>(scene_.patch(i).face))) {
         continue;
       }
-      const Verdict verdict = at(verdicts_, part);
+      const Verdict verdict = at(verdicts_, component);
       const std::int32_t face = scene_.patch(i).face;
-      const bool turned = (at(parts_.sign, first) < 0) != (verdict == Verdict::opposite);
+      const bool turned = (at(components_.sign, first) < 0) != (verdict == Verdict::opposite);
       if (verdict == Verdict::two_sided) {
         // The later of two faces on the same points would only hide the first.
         at(plan_.two_sided, face) = first == i;
@@ -194,20 +199,24 @@ class Planner {
   void count() {
     OrientationReport& report = plan_.report;
     report.faces = static_cast<std::int64_t>(description_.face_count());
-    report.parts = static_cast<std::int64_t>(parts_.parts.size());
-    std::vector<bool> part_turned(parts_.parts.size()), part_two_sided(parts_.parts.size());
+    report.components = static_cast<std::int64_t>(components_.components.size());
+    std::vector<bool> component_turned(components_.components.size()),
+        component_two_sided(components_.components.size());
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      const std::int32_t part = at(parts_.part, i);
-      if (part != SurfaceParts::none) {
+      const std::int32_t component = at(components_.component, i);
+      if (component != ConnectedComponents::none) {
         const std::int32_t face = scene_.patch(i).face;
-        at(part_turned, part) = at(part_turned, part) || at(plan_.turned, face);
-        at(part_two_sided, part) = at(part_two_sided, part) || at(plan_.two_sided, face);
+        at(component_turned, component) = at(component_turned, component) || at(plan_.turned, face);
+        at(component_two_sided, component) =
+            at(component_two_sided, component) || at(plan_.two_sided, face);
       }
     }
-    report.parts_turned = std::count(part_turned.begin(), part_turned.end(), true);
-    report.parts_two_sided = std::count(part_two_sided.begin(), part_two_sided.end(), true);
-    report.not_orientable = std::count_if(parts_.parts.begin(), parts_.parts.end(),
-                                          [](const SurfacePart& p) { return !p.orientable; });
+    report.components_turned = std::count(component_turned.begin(), component_turned.end(), true);
+    report.components_two_sided =
+        std::count(component_two_sided.begin(), component_two_sided.end(), true);
+    report.not_orientable =
+        std::count_if(components_.components.begin(), components_.components.end(),
+                      [](const ConnectedComponent& p) { return !p.orientable; });
     report.faces_turned = std::count(plan_.turned.begin(), plan_.turned.end(), true);
     report.faces_two_sided = std::count(plan_.two_sided.begin(), plan_.two_sided.end(), true);
     std::vector<std::string> names;
@@ -256,9 +265,9 @@ class Planner {
       report.sentences.emplace_back("no face is turned");
       return;
     }
-    report.sentences.push_back(
-        fmt::format("of {} in {}: {}", counted(report.faces, "face"), counted(report.parts, "part"),
-                    changes_text(report.faces_turned, report.faces_two_sided)));
+    report.sentences.push_back(fmt::format(
+        "of {} in {}: {}", counted(report.faces, "face"), counted(report.components, "part"),
+        changes_text(report.faces_turned, report.faces_two_sided)));
     Warnings list;
     const bool by_group = !report.groups.empty();
     for (const OrientationCount& c : by_group ? report.groups : report.materials) {
@@ -278,9 +287,9 @@ class Planner {
 
   const SceneDescription& description_;
   Scene scene_;
-  SurfaceParts parts_;
-  std::vector<bool> emits_;        ///< by part
-  std::vector<Verdict> verdicts_;  ///< by part
+  ConnectedComponents components_;
+  std::vector<bool> emits_;        ///< by component
+  std::vector<Verdict> verdicts_;  ///< by component
   OrientationPlan plan_;
 };
 

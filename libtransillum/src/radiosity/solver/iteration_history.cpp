@@ -15,7 +15,7 @@
 namespace transillum {
 namespace {
 
-/// Share of the largest reflected light at which changes may be rounding.
+/// Fraction of the largest reflected light at which changes may be rounding.
 constexpr double rounding = 1e-12;
 /// Tolerances of the emitted power beyond which a change of the power refutes convergence.
 constexpr double tolerances_of_power = 10;
@@ -56,8 +56,8 @@ std::vector<Rgb> IterationHistory::left() const {
   std::vector<Rgb> left(b_.size());
   for (std::size_t u = 0; u < b_.size() && error > 0; ++u) {
     const Rgb& rho = unknowns_.reflectance[u];
-    const auto share = [error](double r) { return r > 0 ? r * error : 0.0; };
-    left[u] = {share(rho.r), share(rho.g), share(rho.b)};
+    const auto fraction = [error](double r) { return r > 0 ? r * error : 0.0; };
+    left[u] = {fraction(rho.r), fraction(rho.g), fraction(rho.b)};
   }
   return left;
 }

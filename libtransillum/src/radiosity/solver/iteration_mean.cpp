@@ -9,9 +9,9 @@
 namespace transillum {
 namespace {
 
-/// Bounds of what is left of the start when the mean begins: as a share of the RMS change of the
+/// Bounds of what is left of the start when the mean begins: as a fraction of the RMS change of the
 /// iteration, and of the tolerance.
-constexpr double share_of_change = 0.25, share_of_tolerance = 0.1;
+constexpr double fraction_of_change = 0.25, fraction_of_tolerance = 0.1;
 
 }  // namespace
 
@@ -62,11 +62,11 @@ bool IterationMean::start_is_forgotten(const RadiosityIterate& iterate,
                                        const std::vector<Rgb>& before,
                                        const StartRemainder& start) const {
   const double unit = max_norm(light_.of(iterate.b()));
-  if (max_norm(start.left()) <= share_of_tolerance * options_.tolerance * unit) {
+  if (max_norm(start.left()) <= fraction_of_tolerance * options_.tolerance * unit) {
     return true;
   }
   const std::vector<Rgb> change = difference(iterate.b(), before);
-  return root_of_squares(start.left(), unit) <= share_of_change * root_of_squares(change, unit);
+  return root_of_squares(start.left(), unit) <= fraction_of_change * root_of_squares(change, unit);
 }
 
 }  // namespace transillum

@@ -25,7 +25,7 @@ struct IterationUnderWay {
   int from_kept_sums = 0;        ///< passes that need not be made: their exchanges are kept
   std::vector<Rgb> estimate;     ///< estimate of B, W/m²; between iterations B itself
   std::vector<double> changes;   ///< changes of the estimate, relative, at each pass made
-  std::vector<EstimateChange> changes_of_share;  ///< in a group: those not yet in `changes`
+  std::vector<EstimateChange> changes_of_owned;  ///< in a group: those not yet in `changes`
   double seconds = 0;                            ///< wall time so far
   double energy_defect = 0;                      ///< defect of the last finished iteration
 
@@ -33,7 +33,7 @@ struct IterationUnderWay {
   void end(const std::vector<Rgb>& b) {
     begun = false;
     changes.clear();
-    changes_of_share.clear();
+    changes_of_owned.clear();
     estimate = b;
     seconds = 0;
   }

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Keeps the exchanges of all passes within the memory limit and turns them into form factors.
-// Input: the runs that make_run() prepared, in the order of the passes.
+// Input: the exchanges that sort() prepared, in the order of the passes.
 #include "radiosity/solver/kept_exchanges.h"
 
 #include <fmt/format.h>
@@ -64,8 +64,8 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
     : patches_(input.scene->patch_count()),
       per_patch_(input.unknowns->per_patch),
       two_way_(input.options.two_way),
-      share_(input.share()),
-      unknown_share_(share_.of_unknowns(per_patch_)),
+      owned_(input.owned()),
+      owned_unknowns_(owned_.of_unknowns(per_patch_)),
       renews_(renews),
       cancellation_(input.cancellation),
       memory_(memory_for_sums(input)),
@@ -82,7 +82,7 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
 }
 
 ExchangeSums KeptExchanges::empty_sums(std::uint64_t memory) const {
-  return {unknown_share_, two_way_, memory, cancellation_};
+  return {owned_unknowns_, two_way_, memory, cancellation_};
 }
 
 void KeptExchanges::add_replica() {
@@ -106,23 +106,23 @@ void KeptExchanges::check_available() const {
   }
 }
 
-ExchangeSums::Run KeptExchanges::make_run(const Transfers& transfers) const {
+ExchangeSums::Sorted KeptExchanges::sort(const Transfers& transfers) const {
   if (per_patch_ == 1) {
-    return sums_.front().make_run(transfers.exchanges);
+    return sums_.front().sort(transfers.exchanges);
   }
   std::vector<Transfer> exchanges;
   exchanges.reserve(per_patch_ * per_patch_ * transfers.exchanges.size());
   for_each_exchange(transfers, per_patch_,
                     [&](const Transfer& t, PatchId, PatchId) { exchanges.push_back(t); });
-  return sums_.front().make_run(exchanges);
+  return sums_.front().sort(exchanges);
 }
 
-void KeptExchanges::add(std::size_t r, ExchangeSums::Run run) {
-  sums_[r].add(std::move(run));
+void KeptExchanges::add(std::size_t r, ExchangeSums::Sorted sorted) {
+  sums_[r].add(std::move(sorted));
   // Where one replica does not fit, the others are of no use.
   if (!available()) {
     drop();
-    if (share_.is_all()) {
+    if (owned_.is_all()) {
       check_available();
     }
   }
@@ -135,7 +135,7 @@ void KeptExchanges::drop() {
 }
 
 void KeptExchanges::complete() {
-  renewed_areas_.complete(share_);
+  renewed_areas_.complete(owned_);
   count();
 }
 
@@ -148,15 +148,15 @@ void KeptExchanges::prepare_to_save() {
 void KeptExchanges::count() {
   std::int64_t size = 0;
   for (const ExchangeSums& part : sums_) {
-    size += static_cast<std::int64_t>(part.size_of_share());
+    size += static_cast<std::int64_t>(part.size_of_owned());
   }
-  share_.sums->sums({&size, 1});
+  owned_.sums->sums({&size, 1});
   kept_elsewhere_ = size - static_cast<std::int64_t>(own_size());
 }
 
 void KeptExchanges::add_areas(const Transfers& transfers) {
   if (renews_ && requested_) {
-    renewed_areas_.add(transfers, two_way_, share_);
+    renewed_areas_.add(transfers, two_way_, owned_);
   }
 }
 
@@ -182,16 +182,16 @@ std::size_t KeptExchanges::own_size() const {
 }
 
 ExchangeSums KeptExchanges::joined() const {
-  ExchangeSums joined(unknown_share_.patches, two_way_, ~std::uint64_t{0}, cancellation_);
+  ExchangeSums joined(owned_unknowns_.patches, two_way_, ~std::uint64_t{0}, cancellation_);
   for (const ExchangeSums& part : sums_) {
-    ExchangeSums::Run run;
-    run.reserve(part.size());
+    ExchangeSums::Sorted sorted;
+    sorted.reserve(part.size());
     part.for_each([&](PatchId i, PatchId j, double area) {
-      if (unknown_share_.owned.contains(i)) {
-        run.push_back({i, j, area});
+      if (owned_unknowns_.range.contains(i)) {
+        sorted.push_back({i, j, area});
       }
     });
-    joined.add(share_.gather(std::move(run)));
+    joined.add(owned_.gather(std::move(sorted)));
   }
   joined.finish();
   return joined;
@@ -200,7 +200,7 @@ ExchangeSums KeptExchanges::joined() const {
 FormFactors KeptExchanges::form_factors(const RadiosityIterate& iterate,
                                         const VisibleAreaSums& areas) const {
   const std::optional<ExchangeSums> all_replicas =
-      sums_.size() > 1 || !share_.is_all() ? std::optional(joined()) : std::nullopt;
+      sums_.size() > 1 || !owned_.is_all() ? std::optional(joined()) : std::nullopt;
   const ExchangeSums& sums = all_replicas ? *all_replicas : sums_.front();
   FormFactors result = empty_rows(sums, static_cast<std::size_t>(patches_), per_patch_, two_way_);
   std::vector<std::size_t> next(result.row_begin.begin(), result.row_begin.end() - 1);
@@ -218,7 +218,43 @@ FormFactors KeptExchanges::form_factors(const RadiosityIterate& iterate,
                       [&](PatchId i, PatchId j, double area) { put(j, i, area); });
   }
   for_each_constant(sums, per_patch_, put);
+  if (per_patch_ > 1) {
+    add_moments(sums, iterate, areas, result);
+  }
   return result;
+}
+
+void KeptExchanges::add_moments(const ExchangeSums& sums, const RadiosityIterate& iterate,
+                                const VisibleAreaSums& areas, FormFactors& result) const {
+  result.moments.resize(result.size());
+  const auto n = static_cast<PatchId>(per_patch_);
+  const auto put = [&](PatchId u, PatchId v, double entry) {
+    const PatchId i = u / n, j = v / n;
+    const auto row = static_cast<std::size_t>(i);
+    const auto begin = result.source.begin();
+    const auto first = begin + static_cast<std::ptrdiff_t>(result.row_begin[row]);
+    const auto last = begin + static_cast<std::ptrdiff_t>(result.row_begin[row + 1]);
+    const auto found = static_cast<std::size_t>(std::lower_bound(first, last, j) - begin);
+    result.moments[found].of(static_cast<std::size_t>(u % n), static_cast<std::size_t>(v % n)) =
+        entry * iterate.form_factor_scale(static_cast<std::size_t>(u), static_cast<std::size_t>(v),
+                                          at(areas.projected, i), areas.passes);
+  };
+  sums.for_each([&](PatchId u, PatchId v, double entry) {
+    put(u, v, entry);
+    if (two_way_) {
+      put(v, u, entry);
+    }
+  });
+  if (!iterate.has_scaled_moments()) {
+    return;
+  }
+  for (PatchId i = 0; i < patches_; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    for (std::size_t k = result.row_begin[row]; k < result.row_begin[row + 1]; ++k) {
+      iterate.scale_moments(i, result.source[k], result.moments[k]);
+      result.value[k] = result.moments[k].of(0, 0);
+    }
+  }
 }
 
 }  // namespace transillum

@@ -32,10 +32,10 @@ class KeptExchanges {
   void check_available() const;
 
   /// The exchanges of a pass in the order that add() takes. Any thread may call it at any time.
-  ExchangeSums::Run make_run(const Transfers& transfers) const;
+  ExchangeSums::Sorted sort(const Transfers& transfers) const;
   /// Adds a pass of replica r. Where it exceeds the limit, everything is dropped.
   /// @throws MemoryLimitExceeded as check_available(), unless other processes have to know first
-  void add(std::size_t r, ExchangeSums::Run run);
+  void add(std::size_t r, ExchangeSums::Sorted sorted);
   /// Appends sums for one replica, which have the memory that the others leave. After finish().
   void add_replica();
   /// Adds the areas of a pass to renewed_areas(), if each iteration has its own directions and the
@@ -78,13 +78,16 @@ class KeptExchanges {
   std::size_t own_size() const;
   /// Computes what size() counts besides own_size().
   void count();
+  /// Sets FormFactors::moments from the entries of unknowns.
+  void add_moments(const ExchangeSums& sums, const RadiosityIterate& iterate,
+                   const VisibleAreaSums& areas, FormFactors& result) const;
   /// The sum over all replicas; in a group, on member 0, over all members.
   ExchangeSums joined() const;
 
   PatchId patches_;
   std::size_t per_patch_;  ///< unknowns
   bool two_way_;
-  PatchShare share_, unknown_share_;
+  OwnedPatches owned_, owned_unknowns_;
   std::int64_t kept_elsewhere_ = 0;  ///< entries of other shares less those also kept here
   bool renews_;
   bool requested_ = false;

@@ -13,16 +13,16 @@
 namespace transillum {
 
 PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot,
-                               const PatchShare& share, std::size_t per_patch)
+                               const OwnedPatches& owned, std::size_t per_patch)
     : scene_(scene),
       two_way_(two_way),
-      share_(share),
+      owned_(owned),
       areas_(scene.patches().size(), per_patch),
       facing_area_(scene.patches().size()),
       back_seen_(scene.patches().size()),
       uncovered_(scene.patches().size()),
       light_(scene, two_way, shot),
-      shot_(scene, shot, share) {}
+      shot_(scene, shot, owned) {}
 
 void PassStatistics::begin_set() {
   areas_ = VisibleAreaSums(facing_area_.size(), areas_.per_patch);
@@ -32,11 +32,11 @@ void PassStatistics::begin_set() {
 
 void PassStatistics::add(const Pass& pass) {
   const Transfers& transfers = pass.transfers;
-  areas_.add(transfers, two_way_, share_);
+  areas_.add(transfers, two_way_, owned_);
   const int directions_per_pass = two_way_ ? 2 : 1;
   double worst = 0;
-  const std::size_t first = share_.first();
-  for (std::size_t i = first; i < share_.last(); ++i) {
+  const std::size_t first = owned_.first();
+  for (std::size_t i = first; i < owned_.last(); ++i) {
     const double exact = areas_.passes * directions_per_pass * scene_.patches()[i].area / 4;
     worst = std::max(worst, std::abs(areas_.projected[i] / exact - 1));
     const Coverage& forward = transfers.forward[i - first];
@@ -58,20 +58,20 @@ void PassStatistics::add(const Pass& pass) {
 }
 
 void PassStatistics::complete_errors() {
-  share_.sums->maxima(std::span(quadrature_errors_).subspan(complete_errors_));
+  owned_.sums->maxima(std::span(quadrature_errors_).subspan(complete_errors_));
   complete_errors_ = quadrature_errors_.size();
 }
 
 void PassStatistics::complete() {
-  areas_.complete(share_);
+  areas_.complete(owned_);
   for (std::vector<double>* values : {&facing_area_, &back_seen_, &uncovered_}) {
-    share_.complete(*values);
+    owned_.complete(*values);
   }
-  light_.complete(share_);
+  light_.complete(owned_);
   shot_.complete();
 }
 
-std::vector<double> PassStatistics::back_seen_shares() const {
+std::vector<double> PassStatistics::back_seen_fractions() const {
   std::vector<double> shares(back_seen_.size());
   for (std::size_t i = 0; i < shares.size(); ++i) {
     shares[i] = ratio_or_zero(back_seen_[i], facing_area_[i]);

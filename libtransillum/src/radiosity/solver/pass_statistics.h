@@ -22,11 +22,11 @@ class PassStatistics {
   /// @param shot its sources do not count as direct light
   /// @param share the patches of the coverages of passes
   /// @param per_patch unknowns per patch
-  PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot, const PatchShare& share,
-                 std::size_t per_patch);
+  PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot,
+                 const OwnedPatches& owned, std::size_t per_patch);
 
   /// Starts another set of directions (semi-iterative scheme): clears areas() and
-  /// quadrature_errors(); all other figures continue over all sets.
+  /// quadrature_errors(); all other values continue over all sets.
   void begin_set();
   /// Adds the first pass along a direction.
   void add(const Pass& pass);
@@ -41,7 +41,7 @@ class PassStatistics {
   /// Entry d: eps (eq. 17) of the first d + 1 passes of the current set, largest over patches.
   const std::vector<double>& quadrature_errors() const { return quadrature_errors_; }
   /// Per patch: share of its visible area at which receivers see its back.
-  std::vector<double> back_seen_shares() const;
+  std::vector<double> back_seen_fractions() const;
   /// Sets transfers, counts, closure defects and escaped.
   void write_to(SolveStatistics& statistics) const;
 
@@ -59,7 +59,7 @@ class PassStatistics {
  private:
   const Scene& scene_;
   bool two_way_;
-  PatchShare share_;
+  OwnedPatches owned_;
   VisibleAreaSums areas_;
   std::vector<double> quadrature_errors_;
   std::size_t complete_errors_ = 0;  ///< number of them that are of all patches

@@ -10,16 +10,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "radiosity/solver/conjugate_gradients.h"
+#include "radiosity/solver/symmetric_scales.h"
 #include "transillum/at.h"
 
 namespace transillum {
 
 RadiosityIterate::RadiosityIterate(const Unknowns& unknowns, const SolveOptions& options,
-                                   const PatchShare& share)
+                                   const OwnedPatches& owned)
     : unknowns_(unknowns),
-      share_(share),
+      owned_(owned),
       two_way_(options.two_way),
       normalization_(options.normalize),
       sky_(options.sky),
@@ -74,8 +76,8 @@ void RadiosityIterate::add(const Transfers& transfers) {
       at(gathered_, t.source) += t.area * at(unshot_, t.receiver);
     }
   });
-  const std::size_t first = share_.first();
-  for (std::size_t i = first; i < share_.last(); ++i) {
+  const std::size_t first = owned_.first();
+  for (std::size_t i = first; i < owned_.last(); ++i) {
     for (std::size_t u = functions * i; u < functions * (i + 1); ++u) {
       projected_[u] += transfers.forward[i - first].projected;
       if (two_way_) {
@@ -95,8 +97,8 @@ void RadiosityIterate::add(const Transfers& transfers) {
 void RadiosityIterate::add_sky(const Vec3& omega, const std::vector<Coverage>& coverages,
                                const std::vector<CoverageMoments>& moments) {
   const double radiance = sky_.relative_radiance(omega);
-  const std::size_t first = share_.first(), functions = unknowns_.per_patch;
-  for (std::size_t i = first; i < share_.last(); ++i) {
+  const std::size_t first = owned_.first(), functions = unknowns_.per_patch;
+  for (std::size_t i = first; i < owned_.last(); ++i) {
     const double uncovered = coverages[i - first].uncovered();
     if (uncovered == 0) {
       continue;
@@ -111,9 +113,9 @@ void RadiosityIterate::add_sky(const Vec3& omega, const std::vector<Coverage>& c
 }
 
 void RadiosityIterate::complete() {
-  share_.complete(gathered_);
-  share_.complete(projected_);
-  share_.complete(sky_areas_);
+  owned_.complete(gathered_);
+  owned_.complete(projected_);
+  owned_.complete(sky_areas_);
 }
 
 void RadiosityIterate::keep(const KeptSums& sums) {
@@ -133,20 +135,15 @@ void RadiosityIterate::gather(const KeptSums& sums) {
     for (const ExchangeSums* part : sums) {
       part->gather(unshot_, gathered_);
     }
-    share_.complete(gathered_);
+    owned_.complete(gathered_);
     return;
   }
-  std::vector<Rgb> scaled(b_.size());
-  for (std::size_t i = 0; i < b_.size(); ++i) {
-    scaled[i] = scales_[i] * unshot_[i];
-  }
+  const std::vector<Rgb> sources = scaled(scales_, unshot_, unknowns_.per_patch);
   for (const ExchangeSums* part : sums) {
-    part->gather(scaled, gathered_);
+    part->gather(sources, gathered_);
   }
-  share_.complete(gathered_);
-  for (std::size_t i = 0; i < b_.size(); ++i) {
-    gathered_[i] = scales_[i] * gathered_[i];
-  }
+  owned_.complete(gathered_);
+  gathered_ = scaled(scales_, gathered_, unknowns_.per_patch);
 }
 
 void RadiosityIterate::add_symmetric_product(const KeptSums& sums,
@@ -159,32 +156,33 @@ void RadiosityIterate::add_symmetric_product(const KeptSums& sums,
       image[j] += area * values[i];
     });
   }
-  share_.complete(image);
+  owned_.complete(image);
 }
 
-/// Computes scales d with d_i sum_j S_ij d_j = the area that row i would sum to if its quadrature
-/// of the cosine were exact, by the symmetric form of Sinkhorn's iteration.
+/// Computes scales with which row i sums to what it would sum to if its quadrature of the cosine
+/// were exact, by the symmetric form of Sinkhorn's iteration; with linear functions, its moments
+/// too.
 void RadiosityIterate::find_scales(const KeptSums& sums) {
   constexpr int max_sweeps = 200;
   constexpr double tolerance = 1e-9;
-  const std::size_t patches = b_.size();
+  const std::size_t count = b_.size(), n = unknowns_.per_patch;
   const double directions = passes_ * (two_way_ ? 2 : 1);
-  scales_.assign(patches, 1.0);
-  std::vector<double> wanted(patches), image(patches);
+  scales_.assign(count, 0.0);
+  for (std::size_t u = 0; u < count; u += n) {
+    scales_[u] = 1;
+  }
+  std::vector<double> wanted(count), image(count);
   add_symmetric_product(sums, scales_, image);
-  for (std::size_t i = 0; i < patches; ++i) {
-    const double exact = directions / 4 * unknowns_.area[i];
-    wanted[i] = projected_[i] > 0 ? image[i] * exact / projected_[i] : 0.0;
+  for (std::size_t u = 0; u < count; ++u) {
+    const double exact = directions / 4 * unknowns_.area[u];
+    wanted[u] = projected_[u] > 0 ? image[u] * exact / projected_[u] : 0.0;
   }
   for (int sweep = 0; sweep < max_sweeps; ++sweep) {
     double worst = 0;
-    for (std::size_t i = 0; i < patches; ++i) {
-      const double sum = scales_[i] * image[i];
-      if (!(sum > 0)) {
-        continue;
-      }
-      worst = std::max(worst, std::abs(wanted[i] / sum - 1));
-      scales_[i] *= std::sqrt(wanted[i] / sum);
+    for (std::size_t u = 0; u < count; u += n) {
+      worst = std::max(
+          worst, improve_scales(std::span(scales_).subspan(u, n), std::span(wanted).subspan(u, n),
+                                std::span(image).subspan(u, n)));
     }
     std::fill(image.begin(), image.end(), 0.0);
     add_symmetric_product(sums, scales_, image);
@@ -192,10 +190,7 @@ void RadiosityIterate::find_scales(const KeptSums& sums) {
       break;
     }
   }
-  row_sums_.resize(patches);
-  for (std::size_t i = 0; i < patches; ++i) {
-    row_sums_[i] = scales_[i] * image[i];
-  }
+  row_sums_ = scaled(scales_, image, n);
 }
 
 /// The factor from what row i gathers in `passes` passes to the irradiance H_i.
@@ -215,8 +210,8 @@ double RadiosityIterate::sky_scale(std::size_t i, double projected, int passes) 
   return projected > 0 ? 1 / projected : 0.0;
 }
 
-double RadiosityIterate::sky_share(std::size_t u, double uncovered, double projected,
-                                   int passes) const {
+double RadiosityIterate::sky_fraction(std::size_t u, double uncovered, double projected,
+                                      int passes) const {
   return sky_scale(u, projected, passes) * uncovered;
 }
 
@@ -251,7 +246,16 @@ void RadiosityIterate::set_radiosity(std::size_t u, const Rgb& b) {
 
 double RadiosityIterate::form_factor_scale(std::size_t u, std::size_t v, double projected,
                                            int passes) const {
-  return row_scale(u, projected, passes) * (scales_.empty() ? 1.0 : scales_[u] * scales_[v]);
+  const bool by_numbers = !scales_.empty() && unknowns_.per_patch == 1;
+  return row_scale(u, projected, passes) * (by_numbers ? scales_[u] * scales_[v] : 1.0);
+}
+
+void RadiosityIterate::scale_moments(PatchId i, PatchId j, TransferMoments& moments) const {
+  const std::size_t n = unknowns_.per_patch;
+  if (has_scaled_moments()) {
+    moments = scaled(moments, std::span(scales_).subspan(unknowns_.mean_of(i), n),
+                     std::span(scales_).subspan(unknowns_.mean_of(j), n));
+  }
 }
 
 double RadiosityIterate::form_factor_sum(std::size_t u, double row_areas, double projected,
@@ -284,6 +288,11 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
                                     const Cancellation& cancellation) {
   const double unit = 4.0 / (kept_passes_ * 2);
   const std::size_t patches = unknowns_.count();
+  const auto mixed = [&](std::vector<double>& values) {
+    if (has_scaled_moments()) {
+      values = scaled(scales_, values, unknowns_.per_patch);
+    }
+  };
   std::vector<double> weights(patches), emitted(patches), unknown(patches), weighted(patches);
   std::vector<Rgb> result(patches), given = unknowns_.shot_irradiance;
   for (std::size_t i = 0; i < kept_sky_areas_.size(); ++i) {
@@ -292,27 +301,32 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
   }
   const auto channel = [&](auto rho_of) {
     // With E the known part of B that was not shot, y_i = sqrt(rho_i A_i) H_i and w_i = d_i
-    // sqrt(rho_i / A_i): y - unit w S (w y) = unit w S (d E), a symmetric matrix.
+    // sqrt(rho_i / A_i): y - unit w S (w y) = unit w S (d E), a symmetric matrix. With linear
+    // functions, d_i is a matrix beside S.
     for (std::size_t row = 0; row < patches; ++row) {
-      const double scale = scales_.empty() ? 1.0 : scales_[row];
+      const double scale = scales_.empty() || has_scaled_moments() ? 1.0 : scales_[row];
       weights[row] =
           scale * std::sqrt(unit * rho_of(unknowns_.reflectance[row]) / unknowns_.area[row]);
       const Rgb known = radiosity(row, given[row]);
       emitted[row] = scale * (rho_of(known) - rho_of(unknowns_.shot_exitance[row]));
     }
     std::vector<double> right(patches);
+    mixed(emitted);
     add_symmetric_product(sums, emitted, right);
+    mixed(right);
     for (std::size_t i = 0; i < patches; ++i) {
       right[i] *= weights[i] * std::sqrt(unit);
     }
     solve_by_conjugate_gradients(
         [&](const double* x, double* y) {
-          share_.throw_if_canceled(cancellation);
+          owned_.throw_if_canceled(cancellation);
           std::vector<double> image(patches);
           for (std::size_t i = 0; i < patches; ++i) {
             weighted[i] = weights[i] * x[i];
           }
+          mixed(weighted);
           add_symmetric_product(sums, weighted, image);
+          mixed(image);
           for (std::size_t i = 0; i < patches; ++i) {
             y[i] = x[i] - weights[i] * image[i];
           }
@@ -320,11 +334,11 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
         right, tolerance, unknowns_.per_patch > 1 ? Entries::any_sign : Entries::at_least_zero,
         unknown);
     for (std::size_t row = 0; row < patches; ++row) {
-      const double share = std::sqrt(rho_of(unknowns_.reflectance[row]) / unknowns_.area[row]);
+      const double owned = std::sqrt(rho_of(unknowns_.reflectance[row]) / unknowns_.area[row]);
       const Rgb known = radiosity(row, given[row]);
-      rho_of(result[row]) = rho_of(known) + share * unknown[row];
+      rho_of(result[row]) = rho_of(known) + owned * unknown[row];
       const double rho = rho_of(unknowns_.reflectance[row]);
-      rho_of(h_[row]) = rho_of(given[row]) + (rho > 0 ? share * unknown[row] / rho : 0.0);
+      rho_of(h_[row]) = rho_of(given[row]) + (rho > 0 ? owned * unknown[row] / rho : 0.0);
     }
   };
   const auto channels = {&Rgb::r, &Rgb::g, &Rgb::b};

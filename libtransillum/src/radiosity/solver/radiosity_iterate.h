@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "radiosity/exchange/exchange_sums.h"
-#include "radiosity/exchange/patch_share.h"
+#include "radiosity/exchange/owned_patches.h"
 #include "radiosity/exchange/unknowns.h"
 #include "transillum/scene.h"
 #include "transillum/solve_options.h"
@@ -24,7 +24,8 @@ class RadiosityIterate {
   /// that it covers is not gathered again:
   ///   B_i = E_i + rho_i (H_i of the shot + H_i of the sky + sum_j F_ij (B_j - E_j shot)).
   /// @param share passes are gathered for its patches; after them complete() must be called
-  RadiosityIterate(const Unknowns& unknowns, const SolveOptions& options, const PatchShare& share);
+  RadiosityIterate(const Unknowns& unknowns, const SolveOptions& options,
+                   const OwnedPatches& owned);
 
   /// Memory that an iterate takes, with its mean over iterations.
   static constexpr std::uint64_t bytes_per_unknown = 8 * sizeof(Rgb);
@@ -56,15 +57,20 @@ class RadiosityIterate {
 
   /// B of the iteration under way, estimated from the passes so far, W/m².
   Rgb estimate(std::size_t u) const;
-  /// The factor from entry (u, v) of kept sums to F.
+  /// The factor from entry (u, v) of kept sums to F, before scale_moments().
   /// @param projected, passes of the kept sums, as in VisibleAreaSums
   double form_factor_scale(std::size_t u, std::size_t v, double projected, int passes) const;
+  /// Scales the moments of a pair, T^ab times form_factor_scale(), if the normalization is
+  /// symmetric.
+  void scale_moments(PatchId i, PatchId j, TransferMoments& moments) const;
+  /// Whether scale_moments() changes them.
+  bool has_scaled_moments() const { return !scales_.empty() && unknowns_.per_patch > 1; }
   /// sum_j F_ij.
   /// @param row_areas, projected, passes of the kept sums, as in VisibleAreaSums
   double form_factor_sum(std::size_t u, double row_areas, double projected, int passes) const;
   /// The share of what leaves the patch of u that escapes.
   /// @param uncovered, projected, passes as in VisibleAreaSums
-  double sky_share(std::size_t u, double uncovered, double projected, int passes) const;
+  double sky_fraction(std::size_t u, double uncovered, double projected, int passes) const;
   /// Irradiance of u from the sky in the passes so far, W/m².
   Rgb sky_irradiance(std::size_t u) const;
   /// Power sent by the part of B that is gathered, in the unit of gathered().
@@ -114,7 +120,7 @@ class RadiosityIterate {
   double row_scale(std::size_t i) const { return row_scale(i, projected_[i], passes_); }
 
   const Unknowns& unknowns_;
-  PatchShare share_;
+  OwnedPatches owned_;
   bool two_way_;
   Normalization normalization_;
   Sky sky_;
@@ -126,7 +132,7 @@ class RadiosityIterate {
   int passes_ = 0;
   std::vector<double> kept_projected_, kept_sky_areas_;
   int kept_passes_ = 0;
-  std::vector<double> scales_;    ///< scales of rows and columns, if symmetric; else empty
+  std::vector<double> scales_;    ///< of rows and columns (symmetric_scales.h), if symmetric
   std::vector<double> row_sums_;  ///< row sums of the kept sums, scaled; if symmetric
 };
 

@@ -6,9 +6,9 @@
 namespace transillum {
 
 RadiositySolver::RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                                 SolverParts parts, const Cancellation& cancellation)
+                                 SolverResources resources, const Cancellation& cancellation)
     : impl_(std::make_unique<Impl>(
-          SolverInput(std::move(scene), options, std::move(parts), cancellation))) {}
+          SolverInput(std::move(scene), options, std::move(resources), cancellation))) {}
 RadiositySolver::~RadiositySolver() = default;
 RadiositySolver::RadiositySolver(RadiositySolver&&) noexcept = default;
 RadiositySolver& RadiositySolver::operator=(RadiositySolver&&) noexcept = default;
@@ -28,7 +28,7 @@ bool RadiositySolver::advance(Until until, const Observer& observer) {
       }
     }
     s.finish_iteration();
-    const bool stop = s.share.sums->any(observer && !observer(*this));
+    const bool stop = s.owned.sums->any(observer && !observer(*this));
     if (stop || until != Until::finished) {
       break;
     }

@@ -11,13 +11,13 @@ Replicas::Replicas(const SolverInput& input) {
   }
   surfaces_ = ErrorSurfaces(*input.scene, input.options.goal.surfaces);
   for (int r = 0; r < input.options.replicas; ++r) {
-    iterates_.emplace_back(*input.unknowns, input.options, input.share());
+    iterates_.emplace_back(*input.unknowns, input.options, input.owned());
   }
   means_.resize(iterates_.size());
 }
 
 void Replicas::add_replica(const SolverInput& input, const RadiosityIterate& whole) {
-  iterates_.emplace_back(*input.unknowns, input.options, input.share());
+  iterates_.emplace_back(*input.unknowns, input.options, input.owned());
   iterates_.back().start_from(whole);
   means_.emplace_back();
 }

@@ -38,16 +38,16 @@ int expected_directions(const SolveOptions& options) {
 }
 
 SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
-                         const SolveOptions& solve_options, SolverParts parts,
+                         const SolveOptions& solve_options, SolverResources resources,
                          const Cancellation& solve_cancellation)
     : scene(std::move(solved_scene)),
       options(validated(solve_options)),
       requested(solve_cancellation),
       threads(thread_count(options.threads)),
-      shot(std::move(parts.shot)),
-      tree(std::move(parts.tree)),
-      engine(std::move(parts.engine)),
-      sums(parts.sums ? std::move(parts.sums) : sums_in_memory()),
+      shot(std::move(resources.shot)),
+      tree(std::move(resources.tree)),
+      engine(std::move(resources.engine)),
+      sums(resources.sums ? std::move(resources.sums) : sums_in_memory()),
       cancellation(sums->own(requested)) {
   sums->agree([this] { prepare(); });
 }
@@ -57,10 +57,10 @@ void SolverInput::prepare() {
     const auto start = Clock::now();
     std::vector<PatchId> sources;
     if (const auto threshold = options.used_first_shot()) {
-      sources =
-          first_shot_sources(*scene, *threshold, expected_directions(options), requested);
+      sources = first_shot_sources(*scene, *threshold, expected_directions(options), requested);
     }
-    shot = std::make_shared<const DirectLight>(shoot(*scene, sources, options.threads, requested));
+    shot = std::make_shared<const DirectLight>(
+        shoot(*scene, sources, shot_options(options), requested));
     seconds_first_shot = seconds_since(start);
   }
   if (!tree) {

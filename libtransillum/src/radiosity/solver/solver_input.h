@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "radiosity/exchange/patch_share.h"
+#include "radiosity/exchange/owned_patches.h"
 #include "radiosity/exchange/unknowns.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/solve_options.h"
@@ -33,13 +33,13 @@ struct SolverInput {
 
   /// Makes what is null: the light of the first shot, the tree, the engine.
   /// @throws InputError, Canceled
-  SolverInput(std::shared_ptr<const Scene> scene, const SolveOptions& options, SolverParts parts,
-              const Cancellation& cancellation);
+  SolverInput(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+              SolverResources resources, const Cancellation& cancellation);
 
   int directions_per_pass() const { return options.two_way ? 2 : 1; }
-  PatchShare share() const { return {*sums, scene->patch_count()}; }
+  OwnedPatches owned() const { return {*sums, scene->patch_count()}; }
   /// @throws Canceled, in every process
-  void throw_if_canceled() const { share().throw_if_canceled(requested); }
+  void throw_if_canceled() const { owned().throw_if_canceled(requested); }
   std::size_t patch_count() const { return static_cast<std::size_t>(scene->patch_count()); }
 
  private:

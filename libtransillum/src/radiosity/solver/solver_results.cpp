@@ -20,8 +20,8 @@ namespace {
 
 /// Sets rho_max, predicted_contraction and energy_balance. Requires statistics.directions.
 /// @param from_sky irradiance from the sky; empty without one
-void add_scene_figures(const Scene& scene, const std::vector<Rgb>& h,
-                       const std::vector<Rgb>& from_sky, SolveStatistics& statistics) {
+void add_scene_values(const Scene& scene, const std::vector<Rgb>& h,
+                      const std::vector<Rgb>& from_sky, SolveStatistics& statistics) {
   double absorbed = 0, emitted = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const double area = scene.patch(i).area;
@@ -34,6 +34,23 @@ void add_scene_figures(const Scene& scene, const std::vector<Rgb>& h,
   statistics.energy_balance = ratio_or_zero(absorbed, emitted);
   statistics.predicted_contraction =
       contraction_bound(statistics.rho_max, quadrature_error_bound(statistics.directions));
+}
+
+/// bias_of_shot(), with linear functions one value per unknown: of a linear term, what its own
+/// error makes wrong. What other patches reflect of errors is treated as uniform.
+std::vector<Rgb> shot_bias(const Scene& scene, const DirectLight& shot) {
+  std::vector<Rgb> of_means = bias_of_shot(scene, shot);
+  if (shot.linear_part_errors.empty()) {
+    return of_means;
+  }
+  of_means.resize(scene.patches().size());
+  std::vector<Rgb> bias;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const LinearTerm& error = at(shot.linear_part_errors, i);
+    const Rgb& rho = scene.reflectance(i);
+    bias.insert(bias.end(), {at(of_means, i), rho * error.first, rho * error.second});
+  }
+  return bias;
 }
 
 }  // namespace
@@ -82,9 +99,9 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   result.iteration_records = history.records();
   result.converged = history.converged();
   result.energy_defect = iteration.energy_defect;
-  add_scene_figures(*input.scene, history.patch_h(), sky_irradiance(), result);
+  add_scene_values(*input.scene, history.patch_h(), sky_irradiance(), result);
   result.shot_sources = std::ssize(input.shot->sources);
-  result.shot_power_share = input.shot->power_share;
+  result.shot_power_fraction = input.shot->power_fraction;
   result.integrated_pairs = input.shot->integrated_pairs;
   result.seconds_bsp = input.seconds_bsp;
   result.seconds_first_shot = input.seconds_first_shot;
@@ -119,7 +136,7 @@ ErrorEstimate RadiositySolver::Impl::error_estimate() const {
   ErrorEstimate error = replicas.error_estimate(*input.scene, b, history.h(), kind);
   const ErrorSurfaces& surfaces = replicas.surfaces();
   include_bias(error, *input.scene, surfaces, b, history.left());
-  include_bias(error, *input.scene, surfaces, b, bias_of_shot(*input.scene, *input.shot));
+  include_bias(error, *input.scene, surfaces, b, shot_bias(*input.scene, *input.shot));
   return error;
 }
 
@@ -143,17 +160,17 @@ std::vector<double> RadiositySolver::form_factor_sums() const {
   return form_factor_sums;
 }
 
-std::vector<double> RadiositySolver::sky_shares() const {
+std::vector<double> RadiositySolver::sky_fractions() const {
   const VisibleAreaSums& areas = impl_->statistics.areas();
-  std::vector<double> shares(areas.uncovered.size());
+  std::vector<double> fractions(areas.uncovered.size());
   if (areas.passes == 0) {
-    return shares;
+    return fractions;
   }
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    shares[i] = impl_->whole.sky_share(impl_->input.unknowns->per_patch * i, areas.uncovered[i],
-                                       areas.projected[i], areas.passes);
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    fractions[i] = impl_->whole.sky_fraction(impl_->input.unknowns->per_patch * i,
+                                             areas.uncovered[i], areas.projected[i], areas.passes);
   }
-  return shares;
+  return fractions;
 }
 
 std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
@@ -168,20 +185,32 @@ std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
 
 std::vector<Rgb> RadiositySolver::sky_irradiance() const { return impl_->sky_irradiance(); }
 
-std::vector<double> RadiositySolver::back_seen_shares() const {
-  return impl_->statistics.back_seen_shares();
+std::vector<LinearTerm> RadiositySolver::sky_linear_parts() const {
+  std::vector<LinearTerm> terms;
+  if (options().sky.is_set() && options().basis == Basis::linear) {
+    for (PatchId i = 0; i < impl_->input.scene->patch_count(); ++i) {
+      const std::size_t mean = impl_->input.unknowns->mean_of(i);
+      terms.push_back(
+          {impl_->whole.sky_irradiance(mean + 1), impl_->whole.sky_irradiance(mean + 2)});
+    }
+  }
+  return terms;
 }
 
-std::vector<LinearPart> RadiositySolver::linear_parts() const {
-  std::vector<LinearPart> parts;
+std::vector<double> RadiositySolver::back_seen_fractions() const {
+  return impl_->statistics.back_seen_fractions();
+}
+
+std::vector<LinearTerm> RadiositySolver::linear_terms() const {
+  std::vector<LinearTerm> terms;
   if (options().basis == Basis::linear) {
     const std::vector<Rgb>& values =
         impl_->passes_done() > 0 ? impl_->iteration.estimate : impl_->history.b();
     for (std::size_t u = 0; u < values.size(); u += 3) {
-      parts.push_back({values[u + 1], values[u + 2]});
+      terms.push_back({values[u + 1], values[u + 2]});
     }
   }
-  return parts;
+  return terms;
 }
 
 std::vector<Rgb> reflected_light(const Scene& scene, const std::vector<Rgb>& b) {
@@ -191,12 +220,12 @@ std::vector<Rgb> reflected_light(const Scene& scene, const std::vector<Rgb>& b) 
 std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i) {
   const auto outline = solution.scene->outline(i);
   std::vector<Rgb> corners(outline.size(), at(solution.radiosity, i));
-  if (!solution.linear_parts.empty()) {
+  if (!solution.linear_terms.empty()) {
     const LinearBasis basis = linear_basis(*solution.scene, i);
-    const LinearPart& part = at(solution.linear_parts, i);
+    const LinearTerm& term = at(solution.linear_terms, i);
     for (std::size_t k = 0; k < outline.size(); ++k) {
       const auto [first, second] = basis.at(solution.scene->point(outline[k]));
-      corners[k] += first * part.first + second * part.second;
+      corners[k] += first * term.first + second * term.second;
     }
   }
   return corners;
@@ -210,12 +239,13 @@ Solution RadiositySolver::solution() const {
   solution.irradiance = irradiance();
   if (impl_->statistics.areas().passes > 0) {
     solution.form_factor_sums = form_factor_sums();
-    solution.sky_shares = sky_shares();
+    solution.sky_fractions = sky_fractions();
     solution.sky_irradiance = sky_irradiance();
+    solution.sky_linear_parts = sky_linear_parts();
   }
   solution.error = error_estimate();
   solution.statistics = statistics();
-  solution.linear_parts = linear_parts();
+  solution.linear_terms = linear_terms();
   solution.statistics.negative_corners = negative_corners(solution);
   solution.complete = impl_->history.finished();
   return solution;

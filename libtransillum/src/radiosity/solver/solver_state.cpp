@@ -21,13 +21,13 @@ using Clock = std::chrono::steady_clock;
 RadiositySolver::Impl::Impl(SolverInput solver_input)
     : input(std::move(solver_input)),
       plan(input.options),
-      whole(*input.unknowns, input.options, input.share()),
+      whole(*input.unknowns, input.options, input.owned()),
       replicas(input),
       kept(input, plan.renews()),
-      statistics(*input.scene, input.options.two_way, *input.shot, input.share(),
+      statistics(*input.scene, input.options.two_way, *input.shot, input.owned(),
                  input.unknowns->per_patch),
       history(input, whole),
-      share(input.share()),
+      owned(input.owned()),
       light(input.unknowns->light()) {
   iteration.directions = plan.directions(0);
   iteration.estimate = whole.b();
@@ -63,7 +63,7 @@ void RadiositySolver::Impl::begin_iteration() {
   iteration.from_kept_sums = whole.passes();
   if (iteration.from_kept_sums > 0) {
     update_estimate();
-    share.complete(iteration.estimate);
+    owned.complete(iteration.estimate);
   }
   const double seconds = seconds_since(start);
   timing.seconds_iterate += seconds;
@@ -87,7 +87,7 @@ bool RadiositySolver::Impl::advance_passes(int last, const RadiositySolver& self
   loop.first = passes_done();
   loop.last = last;
   loop.threads = input.threads;
-  loop.patches = share.patches;
+  loop.patches = owned.patches;
   loop.cancellation = input.requested;
   loop.make = [&](int k) { return make_pass(k, known); };
   loop.prepare = [&](int k, Pass& pass) { prepare_pass(k, known, pass); };
@@ -98,7 +98,7 @@ bool RadiositySolver::Impl::advance_passes(int last, const RadiositySolver& self
   loop.settle = [&] { settle(); };
   loop.observe = [&](int) { return !observer || observer(self); };
   try {
-    const bool going = share.sums->run(loop);
+    const bool going = owned.sums->run(loop);
     add_times();
     complete();
     return going;
@@ -114,15 +114,15 @@ bool RadiositySolver::Impl::advance_passes(int last, const RadiositySolver& self
 
 void RadiositySolver::Impl::settle() {
   std::vector<double> largest{kept.requested() && !kept.available() ? 1.0 : 0.0};
-  for (const EstimateChange& change : iteration.changes_of_share) {
+  for (const EstimateChange& change : iteration.changes_of_owned) {
     largest.insert(largest.end(), {change.change, change.largest, change.largest_of_all});
   }
-  share.sums->maxima(largest);
+  owned.sums->maxima(largest);
   for (std::size_t k = 1; k < largest.size(); k += 3) {
     iteration.changes.push_back(
         EstimateChange{largest[k], largest[k + 1], largest[k + 2]}.relative());
   }
-  iteration.changes_of_share.clear();
+  iteration.changes_of_owned.clear();
   statistics.complete_errors();
   if (largest[0] > 0) {
     kept.drop();
@@ -136,7 +136,7 @@ void RadiositySolver::Impl::complete() {
   history.start().complete();
   statistics.complete();
   kept.complete();
-  share.complete(iteration.estimate);
+  owned.complete(iteration.estimate);
   timing.seconds_iterate += seconds_since(start);
 }
 
@@ -157,7 +157,7 @@ Pass RadiositySolver::Impl::make_pass(int k, int known) const {
 
 void RadiositySolver::Impl::prepare_pass(int k, int known, Pass& pass) const {
   if (is_first_along(k, known) && kept.requested()) {
-    pass.run = kept.make_run(pass.transfers);
+    pass.sorted = kept.sort(pass.transfers);
   }
 }
 
@@ -166,7 +166,7 @@ void RadiositySolver::Impl::add_pass(int k, Pass pass) {
   const bool first = is_first_along(k, statistics.areas().passes);
   const std::size_t replica = plan.replica_of(k);
   if (first && kept.available()) {
-    kept.add(replica, std::move(pass.run));
+    kept.add(replica, std::move(pass.sorted));
   }
   whole.add(pass.transfers);
   replicas.add(replica, pass.transfers);
@@ -176,13 +176,13 @@ void RadiositySolver::Impl::add_pass(int k, Pass pass) {
     kept.add_areas(pass.transfers);
   }
   ++timing.passes_made;
-  iteration.changes_of_share.push_back(update_estimate());
+  iteration.changes_of_owned.push_back(update_estimate());
   timing.seconds_iterate += seconds_since(start);
 }
 
 EstimateChange RadiositySolver::Impl::update_estimate() {
   EstimateChange result;
-  const PatchShare unknowns = share.of_unknowns(input.unknowns->per_patch);
+  const OwnedPatches unknowns = owned.of_unknowns(input.unknowns->per_patch);
   for (std::size_t u = unknowns.first(); u < unknowns.last(); ++u) {
     const Rgb value = history.with(u, whole.estimate(u));
     result.change = std::max(result.change, max_abs(value - iteration.estimate[u]));
@@ -216,7 +216,7 @@ void RadiositySolver::Impl::finish_iteration() {
   timing.seconds_iterate += seconds;
   history.update(whole, changes, iteration.seconds + seconds, complete);
   iteration.end(history.b());
-  share.check_same(history.b());
+  owned.check_same(history.b());
 }
 
 void RadiositySolver::Impl::add_replica() {

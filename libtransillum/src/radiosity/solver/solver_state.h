@@ -33,7 +33,7 @@ struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
   IterationUnderWay iteration;  ///< in progress
   IterationHistory history;     ///< finished iterations, and the answer so far
   SolverTiming timing;
-  PatchShare share;
+  OwnedPatches owned;
   ReflectedLight light;  ///< light reflected in the scene
 
   explicit Impl(SolverInput solver_input);

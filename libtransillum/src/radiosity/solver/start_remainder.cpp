@@ -10,7 +10,7 @@
 namespace transillum {
 namespace {
 
-/// Share of the largest reflected light below which the difference of two iterates is rounding.
+/// Fraction of the largest reflected light below which the difference of two iterates is rounding.
 constexpr double negligible = 1e-13;
 
 Rgb max_of(const Rgb& a, const Rgb& b) {
@@ -86,7 +86,7 @@ void StartRemainder::start(const RadiosityIterate& whole) {
 }
 
 void StartRemainder::make_upper() {
-  upper_.emplace(*input_.unknowns, input_.options, input_.share());
+  upper_.emplace(*input_.unknowns, input_.options, input_.owned());
 }
 
 double StartRemainder::contraction() const {

@@ -134,11 +134,11 @@ void check_exitance(const Rgb& exitance, const std::string& place) {
 }
 
 void check_lobe(const Lobe& lobe, const std::string& place) {
-  for (const auto& [channel, share] : channels(lobe.reflectance)) {
-    if (!(share >= 0 && std::isfinite(share))) {
+  for (const auto& [channel, fraction] : channels(lobe.reflectance)) {
+    if (!(fraction >= 0 && std::isfinite(fraction))) {
       throw InputError(
           fmt::format("{}{} reflectance of the lobe (Ks) is {}, but must be finite and >= 0", place,
-                      channel, share));
+                      channel, fraction));
     }
   }
   if (!(lobe.exponent >= 0 && lobe.exponent <= largest_exponent)) {

@@ -255,24 +255,24 @@ class Joiner {
 
   /// Whether the boundary has the edge between corner k of `face` and the next, in the opposite
   /// direction.
-  bool shares(const Face& face, CornerIndex k, std::int32_t number) const {
+  bool fractions(const Face& face, CornerIndex k, std::int32_t number) const {
     const PointState& end = at(state_, at(corners_, following(face, k)));
     return end.region == number && end.next == at(corners_, k);
   }
 
-  /// Adds a face if its shared edges are one run and its other corners are new to the region.
+  /// Adds a face if its shared edges are one chain and its other corners are new to the region.
   bool take(const Face& face, std::int32_t number) {
     const CornerIndex n = face.end - face.begin;
     const auto corner = [&](CornerIndex k) { return at(corners_, face.begin + k % n); };
-    const auto shared = [&](CornerIndex k) { return shares(face, face.begin + k % n, number); };
-    CornerIndex first = 0;  // of the run: shared, the one before is not
+    const auto shared = [&](CornerIndex k) { return fractions(face, face.begin + k % n, number); };
+    CornerIndex first = 0;  // of the chain: shared, the one before is not
     while (first < n && !(shared(first) && !shared(first + n - 1))) {
       ++first;
     }
     if (first == n) {
       return false;
     }
-    CornerIndex last = first;  // one past the run's edges
+    CornerIndex last = first;  // one past the chain's edges
     while (shared(last)) {
       ++last;
     }
@@ -380,7 +380,7 @@ class Joiner {
     return norm(cross(p - a, along)) <= tolerance * std::sqrt(squared);
   }
 
-  /// Removes corners of straight runs. A run between two others is the same in all outlines that
+  /// Removes corners of straight runs. A chain between two others is the same in all outlines that
   /// have it, and treated from the end with the smaller number.
   void simplify(std::vector<PointId>& outline, const std::vector<char>& straight) const {
     const auto bend = std::find_if(outline.begin(), outline.end(),
@@ -389,48 +389,48 @@ class Joiner {
       return;
     }
     std::rotate(outline.begin(), bend, outline.end());
-    std::vector<PointId> kept, run;
+    std::vector<PointId> kept, chain;
     outline.push_back(outline.front());
     for (const PointId p : outline) {
-      run.push_back(p);
-      if (run.size() == 1 || at(straight, p) != 0) {
+      chain.push_back(p);
+      if (chain.size() == 1 || at(straight, p) != 0) {
         continue;
       }
-      const bool reversed = run.front() > run.back();
+      const bool reversed = chain.front() > chain.back();
       if (reversed) {
-        std::reverse(run.begin(), run.end());
+        std::reverse(chain.begin(), chain.end());
       }
-      std::vector<PointId> bends = bends_of(run);
+      std::vector<PointId> bends = bends_of(chain);
       if (reversed) {
         std::reverse(bends.begin(), bends.end());
       }
       kept.insert(kept.end(), bends.begin(), bends.end() - 1);
-      run = {p};
+      chain = {p};
     }
     outline = kept;
   }
 
-  /// The run's ends and those corners between them without which it would not be straight.
-  std::vector<PointId> bends_of(const std::vector<PointId>& run) const {
-    std::vector<PointId> bends{run.front()};
+  /// The chain's ends and those corners between them without which it would not be straight.
+  std::vector<PointId> bends_of(const std::vector<PointId>& chain) const {
+    std::vector<PointId> bends{chain.front()};
     std::size_t from = 0;
     // The farthest end of a straight part is found by doubling and halving its length.
-    while (from + 1 < run.size()) {
+    while (from + 1 < chain.size()) {
       std::size_t good = from + 1;
       for (std::size_t step = 1; step > 0;) {
-        const std::size_t to = std::min(good + step, run.size() - 1);
-        const bool farther = to > good && is_straight(run, from, to);
+        const std::size_t to = std::min(good + step, chain.size() - 1);
+        const bool farther = to > good && is_straight(chain, from, to);
         good = farther ? to : good;
         step = farther ? 2 * step : step / 2;
       }
-      bends.push_back(run[good]);
+      bends.push_back(chain[good]);
       from = good;
     }
     return bends;
   }
-  bool is_straight(const std::vector<PointId>& run, std::size_t from, std::size_t to) const {
+  bool is_straight(const std::vector<PointId>& chain, std::size_t from, std::size_t to) const {
     for (std::size_t k = from + 1; k < to; ++k) {
-      if (!is_between(at(points_, run[k]), at(points_, run[from]), at(points_, run[to]),
+      if (!is_between(at(points_, chain[k]), at(points_, chain[from]), at(points_, chain[to]),
                       tolerance_ / 2)) {
         return false;
       }

@@ -61,7 +61,7 @@ class PatchCounter {
       }
       for (auto& outline : parts_of(scene, i, std::span(pieces).subspan(begin, end - begin))) {
         const double area = measure(scene.points(), outline).area;
-        parts_.push_back({i, area, std::move(outline)});
+        undivided_.push_back({i, area, std::move(outline)});
       }
       begin = end;
     }
@@ -70,14 +70,15 @@ class PatchCounter {
   std::int64_t count(double max_area) const {
     std::int64_t total = 0;
     PatchId last = no_patch;
-    for (const Part& part : parts_) {
+    for (const Undivided& undivided : undivided_) {
       // The same slack as in PatchBuilder::add_part().
-      if (scene_.patch(part.patch).area * (1 - 1e-9) <= max_area) {
-        total += part.patch != last ? 1 : 0;
+      if (scene_.patch(undivided.patch).area * (1 - 1e-9) <= max_area) {
+        total += undivided.patch != last ? 1 : 0;
       } else {
-        total += choose_grid(scene_.points(), part.outline, part.area, max_area).cell_count();
+        total +=
+            choose_grid(scene_.points(), undivided.outline, undivided.area, max_area).cell_count();
       }
-      last = part.patch;
+      last = undivided.patch;
       if (total >= too_many) {
         return too_many;
       }
@@ -86,14 +87,14 @@ class PatchCounter {
   }
 
  private:
-  struct Part {
+  struct Undivided {
     PatchId patch;
     double area;
     std::vector<PointId> outline;
   };
 
   const Scene& scene_;
-  std::vector<Part> parts_;
+  std::vector<Undivided> undivided_;
 };
 
 double largest_area(const Scene& scene) {

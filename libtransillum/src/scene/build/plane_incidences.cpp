@@ -323,8 +323,8 @@ class IncidenceSearch {
         fitted = plane.count();
       }
     }
-    constexpr int most_rounds = 4;
-    for (int round = 0; round < most_rounds; ++round) {
+    constexpr int most_attempts = 4;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
       if (members.size() <= 1 || all_fit(members)) {
         break;
       }

@@ -22,7 +22,7 @@ namespace transillum {
 namespace {
 
 constexpr int most_steps = 8;        ///< of Newton's method
-constexpr int most_rounds = 6;       ///< of giving up incidences
+constexpr int most_attempts = 6;     ///< of giving up incidences
 constexpr double farthest_move = 8;  ///< of a point, relative to the rounding of a coordinate
 constexpr double solver_tolerance = 1e-4;
 constexpr int most_solver_iterations = 300;
@@ -111,7 +111,7 @@ class Adjustment {
   std::vector<Vec3> points;
 
  private:
-  /// The share of an edge from its start to where a point is nearest.
+  /// The fraction of an edge from its start to where a point is nearest.
   double along(const EdgeIncidence& i) const {
     if (i.from == i.to) {
       return 0;
@@ -347,7 +347,7 @@ std::vector<Vec3> adjusted(const std::vector<Vec3>& original, PlaneIncidences fo
   const std::size_t count = found.incidences.size() + found.on_edges.size();
   std::int64_t iterations_left =
       std::max(fewest_iterations, most_work / static_cast<std::int64_t>(count + 1));
-  for (int round = 0; round < most_rounds && iterations_left > 0; ++round) {
+  for (int attempt = 0; attempt < most_attempts && iterations_left > 0; ++attempt) {
     Adjustment adjustment(original, found);
     const double worst = adjustment.solve(goal, reach, iterations_left, cancellation);
     const auto is_far = [&](PointId p) {

@@ -80,9 +80,9 @@ PolygonSet BspBuilder::take_polygons() {
 void BspBuilder::build_parts(TreeInput& input, int threads) {
   std::vector<SubtreeTask> tasks(1);
   tasks[0].set = take_polygons();
-  parts_.resize(1);
+  open_subtrees_.resize(1);
   if (tasks[0].set.size() <= largest_part) {
-    parts_[0].subtree = SubtreeBuilder(input).build(std::move(tasks[0]));
+    open_subtrees_[0].subtree = SubtreeBuilder(input).build(std::move(tasks[0]));
     return;
   }
 
@@ -91,7 +91,7 @@ void BspBuilder::build_parts(TreeInput& input, int threads) {
   const auto run = [&](const std::vector<std::size_t>& numbers, auto method) {
     for_each_index(workers, std::size_t{0}, numbers.size(), [&](std::size_t k) {
       SubtreeBuilder builder(input);
-      parts_[numbers[k]].subtree = (builder.*method)(std::move(tasks[numbers[k]]));
+      open_subtrees_[numbers[k]].subtree = (builder.*method)(std::move(tasks[numbers[k]]));
     });
   };
   while (!level.empty()) {
@@ -99,13 +99,13 @@ void BspBuilder::build_parts(TreeInput& input, int threads) {
     run(level, &SubtreeBuilder::build_root);
     std::vector<std::size_t> next;
     for (const std::size_t number : level) {
-      parts_[number].first_child = tasks.size();
-      for (SubtreeTask& open : parts_[number].subtree.open) {
+      open_subtrees_[number].first_child = tasks.size();
+      for (SubtreeTask& open : open_subtrees_[number].subtree.open) {
         (open.set.size() > largest_part ? next : small).push_back(tasks.size());
         tasks.push_back({std::move(open.set), BspTree::no_node, true, open.depth, open.peeled});
       }
     }
-    parts_.resize(tasks.size());
+    open_subtrees_.resize(tasks.size());
     level = std::move(next);
   }
   run(small, &SubtreeBuilder::build);
@@ -116,7 +116,7 @@ void BspBuilder::join_parts(const TreeInput& input) {
   point_numbers_.resize(static_cast<std::size_t>(input.next_point - first_new_point_));
   line_numbers_.resize(static_cast<std::size_t>(input.next_line - first_new_line_));
   struct Open {
-    std::size_t part;
+    std::size_t subtree_part;
     std::int32_t parent;
     bool front;
   };
@@ -130,44 +130,44 @@ void BspBuilder::join_parts(const TreeInput& input) {
       BspTree::Node& parent = at(tree_.nodes_, next.parent);
       (next.front ? parent.front : parent.back) = root;
     }
-    Part& part = parts_[next.part];
-    join(part.subtree);
-    for (std::size_t k = 0; k < part.subtree.open.size(); ++k) {
-      const SubtreeTask& child = part.subtree.open[k];
-      open.push_back({part.first_child + k, root + child.parent, child.front});
+    OpenSubtree& subtree_part = open_subtrees_[next.subtree_part];
+    join(subtree_part.subtree);
+    for (std::size_t k = 0; k < subtree_part.subtree.open.size(); ++k) {
+      const SubtreeTask& child = subtree_part.subtree.open[k];
+      open.push_back({subtree_part.first_child + k, root + child.parent, child.front});
     }
-    part.subtree = {};
+    subtree_part.subtree = {};
   }
 }
 
 /// Appends one part to the tree, and gives its points and lines their numbers.
-void BspBuilder::join(Subtree& part) {
+void BspBuilder::join(Subtree& subtree_part) {
   const auto point = [&](PointId p) {
     return p < first_new_point_ ? p : at(point_numbers_, p - first_new_point_);
   };
-  for (const Subtree::NewPoint& made : part.points) {
+  for (const Subtree::NewPoint& made : subtree_part.points) {
     at(point_numbers_, made.id - first_new_point_) = static_cast<PointId>(tree_.points_.size());
     tree_.points_.push_back(made.place);
     tree_.cut_points_.push_back({point(made.cut.a), point(made.cut.b), made.cut.t});
   }
-  for (const Subtree::NewLine& made : part.lines) {
+  for (const Subtree::NewLine& made : subtree_part.lines) {
     at(line_numbers_, made.id - first_new_line_) =
         line_between(point(made.line.a), point(made.line.b));
   }
 
   const auto first_corner = static_cast<std::uint32_t>(tree_.corners_.size());
-  for (const BspTree::Corner& corner : part.corners) {
+  for (const BspTree::Corner& corner : subtree_part.corners) {
     const LineId line = corner.line < first_new_line_
                             ? corner.line
                             : at(line_numbers_, corner.line - first_new_line_);
     tree_.corners_.push_back({point(corner.point), line, corner.forward});
   }
   const auto first_fragment = static_cast<FragmentId>(tree_.fragments_.size());
-  for (const BspTree::Fragment& f : part.fragments) {
+  for (const BspTree::Fragment& f : subtree_part.fragments) {
     tree_.fragments_.push_back({f.patch, first_corner + f.begin, first_corner + f.end});
   }
   const auto first_node = static_cast<std::int32_t>(tree_.nodes_.size());
-  for (BspTree::Node node : part.nodes) {
+  for (BspTree::Node node : subtree_part.nodes) {
     for (std::int32_t* child : {&node.front, &node.back}) {
       *child += *child == BspTree::no_node ? 0 : first_node;
     }
@@ -176,7 +176,7 @@ void BspBuilder::join(Subtree& part) {
     }
     tree_.nodes_.push_back(node);
   }
-  tree_.depth_ = std::max(tree_.depth_, part.depth);
+  tree_.depth_ = std::max(tree_.depth_, subtree_part.depth);
 }
 
 /// Pieces that are planar only within the rounding of a file become triangles.

@@ -30,7 +30,7 @@ class BspBuilder {
     std::uint32_t begin, end;  ///< in corners_
   };
   /// A subtree, and those that continue it.
-  struct Part {
+  struct OpenSubtree {
     Subtree subtree;
     std::size_t first_child = 0;  ///< in parts_; as many as the subtree left open, in this order
   };
@@ -45,7 +45,7 @@ class BspBuilder {
   PolygonSet take_polygons();
   void build_parts(TreeInput& input, int threads);
   void join_parts(const TreeInput& input);
-  void join(Subtree& part);
+  void join(Subtree& subtree_part);
 
   const Scene& scene_;
   BspTree& tree_;
@@ -57,7 +57,7 @@ class BspBuilder {
   std::vector<BspTree::Corner> corners_;
   std::vector<BspTree::Plane> planes_;
   std::unordered_map<std::uint64_t, LineId> line_of_edge_;
-  std::vector<Part> parts_;
+  std::vector<OpenSubtree> open_subtrees_;
   PointId first_new_point_ = 0;
   LineId first_new_line_ = 0;
   /// Numbers in the tree, by the numbers that points and lines got while building, from the first

@@ -17,8 +17,8 @@
 
 namespace transillum {
 
-/// Reports the share of the work of building a tree that is done. Any thread may add work; only the
-/// thread that constructed this reports, so that shares never decrease.
+/// Reports the fraction of the work of building a tree that is done. Any thread may add work; only
+/// the thread that constructed this reports, so that shares never decrease.
 class BuildProgress {
  public:
   /// The work of sorting `polygons`: n times log2 n.
@@ -35,10 +35,10 @@ class BuildProgress {
     if (!report_ || std::this_thread::get_id() != thread_) {
       return;
     }
-    const double share = std::min(1.0, static_cast<double>(done) / total_);
-    if (share >= reported_ + least_step) {
-      reported_ = share;
-      report_(share);
+    const double fraction = std::min(1.0, static_cast<double>(done) / total_);
+    if (fraction >= reported_ + least_step) {
+      reported_ = fraction;
+      report_(fraction);
     }
   }
 

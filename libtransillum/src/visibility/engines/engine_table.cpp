@@ -12,6 +12,7 @@ namespace {
 
 using Error = EngineTraits::Error;
 using Picture = EngineTraits::Picture;
+using Factors = EngineTraits::Factors;
 
 constexpr std::array all_engines{
     EngineTraits{
@@ -64,7 +65,8 @@ constexpr std::array all_engines{
                              "the plane",
                  .error = Error::statistical,
                  .picture = Picture::pixels,
-                 .takes_resolution = true},
+                 .takes_resolution = true,
+                 .factors = Factors::rays},
     EngineTraits{.value = Engine::corrected,
                  .name = "corrected",
                  .label = "No cutting, corrected",
@@ -80,7 +82,8 @@ constexpr std::array all_engines{
                  .error = Error::own,
                  .picture = Picture::hemicube,
                  .takes_directions = false,
-                 .takes_resolution = true},
+                 .takes_resolution = true,
+                 .factors = Factors::hemicubes},
     EngineTraits{.value = Engine::pairs,
                  .name = "pairs",
                  .label = "Pairs of patches",
@@ -89,7 +92,8 @@ constexpr std::array all_engines{
                  .picture = Picture::none,
                  .takes_directions = false,
                  .has_linear_basis = true,
-                 .takes_points = true},
+                 .takes_points = true,
+                 .factors = Factors::pairs},
 };
 
 }  // namespace

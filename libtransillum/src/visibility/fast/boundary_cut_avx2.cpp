@@ -74,7 +74,7 @@ TRANSILLUM_AVX2 inline void append(BoundarySegments& to, unsigned chosen, __m256
 
 /// Which of four segments have a part inside the cutter, and where that starts or ends on one of
 /// its lines; one bit per segment.
-struct Parts {
+struct InsideParts {
   unsigned inside = 0, starts = 0, ends = 0;
 };
 
@@ -187,9 +187,9 @@ TRANSILLUM_AVX2_INLINE void store_inside(const Four& four, std::size_t g, const 
 
 /// Cuts the segments from number g on. Stops early if they are all of the region and all outside
 /// one line.
-TRANSILLUM_AVX2 inline Parts cut_four(const BoundarySegments& region, std::size_t g,
-                                      const Cutter& cutter, BoundaryCut& cut, LineCrossings& lines,
-                                      __m256d& twice_area) {
+TRANSILLUM_AVX2 inline InsideParts cut_four(const BoundarySegments& region, std::size_t g,
+                                            const Cutter& cutter, BoundaryCut& cut,
+                                            LineCrossings& lines, __m256d& twice_area) {
   Four four;
   load_four(region, g, four);
   for (std::size_t m = 0; m < cutter.count; ++m) {
@@ -208,7 +208,7 @@ TRANSILLUM_AVX2 inline Parts cut_four(const BoundarySegments& region, std::size_
 /// Appends, of four segments, the parts before their inside parts, and those without an inside
 /// part.
 TRANSILLUM_AVX2 inline void append_before(const BoundarySegments& region, std::size_t g,
-                                          const Parts& parts, const BoundaryCut& cut,
+                                          const InsideParts& parts, const BoundaryCut& cut,
                                           BoundarySegments& outside) {
   const unsigned chosen = (filled(region.count, g) & ~parts.inside) | parts.starts;
   const __m256d inside = lanes_of(parts.inside);
@@ -219,7 +219,7 @@ TRANSILLUM_AVX2 inline void append_before(const BoundarySegments& region, std::s
 
 /// Appends the parts after their inside parts.
 TRANSILLUM_AVX2 inline void append_after(const BoundarySegments& region, std::size_t g,
-                                         const Parts& parts, const BoundaryCut& cut,
+                                         const InsideParts& parts, const BoundaryCut& cut,
                                          BoundarySegments& outside) {
   append(outside, parts.ends, _mm256_loadu_pd(&cut.out_x[g]), _mm256_loadu_pd(&cut.out_y[g]),
          _mm256_load_pd(&region.bx[g]), _mm256_load_pd(&region.by[g]));
@@ -233,8 +233,9 @@ TRANSILLUM_AVX2 bool cut_avx2(const BoundarySegments& region, const Cutter& cutt
   outside.count = 0;
   for (std::size_t g = 0; g < region.count; g += 8) {
     const bool both = g + 4 < region.count;
-    const Parts low = cut_four(region, g, cutter, cut, lines, twice_area[0]);
-    const Parts high = both ? cut_four(region, g + 4, cutter, cut, lines, twice_area[1]) : Parts{};
+    const InsideParts low = cut_four(region, g, cutter, cut, lines, twice_area[0]);
+    const InsideParts high =
+        both ? cut_four(region, g + 4, cutter, cut, lines, twice_area[1]) : InsideParts{};
     cut.inside |= static_cast<std::uint64_t>(low.inside | high.inside << 4) << g;
     append_before(region, g, low, cut, outside);
     if (both) {

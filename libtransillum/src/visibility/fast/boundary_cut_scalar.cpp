@@ -108,14 +108,14 @@ double store_inside(const ClippedSegment& segment, std::size_t k, const Cutter& 
 
 /// Which segments have a part inside the cutter, and where that starts or ends on one of its lines;
 /// one bit per segment.
-struct Parts {
+struct InsideParts {
   std::uint64_t inside = 0, starts = 0, ends = 0;
 };
 
 /// Appends the parts outside the cutter, in the order of the SIMD backends: of each eight segments,
 /// first the parts before their inside parts, or the whole segments, then the parts after them.
-void append_outside(const BoundarySegments& region, const Parts& parts, const BoundaryCut& cut,
-                    BoundarySegments& outside) {
+void append_outside(const BoundarySegments& region, const InsideParts& parts,
+                    const BoundaryCut& cut, BoundarySegments& outside) {
   for (std::size_t g = 0; g < region.count; g += 8) {
     const std::size_t end = std::min(g + 8, region.count);
     for (std::size_t k = g; k < end; ++k) {
@@ -138,7 +138,7 @@ bool cut_scalar(const BoundarySegments& region, const Cutter& cutter, BoundaryCu
   LineCrossings lines;
   reset(lines, cut, cutter.count);
   std::array<double, 8> twice_area{};
-  Parts parts;
+  InsideParts parts;
   for (std::size_t k = 0; k < region.count; ++k) {
     const std::uint64_t bit = std::uint64_t{1} << k;
     ClippedSegment segment{region.ax[k], region.ay[k], region.bx[k], region.by[k]};

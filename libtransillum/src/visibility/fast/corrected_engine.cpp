@@ -25,7 +25,7 @@
 namespace transillum {
 namespace {
 
-/// A fragment with a smaller share of its area open is treated as hidden.
+/// A fragment with a smaller fraction of its area open is treated as hidden.
 constexpr double hidden = 1e-6;
 
 /// Data that all passes share.
@@ -163,9 +163,9 @@ class CorrectedPass {
     if (!(rest > 0) || open_ <= negligible) {
       return;
     }
-    const double share = std::min(1.0, open_ / rest);
+    const double fraction = std::min(1.0, open_ / rest);
     for (Candidate& candidate : candidates_) {
-      transfer(candidate, share * (candidate.overlap - candidate.seen));
+      transfer(candidate, fraction * (candidate.overlap - candidate.seen));
     }
   }
 
@@ -175,14 +175,14 @@ class CorrectedPass {
     open_ -= seen;
   }
 
-  /// The open area of an overlap, from both fragments' open areas: the overlap times the open share
-  /// of the smaller fragment, within the bounds that both impose.
+  /// The open area of an overlap, from both fragments' open areas: the overlap times the open
+  /// fraction of the smaller fragment, within the bounds that both impose.
   static double corrected(double overlap, double area, double open, double other_area,
                           double other_open) {
-    const double share = area < other_area ? open / area : other_open / other_area;
+    const double fraction = area < other_area ? open / area : other_open / other_area;
     const double least =
         std::max({0.0, overlap - (area - open), overlap - (other_area - other_open)});
-    return std::min({std::max(overlap * share, least), overlap, open, other_open});
+    return std::min({std::max(overlap * fraction, least), overlap, open, other_open});
   }
 
   const CorrectedScene& shared_;
@@ -247,8 +247,8 @@ CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
   map.frame = record.frame;
   const std::vector<double> exact = open_in_map(record, step);
   const std::vector<std::int32_t> steps = steps_of(shared.outlines, record);
-  std::vector<std::size_t> part_of_step(record.order.size(), exact.size());
-  std::vector<std::pair<std::int32_t, std::size_t>> parts;  // (fragment, its part in the map)
+  std::vector<std::size_t> place_of_step(record.order.size(), exact.size());
+  std::vector<std::pair<std::int32_t, std::size_t>> fragments;  // (fragment, its part in the map)
   for (std::int32_t f = 0; f < pass.fragment_count(); ++f) {
     if (f % 64 == 0) {
       cancellation.throw_if_canceled();
@@ -259,34 +259,34 @@ CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
       break;
     }
     pass.query(f);
-    std::size_t& part = at(part_of_step, own_step);
-    if (part == exact.size()) {
-      part = map.parts.size();
+    std::size_t& place = at(place_of_step, own_step);
+    if (place == exact.size()) {
+      place = map.fragments.size();
       const auto begin = static_cast<std::uint32_t>(map.corners.size());
       const FragmentId in_tree = at(record.order, own_step);
       for (const BspTree::Corner& corner : tree->corners(tree->fragment(in_tree))) {
         map.corners.push_back(map.frame.project(at(tree->points(), corner.point)));
       }
-      map.parts.push_back({fragment.patch, fragment.front, 0, 0, at(exact, own_step), begin,
-                           static_cast<std::uint32_t>(map.corners.size())});
+      map.fragments.push_back({fragment.patch, fragment.front, 0, 0, at(exact, own_step), begin,
+                               static_cast<std::uint32_t>(map.corners.size())});
     }
-    map.parts[part].area += pass.area_unit() * fragment.area;
-    parts.emplace_back(f, part);
+    map.fragments[place].area += pass.area_unit() * fragment.area;
+    fragments.emplace_back(f, place);
   }
-  for (const auto& [f, part] : parts) {
-    map.parts[part].open += pass.area_unit() * pass.open_below(f);
+  for (const auto& [f, place] : fragments) {
+    map.fragments[place].open += pass.area_unit() * pass.open_below(f);
   }
   return map;
 }
 
 double CorrectedMap::wrong_share() const {
   double wrong = 0, all = 0;
-  for (const Part& part : parts) {
-    if (part.front_facing) {
+  for (const Fragment& place : fragments) {
+    if (place.front_facing) {
       continue;
     }
-    wrong += std::abs(part.open - part.exact);
-    all += std::max(part.open, 0.0) + part.exact;
+    wrong += std::abs(place.open - place.exact);
+    all += std::max(place.open, 0.0) + place.exact;
   }
   return all > 0 ? wrong / all : 0;
 }

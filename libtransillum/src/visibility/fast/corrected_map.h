@@ -14,7 +14,7 @@ namespace transillum {
 /// part of its area that the engine takes as visible from below.
 struct CorrectedMap {
   /// A projected fragment.
-  struct Part {
+  struct Fragment {
     PatchId patch;        ///< patch of the fragment
     bool front_facing;    ///< the fragment receives; its back is visible, and `open` is not used
     double area;          ///< area of its projection, m², > 0
@@ -24,13 +24,13 @@ struct CorrectedMap {
     std::uint32_t end;    ///< one past the last index
   };
 
-  PlaneFrame frame;           ///< frame of the direction
-  std::vector<Part> parts;    ///< in the order of the steps: farthest along omega first
-  std::vector<Vec2> corners;  ///< corners of all parts
+  PlaneFrame frame;                 ///< frame of the direction
+  std::vector<Fragment> fragments;  ///< in the order of the steps: farthest along omega first
+  std::vector<Vec2> corners;        ///< corners of all parts
 
   /// Corners of a part.
-  std::span<const Vec2> outline(const Part& part) const {
-    return {corners.data() + part.begin, part.end - part.begin};
+  std::span<const Vec2> outline(const Fragment& fragment) const {
+    return {corners.data() + fragment.begin, fragment.end - fragment.begin};
   }
   /// Sum of |open - exact| over the sum of both, over the emitting parts: 0 if the engine is exact.
   double wrong_share() const;

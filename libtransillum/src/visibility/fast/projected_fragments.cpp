@@ -20,8 +20,8 @@ namespace {
 constexpr double min_width = 2;
 constexpr int max_offset = 16;  ///< distance of a corner beyond the line of another corner's edge
 
-/// Share of the squared diagonal of an outline: an outline with less area is a needle.
-constexpr double needle_share = 0x1p-11;
+/// Fraction of the squared diagonal of an outline: an outline with less area is a needle.
+constexpr double needle_fraction = 0x1p-11;
 
 /// Whether two lines through a rounded corner may meet far away from it.
 bool are_nearly_parallel(const GridLine& p, const GridLine& q) {
@@ -365,10 +365,10 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
   const double area = 0.5 * std::abs(twice_area);
   // The box of a small fragment far from the grid's center is mostly rounding.
   double size = squared_diagonal_of(box);
-  if (area < needle_share * size) {
+  if (area < needle_fraction * size) {
     size = squared_diagonal_of(first, count);
   }
-  const double largest_needle = needle_share * size;
+  const double largest_needle = needle_fraction * size;
   const double thinnest = min_width * std::sqrt(size);
   // Outlines thinner than the grid units that corners are rounded to are treated as seen edge-on.
   if (area < thinnest) {

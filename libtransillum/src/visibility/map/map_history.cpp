@@ -28,7 +28,7 @@ std::size_t bytes_of(const std::vector<T>& list) {
 
 }  // namespace
 
-double MapHistory::Step::open_share() const {
+double MapHistory::Step::open_fraction() const {
   return area > 0 ? std::abs(area - covered) / area : 0;
 }
 

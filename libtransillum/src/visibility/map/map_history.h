@@ -20,7 +20,7 @@ class MapHistory {
   /// No step.
   static constexpr std::int32_t none = -1;
 
-  /// Figures of one step, which processes one polygon.
+  /// Values of one step, which processes one polygon.
   struct Step {
     PatchId patch = no_patch;              ///< patch of the polygon
     std::int32_t row = MapRecord::no_row;  ///< the polygon's row; no_row if it is edge-on
@@ -35,7 +35,7 @@ class MapHistory {
 
     /// |area - covered| / area: the open part of the polygon, which for a receiver is the closure
     /// defect; 0 up to rounding in a closed scene.
-    double open_share() const;
+    double open_fraction() const;
   };
 
   /// An empty history, of no steps.
@@ -47,7 +47,7 @@ class MapHistory {
   const MapRecord& record() const { return record_; }
   /// MapRecord::step_count().
   std::int32_t step_count() const { return record_.step_count(); }
-  /// Figures of step k.
+  /// Values of step k.
   const Step& step(std::int32_t k) const { return at(steps_, k); }
   /// Row r of the record.
   const MapRecord::Row& row(std::int32_t r) const { return at(record_.rows, r); }

@@ -28,7 +28,7 @@ using Point = PlaneRegion::Point;
 using Polygon = std::vector<Point>;
 
 constexpr std::size_t max_parts = 2000;
-/// Lengths below this share of the polygon's are rounding errors.
+/// Lengths below this fraction of the polygon's are rounding errors.
 constexpr double rounding = 1e-9;
 
 double area_of(const Polygon& polygon) {

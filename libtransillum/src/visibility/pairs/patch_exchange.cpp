@@ -53,6 +53,31 @@ void for_points_of(Outline polygon, int divisions, Visit&& visit) {
   }
 }
 
+/// Divisions of a cell from which its moments are computed: half of them still have three points,
+/// whose rule is exact for products of two linear functions.
+constexpr int fewest_for_moments = 2;
+
+/// Adds the moments of an exchange of `area`: the points say where on the receiver it is.
+/// @param half with half the points in a row
+void add_moments_of(double area, const PointSums& sums, const PointSums& half,
+                    PatchExchange& exchange) {
+  for (std::size_t a = 0; a < 2; ++a) {
+    const auto moment_of = [&](const PointSums& found) {
+      return found.seen > 0 ? area * found.moments[a] / found.seen : 0.0;
+    };
+    const double moment = moment_of(sums);
+    exchange.moments[a] += moment;
+    exchange.moment_errors[a] += (moment - moment_of(half)) / 3;
+  }
+}
+
+void add_moments_of(const RefinedCells::Exchange& found, PatchExchange& exchange) {
+  for (std::size_t a = 0; a < 2; ++a) {
+    exchange.moments[a] += found.moments[a];
+    exchange.moment_errors[a] += found.moment_errors[a];
+  }
+}
+
 Bounds bounds_of(Outline polygon) {
   Bounds box;
   for (const Vec3& corner : polygon) {
@@ -79,25 +104,25 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
       first_sides_(first_sides(scene)),
       blockers_(blockers_of(scene)),
       tree_(boxes_of(blockers_)),
-      part_begin_(static_cast<std::size_t>(scene.patch_count()) + 1) {
+      open_begin_(static_cast<std::size_t>(scene.patch_count()) + 1) {
   std::vector<Bounds> boxes;
   for (const Piece& piece : scene.pieces()) {
     boxes.push_back(bounds_of(corners_of(piece)));
   }
   const BoxTree pieces(boxes);
-  std::vector<std::vector<Part>> parts(static_cast<std::size_t>(scene.patch_count()));
+  std::vector<std::vector<OpenPiece>> by_patch(static_cast<std::size_t>(scene.patch_count()));
   for (std::size_t k = 0; k < scene.pieces().size(); ++k) {
     cancellation.throw_if_canceled();
-    auto& of_patch = at(parts, scene.pieces()[k].patch);
+    auto& of_patch = at(by_patch, scene.pieces()[k].patch);
     const double bend = bend_of(corners_of(scene.pieces()[k]));
-    for (Corners& part : open_parts(k, pieces)) {
-      const HalfSpace front = lit_half_space(part);
-      of_patch.push_back({std::move(part), front, bend});
+    for (Corners& open : open_pieces(k, pieces)) {
+      const HalfSpace front = lit_half_space(open);
+      of_patch.push_back({std::move(open), front, bend});
     }
   }
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    std::move(parts[i].begin(), parts[i].end(), std::back_inserter(parts_));
-    part_begin_[i + 1] = parts_.size();
+  for (std::size_t i = 0; i < by_patch.size(); ++i) {
+    std::move(by_patch[i].begin(), by_patch[i].end(), std::back_inserter(open_pieces_));
+    open_begin_[i + 1] = open_pieces_.size();
   }
   for (MergedFace& face : merged_faces(scene)) {
     // The patches of both sides of a two-sided face alternate.
@@ -149,7 +174,7 @@ bool ExchangeFinder::covers(PatchId upper, PatchId lower) const {
   return cover_rank(scene_, upper) < cover_rank(scene_, lower);
 }
 
-std::vector<Corners> ExchangeFinder::open_parts(std::size_t piece, const BoxTree& pieces) const {
+std::vector<Corners> ExchangeFinder::open_pieces(std::size_t piece, const BoxTree& pieces) const {
   const Corners corners = corners_of(scene_.pieces()[piece]);
   const PatchId patch = scene_.pieces()[piece].patch;
   const HalfSpace front = lit_half_space(corners);
@@ -274,22 +299,66 @@ std::vector<Corners> ExchangeFinder::polygons_of(const Numbers& blockers) const 
   return polygons;
 }
 
-/// Adds the exchange of two polygons past blockers, by points of the smaller polygon.
-void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& blockers,
-                                 bool estimate, const std::function<void()>& tick,
-                                 PatchExchange& exchange) const {
-  const Sampled sampled(facing, tolerance_);
-  const std::vector<Corners> polygons = polygons_of(blockers);
-  PointView view(sampled.large, polygons), free_view(sampled.large, {});
-  const auto by_points = [&](Outline cell, int divisions) {
+/// Sums over points of the sampled polygon: what they see of the other, and where on the receiver.
+class ExchangeFinder::PointQuadrature {
+ public:
+  /// @param polygons blockers
+  PointQuadrature(const Sampled& sampled, const std::vector<Corners>& polygons, const Query& query,
+                  double scale)
+      : sampled_(sampled),
+        query_(query),
+        scale_(scale),
+        is_free_(polygons.empty()),
+        view_(sampled.large, polygons),
+        free_view_(sampled.large, {}) {}
+
+  PointSums operator()(Outline cell, int divisions) {
     PointSums sums;
     for_points_of(cell, divisions, [&](const Vec3& x, double weight) {
-      sums.seen += weight * view.form_factor(x, sampled.normal, tick);
-      sums.free += weight * free_view.form_factor(x, sampled.normal);
+      const double seen = weight * see(x, weight, sums.moments);
+      sums.seen += seen;
+      sums.free += is_free_ ? seen : weight * free_view_.form_factor(x, sampled_.normal);
     });
     return sums;
-  };
-  RefinedCells refined(facing, sampled.p_is_smaller, by_points);
+  }
+
+ private:
+  /// The form factor from x. Adds its moments times `weight`.
+  double see(const Vec3& x, double weight, std::array<double, 2>& moments) {
+    if (query_.receiver == nullptr) {
+      return view_.form_factor(x, sampled_.normal, query_.tick);
+    }
+    const LinearBasis& basis = *query_.receiver;
+    if (sampled_.p_is_smaller) {
+      const double one = view_.form_factor(x, sampled_.normal, query_.tick);
+      const std::array<double, 2> at_x = basis.at(x / scale_);
+      for (std::size_t a = 0; a < 2; ++a) {
+        moments[a] += weight * at_x[a] * one;
+      }
+      return one;
+    }
+    const PointView::Moments seen = view_.moments(x, sampled_.normal, query_.tick);
+    const std::array<double, 2> at_foot = basis.at(seen.foot / scale_);
+    for (std::size_t a = 0; a < 2; ++a) {
+      moments[a] += weight * (at_foot[a] * seen.one + dot(basis.gradient[a], seen.first) / scale_);
+    }
+    return seen.one;
+  }
+
+  const Sampled& sampled_;
+  const Query& query_;
+  double scale_;  ///< from meters
+  bool is_free_;  ///< no blockers
+  PointView view_, free_view_;
+};
+
+/// Adds the exchange of two polygons past blockers, by points of the smaller polygon.
+void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& blockers,
+                                 const Query& query, PatchExchange& exchange) const {
+  const Sampled sampled(facing, tolerance_);
+  const std::vector<Corners> polygons = polygons_of(blockers);
+  PointQuadrature by_points(sampled, polygons, query, scale_);
+  RefinedCells refined(facing, sampled.p_is_smaller, std::ref(by_points));
   for_each_cell(sampled, polygons, [&](const Corners& cell, double cell_size) {
     const int divisions = divisions_of(cell_size);
     const PointSums sums = by_points(cell, divisions);
@@ -297,16 +366,50 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
       const RefinedCells::Exchange found = refined(cell);
       exchange.area += found.area;
       exchange.error += found.error;
+      add_moments_of(found, exchange);
       return;
     }
     exchange.area += sums.seen;
-    if (estimate) {
-      // Half the distance between points leaves a quarter of the error, and takes three quarters
-      // away.
-      exchange.error += divisions == 0 ? cell_size * cell_size * sums.seen
-                                       : (sums.seen - by_points(cell, divisions / 2).seen) / 3;
+    if (!query.estimate) {
+      return;
+    }
+    // Half the distance between points leaves a quarter of the error, and takes three quarters
+    // away.
+    const PointSums half = divisions == 0 ? PointSums() : by_points(cell, divisions / 2);
+    exchange.error +=
+        divisions == 0 ? cell_size * cell_size * sums.seen : (sums.seen - half.seen) / 3;
+    if (query.receiver != nullptr) {
+      if (divisions < fewest_for_moments) {
+        add_moments_of(sums.seen, by_points(cell, fewest_for_moments),
+                       by_points(cell, fewest_for_moments / 2), exchange);
+      } else {
+        add_moments_of(sums.seen, sums, half, exchange);
+      }
     }
   });
+}
+
+/// Adds the exchange of two polygons with nothing between: in closed form, but for its moments.
+void ExchangeFinder::add_whole(const FacingPolygons& facing, const Query& query,
+                               PatchExchange& exchange) const {
+  bool integrated = false;
+  const double area = polygon_exchange(facing, &integrated);
+  exchange.area += area;
+  exchange.integrated = exchange.integrated || integrated;
+  if (query.receiver == nullptr) {
+    return;
+  }
+  // What the points see has no kinks: half as many in a row are enough.
+  const Sampled sampled(facing, tolerance_);
+  PointQuadrature by_points(sampled, {}, query, scale_);
+  const int divisions = std::max(divisions_of(sampled.size / 2), fewest_for_moments);
+  const PointSums sums = by_points(sampled.small, divisions);
+  RefinedCells refined(facing, sampled.p_is_smaller, std::ref(by_points), area);
+  if (refined.misses(sums.free, area)) {
+    add_moments_of(refined(sampled.small), exchange);
+    return;
+  }
+  add_moments_of(area, sums, by_points(sampled.small, divisions / 2), exchange);
 }
 
 /// Adds the moments of two polygons past blockers, by points of the smaller polygon.
@@ -352,8 +455,8 @@ template <class Visit>
 void ExchangeFinder::for_each_facing(PatchId i, PatchId j, const Numbers* among,
                                      Visit visit) const {
   Numbers blockers;
-  for (const Part& p : parts_of(i)) {
-    for (const Part& q : parts_of(j)) {
+  for (const OpenPiece& p : open_pieces_of(i)) {
+    for (const OpenPiece& q : open_pieces_of(j)) {
       const FacingPolygons facing(p.corners, p.front, q.corners, q.front,
                                   tolerance_ + p.bend + q.bend);
       if (!facing.empty()) {
@@ -365,29 +468,29 @@ void ExchangeFinder::for_each_facing(PatchId i, PatchId j, const Numbers* among,
   }
 }
 
-PatchExchange ExchangeFinder::between(PatchId i, PatchId j, const Numbers* among, bool estimate,
-                                      const std::function<void()>& tick) const {
+PatchExchange ExchangeFinder::between(PatchId i, PatchId j, const Numbers* among,
+                                      const Query& query) const {
   PatchExchange exchange;
   for_each_facing(i, j, among, [&](const FacingPolygons& facing, Numbers& blockers) {
     if (blockers.empty()) {
-      bool integrated = false;
-      exchange.area += polygon_exchange(facing, &integrated);
-      exchange.integrated = exchange.integrated || integrated;
+      add_whole(facing, query, exchange);
       return;
     }
     exchange.whole = false;
     if (!is_any_hiding(facing, blockers)) {
-      add_partial(facing, blockers, estimate, tick, exchange);
+      add_partial(facing, blockers, query, exchange);
     }
   });
-  exchange.area /= scale_ * scale_;
-  exchange.error /= scale_ * scale_;
+  for (double* value : {&exchange.area, &exchange.error, &exchange.moments[0], &exchange.moments[1],
+                        &exchange.moment_errors[0], &exchange.moment_errors[1]}) {
+    *value /= scale_ * scale_;
+  }
   return exchange;
 }
 
-PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j,
-                                         const std::function<void()>& tick) const {
-  return between(i, j, nullptr, true, tick);
+PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j, const std::function<void()>& tick,
+                                         const LinearBasis* receiver) const {
+  return between(i, j, nullptr, {true, tick, receiver});
 }
 
 TransferMoments ExchangeFinder::moments_between(PatchId i, PatchId j,
@@ -416,9 +519,9 @@ void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
       std::upper_bound(faces_.begin(), faces_.end(), next,
                        [](PatchId j, const MergedFace& f) { return j <= f.patches.back(); });
   // A patch in several parts may see a face by each of them.
-  for (; face != faces_.end() && parts_of(i).size() == 1; ++face) {
+  for (; face != faces_.end() && open_pieces_of(i).size() == 1; ++face) {
     visit(next, face->patches.front(), nullptr);
-    const Part& p = parts_of(i)[0];
+    const OpenPiece& p = open_pieces_of(i)[0];
     const FacingPolygons facing(p.corners, p.front, face->outline, lit_half_space(face->outline),
                                 tolerance_ + p.bend);
     if (!facing.empty()) {
@@ -442,7 +545,7 @@ void ExchangeFinder::for_each_after(
       if (tick) {
         tick();
       }
-      const PatchExchange exchange = between(i, j, among, false, tick);
+      const PatchExchange exchange = between(i, j, among, {false, tick, nullptr});
       if (exchange.area > 0) {
         TransferMoments moments =
             bases.empty() ? TransferMoments() : moments_between(i, j, bases, among, tick);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -22,6 +23,8 @@ struct PatchExchange {
   bool whole = true;        ///< nothing blocks any part of it: exact up to rounding
   double error = 0;         ///< estimate of the exact area less `area`, m²
   bool integrated = false;  ///< a whole part was integrated numerically (polygon_exchange())
+  /// T^10 and T^20 of receiver i, and estimates of their errors, m²; 0 unless they are requested.
+  std::array<double, 2> moments{}, moment_errors{};
 };
 
 /// Form factors of single pairs of patches, with blockers between them.
@@ -51,7 +54,10 @@ class ExchangeFinder {
 
   /// Past thousands of blockers, one pair takes minutes.
   /// @param tick if set, called often, on this thread; may throw to abandon the query.
-  PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {}) const;
+  /// @param receiver basis of i, whose moments are then computed too, by points of the smaller
+  /// patch, also where nothing blocks; null: no moments
+  PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {},
+                           const LinearBasis* receiver = nullptr) const;
   /// Calls visit(j, exchange, moments) for the patches j > i with which i exchanges light, in
   /// order. Faster than pair by pair: blockers are first found for all patches of a face, and no
   /// error is estimated. The moments are T^ab(i,j) over all directions, T^00 being the area. The
@@ -72,7 +78,7 @@ class ExchangeFinder {
 
  private:
   /// A convex part of a patch that coplanar patches do not cover.
-  struct Part {
+  struct OpenPiece {
     Corners corners;
     HalfSpace front;
     double bend;  ///< bend of the piece
@@ -91,21 +97,28 @@ class ExchangeFinder {
   };
   /// Blockers, by number.
   using Numbers = std::vector<std::int32_t>;
+  /// What is to be found of a pair.
+  struct Query {
+    bool estimate;                      ///< whether errors are estimated
+    const std::function<void()>& tick;  ///< may be empty
+    const LinearBasis* receiver;        ///< basis of the first patch; null: no moments
+  };
 
   double bend_beyond_rounding(double bend) const { return bend > tolerance_ ? bend : 0; }
   double bend_of(Outline corners) const;
   std::vector<Blocker> blockers_of(const Scene& scene) const;
   static std::vector<Bounds> boxes_of(const std::vector<Blocker>& blockers);
-  std::vector<Corners> open_parts(std::size_t piece, const BoxTree& pieces) const;
+  std::vector<Corners> open_pieces(std::size_t piece, const BoxTree& pieces) const;
   bool covers(PatchId upper, PatchId lower) const;
   Corners corners_of(const Piece& piece) const;
   void collect_blockers(const FacingPolygons& facing, const Sides& sides, const Numbers* among,
                         Numbers& blockers) const;
   bool is_any_hiding(const FacingPolygons& facing, const Numbers& blockers) const;
   bool is_hidden(const FacingPolygons& facing, const Corners& blocker) const;
-  void add_partial(const FacingPolygons& facing, const Numbers& blockers, bool estimate,
-                   const std::function<void()>& tick, PatchExchange& exchange) const;
-  void collect_blockers(const Vec3& x, Outline polygon, const Part& part, PatchId patch,
+  void add_partial(const FacingPolygons& facing, const Numbers& blockers, const Query& query,
+                   PatchExchange& exchange) const;
+  void add_whole(const FacingPolygons& facing, const Query& query, PatchExchange& exchange) const;
+  void collect_blockers(const Vec3& x, Outline polygon, const OpenPiece& open, PatchId patch,
                         Numbers& blockers) const;
   TransferMoments moments_between(PatchId i, PatchId j, const std::vector<LinearBasis>& bases,
                                   const Numbers* among, const std::function<void()>& tick) const;
@@ -113,6 +126,7 @@ class ExchangeFinder {
                    const LinearBasis& of_q, const std::function<void()>& tick,
                    TransferMoments& sum) const;
   struct Sampled;
+  class PointQuadrature;
   template <class Visit>
   void for_each_cell(const Sampled& sampled, const std::vector<Corners>& blockers,
                      Visit visit) const;
@@ -123,11 +137,10 @@ class ExchangeFinder {
   /// Calls visit(facing, blockers) for the parts of i and j that face each other.
   template <class Visit>
   void for_each_facing(PatchId i, PatchId j, const Numbers* among, Visit visit) const;
-  PatchExchange between(PatchId i, PatchId j, const Numbers* among, bool estimate,
-                        const std::function<void()>& tick) const;
-  std::span<const Part> parts_of(PatchId i) const {
+  PatchExchange between(PatchId i, PatchId j, const Numbers* among, const Query& query) const;
+  std::span<const OpenPiece> open_pieces_of(PatchId i) const {
     const auto k = static_cast<std::size_t>(i);
-    return {parts_.data() + part_begin_[k], part_begin_[k + 1] - part_begin_[k]};
+    return {open_pieces_.data() + open_begin_[k], open_begin_[k + 1] - open_begin_[k]};
   }
 
   const Scene& scene_;
@@ -137,8 +150,8 @@ class ExchangeFinder {
   std::vector<PatchId> first_sides_;
   std::vector<Blocker> blockers_;
   BoxTree tree_;  ///< tree of blockers_
-  std::vector<Part> parts_;
-  std::vector<std::size_t> part_begin_;
+  std::vector<OpenPiece> open_pieces_;
+  std::vector<std::size_t> open_begin_;
   std::vector<MergedFace> faces_;  ///< faces of consecutive patches
 };
 

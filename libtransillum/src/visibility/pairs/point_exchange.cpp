@@ -46,7 +46,7 @@ class Pyramid {
 /// Finds the blockers in the pyramid from x to a polygon, without those in whose plane x is, and
 /// those that do not reach in front of the polygon's plane, such as itself.
 /// @param polygon of `part`, which is of `patch`
-void ExchangeFinder::collect_blockers(const Vec3& x, Outline polygon, const Part& part,
+void ExchangeFinder::collect_blockers(const Vec3& x, Outline polygon, const OpenPiece& open,
                                       PatchId patch, Numbers& blockers) const {
   blockers.clear();
   const Pyramid pyramid(x, polygon);
@@ -56,7 +56,7 @@ void ExchangeFinder::collect_blockers(const Vec3& x, Outline polygon, const Part
                    const Corners& outline = blocker.outline;
                    const bool reaches_in =
                        std::any_of(outline.begin(), outline.end(), [&](const Vec3& c) {
-                         return part.front.distance(c) > tolerance_ + part.bend;
+                         return open.front.distance(c) > tolerance_ + open.bend;
                        });
                    if (!blocker.is_of(at(first_sides_, patch)) && reaches_in &&
                        std::abs(lit_half_space(outline).distance(x)) > tolerance_ + blocker.bend) {
@@ -71,15 +71,15 @@ double ExchangeFinder::from_point(const Vec3& x, const Vec3& normal, PatchId j,
   double sum = 0;
   Numbers numbers;
   std::vector<Corners> blockers;
-  for (const Part& part : parts_of(j)) {
-    if (part.front.distance(apex) <= tolerance_ + part.bend) {
+  for (const OpenPiece& open : open_pieces_of(j)) {
+    if (open.front.distance(apex) <= tolerance_ + open.bend) {
       continue;
     }
-    const Corners above = clipped(part.corners, {normal, dot(normal, apex)});
+    const Corners above = clipped(open.corners, {normal, dot(normal, apex)});
     if (above.size() < 3) {
       continue;
     }
-    collect_blockers(apex, above, part, j, numbers);
+    collect_blockers(apex, above, open, j, numbers);
     blockers.clear();
     for (const std::int32_t number : numbers) {
       blockers.push_back(at(blockers_, number).outline);

@@ -8,9 +8,13 @@
 namespace transillum {
 
 RefinedCells::RefinedCells(const FacingPolygons& facing, bool p_is_sampled, ByPoints by_points)
+    : RefinedCells(facing, p_is_sampled, std::move(by_points), polygon_exchange(facing)) {}
+
+RefinedCells::RefinedCells(const FacingPolygons& facing, bool p_is_sampled, ByPoints by_points,
+                           double whole)
     : facing_(facing),
       p_is_sampled_(p_is_sampled),
-      whole_(polygon_exchange(facing)),
+      whole_(whole),
       by_points_(std::move(by_points)) {}
 
 double RefinedCells::exact(Outline cell) {
@@ -18,9 +22,11 @@ double RefinedCells::exact(Outline cell) {
   return polygon_exchange(facing_);
 }
 
-bool RefinedCells::misses(Outline cell, double free) {
+bool RefinedCells::misses(Outline cell, double free) { return misses(free, exact(cell)); }
+
+bool RefinedCells::misses(double free, double exact) const {
   constexpr double tolerated = 0.01;
-  return std::abs(free - exact(cell)) > tolerated * whole_;
+  return std::abs(free - exact) > tolerated * whole_;
 }
 
 RefinedCells::Exchange RefinedCells::operator()(Outline cell) {
@@ -51,8 +57,17 @@ void RefinedCells::add(Outline triangle, int most_divisions, Exchange& sum) {
     return sums.free > 0 ? free * sums.seen / sums.free : 0.0;
   };
   const double area = area_of(found);
+  const PointSums half = by_points_(triangle, divisions / 2);
   sum.area += area;
-  sum.error += std::abs(area - area_of(by_points_(triangle, divisions / 2))) / 3;
+  sum.error += std::abs(area - area_of(half)) / 3;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const auto moment_of = [&](const PointSums& sums) {
+      return sums.free > 0 ? free * sums.moments[a] / sums.free : 0.0;
+    };
+    const double moment = moment_of(found);
+    sum.moments[a] += moment;
+    sum.moment_errors[a] += std::abs(moment - moment_of(half)) / 3;
+  }
 }
 
 }  // namespace transillum

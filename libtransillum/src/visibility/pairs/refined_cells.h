@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace transillum {
 /// they would see without them, m².
 struct PointSums {
   double seen = 0, free = 0;
+  std::array<double, 2> moments{};  ///< `seen` with phi_1 and phi_2 of a receiver as factors, m²
 };
 
 /// The exchange past blockers of cells near which the other polygon is so close that points, evenly
@@ -25,12 +27,17 @@ class RefinedCells {
 
   /// @param facing of which one is sampled
   RefinedCells(const FacingPolygons& facing, bool p_is_sampled, ByPoints by_points);
+  /// @param whole polygon_exchange() of `facing`
+  RefinedCells(const FacingPolygons& facing, bool p_is_sampled, ByPoints by_points, double whole);
 
   /// Whether points whose sum is `free` miss the exchange of a cell.
   bool misses(Outline cell, double free);
+  /// Whether they miss the known exchange `exact` of a cell.
+  bool misses(double free, double exact) const;
   /// The exchange of a cell, and an estimate of its error, m².
   struct Exchange {
     double area = 0, error = 0;
+    std::array<double, 2> moments{}, moment_errors{};  ///< PointSums::moments
   };
   Exchange operator()(Outline cell);
 

@@ -64,8 +64,7 @@ std::vector<FragmentId> in_newell_order(const PixelScene& view,
 }
 
 [[noreturn]] void fail_without_pixels(Engine engine) {
-  throw InputError(fmt::format("engine {} does not use pixels; only zbuffer, painter and rays do",
-                               name_of(engine)));
+  throw InputError(fmt::format("engine {} does not use pixels", name_of(engine)));
 }
 
 }  // namespace

@@ -73,14 +73,14 @@ class Painter {
                                                static_cast<std::size_t>(grid_.columns());
     while (begin < end) {
       const PatchId above = items[begin];
-      int run = begin;
-      while (run < end && items[run] == above) {
-        items[run++] = patch;
+      int span_end = begin;
+      while (span_end < end && items[span_end] == above) {
+        items[span_end++] = patch;
       }
       if (above != patch) {
-        sink_.record(row, begin, run, patch, above);
+        sink_.record(row, begin, span_end, patch, above);
       }
-      begin = run;
+      begin = span_end;
     }
   }
 

@@ -112,7 +112,7 @@ PixelMap pixel_map_after(const PixelEngine& engine, const Scene& scene, const Bs
 namespace {
 
 /// Rectangles of pixels that show the same patch: runs of a row, extended as long as the next row
-/// has the same run.
+/// has the same span.
 class Rectangles {
  public:
   Rectangles(const PixelMap& pixels, VisibilityMap& map, const Cancellation& cancellation)
@@ -122,10 +122,10 @@ class Rectangles {
   /// pixels that show `nothing` are omitted.
   template <class Of, class Add>
   void find(PatchId nothing, Of of, Add add) {
-    std::map<std::pair<int, PatchId>, Run> open;  // by first column and item
+    std::map<std::pair<int, PatchId>, Span> open;  // by first column and item
     for (int row = 0; row <= pixels_.rows; ++row) {
       cancellation_.throw_if_canceled();
-      std::map<std::pair<int, PatchId>, Run> grown;
+      std::map<std::pair<int, PatchId>, Span> grown;
       for (int begin = 0; row < pixels_.rows && begin < pixels_.columns;) {
         const PatchId item = of(pixels_.index(begin, row));
         int end = begin + 1;
@@ -142,15 +142,15 @@ class Rectangles {
         }
         begin = end;
       }
-      for (const auto& [key, run] : open) {
-        add(key.second, rectangle(key.first, run.end, run.row, row));
+      for (const auto& [key, span] : open) {
+        add(key.second, rectangle(key.first, span.end, span.row, row));
       }
       open.swap(grown);
     }
   }
 
  private:
-  struct Run {
+  struct Span {
     int end, row;  ///< end column; first row
   };
 

@@ -45,7 +45,7 @@ ProcessedFragments::ProcessedFragments(const Scene& scene, const BspTree& tree,
     : tree_(tree),
       frame_(frame),
       whole_(static_cast<std::size_t>(scene.patch_count())),
-      parts_(whole_.size()) {
+      outlines_(whole_.size()) {
   std::vector<std::size_t> missing(whole_.size(), 0);
   for (const BspTree::Fragment& fragment : tree.fragments()) {
     ++at(missing, fragment.patch);
@@ -59,29 +59,29 @@ ProcessedFragments::ProcessedFragments(const Scene& scene, const BspTree& tree,
   for (const FragmentId f : fragments) {
     const PatchId patch = tree.fragment(f).patch;
     if (!at(whole_, patch)) {
-      at(parts_, patch).push_back(part_of(f));
+      at(outlines_, patch).push_back(boxed_outline_of(f));
     }
   }
 }
 
-ProcessedFragments::Part ProcessedFragments::part_of(FragmentId f) const {
-  Part part{outline_of(tree_, f), {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-  for (const PointId p : part.outline) {
+ProcessedFragments::BoxedOutline ProcessedFragments::boxed_outline_of(FragmentId f) const {
+  BoxedOutline boxed{outline_of(tree_, f), {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+  for (const PointId p : boxed.outline) {
     const Vec2 place = frame_.project(at(tree_.points(), p));
-    part.low = {std::min(part.low.x, place.x), std::min(part.low.y, place.y)};
-    part.high = {std::max(part.high.x, place.x), std::max(part.high.y, place.y)};
+    boxed.low = {std::min(boxed.low.x, place.x), std::min(boxed.low.y, place.y)};
+    boxed.high = {std::max(boxed.high.x, place.x), std::max(boxed.high.y, place.y)};
   }
-  return part;
+  return boxed;
 }
 
 bool ProcessedFragments::covers(PatchId i, const Vec2& point) const {
   if (at(whole_, i)) {
     return true;
   }
-  const std::vector<Part>& parts = at(parts_, i);
-  return std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
-    return point.x >= part.low.x && point.x <= part.high.x && point.y >= part.low.y &&
-           point.y <= part.high.y && contains_point(part.outline, tree_.points(), frame_, point);
+  const std::vector<BoxedOutline>& outlines = at(outlines_, i);
+  return std::any_of(outlines.begin(), outlines.end(), [&](const BoxedOutline& boxed) {
+    return point.x >= boxed.low.x && point.x <= boxed.high.x && point.y >= boxed.low.y &&
+           point.y <= boxed.high.y && contains_point(boxed.outline, tree_.points(), frame_, point);
   });
 }
 

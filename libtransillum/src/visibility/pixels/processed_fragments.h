@@ -26,16 +26,16 @@ class ProcessedFragments {
   bool covers(PatchId i, const Vec2& point) const;
 
  private:
-  struct Part {
+  struct BoxedOutline {
     std::vector<PointId> outline;
     Vec2 low, high;  ///< bounding box
   };
-  Part part_of(FragmentId f) const;
+  BoxedOutline boxed_outline_of(FragmentId f) const;
 
   const BspTree& tree_;
   PlaneFrame frame_;
-  std::vector<bool> whole_;               ///< per patch: all of its fragments are included
-  std::vector<std::vector<Part>> parts_;  ///< per patch of which some are missing
+  std::vector<bool> whole_;  ///< per patch: all of its fragments are included
+  std::vector<std::vector<BoxedOutline>> outlines_;  ///< per patch of which some are missing
 };
 
 /// Finds the piece of a scene that a fragment of its tree was cut from.

@@ -26,7 +26,7 @@ namespace transillum {
 namespace {
 
 constexpr std::size_t packet_size = 16;
-/// Hits nearer to each other than this share of the scene's radius may be one common edge hit
+/// Hits nearer to each other than this fraction of the scene's radius may be one common edge hit
 /// twice.
 constexpr double edge_distance = 1e-5;
 

@@ -167,26 +167,26 @@ class ZBuffer {
     for (int column = begin; column < end; ++column) {
       Sample* const list_end = samples_.data() + at(list_end_, column - begin);
       Sample* const lowest = heights_.sort(list, list_end);
-      if (!std::equal(list, lowest, run_.begin(), run_.end(),
+      if (!std::equal(list, lowest, span_.begin(), span_.end(),
                       [](const Sample& sample, PatchId patch) { return sample.patch == patch; })) {
-        record_run(row, column);
-        run_.clear();
+        record_span(row, column);
+        span_.clear();
         for (const Sample* sample = list; sample < lowest; ++sample) {
-          run_.push_back(sample->patch);
+          span_.push_back(sample->patch);
         }
-        run_begin_ = column;
+        span_begin_ = column;
       }
       list = list_end;
     }
-    record_run(row, end);
-    run_.clear();
+    record_span(row, end);
+    span_.clear();
   }
 
   /// Records a run of neighboring pixels with the same list at once.
-  void record_run(int row, int end) {
+  void record_span(int row, int end) {
     PatchId above = no_patch;
-    for (const PatchId patch : run_) {
-      sink_.record(row, run_begin_, end, patch, above);
+    for (const PatchId patch : span_) {
+      sink_.record(row, span_begin_, end, patch, above);
       above = patch;
     }
   }
@@ -202,8 +202,8 @@ class ZBuffer {
   std::vector<std::int64_t> depth_;    ///< number of patches over each pixel of the current row
   std::vector<Sample> samples_;        ///< samples of a part of a row, pixel by pixel
   std::vector<std::size_t> list_end_;  ///< in samples_, by pixel
-  std::vector<PatchId> run_;           ///< the list of the pixels from run_begin_
-  int run_begin_ = 0;
+  std::vector<PatchId> span_;          ///< the list of the pixels from span_begin_
+  int span_begin_ = 0;
 };
 
 }  // namespace

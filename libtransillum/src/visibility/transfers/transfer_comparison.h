@@ -19,7 +19,7 @@ struct PairDifference {
 struct TransferComparison {
   double exchanged = 0;        ///< m², sum over all pairs of the first
   double other_exchanged = 0;  ///< m², sum over all pairs of the other
-  /// Half the sum of all pairs' absolute differences, over `exchanged`: the share that the other
+  /// Half the sum of all pairs' absolute differences, over `exchanged`: the fraction that the other
   /// engine assigns to the wrong patches or misses.
   double misplaced = 0;
   /// Per patch: sum of the absolute differences of all pairs in which it is the receiver or the

@@ -28,11 +28,11 @@ namespace {
 /// no grazing angle.
 double moment_defect(const std::vector<Coverage>& coverages,
                      const std::vector<CoverageMoments>& moments, const Scene& scene,
-                     double grazing_share) {
+                     double grazing_fraction) {
   double largest = 0;
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const double projected = coverages[i].projected;
-    if (projected < grazing_share * scene.patches()[i].area || projected == 0) {
+    if (projected < grazing_fraction * scene.patches()[i].area || projected == 0) {
       continue;
     }
     for (std::size_t a = 0; a < 2; ++a) {
@@ -46,8 +46,8 @@ double moment_defect(const std::vector<Coverage>& coverages,
 }  // namespace
 
 ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene) {
-  // Below this share of its area a patch is treated as grazing (ALGORITHM.md, oracle 1).
-  constexpr double grazing_share = 1e-6;
+  // Below this fraction of its area a patch is treated as grazing (ALGORITHM.md, oracle 1).
+  constexpr double grazing_fraction = 1e-6;
   ClosureDefect defect;
   for (const auto* side : {&transfers.forward, &transfers.backward}) {
     for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -57,7 +57,7 @@ ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene) {
       }
       const double open = std::abs(coverage.projected - coverage.covered);
       const double area = scene.patch(i).area;
-      if (coverage.projected < grazing_share * area) {
+      if (coverage.projected < grazing_fraction * area) {
         defect.grazing = std::max(defect.grazing, open / area);
       } else if (open / coverage.projected > defect.relative) {
         defect.relative = open / coverage.projected;
@@ -65,9 +65,9 @@ ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene) {
       }
     }
   }
-  defect.moments =
-      std::max(moment_defect(transfers.forward, transfers.forward_moments, scene, grazing_share),
-               moment_defect(transfers.backward, transfers.backward_moments, scene, grazing_share));
+  defect.moments = std::max(
+      moment_defect(transfers.forward, transfers.forward_moments, scene, grazing_fraction),
+      moment_defect(transfers.backward, transfers.backward_moments, scene, grazing_fraction));
   return defect;
 }
 

@@ -63,7 +63,7 @@ TextureWrap wrap_of(int mode) {
 }
 
 /// Share that non-metals reflect at their surface, without its entering (glTF 2.0, appendix B).
-constexpr double dielectric_share = 0.04;
+constexpr double dielectric_fraction = 0.04;
 /// A smoother surface is a mirror, which no set of directions resolves.
 constexpr double least_roughness = 0.01;
 
@@ -84,7 +84,7 @@ SurfaceColors operator*(double factor, const SurfaceColors& colors) {
 
 Lobe SurfaceColors::ggx() const {
   constexpr double nearly = 1 - 1e-9;  // means of textures are rounded
-  if (roughness >= nearly && max_abs(lobe) <= dielectric_share) {
+  if (roughness >= nearly && max_abs(lobe) <= dielectric_fraction) {
     return {};
   }
   Lobe lobe_of{.reflectance = lobe, .shape = LobeShape::ggx};
@@ -256,7 +256,7 @@ SurfaceColors GltfMaterials::colors(std::int32_t material) const {
 
 SurfaceColors GltfMaterials::colors_of(const Surface& surface, const Rgb& base, double metallic,
                                        double roughness, const Rgb& exitance) {
-  const double plain = dielectric_share * (1 - metallic);
+  const double plain = dielectric_fraction * (1 - metallic);
   const Rgb lobe = surface.specular.value_or(Rgb{plain, plain, plain} + metallic * base);
   return {(1 - metallic) * base,
           exitance,

@@ -494,7 +494,7 @@ std::vector<std::uint64_t> VtpFile::header(const Array& array, std::size_t count
   return numbers;
 }
 
-/// An array that is not packed is its size in bytes and these bytes, in one run of base64.
+/// An array that is not packed is its size in bytes and these bytes, in one sequence of base64.
 std::vector<unsigned char> VtpFile::decode(const Array& array, std::size_t expected,
                                            bool exactly) const {
   if (exactly && expected == 0) {
@@ -513,9 +513,9 @@ std::vector<unsigned char> VtpFile::decode(const Array& array, std::size_t expec
   return bytes;
 }
 
-/// A packed array is two runs. The first has numbers: the number of blocks, the size of a block
-/// when unpacked, that of the last block if it is smaller (else 0), and the packed size of each.
-/// The second has the packed blocks.
+/// A packed array is two sequences. The first has numbers: the number of blocks, the size of a
+/// block when unpacked, that of the last block if it is smaller (else 0), and the packed size of
+/// each. The second has the packed blocks.
 std::vector<unsigned char> VtpFile::unpack(const Array& array, std::size_t expected,
                                            bool exactly) const {
   const std::vector<std::uint64_t> first = header(array, 3);

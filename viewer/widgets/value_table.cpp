@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 #include <QEvent>
 #include <QHeaderView>
@@ -63,7 +63,7 @@ class SizeByFont : public QObject {
 
 }  // namespace
 
-void set_up_figure_table(QTableView& table, QStringList widest) {
+void set_up_value_table(QTableView& table, QStringList widest) {
   table.setFrameShape(QFrame::NoFrame);
   table.setShowGrid(false);
   table.setAlternatingRowColors(true);

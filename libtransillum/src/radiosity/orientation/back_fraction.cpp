@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t ray_count = 1U << 15, rays_in_block = 1024;
 /// Paths of light, and the surfaces that one meets at most.
 constexpr std::size_t path_count = 1U << 13, longest_path = 16, paths_in_block = 128;
-/// Share of the paths below which light meets nothing that counts.
+/// Fraction of the paths below which light meets nothing that counts.
 constexpr double nothing = 1e-3;
 
 /// Findings of a ray from a lit side.
@@ -66,7 +66,7 @@ class RaySampler {
   }
 
  private:
-  /// One sample in each of `count` equal shares of the patches' area.
+  /// One sample in each of `count` equal fractions of the patches' area.
   template <class Result, class Sample>
   std::vector<Result> sampled(const std::vector<PatchId>& patches, std::size_t count,
                               std::size_t block, std::size_t key, const Sample& sample) {
@@ -144,18 +144,18 @@ struct Count {
   std::int64_t seen = 0, backs = 0;
 };
 
-std::vector<BackCount> shares_of(const std::vector<Count>& counts,
-                                 const std::vector<std::string>& names, double all) {
-  std::vector<BackCount> shares;
+std::vector<BackCount> fractions_of(const std::vector<Count>& counts,
+                                    const std::vector<std::string>& names, double all) {
+  std::vector<BackCount> fractions;
   for (std::size_t k = 0; k < counts.size(); ++k) {
     if (counts[k].backs > 0) {
       const auto backs = static_cast<double>(counts[k].backs);
-      shares.push_back({names[k], backs / static_cast<double>(counts[k].seen), backs / all});
+      fractions.push_back({names[k], backs / static_cast<double>(counts[k].seen), backs / all});
     }
   }
-  std::stable_sort(shares.begin(), shares.end(),
+  std::stable_sort(fractions.begin(), fractions.end(),
                    [](const BackCount& a, const BackCount& b) { return a.of_all > b.of_all; });
-  return shares;
+  return fractions;
 }
 
 /// Sums over what light meets.
@@ -216,7 +216,7 @@ Light follow_light(const Scene& scene, const std::vector<PatchId>& all, RaySampl
 
 }  // namespace
 
-BackShare back_share(const Scene& scene, int threads, const Cancellation& cancellation) {
+BackFraction back_fraction(const Scene& scene, int threads, const Cancellation& cancellation) {
   RaySampler rays(scene, threads, cancellation);
   std::vector<PatchId> patches(scene.patches().size());
   std::iota(patches.begin(), patches.end(), PatchId{0});
@@ -225,11 +225,11 @@ BackShare back_share(const Scene& scene, int threads, const Cancellation& cancel
     open += side.open ? 1 : 0;
     dark += side.dark_inside ? 1 : 0;
   }
-  BackShare result;
+  BackFraction result;
   result.open = static_cast<double>(open) / double{ray_count};
   const auto [met, turned_away] = follow_light(scene, patches, rays);
   if (PathCounts::is_nothing(met.all.seen)) {
-    result.share = dark > std::int64_t{ray_count} / 2 ? 1 : 0;
+    result.fraction = dark > std::int64_t{ray_count} / 2 ? 1 : 0;
     return result;
   }
   std::vector<std::string> names;
@@ -237,9 +237,9 @@ BackShare back_share(const Scene& scene, int threads, const Cancellation& cancel
     names.push_back(material.name);
   }
   const auto all = static_cast<double>(met.all.seen);
-  result.share = turned_away ? 1 : static_cast<double>(met.all.backs) / all;
-  result.materials = shares_of(met.materials, names, all);
-  result.groups = shares_of(met.groups, scene.groups(), all);
+  result.fraction = turned_away ? 1 : static_cast<double>(met.all.backs) / all;
+  result.materials = fractions_of(met.materials, names, all);
+  result.groups = fractions_of(met.groups, scene.groups(), all);
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace transillum {
 /// of its field data array. Any may be missing from a file, for instance from an older version.
 /// @tparam Result Solution, or const Solution
 template <class Result, class Visit>
-void visit_figures(Result& solution, Visit visit) {
+void visit_values(Result& solution, Visit visit) {
   visit("complete", solution.complete);
   auto& s = solution.statistics;
   visit("fragments", s.fragments);

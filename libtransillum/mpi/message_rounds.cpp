@@ -1,12 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Protocol. A round is a range of consecutive passes; passes are dealt in rising order, at most
-// three rounds ahead of what is added. A rank enters the exchange of a round when it has made all
-// of the round's passes dealt to it and knows that it will get no more of them (floor). An exchange
-// is one Ialltoall of sizes and one Ialltoallv of messages. A rank that cannot continue asks rank 0
-// to deal no more and enters its next exchange with the size -1, and so does everyone who then
-// finds that nothing more is dealt; after such an exchange all leave and agree on the reason.
-#include "pass_rounds.h"
+// Protocol. A message round is a range of consecutive passes; passes are dealt in rising order, at
+// most three rounds ahead of what is added. A rank enters the exchange of a round when it has made
+// all of the round's passes dealt to it and knows that it will get no more of them (floor). An
+// exchange is one Ialltoall of sizes and one Ialltoallv of messages. A rank that cannot continue
+// asks rank 0 to deal no more and enters its next exchange with the size -1, and so does everyone
+// who then finds that nothing more is dealt; after such an exchange all leave and agree on the
+// reason.
+#include "message_rounds.h"
 
 #include <algorithm>
 #include <climits>
@@ -30,8 +31,8 @@ static_assert(sizeof(MessageHead) == unit_bytes);
 
 }  // namespace
 
-PassRounds::PassRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit,
-                       const GroupPasses& passes)
+MessageRounds::MessageRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit,
+                             const GroupPasses& passes)
     : comm_(exchange),
       unit_(unit),
       passes_(passes),
@@ -55,14 +56,14 @@ PassRounds::PassRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit,
   }
 }
 
-int PassRounds::end_of_round() const { return std::min(passes_.last, added_ + round_); }
+int MessageRounds::end_of_round() const { return std::min(passes_.last, added_ + round_); }
 
-void PassRounds::leave_for(Reason reason) {
+void MessageRounds::leave_for(Reason reason) {
   reason_ = std::max(reason_, reason);
   makers_.stop();
 }
 
-bool PassRounds::run() {
+bool MessageRounds::run() {
   while (added_ < passes_.last && !over_) {
     if (makers_.failed()) {
       leave_for(passes_.cancellation.canceled() ? canceled : failed);
@@ -95,7 +96,7 @@ bool PassRounds::run() {
 }
 
 /// Asks for passes where few are waiting, and takes them. Returns whether anything happened.
-bool PassRounds::deal_in() {
+bool MessageRounds::deal_in() {
   if (const auto block = dealer_.answer()) {
     floor_ = block->floor;
     if (block->stopped) {
@@ -127,12 +128,12 @@ bool PassRounds::deal_in() {
 }
 
 /// Whether this rank can enter the exchange of the round.
-bool PassRounds::is_ready() const {
+bool MessageRounds::is_ready() const {
   return (reason_ != going && stop_known_) ||
          (floor_ >= end_of_round() && makers_.made_below(end_of_round()));
 }
 
-bool PassRounds::advance_exchange() {
+bool MessageRounds::advance_exchange() {
   if (exchange_ == Exchange::none) {
     if (!is_ready()) {
       return false;
@@ -154,7 +155,7 @@ bool PassRounds::advance_exchange() {
   return true;
 }
 
-void PassRounds::begin_counts() {
+void MessageRounds::begin_counts() {
   exchange_ = Exchange::counts;
   std::fill(send_counts_.begin(), send_counts_.end(), reason_ == going ? 0 : -1);
   send_.clear();
@@ -186,7 +187,7 @@ void PassRounds::begin_counts() {
                 &request_);
 }
 
-void PassRounds::begin_messages() {
+void MessageRounds::begin_messages() {
   if (std::any_of(receive_counts_.begin(), receive_counts_.end(),
                   [](std::int64_t count) { return count < 0; })) {
     exchange_ = Exchange::none;
@@ -214,7 +215,7 @@ void PassRounds::begin_messages() {
                  receive_sizes_.data(), receive_begin_.data(), unit_, comm_, &request_);
 }
 
-void PassRounds::add_round() {
+void MessageRounds::add_round() {
   std::map<int, std::span<const std::byte>> messages;
   for (const auto& [k, of_a_pass] : own_) {
     messages[k] = of_a_pass.to(rank_);
@@ -233,14 +234,14 @@ void PassRounds::add_round() {
   }
   added_ = end;
   own_.clear();
-  if (!passes_.after_round()) {
+  if (!passes_.after_message_round()) {
     leave_for(paused);
     over_ = true;
   }
 }
 
 /// Waits until all ranks have left, and until rank 0 has answered all requests.
-int PassRounds::agreed_reason() {
+int MessageRounds::agreed_reason() {
   const auto wait_for_answer = [this] {
     while (dealer_.asked()) {
       dealer_.serve(limit());

@@ -17,14 +17,14 @@
 
 namespace transillum::mpi {
 
-/// The passes of one PatchSums::run(). They are added in rounds of consecutive passes: when every
-/// rank has made its part of a round, all exchange what they need of it, while their threads
+/// The passes of one PatchSums::run(). They are added in message rounds of consecutive passes: when
+/// every rank has made its part of a round, all exchange what they need of it, while their threads
 /// continue with the next one.
-class PassRounds {
+class MessageRounds {
  public:
   /// @param exchange, dealing communicators for this purpose only
   /// @param unit MPI's type of 16 bytes
-  PassRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit, const GroupPasses& passes);
+  MessageRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit, const GroupPasses& passes);
 
   /// The same as PatchSums::run().
   bool run();
@@ -43,7 +43,7 @@ class PassRounds {
 
   int end_of_round() const;
   /// Passes from here on are not dealt yet.
-  int limit() const { return added_ + rounds_ahead * round_; }
+  int limit() const { return added_ + message_rounds_ahead * round_; }
   bool deal_in();
   bool advance_exchange();
   bool is_ready() const;

@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include "colors/color_choice.h"
+#include "radiosity/analysis/result_comparison.h"
 #include "state/selection.h"
 
 class QAction;
@@ -18,13 +19,13 @@ namespace transillum::viewer {
 
 /// The list of kept runs, to name and remove them; the choice of two to compare, and their
 /// difference.
-class RunPanel : public QWidget {
+class KeptRunPanel : public QWidget {
   Q_OBJECT
 
  public:
   /// @param keep, difference  actions of the menu, also buttons here
-  RunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAction& difference,
-           QWidget* parent = nullptr);
+  KeptRunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAction& difference,
+               QWidget* parent = nullptr);
 
  signals:
   /// The patch of the largest difference has been selected.
@@ -34,20 +35,22 @@ class RunPanel : public QWidget {
   void make_table();
   QLayout* make_buttons(QAction& keep, QAction& difference);
   QLayout* make_choices();
-  QLayout* make_figures();
+  QLayout* make_values();
   void show_list();
   void show_choices();
   void show_difference();
+  void show_comparison(const ResultComparison& comparison);
   void show_hint();
   void rename(const QTableWidgetItem& item);
   void remove_current();
   void go_to_worst();
+  void showEvent(QShowEvent* event) override;
 
   ColorChoice& colors_;
   KeptRuns& runs_;
   Selection& selection_;
   QTableWidget* table_;
-  QLabel *hint_, *figures_;
+  QLabel *hint_, *values_;
   QComboBox *first_, *second_;
   QToolButton *remove_, *go_;
   PatchId worst_ = no_patch;

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Figures of lessons, from solves and recorded maps of the page's scene. The map of a direction
+// Values of lessons, from solves and recorded maps of the page's scene. The map of a direction
 // holds, for each step, the polygons directly above its fragment: the inside list.
-#include "lessons/figure_values.h"
+#include "lessons/computed_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,8 @@
 
 namespace transillum::viewer {
 
-/// A solve. It is finished, and has form factors, only where a figure needs them.
-struct FigureValues::Run {
+/// A solve. It is finished, and has form factors, only where a value needs them.
+struct ComputedValues::Run {
   SolveOptions options;
   RadiositySolver solver;
   FormFactors form_factors = {};
@@ -34,7 +34,7 @@ struct FigureValues::Run {
 };
 
 /// A solve of the scene with other patches.
-struct FigureValues::Divided {
+struct ComputedValues::Divided {
   double patch_area;
   SolveOptions options;
   Solution solution;
@@ -56,12 +56,12 @@ ErrorEstimate estimate_of(const RadiositySolver& solver) {
 
 }  // namespace
 
-FigureValues::FigureValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation)
+ComputedValues::ComputedValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation)
     : loaded_(std::move(loaded)), cancellation_(std::move(cancellation)) {}
 
-FigureValues::~FigureValues() = default;
+ComputedValues::~ComputedValues() = default;
 
-void FigureValues::check_patch(PatchId patch) const {
+void ComputedValues::check_patch(PatchId patch) const {
   const PatchId patches = loaded_->scene->patch_count();
   if (patch < 0 || patch >= patches) {
     throw InputError("there is no patch " + std::to_string(patch) + "; the scene has 0 to " +
@@ -69,7 +69,7 @@ void FigureValues::check_patch(PatchId patch) const {
   }
 }
 
-FigureValues::Run& FigureValues::run_of(const SolveOptions& options) {
+ComputedValues::Run& ComputedValues::run_of(const SolveOptions& options) {
   const auto known = std::find_if(runs_.begin(), runs_.end(),
                                   [&](const auto& run) { return run->options == options; });
   if (known != runs_.end()) {
@@ -81,7 +81,7 @@ FigureValues::Run& FigureValues::run_of(const SolveOptions& options) {
   return *runs_.emplace_back(std::move(run));
 }
 
-const RadiositySolver& FigureValues::solved(const SolveOptions& options) {
+const RadiositySolver& ComputedValues::solved(const SolveOptions& options) {
   Run& run = run_of(options);
   if (!run.solver.progress().finished) {
     run.solver.advance(RadiositySolver::Until::finished);
@@ -89,8 +89,8 @@ const RadiositySolver& FigureValues::solved(const SolveOptions& options) {
   return run.solver;
 }
 
-const Solution* FigureValues::solved_with_lobes(const SolveOptions& options,
-                                                const std::vector<MaterialChange>& changes) {
+const Solution* ComputedValues::solved_with_lobes(const SolveOptions& options,
+                                                  const std::vector<MaterialChange>& changes) {
   if (!options.glossy || !has_lobes(*loaded_->scene)) {
     return nullptr;
   }
@@ -115,30 +115,30 @@ const Solution* FigureValues::solved_with_lobes(const SolveOptions& options,
   return &known.back().second;
 }
 
-Rgb FigureValues::light_of(const Figure& figure) {
-  const Solution* glossy = solved_with_lobes(figure.solve, figure.changes);
-  const PatchId patch = figure.patch;
-  if (figure.kind == FigureKind::irradiance) {
-    return at(glossy ? glossy->irradiance : solved(figure.solve).irradiance(), patch);
+Rgb ComputedValues::light_of(const LessonValue& wanted) {
+  const Solution* glossy = solved_with_lobes(wanted.solve, wanted.changes);
+  const PatchId patch = wanted.patch;
+  if (wanted.kind == LessonValueKind::irradiance) {
+    return at(glossy ? glossy->irradiance : solved(wanted.solve).irradiance(), patch);
   }
-  if (figure.kind == FigureKind::radiosity) {
-    return at(glossy ? glossy->radiosity : solved(figure.solve).radiosity(), patch);
+  if (wanted.kind == LessonValueKind::radiosity) {
+    return at(glossy ? glossy->radiosity : solved(wanted.solve).radiosity(), patch);
   }
   if (glossy) {
-    const Vec3 to_eye = figure.eye - loaded_->scene->patch(patch).center;
+    const Vec3 to_eye = wanted.eye - loaded_->scene->patch(patch).center;
     return glossy->glossy->radiance(patch, normalized(to_eye));
   }
-  return std::numbers::inv_pi * at(solved(figure.solve).radiosity(), patch);
+  return std::numbers::inv_pi * at(solved(wanted.solve).radiosity(), patch);
 }
 
-const MapHistory& FigureValues::history_of(const Figure& figure) {
-  const RadiositySolver& solver = run_of(figure.solve).solver;
+const MapHistory& ComputedValues::history_of(const LessonValue& wanted) {
+  const RadiositySolver& solver = run_of(wanted.solve).solver;
   const int passes = solver.progress().passes;
-  if (figure.direction >= passes) {
-    throw InputError("there is no direction " + std::to_string(figure.direction + 1) +
+  if (wanted.direction >= passes) {
+    throw InputError("there is no direction " + std::to_string(wanted.direction + 1) +
                      "; the run has 1 to " + std::to_string(passes));
   }
-  const Vec3 omega = solver.direction(figure.iteration, figure.direction);
+  const Vec3 omega = solver.direction(wanted.iteration, wanted.direction);
   for (const auto& [known, history] : histories_) {
     if (known.x == omega.x && known.y == omega.y && known.z == omega.z) {
       return history;
@@ -152,19 +152,19 @@ const MapHistory& FigureValues::history_of(const Figure& figure) {
       .second;
 }
 
-const std::vector<Rgb>& FigureValues::reference_of(const Figure& figure) {
-  auto& reference = references_[figure.reference];
+const std::vector<Rgb>& ComputedValues::reference_of(const LessonValue& wanted) {
+  auto& reference = references_[wanted.reference];
   if (reference.empty()) {
-    SolveOptions options = reference_options(figure.reference);
+    SolveOptions options = reference_options(wanted.reference);
     options.first_shot = first_shot_where_it_pays;
     reference = solve_reference(loaded_->scene, loaded_->tree, options, {}, cancellation_);
   }
   return reference;
 }
 
-double FigureValues::covered(const Figure& figure) {
-  const std::vector<Rgb>& reference = reference_of(figure);
-  const RadiositySolver& solver = solved(figure.solve);
+double ComputedValues::covered(const LessonValue& wanted) {
+  const std::vector<Rgb>& reference = reference_of(wanted);
+  const RadiositySolver& solver = solved(wanted.solve);
   const ErrorEstimate estimate = estimate_of(solver);
   int inside = 0, all = 0;
   for (PatchId i = 0; i < loaded_->scene->patch_count(); ++i) {
@@ -180,12 +180,12 @@ double FigureValues::covered(const Figure& figure) {
   return static_cast<double>(inside) / all;
 }
 
-double FigureValues::error_of(const Figure& figure) {
-  const std::vector<Rgb>& reference = reference_of(figure);
-  return radiosity_error(*loaded_->scene, solved(figure.solve).radiosity(), reference).rms;
+double ComputedValues::error_of(const LessonValue& wanted) {
+  const std::vector<Rgb>& reference = reference_of(wanted);
+  return radiosity_error(*loaded_->scene, solved(wanted.solve).radiosity(), reference).rms;
 }
 
-const Solution& FigureValues::divided(double patch_area, const SolveOptions& options) {
+const Solution& ComputedValues::divided(double patch_area, const SolveOptions& options) {
   for (const auto& known : divided_) {
     if (known->patch_area == patch_area && known->options == options) {
       return known->solution;
@@ -211,57 +211,57 @@ const Solution& FigureValues::divided(double patch_area, const SolveOptions& opt
       ->solution;
 }
 
-double FigureValues::function_error(const Figure& figure) {
-  SolveOptions options = figure.solve;
+double ComputedValues::function_error(const LessonValue& wanted) {
+  SolveOptions options = wanted.solve;
   options.basis = Basis::linear;
-  const Solution& reference = divided(figure.reference_area, options);
-  return compare_functions(reference, divided(figure.patch_area, figure.solve)).l2;
+  const Solution& reference = divided(wanted.reference_area, options);
+  return compare_functions(reference, divided(wanted.patch_area, wanted.solve)).l2;
 }
 
-double FigureValues::of_run(const Figure& figure) {
-  const Solution* glossy = solved_with_lobes(figure.solve);
+double ComputedValues::of_run(const LessonValue& wanted) {
+  const Solution* glossy = solved_with_lobes(wanted.solve);
   const SolveStatistics statistics =
-      glossy ? glossy->statistics : solved(figure.solve).statistics();
-  switch (figure.kind) {
-    case FigureKind::directions:
+      glossy ? glossy->statistics : solved(wanted.solve).statistics();
+  switch (wanted.kind) {
+    case LessonValueKind::directions:
       return statistics.directions;
-    case FigureKind::iterations:
+    case LessonValueKind::iterations:
       return statistics.iterations;
-    case FigureKind::contraction:
+    case LessonValueKind::contraction:
       return statistics.iteration_records.back().contraction;
-    case FigureKind::light_directions:
-      return statistics.light_directions / figure.solve.replicas;
+    case LessonValueKind::light_directions:
+      return statistics.light_directions / wanted.solve.replicas;
     default:
       break;
   }
-  const ErrorEstimate estimate = estimate_of(solved(figure.solve));
-  return figure.kind == FigureKind::estimated_error ? estimate.rms : estimate.rms_limit;
+  const ErrorEstimate estimate = estimate_of(solved(wanted.solve));
+  return wanted.kind == LessonValueKind::estimated_error ? estimate.rms : estimate.rms_limit;
 }
 
-/// The rows of the map that the figure is about: fragments of patch i, or the polygons directly
+/// The rows of the map that the value is about: fragments of patch i, or the polygons directly
 /// above them or above the patches of `others`.
-std::vector<std::int32_t> FigureValues::rows_of(const Figure& figure) {
-  const MapHistory& history = history_of(figure);
-  const bool counts = figure.kind == FigureKind::above;
+std::vector<std::int32_t> ComputedValues::rows_of(const LessonValue& wanted) {
+  const MapHistory& history = history_of(wanted);
+  const bool counts = wanted.kind == LessonValueKind::above;
   std::vector<std::int32_t> rows;
   for (std::int32_t k = 0; k < history.step_count(); ++k) {
     const MapHistory::Step& step = history.step(k);
-    if (counts ? !holds(figure.others, step.patch) : step.patch != figure.patch) {
+    if (counts ? !holds(wanted.others, step.patch) : step.patch != wanted.patch) {
       continue;
     }
-    if (figure.kind == FigureKind::projected_area && step.row != MapRecord::no_row) {
+    if (wanted.kind == LessonValueKind::projected_area && step.row != MapRecord::no_row) {
       rows.push_back(step.row);
     }
-    if (figure.kind == FigureKind::projected_area) {
+    if (wanted.kind == LessonValueKind::projected_area) {
       continue;
     }
     for (const std::int32_t r : history.inside_at(k)) {
       const PatchId patch = history.row(r).patch;
-      const std::string& material = figure.material;
+      const std::string& material = wanted.material;
       const auto& scene = *loaded_->scene;
-      const bool taken = counts ? !holds(figure.others, patch) &&
+      const bool taken = counts ? !holds(wanted.others, patch) &&
                                       (material.empty() || scene.material(patch).name == material)
-                                : figure.others.empty() || holds(figure.others, patch);
+                                : wanted.others.empty() || holds(wanted.others, patch);
       if (taken) {
         rows.push_back(r);
       }
@@ -270,12 +270,12 @@ std::vector<std::int32_t> FigureValues::rows_of(const Figure& figure) {
   return rows;
 }
 
-double FigureValues::of_direction(const Figure& figure) {
-  const MapHistory& history = history_of(figure);
-  if (figure.kind == FigureKind::steps) {
+double ComputedValues::of_direction(const LessonValue& wanted) {
+  const MapHistory& history = history_of(wanted);
+  if (wanted.kind == LessonValueKind::steps) {
     return history.step_count();
   }
-  if (figure.kind == FigureKind::polygons) {
+  if (wanted.kind == LessonValueKind::polygons) {
     std::int32_t most = 0;
     for (std::int32_t k = 0; k < history.step_count(); ++k) {
       most = std::max(most, history.step(k).map_size);
@@ -284,106 +284,99 @@ double FigureValues::of_direction(const Figure& figure) {
   }
   double area = 0;
   std::set<PatchId> patches;
-  for (const std::int32_t r : rows_of(figure)) {
+  for (const std::int32_t r : rows_of(wanted)) {
     area += history.record().area(history.row(r));
     patches.insert(history.row(r).patch);
   }
-  const bool counts = figure.kind == FigureKind::seen || figure.kind == FigureKind::above;
+  const bool counts = wanted.kind == LessonValueKind::seen || wanted.kind == LessonValueKind::above;
   return counts ? static_cast<double>(patches.size()) : area;
 }
 
-double FigureValues::form_factor(const Figure& figure) {
-  const RadiositySolver& solver = solved(figure.solve);
-  if (figure.kind == FigureKind::form_factor_sum) {
-    return at(solver.form_factor_sums(), figure.patch);
+double ComputedValues::form_factor(const LessonValue& wanted) {
+  const RadiositySolver& solver = solved(wanted.solve);
+  if (wanted.kind == LessonValueKind::form_factor_sum) {
+    return at(solver.form_factor_sums(), wanted.patch);
   }
-  FormFactors& factors = run_of(figure.solve).form_factors;
+  FormFactors& factors = run_of(wanted.solve).form_factors;
   if (factors.row_begin.empty()) {
     factors = solver.form_factors();
   }
-  const std::vector<double> row = form_factors_from(factors, figure.patch);
-  if (figure.all) {
+  const std::vector<double> row = form_factors_from(factors, wanted.patch);
+  if (wanted.all) {
     return std::accumulate(row.begin(), row.end(), 0.0);
   }
-  return std::accumulate(figure.others.begin(), figure.others.end(), 0.0,
+  return std::accumulate(wanted.others.begin(), wanted.others.end(), 0.0,
                          [&](double sum, PatchId j) { return sum + at(row, j); });
 }
 
-double FigureValues::jump(const Figure& figure) {
-  const RadiositySolver& solver = solved(figure.solve);
-  std::vector<double>& jumps = run_of(figure.solve).jumps;
+double ComputedValues::jump(const LessonValue& wanted) {
+  const RadiositySolver& solver = solved(wanted.solve);
+  std::vector<double>& jumps = run_of(wanted.solve).jumps;
   if (jumps.empty()) {
     jumps = radiosity_jumps(solver.solution(), cancellation_);
   }
-  return at(jumps, figure.patch);
+  return at(jumps, wanted.patch);
 }
 
-double FigureValues::of_patch(const Figure& figure) {
+double ComputedValues::of_patch(const LessonValue& wanted) {
   const Scene& scene = *loaded_->scene;
-  switch (figure.kind) {
-    case FigureKind::area:
-      return scene.patch(figure.patch).area;
-    case FigureKind::exitance:
-      return luminance(scene.material(figure.patch).exitance);
-    case FigureKind::reflectance:
-      return luminance(scene.material(figure.patch).reflectance);
-    case FigureKind::radiosity:
-    case FigureKind::irradiance:
-    case FigureKind::radiance:
-      return luminance(light_of(figure));
-    case FigureKind::jump:
-      return jump(figure);
+  switch (wanted.kind) {
+    case LessonValueKind::area:
+      return scene.patch(wanted.patch).area;
+    case LessonValueKind::exitance:
+      return luminance(scene.material(wanted.patch).exitance);
+    case LessonValueKind::reflectance:
+      return luminance(scene.material(wanted.patch).reflectance);
+    case LessonValueKind::radiosity:
+    case LessonValueKind::irradiance:
+    case LessonValueKind::radiance:
+      return luminance(light_of(wanted));
+    case LessonValueKind::jump:
+      return jump(wanted);
     default:
-      return form_factor(figure);
+      return form_factor(wanted);
   }
 }
 
-double FigureValues::value(const Figure& figure) {
-  for (const PatchId patch : figure.others) {
+double ComputedValues::value(const LessonValue& wanted) {
+  for (const PatchId patch : wanted.others) {
     check_patch(patch);
   }
-  if (figure.patch != no_patch) {
-    check_patch(figure.patch);
+  if (wanted.patch != no_patch) {
+    check_patch(wanted.patch);
   }
-  switch (figure.kind) {
-    case FigureKind::constant:
-      return figure.number;
-    case FigureKind::patches:
+  switch (wanted.kind) {
+    case LessonValueKind::constant:
+      return wanted.number;
+    case LessonValueKind::patches:
       return loaded_->scene->patch_count();
-    case FigureKind::fragments:
+    case LessonValueKind::fragments:
       return static_cast<double>(loaded_->tree->fragments().size());
-    case FigureKind::ratio:
-      return value(figure.parts.front()) / value(figure.parts.back());
-    case FigureKind::rms_error:
-      return error_of(figure);
-    case FigureKind::function_error:
-      return function_error(figure);
-    case FigureKind::covered:
-      return covered(figure);
-    case FigureKind::directions:
-    case FigureKind::iterations:
-    case FigureKind::contraction:
-    case FigureKind::estimated_error:
-    case FigureKind::largest_error:
-    case FigureKind::light_directions:
-      return of_run(figure);
-    case FigureKind::steps:
-    case FigureKind::polygons:
-    case FigureKind::projected_area:
-    case FigureKind::visible_area:
-    case FigureKind::seen:
-    case FigureKind::above:
-      return of_direction(figure);
+    case LessonValueKind::ratio:
+      return value(wanted.of.front()) / value(wanted.of.back());
+    case LessonValueKind::rms_error:
+      return error_of(wanted);
+    case LessonValueKind::function_error:
+      return function_error(wanted);
+    case LessonValueKind::covered:
+      return covered(wanted);
+    case LessonValueKind::directions:
+    case LessonValueKind::iterations:
+    case LessonValueKind::contraction:
+    case LessonValueKind::estimated_error:
+    case LessonValueKind::largest_error:
+    case LessonValueKind::light_directions:
+      return of_run(wanted);
     default:
-      return of_patch(figure);
+      return is_of_direction(wanted.kind) ? of_direction(wanted) : of_patch(wanted);
   }
 }
 
-std::vector<double> FigureValues::of_patches(const Figure& figure) {
+std::vector<double> ComputedValues::of_patches(const LessonValue& wanted) {
   std::vector<double> values;
-  Figure one = figure;
+  LessonValue one = wanted;
   for (PatchId k = 0; k < loaded_->scene->patch_count(); ++k) {
-    if (figure.patch != no_patch || figure.kind == FigureKind::above) {
+    if (wanted.patch != no_patch || wanted.kind == LessonValueKind::above) {
       one.others = {k};
     } else {
       one.patch = k;
@@ -393,11 +386,11 @@ std::vector<double> FigureValues::of_patches(const Figure& figure) {
   return values;
 }
 
-std::vector<std::vector<Vec2>> FigureValues::region(const Figure& figure) {
-  check_patch(figure.patch);
-  const MapHistory& history = history_of(figure);
+std::vector<std::vector<Vec2>> ComputedValues::region(const LessonValue& wanted) {
+  check_patch(wanted.patch);
+  const MapHistory& history = history_of(wanted);
   std::vector<std::vector<Vec2>> parts;
-  for (const std::int32_t r : rows_of(figure)) {
+  for (const std::int32_t r : rows_of(wanted)) {
     const auto outline = history.record().outline(history.row(r));
     parts.emplace_back(outline.begin(), outline.end());
   }

@@ -16,30 +16,30 @@ namespace transillum {
 
 /// The patches whose sums a solver computes, or the unknowns of those patches. All functions but
 /// the constants call PatchSums.
-struct PatchShare {
+struct OwnedPatches {
   PatchSums* sums;
-  PatchRange owned;
+  PatchRange range;
   PatchId patches;  ///< number of patches of the scene
 
   /// All patches.
-  PatchShare(PatchId patch_count) : PatchShare(*sums_in_memory(), patch_count) {}
+  OwnedPatches(PatchId patch_count) : OwnedPatches(*sums_in_memory(), patch_count) {}
   /// The patches that `patch_sums` owns.
-  PatchShare(PatchSums& patch_sums, PatchId patch_count)
-      : sums(&patch_sums), owned(patch_sums.owned(patch_count)), patches(patch_count) {}
+  OwnedPatches(PatchSums& patch_sums, PatchId patch_count)
+      : sums(&patch_sums), range(patch_sums.owned(patch_count)), patches(patch_count) {}
 
   /// The same share of a list of `per_patch` unknowns for each patch, numbered as patches.
-  PatchShare of_unknowns(std::size_t per_patch) const {
+  OwnedPatches of_unknowns(std::size_t per_patch) const {
     const auto factor = static_cast<PatchId>(per_patch);
-    PatchShare share = *this;
-    share.owned = {factor * owned.first, factor * owned.last};
-    share.patches = factor * patches;
-    return share;
+    OwnedPatches owned = *this;
+    owned.range = {factor * range.first, factor * range.last};
+    owned.patches = factor * patches;
+    return owned;
   }
 
-  std::size_t first() const { return static_cast<std::size_t>(owned.first); }
-  std::size_t last() const { return static_cast<std::size_t>(owned.last); }
+  std::size_t first() const { return static_cast<std::size_t>(range.first); }
+  std::size_t last() const { return static_cast<std::size_t>(range.last); }
   /// Whether all patches are owned.
-  bool is_all() const { return owned.size() == static_cast<std::size_t>(patches); }
+  bool is_all() const { return range.size() == static_cast<std::size_t>(patches); }
 
   /// Completes arrays of the same number of values for each patch, which consist of doubles.
   template <class Value>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "support/program_run.h"
+#include "support/program_call.h"
 
 namespace transillum::testing {
 

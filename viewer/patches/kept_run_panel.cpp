@@ -2,7 +2,7 @@
 //
 // The panel "Kept runs". It shows the list of KeptRuns and changes it; the difference itself is
 // shown in color by ColorChoice, as one of its quantities.
-#include "patches/run_panel.h"
+#include "patches/kept_run_panel.h"
 
 #include <QComboBox>
 #include <QHeaderView>
@@ -14,14 +14,16 @@
 #include <QTableWidget>
 #include <QToolButton>
 #include <algorithm>
+#include <cmath>
 
 #include "model/command_text.h"
+#include "model/run_comparison.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
 #include "widgets/elided.h"
 #include "widgets/engine_text.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
@@ -34,8 +36,8 @@ QString settings_tip(const KeptRun& run) {
   const Scene& scene = *snapshot.loaded->scene;
   const RunOptions options{snapshot.options, scene.options(), {}, snapshot.refine};
   return snapshot.of_file
-             ? RunPanel::tr("Values of the file %1").arg(QString::fromStdString(scene.name()))
-             : RunPanel::tr("Settings: %1")
+             ? KeptRunPanel::tr("Values of the file %1").arg(QString::fromStdString(scene.name()))
+             : KeptRunPanel::tr("Settings: %1")
                    .arg(QString::fromStdString(solve_command(scene.name(), options, {})));
 }
 
@@ -47,7 +49,7 @@ QStringList texts_of(const KeptRun& run) {
   return {run.name,
           by_directions ? QString::number(options.directions) : none,
           by_directions ? QString::fromStdString(name_of(options.used_sampling())) : none,
-          snapshot.of_file ? RunPanel::tr("a file") : engine_label(options.engine),
+          snapshot.of_file ? KeptRunPanel::tr("a file") : engine_label(options.engine),
           QString::number(snapshot.progress.iteration),
           QLocale::c().toString(run.kept, QStringLiteral("HH:mm:ss"))};
 }
@@ -56,6 +58,31 @@ void set_choosable(const QComboBox& box, int index, const QString& reason) {
   QStandardItem* item = qobject_cast<QStandardItemModel*>(box.model())->item(index);
   item->setEnabled(reason.isEmpty());
   item->setToolTip(reason);
+}
+
+QString dark_text(bool is_dark) {
+  return is_dark
+             ? KeptRunPanel::tr(" of a thousandth of the brightest surface, as it is in the dark")
+             : QString();
+}
+
+/// All surfaces, the worst first, as far as a tool tip has room.
+QString tip_of(const ResultComparison& comparison) {
+  constexpr int most = 20;
+  constexpr int longest_name = 40;
+  QStringList lines{
+      KeptRunPanel::tr("RMS of B − A by surface, relative to the RMS of its reflected "
+                       "light in A;\npatches that emit are omitted")};
+  for (const SurfaceDifference& surface : comparison.surfaces) {
+    if (lines.size() > most) {
+      lines << QStringLiteral("…");
+      break;
+    }
+    lines << KeptRunPanel::tr("%1: %2 %%3")
+                 .arg(elided_name(QString::fromStdString(surface.name), longest_name),
+                      number_text(100 * surface.rms), dark_text(surface.is_dark));
+  }
+  return lines.join(QLatin1Char('\n'));
 }
 
 QComboBox* make_choice(const char* name, const QString& tip) {
@@ -67,8 +94,8 @@ QComboBox* make_choice(const char* name, const QString& tip) {
 
 }  // namespace
 
-RunPanel::RunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAction& difference,
-                   QWidget* parent)
+KeptRunPanel::KeptRunPanel(ColorChoice& colors, Selection& selection, QAction& keep,
+                           QAction& difference, QWidget* parent)
     : QWidget(parent), colors_(colors), runs_(colors.kept_runs()), selection_(selection) {
   make_table();
   hint_ = named("run_hint", note_label({}, {10, 0, 10, 2}));
@@ -80,15 +107,15 @@ RunPanel::RunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAc
   layout->addWidget(table_, 1);
   layout->addWidget(hint_);
   layout->addLayout(make_choices());
-  layout->addLayout(make_figures());
-  connect(&runs_, &KeptRuns::changed, this, &RunPanel::show_list);
-  connect(&runs_, &KeptRuns::compared_changed, this, &RunPanel::show_choices);
-  connect(&colors_, &ColorChoice::fitted, this, &RunPanel::show_difference);
-  connect(&colors_, &ColorChoice::changed, this, &RunPanel::show_difference);
+  layout->addLayout(make_values());
+  connect(&runs_, &KeptRuns::changed, this, &KeptRunPanel::show_list);
+  connect(&runs_, &KeptRuns::compared_changed, this, &KeptRunPanel::show_choices);
+  connect(&colors_, &ColorChoice::fitted, this, &KeptRunPanel::show_difference);
+  connect(&colors_, &ColorChoice::changed, this, &KeptRunPanel::show_difference);
   show_list();
 }
 
-void RunPanel::make_table() {
+void KeptRunPanel::make_table() {
   table_ = named("run_table", new QTableWidget(0, column_count));
   table_->setHorizontalHeaderLabels(
       {tr("Name"), tr("M"), tr("Sampling"), tr("Engine"), tr("Iterations"), tr("Kept")});
@@ -96,22 +123,22 @@ void RunPanel::make_table() {
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   table_->horizontalHeader()->setStretchLastSection(true);
-  set_up_figure_table(*table_, {QStringLiteral("Name of a run"), QStringLiteral("8888"),
-                                QStringLiteral("antipodal"), QStringLiteral("Z-buffer"),
-                                QStringLiteral("88"), QStringLiteral("88:88:88")});
+  set_up_value_table(*table_, {QStringLiteral("Name of a run"), QStringLiteral("8888"),
+                               QStringLiteral("antipodal"), QStringLiteral("Z-buffer"),
+                               QStringLiteral("88"), QStringLiteral("88:88:88")});
   connect(table_, &QTableWidget::itemChanged, this,
           [this](const QTableWidgetItem* item) { rename(*item); });
-  connect(table_, &QTableWidget::itemSelectionChanged, this, &RunPanel::show_hint);
+  connect(table_, &QTableWidget::itemSelectionChanged, this, &KeptRunPanel::show_hint);
   auto* delete_key = new QShortcut(QKeySequence::Delete, table_);
   delete_key->setContext(Qt::WidgetShortcut);
-  connect(delete_key, &QShortcut::activated, this, &RunPanel::remove_current);
+  connect(delete_key, &QShortcut::activated, this, &KeptRunPanel::remove_current);
 }
 
-QLayout* RunPanel::make_buttons(QAction& keep, QAction& difference) {
+QLayout* KeptRunPanel::make_buttons(QAction& keep, QAction& difference) {
   remove_ = named("remove_run", new QToolButton,
                   tr("Remove the run chosen in the list (Del); Undo restores it"));
   remove_->setText(tr("Remove"));
-  connect(remove_, &QToolButton::clicked, this, &RunPanel::remove_current);
+  connect(remove_, &QToolButton::clicked, this, &KeptRunPanel::remove_current);
   auto* row = make_row({8, 4, 8, 0});
   for (QAction* action : {&keep, &difference}) {
     row->addWidget(button_for(action));
@@ -121,7 +148,7 @@ QLayout* RunPanel::make_buttons(QAction& keep, QAction& difference) {
   return row;
 }
 
-QLayout* RunPanel::make_choices() {
+QLayout* KeptRunPanel::make_choices() {
   second_ = make_choice("run_b", tr("The run whose difference from A is shown"));
   first_ =
       make_choice("run_a", tr("Run A, which is subtracted, and shown while the key A is held"));
@@ -135,24 +162,22 @@ QLayout* RunPanel::make_choices() {
   return row;
 }
 
-QLayout* RunPanel::make_figures() {
-  figures_ =
-      named("run_difference", new QLabel,
-            tr("RMS of the difference of B over RMS of the reflected light of A, without patches "
-               "that\nemit; and the largest magnitude of the difference in a color"));
-  figures_->setWordWrap(true);
-  figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+QLayout* KeptRunPanel::make_values() {
+  values_ = named("run_difference", new QLabel);
+  values_->setWordWrap(true);
+  values_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   go_ = named("go_to_difference", new QToolButton,
-              tr("Select the patch with the largest difference, and turn the scene to it"));
+              tr("Select the patch with the largest difference on the worst surface, and turn the "
+                 "scene to it"));
   go_->setText(tr("Go to the patch"));
-  connect(go_, &QToolButton::clicked, this, &RunPanel::go_to_worst);
+  connect(go_, &QToolButton::clicked, this, &KeptRunPanel::go_to_worst);
   auto* row = make_row({10, 0, 8, 4});
-  row->addWidget(figures_, 1);
+  row->addWidget(values_, 1);
   row->addWidget(go_);
   return row;
 }
 
-void RunPanel::show_list() {
+void KeptRunPanel::show_list() {
   {
     const QSignalBlocker quiet(table_);
     const int current = table_->currentRow();
@@ -179,7 +204,7 @@ void RunPanel::show_list() {
   show_choices();
 }
 
-void RunPanel::show_hint() {
+void KeptRunPanel::show_hint() {
   const int row = table_->currentRow();
   remove_->setEnabled(row >= 0);
   hint_->setText(table_->rowCount() == 0 ? tr("No runs are kept. Keep one (K), change the "
@@ -189,7 +214,7 @@ void RunPanel::show_hint() {
   hint_->setVisible(!hint_->text().isEmpty());
 }
 
-void RunPanel::show_choices() {
+void KeptRunPanel::show_choices() {
   first_->clear();
   second_->clear();
   second_->addItem(tr("Current run"));
@@ -206,24 +231,44 @@ void RunPanel::show_choices() {
   show_difference();
 }
 
-void RunPanel::show_difference() {
+void KeptRunPanel::show_difference() {
   const auto a = colors_.run_a(), b = colors_.run_b();
   worst_ = no_patch;
-  if (!a || !b) {
-    figures_->clear();
-  } else {
-    const RunDifference difference = difference_of(*a->loaded->scene, b->radiosity, a->radiosity);
-    worst_ = difference.worst;
-    figures_->setText(worst_ == no_patch ? tr("No difference: both have the same B.")
-                                         : tr("RMS %1 %, largest %2 W/m² at patch %3")
-                                               .arg(number_text(100 * difference.rms),
-                                                    number_text(difference.largest))
-                                               .arg(worst_));
+  values_->clear();
+  values_->setToolTip({});
+  // Comparing takes a moment where there are many patches, and each snapshot needs it again.
+  if (a && b && isVisible()) {
+    show_comparison(compare_runs(*a, *b));
   }
   go_->setEnabled(worst_ != no_patch);
 }
 
-void RunPanel::rename(const QTableWidgetItem& item) {
+void KeptRunPanel::show_comparison(const ResultComparison& comparison) {
+  const SurfaceDifference& worst = comparison.surfaces.front();
+  worst_ = worst.worst;
+  if (worst_ == no_patch) {
+    values_->setText(tr("No difference: both have the same B."));
+    return;
+  }
+  if (!std::isfinite(worst.rms)) {
+    values_->setText(tr("A reflects no light, which differences would be relative to."));
+    return;
+  }
+  constexpr int longest_name = 24;
+  values_->setText(tr("%1: RMS %2 %%3, largest %4 % at patch %5. RMS over all surfaces: %6 %")
+                       .arg(elided_name(QString::fromStdString(worst.name), longest_name),
+                            number_text(100 * worst.rms), dark_text(worst.is_dark),
+                            number_text(100 * worst.largest), QString::number(worst_),
+                            number_text(100 * comparison.rms)));
+  values_->setToolTip(tip_of(comparison));
+}
+
+void KeptRunPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  show_difference();
+}
+
+void KeptRunPanel::rename(const QTableWidgetItem& item) {
   if (item.column() != name_column) {
     return;
   }
@@ -231,20 +276,20 @@ void RunPanel::rename(const QTableWidgetItem& item) {
   const QString name = item.text().trimmed();
   if (name.isEmpty()) {
     // The change is made later: the table still edits the item.
-    QMetaObject::invokeMethod(this, &RunPanel::show_list, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(this, &KeptRunPanel::show_list, Qt::QueuedConnection);
     return;
   }
   QMetaObject::invokeMethod(
       this, [this, k, name] { runs_.rename(k, name); }, Qt::QueuedConnection);
 }
 
-void RunPanel::remove_current() {
+void KeptRunPanel::remove_current() {
   if (table_->currentRow() >= 0) {
     runs_.remove(static_cast<std::size_t>(table_->currentRow()));
   }
 }
 
-void RunPanel::go_to_worst() {
+void KeptRunPanel::go_to_worst() {
   selection_.select(worst_);
   emit patch_chosen();
 }

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Groups" (powers by group and material, actions on their patches), the sky of an open
-// scene, and the share of sky of each patch.
+// The panel "Surfaces" (powers by group and material, actions on their patches), the sky of an open
+// scene, and the fraction of sky of each patch.
 #include <QAction>
 #include <QApplication>
 #include <QClipboard>
@@ -21,15 +21,15 @@
 #include "lessons/session_file.h"
 #include "model/snapshot_values.h"
 #include "open_scene.h"
-#include "patches/parts_panel.h"
 #include "patches/patch_table.h"
 #include "patches/path_panel.h"
+#include "patches/surface_panel.h"
 #include "radiosity/analysis/power_table.h"
 #include "solved_window.h"
 #include "window/base/view_state_applier.h"
 #include "window/files/window_session.h"
 
-namespace transillum::viewer::parts_test {
+namespace transillum::viewer::surfaces_test {
 
 using namespace test;
 
@@ -39,7 +39,7 @@ namespace {
 struct Shown {
   QTemporaryDir folder;
   SolvedWindow solved;
-  PartsPanel* panel = nullptr;
+  SurfacePanel* panel = nullptr;
   QTabWidget* tabs = nullptr;
 
   explicit Shown(const QString& scene = {}, const SolveOptions& options = {.directions = 64})
@@ -47,8 +47,8 @@ struct Shown {
     auto* dock = window().findChild<QDockWidget*>("parts_dock");
     dock->show();
     dock->raise();
-    panel = window().findChild<PartsPanel*>();
-    tabs = window().findChild<QTabWidget*>("part_tabs");
+    panel = window().findChild<SurfacePanel*>();
+    tabs = window().findChild<QTabWidget*>("surface_tabs");
     window().activateWindow();
     (void)QTest::qWaitForWindowActive(&window());
   }
@@ -83,7 +83,7 @@ struct Shown {
     QTest::mouseClick(found, Qt::LeftButton);
     return enabled;
   }
-  PowerTable table(PartsBy by = PartsBy::group) const {
+  PowerTable table(SurfaceKind by = SurfaceKind::group) const {
     const auto snapshot = window().snapshot();
     const PatchMaterials* materials = snapshot->materials.get();
     return power_table(
@@ -94,14 +94,14 @@ struct Shown {
   }
 };
 
-const PartPower& part_of(const PowerTable& table, const std::string& name) {
-  return *std::find_if(table.parts.begin(), table.parts.end(),
-                       [&](const PartPower& part) { return part.name == name; });
+const SurfacePower& surface_of(const PowerTable& table, const std::string& name) {
+  return *std::find_if(table.surfaces.begin(), table.surfaces.end(),
+                       [&](const SurfacePower& surface) { return surface.name == name; });
 }
 
 }  // namespace
 
-class PartsTest : public QObject {
+class SurfacesTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -118,13 +118,13 @@ class PartsTest : public QObject {
              qPrintable(lines[0]));
     for (const QString& line : lines.mid(1, 4)) {
       const QStringList cells = line.split(',');
-      const PartPower part =  // no reference: GCC 14 takes it for one to the argument
-          part_of(table, cells[0] == "(no group)" ? "" : cells[0].toStdString());
-      QCOMPARE(cells[1].toLongLong(), part.patches);
-      QCOMPARE(cells[2].toDouble(), part.area);
-      QCOMPARE(cells[3].toDouble(), part.emitted.r);
-      QCOMPARE(cells[6].toDouble(), part.received.r);
-      QCOMPARE(cells[9].toDouble(), part.absorbed.r);
+      const SurfacePower surface =  // no reference: GCC 14 takes it for one to the argument
+          surface_of(table, cells[0] == "(no group)" ? "" : cells[0].toStdString());
+      QCOMPARE(cells[1].toLongLong(), surface.patches);
+      QCOMPARE(cells[2].toDouble(), surface.area);
+      QCOMPARE(cells[3].toDouble(), surface.emitted.r);
+      QCOMPARE(cells[6].toDouble(), surface.received.r);
+      QCOMPARE(cells[9].toDouble(), surface.absorbed.r);
     }
     const QString caption = shown.solved.text("group_table_caption");
     QVERIFY2(caption.startsWith("4 groups, 4 patches") &&
@@ -175,7 +175,7 @@ class PartsTest : public QObject {
   void a_row_is_hidden_or_isolated_and_that_is_undone() {
     const Shown shown;
     QVERIFY(shown.listed());
-    const HiddenPatches& hidden = shown.window().parts().page.hidden();
+    const HiddenPatches& hidden = shown.window().views().page.hidden();
     shown.click("group_table", "wall");
     QVERIFY(shown.press("hide_part_button"));
     QCOMPARE(hidden.flags(), (std::vector<bool>{false, false, false, true}));
@@ -198,7 +198,8 @@ class PartsTest : public QObject {
     QCOMPARE(shown.window().undo.count(), steps + 1);
     QVERIFY(wait_for([&] { return shown.window().snapshot()->materials != nullptr; }));
     QVERIFY(wait_for([&] {
-      return shown.window().settled() && part_of(shown.table(), "wall").emitted == Rgb{80, 80, 80};
+      return shown.window().settled() &&
+             surface_of(shown.table(), "wall").emitted == Rgb{80, 80, 80};
     }));
     const int row = shown.row_of("group_table", "wall");
     QVERIFY(wait_for([&] { return shown.cell("group_table", row, 3).startsWith("80"); }));
@@ -231,7 +232,7 @@ class PartsTest : public QObject {
     QVERIFY(shown.listed("exchange_table"));
     const PowerTable table = shown.table();
     const auto index_of = [&](const char* name) {
-      return static_cast<std::size_t>(&part_of(table, name) - table.parts.data());
+      return static_cast<std::size_t>(&surface_of(table, name) - table.surfaces.data());
     };
     const Rgb expected = table.exchanged[index_of("floor")][index_of("lamp")];
     QVERIFY(max_abs(expected) > 0);
@@ -256,19 +257,19 @@ class PartsTest : public QObject {
     QCOMPARE(shown.tabs->currentIndex(), 1);
   }
 
-  void the_share_of_sky_is_in_table_and_inspector() {
+  void the_fraction_of_sky_is_in_table_and_inspector() {
     const Shown shown;
     QVERIFY(shown.listed());
     const auto snapshot = shown.window().snapshot();
-    QCOMPARE(snapshot->sky_shares.size(), std::size_t(4));
+    QCOMPARE(snapshot->sky_fractions.size(), std::size_t(4));
     for (std::size_t i = 0; i < 4; ++i) {
-      QVERIFY(snapshot->sky_shares[i] > 0.05 && snapshot->sky_shares[i] <= 1.01);
+      QVERIFY(snapshot->sky_fractions[i] > 0.05 && snapshot->sky_fractions[i] <= 1.01);
     }
     shown.window().selection.select(1);
-    QCOMPARE(shown.solved.text("patch_sky_share"),
-             QString::number(snapshot->sky_shares[1], 'f', 6));
-    shown.window().colors.set_quantity(Quantity::sky_share);
-    QCOMPARE(shown.window().colors.values()[1].r, snapshot->sky_shares[1]);
+    QCOMPARE(shown.solved.text("patch_sky_fraction"),
+             QString::number(snapshot->sky_fractions[1], 'f', 6));
+    shown.window().colors.set_quantity(Quantity::sky_fraction);
+    QCOMPARE(shown.window().colors.values()[1].r, snapshot->sky_fractions[1]);
   }
 
   void the_slider_gives_an_open_scene_a_sky() {
@@ -289,7 +290,7 @@ class PartsTest : public QObject {
     QCOMPARE(up->currentText(), QString("+y"));  // the usual vertical of files
     up->setCurrentIndex(0);
     const Sky expected{{100, 100, 100}, SkyModel::cie_overcast, {0, 0, 1}};
-    QVERIFY(shown.window().parts().settings.solve_options().sky == expected);
+    QVERIFY(shown.window().views().settings.solve_options().sky == expected);
     save_picture(shown.window(), "sky-settings");
     QTest::mouseClick(shown.window().findChild<QPushButton*>("restart"), Qt::LeftButton);
     QVERIFY(wait_for([&] {
@@ -347,7 +348,7 @@ class PartsTest : public QObject {
     shown.window().runner.run();
     QVERIFY(wait_for([&] { return shown.window().runner.state() == RunState::finished; }));
     shown.window().selection.select(0);
-    shown.window().parts().docks.bring_to_front("paths");
+    shown.window().views().docks.bring_to_front("paths");
     auto* panel = shown.window().findChild<PathPanel*>("path_panel");
     QVERIFY(wait_for([&] { return panel->paths() != nullptr; }));
     const LightPaths& paths = *panel->paths();
@@ -389,8 +390,8 @@ class PartsTest : public QObject {
   }
 };
 
-const test::Registered registered("parts", test::run_as_viewer<PartsTest>);
+const test::Registered registered("surfaces", test::run_as_viewer<SurfacesTest>);
 
-}  // namespace transillum::viewer::parts_test
+}  // namespace transillum::viewer::surfaces_test
 
-#include "parts_test.moc"
+#include "surfaces_test.moc"

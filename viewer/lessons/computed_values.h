@@ -6,31 +6,31 @@
 #include <utility>
 #include <vector>
 
-#include "lessons/figure.h"
+#include "lessons/lesson_value.h"
 #include "model/snapshot.h"
 #include "transillum/cancellation.h"
 #include "visibility/map/map_history.h"
 
 namespace transillum::viewer {
 
-/// Computes figures of one scene; runs and maps that several figures need are computed once.
+/// Computes values of one scene; runs and maps that several values need are computed once.
 ///
 /// Threads: one at a time. It solves the scene again, so that it needs nothing from the window, and
-/// its figures belong to the page, whatever the window shows now.
-class FigureValues {
+/// its values belong to the page, whatever the window shows now.
+class ComputedValues {
  public:
   /// @param cancellation  checked in solves and maps
-  FigureValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation);
-  ~FigureValues();
+  ComputedValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation);
+  ~ComputedValues();
 
-  /// @throws InputError where the figure names a patch or direction that does not exist, or needs
+  /// @throws InputError where the value names a patch or direction that does not exist, or needs
   /// replicas that the run does not have; Canceled; what a solve throws
-  double value(const Figure& figure);
-  /// The value for each patch in turn, of a figure that is_per_patch(). @throws as value()
-  std::vector<double> of_patches(const Figure& figure);
+  double value(const LessonValue& wanted);
+  /// The value for each patch in turn, of a value that is_per_patch(). @throws as value()
+  std::vector<double> of_patches(const LessonValue& wanted);
   /// Where the area of a projected_area or visible_area is on the plane: convex polygons that do
   /// not overlap. @throws as value()
-  std::vector<std::vector<Vec2>> region(const Figure& figure);
+  std::vector<std::vector<Vec2>> region(const LessonValue& wanted);
 
  private:
   struct Run;
@@ -39,20 +39,20 @@ class FigureValues {
   /// The solution of a run in which lobes take part; null for other runs.
   const Solution* solved_with_lobes(const SolveOptions& options,
                                     const std::vector<MaterialChange>& changes = {});
-  /// B or H of a patch, or its radiance toward the figure's eye.
-  Rgb light_of(const Figure& figure);
-  const MapHistory& history_of(const Figure& figure);
-  const std::vector<Rgb>& reference_of(const Figure& figure);
-  double covered(const Figure& figure);
-  double error_of(const Figure& figure);
-  double function_error(const Figure& figure);
+  /// B or H of a patch, or its radiance toward the value's eye.
+  Rgb light_of(const LessonValue& wanted);
+  const MapHistory& history_of(const LessonValue& wanted);
+  const std::vector<Rgb>& reference_of(const LessonValue& wanted);
+  double covered(const LessonValue& wanted);
+  double error_of(const LessonValue& wanted);
+  double function_error(const LessonValue& wanted);
   const Solution& divided(double patch_area, const SolveOptions& options);
-  double of_run(const Figure& figure);
-  double of_direction(const Figure& figure);
-  double of_patch(const Figure& figure);
-  double form_factor(const Figure& figure);
-  double jump(const Figure& figure);
-  std::vector<std::int32_t> rows_of(const Figure& figure);
+  double of_run(const LessonValue& wanted);
+  double of_direction(const LessonValue& wanted);
+  double of_patch(const LessonValue& wanted);
+  double form_factor(const LessonValue& wanted);
+  double jump(const LessonValue& wanted);
+  std::vector<std::int32_t> rows_of(const LessonValue& wanted);
   void check_patch(PatchId patch) const;
 
   std::shared_ptr<const LoadedScene> loaded_;

@@ -4,7 +4,7 @@
 // run in opposite directions. Input: a Scene, whose points are distinct, so that faces are
 // connected by equal coordinates. A union-find structure keeps the parity of each patch relative to
 // its root: a cycle with the wrong parity is a surface with one side only, such as a Moebius strip.
-#include "radiosity/orientation/face_parts.h"
+#include "radiosity/orientation/connected_components.h"
 
 #include <algorithm>
 #include <numeric>
@@ -63,15 +63,15 @@ struct EdgeUse {
   std::int8_t sign;  ///< 1 from the lower point to the higher
 };
 
-class PartFinder {
+class ComponentFinder {
  public:
-  PartFinder(const Scene& scene, const Cancellation& cancellation)
+  ComponentFinder(const Scene& scene, const Cancellation& cancellation)
       : scene_(scene),
         cancellation_(cancellation),
         takes_part_(scene.patches().size(), true),
         sets_(scene.patches().size()) {}
 
-  SurfaceParts find() {
+  ConnectedComponents find() {
     find_coincident();
     list_edges();
     join_faces();
@@ -83,8 +83,8 @@ class PartFinder {
   }
 
  private:
-  /// Sets `first`; patches on the points of an earlier one take no part, and if they face opposite
-  /// ways, neither does that one.
+  /// Sets `first`; patches on the points of an earlier one take no component, and if they face
+  /// opposite ways, neither does that one.
   void find_coincident() {
     found_.first.resize(scene_.patches().size());
     std::iota(found_.first.begin(), found_.first.end(), PatchId{0});
@@ -161,7 +161,7 @@ class PartFinder {
   }
 
   void number_parts() {
-    found_.part.assign(scene_.patches().size(), SurfaceParts::none);
+    found_.component.assign(scene_.patches().size(), ConnectedComponents::none);
     found_.sign.assign(scene_.patches().size(), 1);
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
       if (!at(takes_part_, i)) {
@@ -169,62 +169,66 @@ class PartFinder {
       }
       const auto [root, parity] = sets_.find(i);
       if (root == i) {
-        at(found_.part, i) = static_cast<std::int32_t>(found_.parts.size());
-        found_.parts.emplace_back();
+        at(found_.component, i) = static_cast<std::int32_t>(found_.components.size());
+        found_.components.emplace_back();
       }
-      at(found_.part, i) = at(found_.part, root);
+      at(found_.component, i) = at(found_.component, root);
       at(found_.sign, i) = parity == 0 ? 1 : -1;
     }
     for (const PatchId i : inconsistent_) {
-      at(found_.parts, at(found_.part, i)).orientable = false;
+      at(found_.components, at(found_.component, i)).orientable = false;
     }
   }
 
-  /// An edge is closed within a part if the part's patches use it in both directions alike.
+  /// An edge is closed within a component if the component's patches use it in both directions
+  /// alike.
   void check_closed(std::span<const EdgeUse> uses) {
-    const auto part_of = [this](const EdgeUse& use) { return at(found_.part, use.patch); };
+    const auto component_of = [this](const EdgeUse& use) {
+      return at(found_.component, use.patch);
+    };
     std::vector<std::pair<std::int32_t, int>> balance;
     for (const EdgeUse& use : uses) {
-      balance.emplace_back(part_of(use), use.sign * at(found_.sign, use.patch));
+      balance.emplace_back(component_of(use), use.sign * at(found_.sign, use.patch));
     }
     std::sort(balance.begin(), balance.end());
     for (std::size_t k = 0; k < balance.size();) {
-      const std::int32_t part = balance[k].first;
+      const std::int32_t component = balance[k].first;
       int sum = 0;
-      for (; k < balance.size() && balance[k].first == part; ++k) {
+      for (; k < balance.size() && balance[k].first == component; ++k) {
         sum += balance[k].second;
       }
       if (sum != 0) {
-        at(found_.parts, part).closed = false;
+        at(found_.components, component).closed = false;
       }
     }
   }
 
-  /// Areas, and signs such that most of a part's area has sign 1; then volumes.
+  /// Areas, and signs such that most of a component's area has sign 1; then volumes.
   void measure() {
-    std::vector<double> signed_area(found_.parts.size());
+    std::vector<double> signed_area(found_.components.size());
     const Vec3 center = scene_.bounds().center();
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      if (const std::int32_t part = at(found_.part, i); part != SurfaceParts::none) {
+      if (const std::int32_t component = at(found_.component, i);
+          component != ConnectedComponents::none) {
         const Patch& patch = scene_.patch(i);
         const double sign = at(found_.sign, i);
-        at(found_.parts, part).area += patch.area;
+        at(found_.components, component).area += patch.area;
         for (const PointId p : scene_.outline(i)) {
-          at(found_.parts, part).bounds.add(scene_.point(p));
+          at(found_.components, component).bounds.add(scene_.point(p));
         }
-        at(found_.parts, part).volume +=
+        at(found_.components, component).volume +=
             sign * patch.area * dot(patch.normal, patch.center - center) / 3;
-        at(signed_area, part) += sign * patch.area;
+        at(signed_area, component) += sign * patch.area;
       }
     }
-    for (std::size_t p = 0; p < found_.parts.size(); ++p) {
+    for (std::size_t p = 0; p < found_.components.size(); ++p) {
       if (signed_area[p] < 0) {
-        found_.parts[p].volume = -found_.parts[p].volume;
+        found_.components[p].volume = -found_.components[p].volume;
       }
     }
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      const std::int32_t part = at(found_.part, i);
-      if (part != SurfaceParts::none && at(signed_area, part) < 0) {
+      const std::int32_t component = at(found_.component, i);
+      if (component != ConnectedComponents::none && at(signed_area, component) < 0) {
         at(found_.sign, i) = static_cast<std::int8_t>(-at(found_.sign, i));
       }
     }
@@ -236,13 +240,14 @@ class PartFinder {
   ParitySets sets_;
   std::vector<EdgeUse> edges_;
   std::vector<PatchId> inconsistent_;
-  SurfaceParts found_;
+  ConnectedComponents found_;
 };
 
 }  // namespace
 
-SurfaceParts find_parts(const Scene& scene, const Cancellation& cancellation) {
-  return PartFinder(scene, cancellation).find();
+ConnectedComponents find_connected_components(const Scene& scene,
+                                              const Cancellation& cancellation) {
+  return ComponentFinder(scene, cancellation).find();
 }
 
 }  // namespace transillum

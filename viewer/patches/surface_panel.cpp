@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Groups". Snapshots arrive often while a solve runs; their powers are added up a few
+// The panel "Surfaces". Snapshots arrive often while a solve runs; their powers are added up a few
 // times a second at most, on a thread of their own, and only while the panel is visible.
-#include "patches/parts_panel.h"
+#include "patches/surface_panel.h"
 
 #include <QHeaderView>
 #include <QItemSelectionModel>
@@ -21,7 +21,7 @@
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
-#include "widgets/figure_table.h"
+#include "widgets/value_table.h"
 
 namespace transillum::viewer {
 
@@ -32,32 +32,32 @@ constexpr int power_column = 2;  // column of the table of exchanges
 constexpr Rgb first_exitance{10, 10, 10}, first_reflectance{0.5, 0.5, 0.5};
 
 QString count_of(std::size_t number, const char* one, const char* several) {
-  return number == 1 ? PartsPanel::tr(one)
-                     : PartsPanel::tr(several).arg(count_text(static_cast<std::int64_t>(number)));
+  return number == 1 ? SurfacePanel::tr(one)
+                     : SurfacePanel::tr(several).arg(count_text(static_cast<std::int64_t>(number)));
 }
 
-QString total_text(const PowerTable& table, PartsBy by, bool received_known) {
-  const QString kinds = by == PartsBy::group
-                            ? count_of(table.parts.size(), "1 group", "%1 groups")
-                            : count_of(table.parts.size(), "1 material", "%1 materials");
+QString total_text(const PowerTable& table, SurfaceKind by, bool received_known) {
+  const QString kinds = by == SurfaceKind::group
+                            ? count_of(table.surfaces.size(), "1 group", "%1 groups")
+                            : count_of(table.surfaces.size(), "1 material", "%1 materials");
   const QString size =
-      PartsPanel::tr("%1, %2, %3 m²")
+      SurfacePanel::tr("%1, %2, %3 m²")
           .arg(kinds,
                count_of(static_cast<std::size_t>(table.total.patches), "1 patch", "%1 patches"),
                number_text(table.total.area));
   const auto watts = [](const Rgb& power) { return number_text(luminance(power)); };
   return received_known
-             ? PartsPanel::tr("%1: %2 W emitted, %3 W received, %4 W absorbed")
+             ? SurfacePanel::tr("%1: %2 W emitted, %3 W received, %4 W absorbed")
                    .arg(size, watts(table.total.emitted), watts(table.total.received),
                         watts(table.total.absorbed))
-             : PartsPanel::tr("%1: %2 W emitted; received light is known after an iteration")
+             : SurfacePanel::tr("%1: %2 W emitted; received light is known after an iteration")
                    .arg(size, watts(table.total.emitted));
 }
 
 }  // namespace
 
-PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
-                       QWidget* parent)
+SurfacePanel::SurfacePanel(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
+                           QWidget* parent)
     : QWidget(parent),
       relighting_(relighting),
       selection_(selection),
@@ -77,7 +77,7 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
           },
           CurrentJob::finish) {
   tabs_->setDocumentMode(true);
-  tabs_->setObjectName("part_tabs");
+  tabs_->setObjectName("surface_tabs");
   QLayout* buttons = make_buttons();
   groups_ = add_page(tr("Groups"), "group_table");
   materials_ = add_page(tr("Materials"), "material_table");
@@ -88,12 +88,12 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
   auto* layout = make_column(this, {}, 0);
   layout->addWidget(tabs_, 1);
   layout->addLayout(buttons);
-  connect(refresh_timer_, &QTimer::timeout, this, &PartsPanel::refresh);
+  connect(refresh_timer_, &QTimer::timeout, this, &SurfacePanel::refresh);
   connect(tabs_, &QTabWidget::currentChanged, this, [this] {
     refresh();
     show_state();
   });
-  connect(&relighting_.edits(), &MaterialEdits::changed, this, &PartsPanel::show_state);
+  connect(&relighting_.edits(), &MaterialEdits::changed, this, &SurfacePanel::show_state);
   connect(&selection_, &Selection::patches_changed, this, [this] {
     if (!selects_) {
       // A marked row means that its patches are selected.
@@ -105,7 +105,7 @@ PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatch
   clear();
 }
 
-TablePage PartsPanel::add_page(const QString& title, const char* name) {
+TablePage SurfacePanel::add_page(const QString& title, const char* name) {
   const bool pairs = qstrcmp(name, "exchange_table") == 0;
   const QString name_width = QStringLiteral("Name of it");
   const TablePage page =
@@ -124,13 +124,13 @@ TablePage PartsPanel::add_page(const QString& title, const char* name) {
                 select_current();
               }
             });
-    connect(page.view, &QTableView::clicked, this, &PartsPanel::select_current);
+    connect(page.view, &QTableView::clicked, this, &SurfacePanel::select_current);
   }
   return page;
 }
 
-QAction* PartsPanel::add_action(const char* name, const QString& text, const QString& tip,
-                                const char* key, void (PartsPanel::*what)()) {
+QAction* SurfacePanel::add_action(const char* name, const QString& text, const QString& tip,
+                                  const char* key, void (SurfacePanel::*what)()) {
   auto* action = make_action(this, name, text, tip);
   if (key != nullptr) {
     action->setShortcut(QKeySequence(QString::fromLatin1(key)));
@@ -141,20 +141,21 @@ QAction* PartsPanel::add_action(const char* name, const QString& text, const QSt
   return action;
 }
 
-QLayout* PartsPanel::make_buttons() {
+QLayout* SurfacePanel::make_buttons() {
   select_ =
-      add_action("select_part", tr("Select its patches"), tr("Select all its patches (Return)"),
-                 "Return", &PartsPanel::select_current);
+      add_action("select_surface", tr("Select its patches"), tr("Select all its patches (Return)"),
+                 "Return", &SurfacePanel::select_current);
   // H and I are keys of the window, which act on the selected patches: the patches of the marked
   // row.
-  hide_ = add_action("hide_part", tr("Hide"),
+  hide_ = add_action("hide_surface", tr("Hide"),
                      tr("Hide the patches of the row in the scene (H); Shift+H shows all"), nullptr,
-                     &PartsPanel::hide_current);
+                     &SurfacePanel::hide_current);
   isolate_ =
-      add_action("isolate_part", tr("Isolate"), tr("Hide all other patches in the scene (I)"),
-                 nullptr, &PartsPanel::isolate_current);
-  emit_ = add_action("emit_part", tr("Make it emit"), {}, "E", &PartsPanel::make_emit);
-  reflect_ = add_action("reflect_part", tr("Make it reflect"), {}, "R", &PartsPanel::make_reflect);
+      add_action("isolate_surface", tr("Isolate"), tr("Hide all other patches in the scene (I)"),
+                 nullptr, &SurfacePanel::isolate_current);
+  emit_ = add_action("emit_surface", tr("Make it emit"), {}, "E", &SurfacePanel::make_emit);
+  reflect_ =
+      add_action("reflect_surface", tr("Make it reflect"), {}, "R", &SurfacePanel::make_reflect);
   auto* row = make_row({8, 4, 8, 6});
   for (QAction* action : {hide_, isolate_, emit_, reflect_}) {
     auto* button = named(action->objectName() + "_button", new QToolButton);
@@ -165,7 +166,7 @@ QLayout* PartsPanel::make_buttons() {
   return row;
 }
 
-void PartsPanel::clear() {
+void SurfacePanel::clear() {
   counter_.clear();
   tables_ = nullptr;
   for (const TablePage& page : {groups_, materials_, exchanges_}) {
@@ -176,7 +177,7 @@ void PartsPanel::clear() {
   show_state();
 }
 
-void PartsPanel::show_scene(std::shared_ptr<const Scene> scene) {
+void SurfacePanel::show_scene(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
   snapshot_ = nullptr;
   if (scene_->groups().empty() && tabs_->currentIndex() == 0) {
@@ -185,7 +186,7 @@ void PartsPanel::show_scene(std::shared_ptr<const Scene> scene) {
   clear();
 }
 
-void PartsPanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+void SurfacePanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
   if (watched_ && !refresh_timer_->isActive()) {
     refresh_timer_->start(tables_ ? parts_interval_ms : 0);
@@ -193,16 +194,16 @@ void PartsPanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   show_state();
 }
 
-bool PartsPanel::busy() const {
+bool SurfacePanel::busy() const {
   return counter_.busy() || (watched_ && refresh_timer_->isActive());
 }
 
-void PartsPanel::set_watched(bool watched) {
+void SurfacePanel::set_watched(bool watched) {
   watched_ = watched;
   refresh();
 }
 
-void PartsPanel::refresh() {
+void SurfacePanel::refresh() {
   if (!watched_ || !snapshot_) {
     return;
   }
@@ -214,24 +215,24 @@ void PartsPanel::refresh() {
   }
 }
 
-void PartsPanel::show_tables(std::shared_ptr<const PowerTables> tables) {
+void SurfacePanel::show_tables(std::shared_ptr<const PowerTables> tables) {
   if (!snapshot_ || tables->snapshot->loaded != snapshot_->loaded) {
     return;
   }
   tables_ = std::move(tables);
-  show_parts(groups_, tables_->groups, PartsBy::group);
-  show_parts(materials_, tables_->materials, PartsBy::material);
+  show_surfaces(groups_, tables_->groups, SurfaceKind::group);
+  show_surfaces(materials_, tables_->materials, SurfaceKind::material);
   show_exchanges();
   show_state();
 }
 
-void PartsPanel::show_parts(const TablePage& page, const PowerTable& table, PartsBy by) {
+void SurfacePanel::show_surfaces(const TablePage& page, const PowerTable& table, SurfaceKind by) {
   PatchRows rows = rows_of_parts(table, tables_->received_known);
   page.table->set_contents(std::move(rows.patches), std::move(rows.columns));
   page.caption->setText(total_text(table, by, tables_->received_known));
 }
 
-void PartsPanel::show_exchanges() {
+void SurfacePanel::show_exchanges() {
   const bool by_groups = scene_ && !scene_->groups().empty();
   const PowerTable& table = by_groups ? tables_->groups : tables_->materials;
   PatchRows rows = rows_of_exchanges(table);
@@ -243,78 +244,80 @@ void PartsPanel::show_exchanges() {
                                        "directly; the scene has no groups."));
 }
 
-PartsBy PartsPanel::current_kind() const {
-  return tabs_->currentIndex() == 0 ? PartsBy::group : PartsBy::material;
+SurfaceKind SurfacePanel::current_kind() const {
+  return tabs_->currentIndex() == 0 ? SurfaceKind::group : SurfaceKind::material;
 }
 
-const PartPower* PartsPanel::current() const {
+const SurfacePower* SurfacePanel::current() const {
   if (!tables_ || tabs_->currentIndex() == 2) {
     return nullptr;
   }
-  const bool groups = current_kind() == PartsBy::group;
+  const bool groups = current_kind() == SurfaceKind::group;
   const TablePage& page = groups ? groups_ : materials_;
   const QModelIndex index = page.view->currentIndex();
   if (!index.isValid()) {
     return nullptr;
   }
-  return &at((groups ? tables_->groups : tables_->materials).parts, page.table->patch(index.row()));
+  return &at((groups ? tables_->groups : tables_->materials).surfaces,
+             page.table->patch(index.row()));
 }
 
-std::vector<PatchId> PartsPanel::patches_of(const PartPower& part) const {
-  const bool groups = current_kind() == PartsBy::group;
+std::vector<PatchId> SurfacePanel::patches_of(const SurfacePower& surface) const {
+  const bool groups = current_kind() == SurfaceKind::group;
   std::vector<PatchId> patches;
   for (PatchId i = 0; i < scene_->patch_count(); ++i) {
     const Patch& patch = scene_->patch(i);
-    if ((groups ? patch.group : patch.material) == part.index) {
+    if ((groups ? patch.group : patch.material) == surface.index) {
       patches.push_back(i);
     }
   }
   return patches;
 }
 
-std::string PartsPanel::target_of(const PartPower& part) const {
-  return part.index < 0 ? std::string()
-                        : (current_kind() == PartsBy::group ? "group:" : "material:") + part.name;
+std::string SurfacePanel::target_of(const SurfacePower& surface) const {
+  return surface.index < 0
+             ? std::string()
+             : (current_kind() == SurfaceKind::group ? "group:" : "material:") + surface.name;
 }
 
-void PartsPanel::select_current() {
-  if (const PartPower* part = current()) {
+void SurfacePanel::select_current() {
+  if (const SurfacePower* surface = current()) {
     selects_ = true;
-    selection_.select_all(patches_of(*part));
+    selection_.select_all(patches_of(*surface));
     selects_ = false;
   }
   show_state();
 }
 
-void PartsPanel::hide_current() {
-  if (const PartPower* part = current()) {
-    hidden_.hide(patches_of(*part));
+void SurfacePanel::hide_current() {
+  if (const SurfacePower* surface = current()) {
+    hidden_.hide(patches_of(*surface));
   }
 }
 
-void PartsPanel::isolate_current() {
-  if (const PartPower* part = current()) {
-    hidden_.isolate(patches_of(*part));
+void SurfacePanel::isolate_current() {
+  if (const SurfacePower* surface = current()) {
+    hidden_.isolate(patches_of(*surface));
   }
 }
 
-void PartsPanel::make_emit() {
-  const PartPower* part = current();
-  if (!part || target_of(*part).empty()) {
+void SurfacePanel::make_emit() {
+  const SurfacePower* surface = current();
+  if (!surface || target_of(*surface).empty()) {
     return;
   }
-  const std::string target = target_of(*part);
+  const std::string target = target_of(*surface);
   relighting_.edits().begin_drag();
   relighting_.edits().set_exitance(target, first_exitance);
   emit target_changed(target);
 }
 
-void PartsPanel::make_reflect() {
-  const PartPower* part = current();
-  if (!part || target_of(*part).empty()) {
+void SurfacePanel::make_reflect() {
+  const SurfacePower* surface = current();
+  if (!surface || target_of(*surface).empty()) {
     return;
   }
-  const std::string target = target_of(*part);
+  const std::string target = target_of(*surface);
   const bool black = max_abs(relighting_.edits().values_of(target).reflectance) == 0;
   MaterialEdits& edits = relighting_.edits();
   edits.begin_drag();
@@ -327,17 +330,17 @@ void PartsPanel::make_reflect() {
   emit target_changed(target);
 }
 
-void PartsPanel::show_state() {
-  const PartPower* part = current();
+void SurfacePanel::show_state() {
+  const SurfacePower* surface = current();
   for (QAction* action : {select_, hide_, isolate_}) {
-    action->setEnabled(part != nullptr);
+    action->setEnabled(surface != nullptr);
   }
   const bool fits = !snapshot_ || snapshot_->form_factors_fit;
-  const bool has_target = part && part->index >= 0;
+  const bool has_target = surface && surface->index >= 0;
   bool all_emit = false, none_emits = true, black = false;
   if (has_target && relighting_.edits().materials()) {
     const PatchMaterials& materials = *relighting_.edits().materials();
-    const std::vector<PatchId> patches = patches_of(*part);
+    const std::vector<PatchId> patches = patches_of(*surface);
     const auto emits = [&](PatchId i) { return max_abs(materials.of(i).exitance) > 0; };
     all_emit = std::all_of(patches.begin(), patches.end(), emits);
     none_emits = std::none_of(patches.begin(), patches.end(), emits);
@@ -345,9 +348,9 @@ void PartsPanel::show_state() {
   }
   emit_->setEnabled(has_target && fits && !all_emit);
   reflect_->setEnabled(has_target && fits && (!none_emits || black));
-  const QString obstacle = part && !has_target ? tr("These patches are in no group")
-                           : !fits             ? tr("The form factors exceed the memory limit")
-                                               : QString();
+  const QString obstacle = surface && !has_target ? tr("These patches are in no group")
+                           : !fits                ? tr("The form factors exceed the memory limit")
+                                                  : QString();
   emit_->setToolTip(!obstacle.isEmpty() ? obstacle
                                         : tr("Set an exitance of 10 W/m² (E); the sliders in "
                                              "Materials change it"));

@@ -11,6 +11,6 @@ namespace transillum::viewer {
 ///
 /// @param widest  longest expected text per column. The width does not change where the text is
 ///                empty; further columns are as wide as a number.
-void set_up_figure_table(QTableView& table, QStringList widest);
+void set_up_value_table(QTableView& table, QStringList widest);
 
 }  // namespace transillum::viewer

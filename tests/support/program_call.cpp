@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "support/program_run.h"
+#include "support/program_call.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

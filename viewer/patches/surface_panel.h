@@ -23,12 +23,12 @@ namespace transillum::viewer {
 
 /// The groups and the materials of the scene with their powers, and the powers that they exchange.
 /// A row selects its patches; actions hide or isolate them, and make them emit or reflect.
-class PartsPanel : public QWidget {
+class SurfacePanel : public QWidget {
   Q_OBJECT
 
  public:
-  PartsPanel(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
-             QWidget* parent = nullptr);
+  SurfacePanel(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
+               QWidget* parent = nullptr);
 
   void show_scene(std::shared_ptr<const Scene> scene);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
@@ -47,20 +47,20 @@ class PartsPanel : public QWidget {
   TablePage add_page(const QString& title, const char* name);
   QLayout* make_buttons();
   QAction* add_action(const char* name, const QString& text, const QString& tip, const char* key,
-                      void (PartsPanel::*what)());
+                      void (SurfacePanel::*what)());
   void refresh();
   void show_tables(std::shared_ptr<const PowerTables> tables);
-  void show_parts(const TablePage& page, const PowerTable& table, PartsBy by);
+  void show_surfaces(const TablePage& page, const PowerTable& table, SurfaceKind by);
   void show_exchanges();
   void show_state();
   void clear();
 
   /// The part of the current row; null on the page of exchanges, or without a current row.
-  const PartPower* current() const;
-  PartsBy current_kind() const;
-  std::vector<PatchId> patches_of(const PartPower& part) const;
+  const SurfacePower* current() const;
+  SurfaceKind current_kind() const;
+  std::vector<PatchId> patches_of(const SurfacePower& surface) const;
   /// The part's target of MaterialEdits; empty for the patches of no group.
-  std::string target_of(const PartPower& part) const;
+  std::string target_of(const SurfacePower& surface) const;
   void select_current();
   void hide_current();
   void isolate_current();

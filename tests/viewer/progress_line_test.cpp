@@ -1,0 +1,83 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The line at the bottom of the window, on a solve that has ended. Snapshots come from
+// solved_snapshot(), without a window.
+#include "solve/progress_line.h"
+
+#include <QLabel>
+#include <QTest>
+
+#include "registered.h"
+#include "solved_snapshot.h"
+#include "support/number_text.h"
+#include "widgets/elided.h"
+
+namespace transillum::viewer::progress_line_test {
+
+namespace {
+
+/// A solve that has reached 1 %.
+std::shared_ptr<SolverSnapshot> reached(const std::string& surface) {
+  auto snapshot = test::solved_snapshot("cornell-box", 32);
+  AccuracyReport report;
+  report.goal.accuracy = 0.01;
+  report.error = 0.00873;
+  report.surface = surface;
+  report.reached = true;
+  report.passes_made = 12'345;
+  snapshot->accuracy = report;
+  snapshot->progress.finished = true;
+  return snapshot;
+}
+
+}  // namespace
+
+class ProgressLineTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void good_enough_names_the_worst_surface() {
+    ProgressLine line;
+    line.show_state(RunState::finished);
+    line.show_snapshot(reached("back wall"));
+    QCOMPARE(line.findChild<QLabel*>("phase")->text(),
+             QString("Good enough: error of the worst surface, back wall, at most 0.873 % (limit "
+                     "1 %), %1 passes")
+                 .arg(count_text(12'345)));
+  }
+
+  void a_long_name_is_elided_in_its_middle_and_fits_a_small_window() {
+    ProgressLine line;
+    line.show_scene(*reached("")->loaded);
+    line.show_state(RunState::finished);
+    line.show_snapshot(reached("back wall of the living room, left of the window, above the door"));
+    line.resize(1280, line.sizeHint().height());
+    line.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&line));
+    const auto& phase = *line.findChild<ElidedLabel*>("phase");
+    QVERIFY2(phase.text().contains(QString::fromUtf8("surface, back wall … the door,")),
+             qPrintable(phase.text()));
+    QCOMPARE(phase.shown_text(), phase.text());
+    QVERIFY(phase.toolTip().contains("left of the window"));
+    // A window that is narrower still keeps the two ends, and is not widened by the text.
+    line.resize(700, line.height());
+    QVERIFY(line.minimumSizeHint().width() <= 700);
+    QCoreApplication::processEvents();
+    QVERIFY(phase.shown_text().startsWith("Good") && phase.shown_text().endsWith("passes"));
+  }
+
+  void a_surface_in_the_dark_is_said_to_be_so() {
+    const auto snapshot = reached("cellar");
+    snapshot->accuracy->is_dark = true;
+    ProgressLine line;
+    line.show_state(RunState::finished);
+    line.show_snapshot(snapshot);
+    QVERIFY(line.findChild<QLabel*>("phase")->toolTip().contains("in the dark"));
+  }
+};
+
+const test::Registered registered("progress_line", test::run_as_viewer<ProgressLineTest>);
+
+}  // namespace transillum::viewer::progress_line_test
+
+#include "progress_line_test.moc"
