@@ -248,7 +248,7 @@ std::shared_ptr<const DirectLight> Measuring::shot_of(const DividedScene& divide
     }
   }
   return std::make_shared<const DirectLight>(
-      shoot(*divided.scene, sources, solve_.options.threads, cancellation_));
+      shoot(*divided.scene, sources, shot_options(solve_.options), cancellation_));
 }
 
 void Measuring::measure_patches(std::int64_t most_patches) {
