@@ -222,10 +222,13 @@ std::vector<PatchId> patches_to_divide(const Scene& scene, const ErrorReport& re
     // Where other surfaces send light from patches that are too large, all are divided further.
     const double allowed = allowed_for_patches(report.surfaces[s].errors, total);
     const double square = others_are_coarse ? 0.5 * left : allowed * allowed;
+    // At least a tenth is divided, so that stages are few.
+    std::size_t least = left > square ? candidates.size() / 10 : 0;
     for (const Candidate& candidate : candidates) {
-      if (left <= square) {
+      if (left <= square && least == 0) {
         break;
       }
+      least -= least > 0 ? 1 : 0;
       left -= (1 - left_within) * candidate.square;
       chosen.push_back(candidate.patch);
     }
