@@ -62,9 +62,8 @@ struct ErrorMeasurements {
   int replicas = 0;                  ///< whose spread gives the error by directions
   bool replicas_added = false;       ///< the solve had none: it was repeated with them
   std::int64_t divided_patches = 0;  ///< patches of the scene with divided patches
-  double divided_fraction =
-      1;  ///< fraction of all patches; below 1, the same fraction of each surface
-  double divided_seconds = 0;   ///< wall time of its solve
+  double divided_fraction = 1;       ///< fraction of each surface's patches
+  double divided_seconds = 0;        ///< wall time of its solve
   int compared_directions = 0;  ///< along which two engines were compared; 0 means no comparison
   Engine reference = Engine::exact;  ///< the other engine
   std::int64_t exact_queries = 0;    ///< PassCounts::exact_queries of the solve
