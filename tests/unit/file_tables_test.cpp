@@ -15,8 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "io/results/error_report_files.h"
 #include "io/results/sensor_files.h"
 #include "io/results/study_csv.h"
+#include "session/measure_errors.h"
 #include "support/program_call.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
@@ -167,6 +169,18 @@ TEST_F(FileTables, Statistics) {
   solution.statistics.glossy.patches = 1;  // no solve has both
   write_statistics(folder_ / "s.json", {.solve = options_}, solution);
   EXPECT_THAT(keys_of(folder_ / "s.json"), ::testing::ContainerEq(leaf_keys("Statistics JSON")));
+}
+
+TEST_F(FileTables, ErrorReports) {
+  options_.directions = 8;
+  SolveSession session({.scene = scene_, .options = options_});
+  session.advance(SolveSession::Until::finished);
+  const MeasuredSolve solve = measured_solve(session);
+  ErrorReport report = measure_errors(solve);
+  report.steps.resize(1);
+  write_error_report(folder_ / "errors.json", report, solve);
+  EXPECT_THAT(keys_of(folder_ / "errors.json"),
+              ::testing::ContainerEq(leaf_keys("Error report JSON")));
 }
 
 TEST_F(FileTables, CsvOfTransfersFactorsDirectionsAndStudies) {

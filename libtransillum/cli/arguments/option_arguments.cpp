@@ -94,7 +94,7 @@ void complete(GivenOptions& options) {
     given.insert("accuracy");
   }
   set_dependent_defaults(options.run, given);
-  if (!options.run.refine.is_set()) {
+  if (!options.run.refine.is_set() && !options.run.total) {
     options.run.refine = {};
   }
   options.run.validate();

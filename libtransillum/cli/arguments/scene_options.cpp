@@ -143,7 +143,8 @@ std::string overlap_advice(const Scene& scene, const Cancellation& cancellation)
 SceneOptions division(const SceneInput& input, const SceneDescription& description,
                       const Cancellation& cancellation) {
   SceneOptions options = input.run.scene;
-  if (input.run.refine.is_set() || (input.run.input.patches == 0 && options.max_patch_area == 0)) {
+  if (input.run.refine.is_set() || input.run.total ||
+      (input.run.input.patches == 0 && options.max_patch_area == 0)) {
     return options;
   }
   options.max_patch_area = 0;

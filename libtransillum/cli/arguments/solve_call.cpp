@@ -10,6 +10,7 @@
 #include "cli/arguments/option_values.h"
 #include "cli/output_files.h"
 #include "cli/processes.h"
+#include "io/results/error_report_files.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -63,6 +64,12 @@ void add_outputs(CLI::App& command, SolveCall& call) {
       .add_option("--stats", call.stats,
                   "statistics: counts, times, change per iteration, closure and energy defects")
       ->type_name("FILE.json");
+  command
+      .add_option(
+          "--error-report", call.error_report,
+          "measure the errors of each surface by directions, patches, iterations and method, "
+          "which takes about five times as long, and write them with the cheapest next step")
+      ->type_name("FILE.html|.json");
   add_color_outputs(command, call.colors);
   add_parsed_option(command, "--by", "NAME",
                     fmt::format("print area and power emitted, received, absorbed, escaped and "
@@ -70,8 +77,8 @@ void add_outputs(CLI::App& command, SolveCall& call) {
                                 fmt::join(names_of<SurfaceKind>(), " or ")),
                     [&call](const std::string& text) { call.by = from_name<SurfaceKind>(text); });
   command.add_flag("-q,--quiet", call.quiet, "no progress and no summary on standard error");
-  for (const char* option :
-       {"--exposure", "--target", "--light-map", "--series", "--series-every", "--by"}) {
+  for (const char* option : {"--exposure", "--target", "--light-map", "--series", "--series-every",
+                             "--by", "--error-report"}) {
     command.get_option(option)->group("Results");
   }
 }
@@ -120,8 +127,8 @@ void check_share(const SolveCall& call) {
   if (!shard_file) {
     throw InputError("--shard: requires --out FILE.tsh, once, and no other result");
   }
-  for (const char* option :
-       {"--stats", "--by", "--series", "--checkpoint", "--factors", "--exposure", "--light-map"}) {
+  for (const char* option : {"--stats", "--error-report", "--by", "--series", "--checkpoint",
+                             "--factors", "--exposure", "--light-map"}) {
     refuse_unless(false, *call.scene.command, option, "not used with --shard; `merge` takes it");
   }
 }
@@ -134,6 +141,41 @@ void check_refinement(const SolveCall& call) {
   refuse_unless(!call.share, *call.scene.command, "--shard", "not used with --refine-by");
   refuse_unless(!processes().sums, *call.scene.command, "--refine-by",
                 "not available with several processes");
+}
+
+/// Refuses reports of errors that cannot be measured.
+void check_error_report(const SolveCall& call) {
+  if (call.error_report.empty()) {
+    return;
+  }
+  const CLI::App& command = *call.scene.command;
+  const char* option = "--error-report";
+  refuse_unless(!processes().sums, command, option, "not available with several processes");
+  refuse_unless(call.shards.empty(), command, option, "not available with shards");
+  refuse_unless(call.factors.empty(), command, option, "not used with --factors");
+  refuse_unless(!call.options().glossy, command, option, "not used with --glossy");
+  refuse_unless(takes_directions(call.options().engine), command, option,
+                fmt::format("not used with engine {}", name_of(call.options().engine)));
+  refuse_unless(!traits_of(call.options().scheme).renews_directions, command, option,
+                fmt::format("not used with scheme {}", name_of(call.options().scheme)));
+  if (is_standard_output(call.error_report)) {
+    throw InputError(
+        "--error-report: standard output (-) takes only the CSV of --out; name a file");
+  }
+  check_error_report_path(call.error_report);
+}
+
+/// Refuses what a solve to a total error cannot have.
+void check_total(const SolveCall& call) {
+  if (!call.scene.run.total) {
+    return;
+  }
+  for (const char* option : {"--shard", "--factors", "--checkpoint", "--series"}) {
+    refuse_unless(false, *call.scene.command, option, "not used with --total");
+  }
+  refuse_unless(!processes().sums, *call.scene.command, "--total",
+                "not available with several processes");
+  refuse_unless(call.shards.empty(), *call.scene.command, "--total", "not available with shards");
 }
 
 /// Refuses checkpoints where there are no passes.
@@ -157,6 +199,8 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
   check_share(call);
   check_refinement(call);
   check_run(call);
+  check_error_report(call);
+  check_total(call);
   std::vector<std::string> files = given_files(call.out);
   if (!call.share) {
     for (const std::string& file : files) {
@@ -169,6 +213,9 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
     }
     check_statistics_path(call.stats);
     files.push_back(call.stats);
+  }
+  if (!call.error_report.empty()) {
+    files.push_back(call.error_report);
   }
   if (!call.colors.series.empty()) {
     files.push_back(call.colors.series);

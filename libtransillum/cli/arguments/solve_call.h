@@ -21,6 +21,7 @@ struct SolveCall {
   std::optional<Vec3> eye;  ///< --eye
   std::vector<std::string> out;
   std::string stats;
+  std::string error_report;       ///< --error-report
   std::optional<SurfaceKind> by;  ///< --by
   std::string factors;            ///< --factors
   ColorOutputs colors;

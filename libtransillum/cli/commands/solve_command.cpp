@@ -18,6 +18,7 @@
 #include "cli/processes.h"
 #include "cli/progress_display.h"
 #include "cli/reports/summaries.h"
+#include "io/results/error_report_files.h"
 #include "io/runs/shard_files.h"
 #include "options/option_table.h"
 #include "transillum/checkpoint.h"
@@ -45,7 +46,8 @@ void print_powers(const SolveCall& call, const Solution& solution) {
 }
 
 /// Writes the files and the summary.
-void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution) {
+void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution,
+                   const std::optional<MeasuredErrors>& errors) {
   std::vector<std::function<void()>> writers;
   for (const std::string& file : call.out) {
     writers.emplace_back([&] {
@@ -61,13 +63,20 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
     run.solve = options;
     writers.emplace_back([=, &call, &solution] { write_statistics(call.stats, run, solution); });
   }
+  if (errors && !call.error_report.empty()) {
+    writers.emplace_back(
+        [&] { write_error_report(call.error_report, errors->report, errors->solve); });
+  }
   if (call.by) {
     writers.emplace_back([&] { print_powers(call, solution); });
   }
+  const std::string summary =
+      solve_summary(solution) +
+      (errors ? error_summary(errors->report, errors->total) : std::string());
   if (call.out.empty()) {
-    writers.emplace_back([&] { print_results(solve_summary(solution)); });
+    writers.emplace_back([&] { print_results(summary); });
   } else if (!call.quiet) {
-    writers.emplace_back([&] { print_diagnostics(solve_summary(solution)); });
+    writers.emplace_back([&] { print_diagnostics(summary); });
   }
   write_all(writers);
 }
@@ -141,6 +150,15 @@ void say_of_lobes(const SolveCall& call, const SolveOptions& options, const Scen
   }
 }
 
+TotalGoal total_goal(const RunOptions& run) {
+  TotalGoal goal;
+  goal.total = run.solve.goal.accuracy;
+  if (run.refine.patches > 0) {
+    goal.patches = run.refine.patches;
+  }
+  return goal;
+}
+
 /// Whether several processes share the solve. Otherwise the first does it alone.
 bool is_shared(const SolveCall& call) {
   return processes().sums && call.factors.empty() && takes_directions(call.options().engine) &&
@@ -180,22 +198,27 @@ int run_solve(SolveCall& call) {
   const double seconds_load = seconds_since(start);
   std::optional<Checkpoint> checkpoint;
   const RefineChoice& refine = call.scene.run.refine;
-  const SolveJob job{.scene = prepared.scene,
-                     .options = options,
-                     .refine = refine.is_set() ? std::optional(refine.options()) : std::nullopt,
-                     .cancellation = cancellation,
-                     .display = display,
-                     .quiet = call.quiet,
-                     .form_factors = call.by.has_value(),
-                     .has_series = !call.colors.series.empty(),
-                     .series = prepared.series ? &*prepared.series : nullptr,
-                     .series_every = call.colors.series_every,
-                     .checkpoint = call.checkpoint,
-                     .checkpoint_every = call.checkpoint_every,
-                     .shards = call.shards,
-                     .sums = shared ? processes().sums : nullptr};
+  std::optional<MeasuredErrors> errors;
+  const SolveJob job{
+      .scene = prepared.scene,
+      .options = options,
+      .refine = refine.is_set() ? std::optional(refine.options()) : std::nullopt,
+      .cancellation = cancellation,
+      .display = display,
+      .quiet = call.quiet,
+      .form_factors = call.by.has_value(),
+      .has_series = !call.colors.series.empty(),
+      .series = prepared.series ? &*prepared.series : nullptr,
+      .series_every = call.colors.series_every,
+      .checkpoint = call.checkpoint,
+      .checkpoint_every = call.checkpoint_every,
+      .shards = call.shards,
+      .total = call.scene.run.total ? std::optional(total_goal(call.scene.run)) : std::nullopt,
+      .errors = call.error_report.empty() && !call.scene.run.total ? nullptr : &errors,
+      .sums = shared ? processes().sums : nullptr};
   say_of_lobes(call, options, *prepared.scene);
   Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
+                      : job.total                        ? solve_by_total(job)
                       : takes_directions(options.engine) ? solve_by_passes(job, checkpoint)
                                                          : solve_without_directions(job);
   display.clear();
@@ -209,7 +232,7 @@ int run_solve(SolveCall& call) {
     print_message(processes().traffic());
   }
   if (is_first_process()) {
-    write_outputs(call, options, solution);
+    write_outputs(call, options, solution, errors);
   }
   if (checkpoint) {
     print_cost(call, *checkpoint);

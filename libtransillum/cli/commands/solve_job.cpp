@@ -9,6 +9,7 @@
 #include "cli/interruption.h"
 #include "cli/messages.h"
 #include "cli/reports/report_text.h"
+#include "io/results/error_report_files.h"
 #include "io/runs/shard_files.h"
 #include "transillum/errors.h"
 #include "transillum/form_factor_files.h"
@@ -217,6 +218,31 @@ Solution solve_by_pairs_to(const AccuracyGoal& goal, const SolveJob& job) {
   return std::move(pairs.solution);
 }
 
+MeasurementObserver measurement_display(const SolveJob& job) {
+  return [&job](Measurement what, double fraction) {
+    job.display.show(what == Measurement::replicas  ? "measuring errors: replicas"
+                     : what == Measurement::engines ? "measuring errors: engines"
+                                                    : "measuring errors: divided patches",
+                     fraction);
+  };
+}
+
+/// Measures the errors of a finished solve. An interruption leaves them unknown.
+void measure(const SolveSession& session, const SolveJob& job) {
+  if (job.errors == nullptr || !session.finished()) {
+    return;
+  }
+  job.display.begin("measuring errors");
+  try {
+    MeasuredSolve solve = measured_solve(session);
+    ErrorReport report = measure_errors(solve, job.cancellation, measurement_display(job));
+    job.errors->emplace(MeasuredErrors{std::move(solve), std::move(report), {}});
+  } catch (const Canceled&) {
+    job.display.clear();
+    print_message("interrupted: the errors are not measured");
+  }
+}
+
 }  // namespace
 
 Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
@@ -244,10 +270,39 @@ Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpo
   if (session.is_prepared()) {
     saver.save(session);
   }
+  measure(session, job);
   Solution solution = session.solution();
   if (job.form_factors && solution.complete && solution.statistics.kept_form_factors) {
     solution.form_factors = std::make_shared<const FormFactors>(session.diffuse()->form_factors());
   }
+  return solution;
+}
+
+Solution solve_by_total(const SolveJob& job) {
+  TotalObservers observers;
+  observers.solve = [&](const SolveSession& session) {
+    show_progress(job.display, session);
+    return true;
+  };
+  observers.measurement = measurement_display(job);
+  int number = 0;
+  observers.stage = [&](const TotalStage& stage) {
+    job.display.clear();
+    ++number;
+    if (!job.quiet) {
+      print_message(fmt::format(
+          "stage {}: {} patches, {} passes, {:.2g} s: {} of {} ({} directions, {} patches)", number,
+          stage.patches, stage.passes, stage.seconds, error_percentage(stage.errors.total()),
+          stage.surface, error_percentage(stage.errors.directions),
+          error_percentage(stage.errors.patches)));
+    }
+  };
+  TotalSolve total = solve_to_total(request_of(job), *job.total, observers, job.cancellation);
+  const Solution solution = total.solve.solution;
+  const std::string text =
+      fmt::format("{:.3g} % asked, {}; {} stages", 100 * job.total->total,
+                  end_text(total.end, job.total->patches), total.stages.size());
+  job.errors->emplace(MeasuredErrors{std::move(total.solve), std::move(total.report), text});
   return solution;
 }
 

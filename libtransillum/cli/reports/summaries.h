@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "radiosity/analysis/power_table.h"
+#include "session/error_report.h"
 #include "transillum/solution.h"
 #include "transillum/study.h"
 
@@ -14,6 +15,9 @@ namespace transillum::cli {
 
 /// A short table of a solve.
 std::string solve_summary(const Solution& solution);
+/// The errors of the worst surface by cause, their total and the cheapest next step.
+/// @param total how a solve to a total error ended; empty for others
+std::string error_summary(const ErrorReport& report, const std::string& total);
 /// Warnings about a result that is not an error, such as too few directions.
 std::vector<std::string> solve_warnings(const Solution& solution);
 

@@ -54,6 +54,8 @@ struct RunOptions {
   SceneInput input = {};     ///< how the scene is read and changed
   RefineChoice refine = {};  ///< rounds of refinement
   bool paper = false;        ///< options that are not given are as in the paper
+  /// The accuracy limits the sum of all errors: patches are divided too, up to refine.patches.
+  bool total = false;
 
   /// @throws InputError naming the option and its range, or two options that exclude each other
   void validate() const;

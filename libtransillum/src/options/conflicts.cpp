@@ -30,6 +30,10 @@ bool has_replicas(const RunOptions& r) { return r.solve.replicas > 1; }
 bool has_rounds(const RunOptions& r) { return r.refine.is_set(); }
 bool has_no_limit_of_patches(const RunOptions& r) { return r.refine.patches == 0; }
 bool has_time_limit(const RunOptions& r) { return r.solve.goal.seconds > 0; }
+bool is_total(const RunOptions& r) { return r.total; }
+bool has_other_error(const RunOptions& r) {
+  return has_goal(r) && r.solve.goal.of != AccuracyOf::surfaces;
+}
 bool has_no_moments(const RunOptions& r) { return !traits_of(r.solve.engine).has_linear_basis; }
 /// Engines without directions are asked elsewhere.
 bool is_approximate(const RunOptions& r) {
@@ -83,6 +87,9 @@ constexpr Conflict conflicts[] = {
     {"accuracy", has_goal, is_approximate,
      "engine {engine} has errors that do not come from the directions"},
     {"glossy", is_glossy, has_rounds, "lobes are not available with rounds of refinement"},
+    {"total", is_total, has_rounds, "patches are divided by the total error; no rounds come first"},
+    {"total", is_total, has_time_limit, "a total error has no time limit"},
+    {"total", is_total, has_other_error, "a total error is an error of surfaces"},
     {"refine-by", has_rounds, has_no_limit_of_patches,
      "requires patches, the most patches to make"},
     {"refine-by", has_rounds, has_time_limit, "rounds of refinement have no time limit"},

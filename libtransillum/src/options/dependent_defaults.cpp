@@ -58,14 +58,14 @@ void set_dependent_defaults(RunOptions& options, const std::set<std::string>& gi
   if (solve.sampling == default_sampling(solve.two_way)) {
     solve.sampling.reset();
   }
-  if (options.refine.is_set()) {
+  if (options.refine.is_set() || options.total) {
     options.input.patches = 0;
   }
 }
 
 std::vector<std::pair<std::string, std::string>> differences_from_default(const RunOptions& asked) {
   RunOptions options = asked;
-  if (!options.refine.is_set()) {
+  if (!options.refine.is_set() && !options.total) {
     options.refine = {};
   }
   std::vector<std::pair<std::string, std::string>> differences;

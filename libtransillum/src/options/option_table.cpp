@@ -280,7 +280,7 @@ void add_patches(Table& t) {
   Option& patches =
       t.common("patches", "N", "a number, or none",
                "divide faces into about N patches, by a limit of their area that is chosen for it; "
-               "with --refine-by: the most patches to make");
+               "with --refine-by and --total: the most patches to make");
   patches.json = Option::Json::number;
   patches.zero_is_unset = true;
   patches.unset = "none";
@@ -290,7 +290,7 @@ void add_patches(Table& t) {
   };
   patches.print = [](const RunOptions& o) {
     // A file may have a limit for rounds that are not chosen yet.
-    const bool by_area = !o.refine.is_set() && o.input.patches > 0;
+    const bool by_area = !o.refine.is_set() && !o.total && o.input.patches > 0;
     const std::int64_t number = by_area ? o.input.patches : o.refine.patches;
     return number == 0 ? "none" : fmt::to_string(number);
   };
@@ -307,6 +307,11 @@ void add_patches(Table& t) {
                    "end the rounds when their figure is this small: relative RMS jump, or relative "
                    "L2 error"),
              member(&RunOptions::refine, &RefineChoice::until));
+  flag(t.add("total", "", "yes or no",
+             "the accuracy limits the sum of the errors by directions, patches, iterations and "
+             "method: patches are divided and directions added until the worst surface is within "
+             "it; at most --patches N"),
+       member(&RunOptions::total));
 }
 
 /// Marks those that only a scene's file has.

@@ -28,6 +28,7 @@ bool draws_random_numbers(const RunOptions& run) {
 }
 
 bool has_goal(const RunOptions& run) { return run.solve.goal.is_set(); }
+bool has_accuracy(const RunOptions& run) { return run.solve.goal.accuracy > 0; }
 bool has_no_goal(const RunOptions& run) { return !has_goal(run); }
 bool has_sky(const RunOptions& run) { return run.solve.sky.is_set(); }
 bool is_semi_iterative(const RunOptions& run) {
@@ -54,6 +55,7 @@ constexpr Use uses[] = {
     {"directions", has_no_goal, chosen_by_goal},
     {"replicas", has_no_goal, chosen_by_goal},
     {"accuracy-of", has_goal, "used only with an accuracy or a time limit"},
+    {"total", has_accuracy, "used only with an accuracy"},
     {"most-passes", has_goal, "used only with an accuracy or a time limit"},
     {"sampling", has_directions, without_directions},
     {"rotate", has_directions, without_directions},

@@ -13,9 +13,8 @@
 
 #include "base/choice.h"
 #include "base/seconds_since.h"
-#include "radiosity/channel_sums.h"
-#include "scene/build/division.h"
 #include "scene/build/patch_count.h"
+#include "session/patch_errors.h"
 #include "transillum/at.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
@@ -29,16 +28,6 @@ constexpr double growth = 2;
 /// the rest, the others are left alone, though there would be room.
 constexpr double negligible = 1e-3;
 
-/// Integral of |B|² over patch i.
-double square_integral(const Solution& solution, PatchId i) {
-  double sum = sum_of_squares(at(solution.radiosity, i));
-  if (!solution.linear_terms.empty()) {
-    const LinearTerm& term = at(solution.linear_terms, i);
-    sum += sum_of_squares(term.first) + sum_of_squares(term.second);
-  }
-  return solution.scene->patch(i).area * sum;
-}
-
 /// Integral of |B|² over all patches that emit nothing; over all if each emits.
 double square_integral(const Solution& solution) {
   double passive = 0, all = 0;
@@ -48,64 +37,6 @@ double square_integral(const Solution& solution) {
     passive += max_abs(solution.scene->exitance(i)) > 0 ? 0 : square;
   }
   return passive > 0 ? passive : all;
-}
-
-/// Integrals of B over a patch, times its functions, from the patches that it is divided into.
-struct Projection {
-  double square = 0;                ///< integral of |B|²
-  std::array<Rgb, 3> coefficients;  ///< integrals of B phi_a, over the area
-};
-
-/// Adds what patch k of the divided scene contributes to the projection onto patch i.
-void add_to(Projection& projection, const Solution& fine, PatchId k, const LinearBasis* own,
-            const LinearBasis* basis, double whole_area) {
-  const Patch& patch = fine.scene->patch(k);
-  const double fraction = patch.area / whole_area;
-  const Rgb& mean = at(fine.radiosity, k);
-  projection.square += square_integral(fine, k);
-  projection.coefficients[0] += fraction * mean;
-  if (basis == nullptr) {
-    return;
-  }
-  const auto at_center = basis->at(own->center);
-  const LinearTerm& term = at(fine.linear_terms, k);
-  for (std::size_t a = 0; a < 2; ++a) {
-    // The function of the whole in terms of those of the part: phi = value + s1 psi_1 + s2 psi_2.
-    // Their gradients need not be orthogonal: psi_1 is constant across the longest edge.
-    const Vec3 &g = basis->gradient[a], &h1 = own->gradient[0], &h2 = own->gradient[1];
-    const double h11 = dot(h1, h1), h12 = dot(h1, h2), h22 = dot(h2, h2);
-    const double g1 = dot(g, h1), g2 = dot(g, h2);
-    const double determinant = h11 * h22 - h12 * h12;
-    const double s1 = (g1 * h22 - g2 * h12) / determinant;
-    const double s2 = (g2 * h11 - g1 * h12) / determinant;
-    projection.coefficients[a + 1] +=
-        fraction * (at_center[a] * mean + s1 * term.first + s2 * term.second);
-  }
-}
-
-/// Per patch of `whole`: integral of the square of what its functions cannot represent of B.
-std::vector<double> squares_by_error(const Scene& whole, const DividedScene& divided,
-                                     const Solution& fine) {
-  const bool linear = !fine.linear_terms.empty();
-  const std::vector<LinearBasis> own = linear ? linear_bases(*divided.scene)
-                                              : std::vector<LinearBasis>(),
-                                 bases = linear ? linear_bases(whole) : std::vector<LinearBasis>();
-  std::vector<Projection> projections(whole.patches().size());
-  for (PatchId k = 0; k < divided.scene->patch_count(); ++k) {
-    const PatchId i = at(divided.parent, k);
-    add_to(at(projections, i), fine, k, linear ? &at(own, k) : nullptr,
-           linear ? &at(bases, i) : nullptr, whole.patch(i).area);
-  }
-  std::vector<double> errors;
-  for (PatchId i = 0; i < whole.patch_count(); ++i) {
-    const Projection& p = at(projections, i);
-    double represented = 0;
-    for (const Rgb& c : p.coefficients) {
-      represented += sum_of_squares(c);
-    }
-    errors.push_back(std::max(0.0, p.square - whole.patch(i).area * represented));
-  }
-  return errors;
 }
 
 std::vector<double> squares_by_jump(const Solution& solution, const Cancellation& cancellation) {
@@ -243,7 +174,7 @@ const RefinementRound& RefinementPlan::assess(const Solution& solution, double s
   const auto start = Clock::now();
   squares_ = refine_.by == RefineBy::jump
                  ? squares_by_jump(solution, cancellation)
-                 : squares_by_error(*refined_, {scene_, parent_}, solution);
+                 : patch_errors(*refined_, {scene_, parent_}, solution).unrepresented;
   const double sum = std::accumulate(squares_.begin(), squares_.end(), 0.0);
   RefinementRound& round = rounds_.emplace_back();
   round.patches = refined_->patch_count();

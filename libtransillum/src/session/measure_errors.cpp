@@ -1,0 +1,367 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Measures the errors of a solve by surface and cause. Input: a finished solve; output: an
+// ErrorReport. Directions: the spread of replicas. Patches: a solve of the same directions in which
+// every patch is divided, so that the errors of directions cancel. Iterations: what changes and
+// their contraction leave. Method: another engine, the first shot's own estimate, lost area.
+#include "session/measure_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "base/seconds_since.h"
+#include "radiosity/channel_sums.h"
+#include "radiosity/error/error_estimate.h"
+#include "radiosity/error_bounds.h"
+#include "radiosity/norms.h"
+#include "radiosity/ratio.h"
+#include "radiosity/reflected_light.h"
+#include "scene/build/division.h"
+#include "scene/build/patch_count.h"
+#include "session/method_errors.h"
+#include "session/next_steps.h"
+#include "session/patch_errors.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int added_replicas = 4;
+constexpr int most_directions_per_replica = 1 << 22;
+/// Least fraction of the patches to divide.
+constexpr double least_fraction = 1e-3;
+
+class Measuring {
+ public:
+  Measuring(const MeasuredSolve& solve, const Cancellation& cancellation,
+            const MeasurementObserver& observer)
+      : solve_(solve),
+        cancellation_(cancellation),
+        observer_(observer),
+        scene_(*solve.solution.scene),
+        surfaces_(find_surfaces(scene_, Measured::reflecting, solve.options.goal.surfaces)) {}
+
+  ErrorReport run(std::int64_t most_patches) {
+    const auto start = Clock::now();
+    measure_directions();
+    measure_iterations();
+    measure_method();
+    measure_patches(most_patches);
+    add_up();
+    report_.steps = next_steps(report_, solve_);
+    report_.measurements.seconds = seconds_since(start);
+    return std::move(report_);
+  }
+
+ private:
+  void measure_directions();
+  void measure_iterations();
+  void measure_method();
+  void measure_patches(std::int64_t most_patches);
+  std::vector<double> noise_of_division(const SurfaceErrors& fine) const;
+  void sum_patches(const PatchErrors& squares, const std::vector<PatchId>& chosen,
+                   const std::vector<double>& noise);
+  void add_up();
+
+  void observe(Measurement what, double fraction) const {
+    if (observer_) {
+      observer_(what, fraction);
+    }
+  }
+  std::vector<PatchId> patches_to_divide(std::int64_t most_patches);
+  /// Solves with other options or another scene.
+  Solution solve_again(SolveOptions options, const std::shared_ptr<const Scene>& scene,
+                       const std::shared_ptr<const DirectLight>& shot, Measurement what) const;
+  std::shared_ptr<const DirectLight> shot_of(const DividedScene& divided) const;
+  /// RMS of a quantity by surface, over the unit of each.
+  std::vector<double> relative(const std::vector<Rgb>& values) const;
+
+  const MeasuredSolve& solve_;
+  const Cancellation& cancellation_;
+  const MeasurementObserver& observer_;
+  const Scene& scene_;
+  const Surfaces surfaces_;
+  std::vector<Rgb> standard_error_;  ///< standard error of B, W/m², one per patch
+  ErrorReport report_;
+};
+
+Solution Measuring::solve_again(SolveOptions options, const std::shared_ptr<const Scene>& scene,
+                                const std::shared_ptr<const DirectLight>& shot,
+                                Measurement what) const {
+  options.goal = {};
+  if (!shot) {
+    options.first_shot.reset();
+  }
+  SolveSession session({.scene = scene,
+                        .options = options,
+                        .tree = scene == solve_.solution.scene ? solve_.tree : nullptr,
+                        .shot = shot},
+                       cancellation_);
+  session.advance(SolveSession::Until::finished, [&](const SolveSession& watched) {
+    const SolveProgress progress = watched.progress();
+    observe(what, progress.iteration == 0 && progress.passes > 0
+                      ? static_cast<double>(progress.direction) / progress.passes
+                      : 1.0);
+    return true;
+  });
+  return session.solution();
+}
+
+void Measuring::measure_directions() {
+  ErrorEstimate error = solve_.solution.error;
+  double factor = 1;
+  if (error.replicas == 0) {
+    SolveOptions options = solve_.options;
+    options.replicas = added_replicas;
+    options.directions = added_replicas * std::min(options.directions, most_directions_per_replica);
+    const int per_replica = options.directions / added_replicas;
+    error = solve_again(options, solve_.solution.scene, solve_.shot, Measurement::replicas).error;
+    // The error of the mean of four sets is half of the error of one.
+    factor = std::sqrt(added_replicas) * per_replica / solve_.options.directions;
+    report_.measurements.replicas_added = true;
+  }
+  report_.measurements.replicas = error.replicas;
+  for (const SurfaceError& surface : error.surfaces.surfaces) {
+    SurfaceCauses causes{.name = surface.name,
+                         .patches = surface.patches,
+                         .area = surface.area,
+                         .unit = surface.unit,
+                         .is_dark = surface.is_dark};
+    const double limit = surface.limit * surface.limit - surface.bias * surface.bias;
+    causes.errors.directions = factor * std::sqrt(std::max(0.0, limit));
+    report_.surfaces.push_back(causes);
+  }
+  for (const Rgb& of_patch : error.standard_error) {
+    standard_error_.push_back(factor * of_patch);
+  }
+}
+
+std::vector<double> Measuring::relative(const std::vector<Rgb>& values) const {
+  const std::vector<Rgb>& b = solve_.solution.radiosity;
+  const SurfaceErrors errors =
+      surface_differences(surfaces_, difference(b, ReflectedLight(scene_).exitance()), values);
+  std::vector<double> result;
+  for (std::size_t s = 0; s < report_.surfaces.size(); ++s) {
+    const SurfaceError& surface = errors.surfaces[s];
+    result.push_back(ratio_or_zero(surface.rms * surface.unit, report_.surfaces[s].unit));
+  }
+  return result;
+}
+
+/// Bound of the distance to the limit of the iteration: as much on a patch as its reflectance times
+/// the largest that any can receive.
+void Measuring::measure_iterations() {
+  const SolveStatistics& statistics = solve_.solution.statistics;
+  if (statistics.iteration_records.empty()) {
+    return;
+  }
+  const IterationRecord& last = statistics.iteration_records.back();
+  const double change = last.change * max_norm(reflected_light(scene_, solve_.solution.radiosity));
+  const double contraction = std::max(statistics.rho_max, is_rounding(last) ? 0 : last.contraction);
+  std::vector<Rgb> left(scene_.patches().size());
+  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
+    at(left, i) = distance_to_limit(change, contraction) * scene_.reflectance(i);
+  }
+  const std::vector<double> errors = relative(left);
+  for (std::size_t s = 0; s < errors.size(); ++s) {
+    report_.surfaces[s].errors.iterations = errors[s];
+  }
+}
+
+void Measuring::measure_method() {
+  observe(Measurement::engines, 0);
+  const MethodErrors method = method_errors(solve_, surfaces_, cancellation_);
+  const std::vector<Rgb> bias =
+      solve_.shot ? bias_of_shot(scene_, *solve_.shot) : std::vector<Rgb>();
+  const std::vector<double> shot =
+      bias.empty() ? std::vector<double>(report_.surfaces.size()) : relative(bias);
+  for (std::size_t s = 0; s < report_.surfaces.size(); ++s) {
+    SurfaceCauses& surface = report_.surfaces[s];
+    const double engine = ratio_or_zero(at(method.rms, s), surface.unit);
+    surface.errors.method = std::max(engine, method.lost.value_or(0)) + shot[s];
+  }
+  ErrorMeasurements& measurements = report_.measurements;
+  measurements.compared_directions = method.directions;
+  measurements.reference = method.reference;
+  measurements.lost = method.lost;
+  measurements.exact_queries = solve_.solution.statistics.counts.exact_queries;
+}
+
+/// All patches, or where these are too many, of each surface a fraction spread evenly over it.
+std::vector<PatchId> Measuring::patches_to_divide(std::int64_t most_patches) {
+  const auto count = static_cast<double>(scene_.patch_count());
+  double fraction = std::min(1.0, (static_cast<double>(most_patches) - count) / (3 * count));
+  const int unknowns = solve_.options.basis == Basis::linear ? 3 : 1;
+  for (; fraction >= least_fraction; fraction /= 2) {
+    try {
+      check_memory(scene_.name(), static_cast<std::int64_t>(count * (1 + 3 * fraction)),
+                   solve_.options.replicas, unknowns);
+      break;
+    } catch (const std::runtime_error&) {
+      if (fraction < 2 * least_fraction) {
+        throw;
+      }
+    }
+  }
+  if (fraction < least_fraction) {
+    throw InputError(fmt::format("errors: {} patches leave no room to divide some; at most {}",
+                                 scene_.patch_count(), most_patches));
+  }
+  report_.measurements.divided_fraction = fraction;
+  std::vector<double> filled(surfaces_.surfaces.size(), 0.5);
+  std::vector<PatchId> chosen;
+  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
+    bool is_chosen = fraction == 1;
+    if (const std::int32_t s = surfaces_.of(i); !is_chosen && s != Surfaces::none) {
+      at(filled, s) += fraction;
+      is_chosen = at(filled, s) >= 1;
+      at(filled, s) -= is_chosen ? 1 : 0;
+    }
+    if (is_chosen) {
+      chosen.push_back(i);
+    }
+  }
+  return chosen;
+}
+
+/// The first shot of the parts of the same sources.
+std::shared_ptr<const DirectLight> Measuring::shot_of(const DividedScene& divided) const {
+  if (!solve_.shot) {
+    return nullptr;
+  }
+  std::vector<char> is_source(scene_.patches().size());
+  for (const PatchId source : solve_.shot->sources) {
+    at(is_source, source) = 1;
+  }
+  std::vector<PatchId> sources;
+  for (PatchId k = 0; k < divided.scene->patch_count(); ++k) {
+    if (at(is_source, at(divided.parent, k)) != 0) {
+      sources.push_back(k);
+    }
+  }
+  return std::make_shared<const DirectLight>(
+      shoot(*divided.scene, sources, shot_options(solve_.options), cancellation_));
+}
+
+void Measuring::measure_patches(std::int64_t most_patches) {
+  const std::vector<PatchId> chosen = patches_to_divide(most_patches);
+  const auto start = Clock::now();
+  const DividedScene divided = divide(scene_, chosen, cancellation_);
+  const Solution fine =
+      solve_again(solve_.options, divided.scene, shot_of(divided), Measurement::divided);
+  const PatchErrors squares = patch_errors(scene_, divided, fine, &solve_.solution);
+  report_.measurements.divided_patches = divided.scene->patch_count();
+  report_.measurements.divided_seconds = seconds_since(start);
+  sum_patches(squares, chosen, noise_of_division(fine.error.surfaces));
+}
+
+/// Mean square of what the parts of patches differ by because of the directions alone: their
+/// replicas vary more than those of the whole patches.
+std::vector<double> Measuring::noise_of_division(const SurfaceErrors& fine) const {
+  const SurfaceErrors& whole = solve_.solution.error.surfaces;
+  std::vector<double> noise(report_.surfaces.size());
+  const bool known = report_.measurements.divided_fraction == 1 &&
+                     fine.surfaces.size() == noise.size() && whole.surfaces.size() == noise.size();
+  for (std::size_t s = 0; known && s < noise.size(); ++s) {
+    const double parts = fine.surfaces[s].spread * fine.surfaces[s].unit;
+    const double wholes = whole.surfaces[s].spread * whole.surfaces[s].unit;
+    noise[s] = std::max(0.0, parts * parts - wholes * wholes);
+  }
+  return noise;
+}
+
+void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchId>& chosen,
+                            const std::vector<double>& noise) {
+  struct Sums {
+    double area = 0, within = 0, shifted = 0;
+  };
+  std::vector<Sums> sums(surfaces_.surfaces.size());
+  report_.patch_errors.assign(scene_.patches().size(), 0);
+  for (const PatchId i : chosen) {
+    const double within = at(squares.unrepresented, i), shifted = at(squares.displaced, i);
+    const double area = scene_.patch(i).area;
+    at(report_.patch_errors, i) =
+        std::sqrt((within_error * within + shift_error * shifted) / (3 * area));
+    if (const std::int32_t s = surfaces_.of(i); s != Surfaces::none) {
+      at(sums, s).area += area;
+      at(sums, s).within += within;
+      at(sums, s).shifted += shifted;
+    }
+  }
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    SurfaceCauses& surface = report_.surfaces[s];
+    const double entries = 3 * sums[s].area;
+    const double within = std::max(0.0, ratio_or_zero(sums[s].within, entries) - noise[s]);
+    const double shifted = ratio_or_zero(sums[s].shifted, entries);
+    const auto error = [&](double within_factor, double shift_factor) {
+      return ratio_or_zero(std::sqrt(within_factor * within + shift_factor * shifted),
+                           surface.unit);
+    };
+    surface.errors.patches = error(within_error, shift_error);
+    surface.divided_alone = error(left_within * within_error, shift_error);
+    surface.divided_all = error(left_within * within_error, left_shift * shift_error);
+  }
+  // The surface's mean square is the best guess for patches that were not divided.
+  for (PatchId i = 0; report_.measurements.divided_fraction < 1 && i < scene_.patch_count(); ++i) {
+    const std::int32_t s = surfaces_.of(i);
+    if (s != Surfaces::none && !std::binary_search(chosen.begin(), chosen.end(), i)) {
+      const SurfaceCauses& surface = at(report_.surfaces, s);
+      at(report_.patch_errors, i) = surface.errors.patches * surface.unit;
+    }
+  }
+}
+
+void Measuring::add_up() {
+  for (std::size_t s = 0; s < report_.surfaces.size(); ++s) {
+    if (report_.worst < 0 ||
+        report_.surfaces[s].errors.total() > at(report_.surfaces, report_.worst).errors.total()) {
+      report_.worst = static_cast<int>(s);
+    }
+  }
+  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
+    const std::int32_t s = surfaces_.of(i);
+    const double error =
+        at(report_.patch_errors, i) + std::sqrt(sum_of_squares(at(standard_error_, i)) / 3);
+    report_.relative_errors.push_back(
+        s == Surfaces::none ? 0 : ratio_or_zero(error, at(report_.surfaces, s).unit));
+  }
+}
+
+}  // namespace
+
+MeasuredSolve measured_solve(const SolveSession& session) {
+  if (session.diffuse() == nullptr) {
+    throw InputError("errors by cause: not available with lobes (glossy)");
+  }
+  if (traits_of(session.options().scheme).renews_directions) {
+    throw InputError(fmt::format(
+        "errors by cause: not available with the scheme {}, which renews its directions",
+        name_of(session.options().scheme)));
+  }
+  MeasuredSolve solve;
+  solve.solution = session.solution();
+  solve.options = session.options();
+  solve.options.directions = std::max(1, solve.solution.statistics.passes);
+  solve.options.replicas = std::max(1, solve.solution.error.replicas);
+  solve.tree = session.tree();
+  solve.directions = session.directions();
+  if (const auto shot = session.diffuse()->direct_light(); shot && !shot->sources.empty()) {
+    solve.shot = shot;
+  }
+  return solve;
+}
+
+ErrorReport measure_errors(const MeasuredSolve& solve, const Cancellation& cancellation,
+                           const MeasurementObserver& observer, std::int64_t most_patches) {
+  return Measuring(solve, cancellation, observer).run(most_patches);
+}
+
+}  // namespace transillum
