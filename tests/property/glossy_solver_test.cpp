@@ -55,7 +55,7 @@ TEST(GlossySolver, CanBeCanceledAndPaused) {
   EXPECT_FALSE(stepped.advance(RadiositySolver::Until::finished));
   EXPECT_EQ(stepped.solution().radiosity, whole.radiosity);
   Cancellation cancellation;
-  GlossySolver canceled(scene, options, nullptr, cancellation);
+  GlossySolver canceled(scene, options, {}, cancellation);
   EXPECT_THROW(canceled.solve([&](const SolveProgress& progress) {
     if (progress.iteration == 2) {
       cancellation.cancel();
@@ -152,7 +152,7 @@ TEST(GlossySolver, CanBeCanceledWhileLobesAreScaled) {
   }
   for (const auto start : {GlossySolver::Start::emission, GlossySolver::Start::current}) {
     Cancellation cancellation;
-    GlossySolver solver(scene, options, nullptr, cancellation);
+    GlossySolver solver(scene, options, {}, cancellation);
     solver.solve();
     solver.set_materials(other, {}, start);  // patches get lobes that had none
     EXPECT_THROW(solver.solve([&](const SolveProgress& progress) {

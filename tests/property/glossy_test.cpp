@@ -377,9 +377,7 @@ TEST(GlossyOptions, RefusesWhatItCannotDo) {
   EXPECT_THAT(refused([](SolveOptions& o) { o.normalize = Normalization::symmetric; }),
               HasSubstr("symmetric"));
   EXPECT_THAT(refused([](SolveOptions& o) { o.scheme = Scheme::growing; }), HasSubstr("scheme"));
-  EXPECT_THAT(refused([](SolveOptions& o) { o.first_shot = 10; }), HasSubstr("first shot"));
   EXPECT_THAT(refused([](SolveOptions& o) { o.replicas = 2; }), HasSubstr("replicas"));
-  EXPECT_THAT(refused([](SolveOptions& o) { o.goal.accuracy = 0.01; }), HasSubstr("accuracy"));
   EXPECT_THAT(refused([](SolveOptions& o) { o.engine = Engine::pairs; }), HasSubstr("pairs"));
 }
 

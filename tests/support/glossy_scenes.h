@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -62,8 +63,9 @@ inline std::shared_ptr<const Scene> glossy_box() {
   return std::make_shared<const Scene>(glossy_box_description());
 }
 
+/// Without a first shot.
 inline SolveOptions glossy_options(int directions) {
-  return {.directions = directions, .tolerance = 1e-13, .glossy = true};
+  return {.directions = directions, .first_shot = {}, .tolerance = 1e-13, .glossy = true};
 }
 
 inline double largest(const std::vector<Rgb>& values) {
@@ -72,6 +74,20 @@ inline double largest(const std::vector<Rgb>& values) {
     result = std::max(result, max_abs(v));
   }
   return result;
+}
+
+/// RMS of a - b over the RMS of b - E, over channels and patches that do not emit.
+inline double relative_error(const Scene& scene, const std::vector<Rgb>& a,
+                             const std::vector<Rgb>& b) {
+  double errors = 0, values = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (max_abs(scene.exitance(static_cast<PatchId>(i))) == 0) {
+      const Rgb off = (a[i] - b[i]) * (a[i] - b[i]), value = b[i] * b[i];
+      errors += off.r + off.g + off.b;
+      values += value.r + value.g + value.b;
+    }
+  }
+  return std::sqrt(errors / values);
 }
 
 inline double largest_difference(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {

@@ -29,10 +29,6 @@ TEST(CliGlossy, IsRefusedInOneLineWhereItIsNotAvailable) {
           {{"--scheme", "growing"}, "another scheme than fixed"},
           {{"--scheme", "semi-iterative"}, "another scheme than fixed"},
           {{"--scheme", "conjugate-gradients"}, "another scheme than fixed"},
-          {{"--first-shot", "auto"}, "not available with a first shot"},
-          {{"--replicas", "2"}, "not available with replicas"},
-          {{"--accuracy", "1%"}, "an accuracy or a time limit"},
-          {{"--seconds", "1"}, "an accuracy or a time limit"},
           {{"--factors", "f.npz"}, "--factors: not used with --glossy"},
           {{"--by", "material"}, "--by: not used with --glossy"},
           {{"--series", "s.pvd"}, "--series: not used with --glossy"},
@@ -55,11 +51,29 @@ TEST(CliGlossy, WorksWithTheOtherOptions) {
                                {"--engine", "rays"},
                                {"--max-patch-area", "0.1"},
                                {"--sampling", "fibonacci"},
-                               {"--rotate", "3"}};
+                               {"--rotate", "3"},
+                               {"--replicas", "2"},
+                               {"--first-shot", "0"}};
   for (const Arguments& option : options) {
     SCOPED_TRACE(::testing::PrintToString(option));
     expect_success(shining + Arguments{"--glossy"} + option);
   }
+}
+
+TEST(CliGlossy, ReachesAnAccuracy) {
+  TemporaryFolder folder;
+  const Arguments glossy{"solve",    "cornell-box", "--lobe",         "white=0.2,8",
+                         "--glossy", "--stats",     folder / "s.json"};
+  const ProgramResult result =
+      run_program(glossy + Arguments{"--accuracy", "10%", "--tolerance", "1e-4"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("10 % asked, reached"));
+  const auto json = read_json(folder / "s.json");
+  EXPECT_EQ(json["accuracy"]["reached"], true);
+  EXPECT_GT(json["glossy"]["patches"], 0);
+  // Without one, the number of directions is not chosen by an accuracy.
+  expect_success(glossy + Arguments{"-q", "--iterations", "1"});
+  EXPECT_TRUE(read_json(folder / "s.json")["accuracy"].is_null());
 }
 
 TEST(CliGlossy, FilesHaveTheRadianceTowardAnEye) {

@@ -208,8 +208,9 @@ class GlossyTest : public QObject {
     QVERIFY(w.part<QLabel>("summary_lobes")->text().endsWith("n = 24 needs M = 240"));
     w.part<QSpinBox>("directions")->setValue(240);
     QVERIFY(note->isHidden());
+    // Each replica needs as many.
     w.part<QSpinBox>("replicas")->setValue(4);
-    QVERIFY(note->text().startsWith("lobes are not available with replicas"));
+    QCOMPARE(note->text(), QStringLiteral("n = 24 needs M = 960"));
     w.part<QSpinBox>("replicas")->setValue(1);
     w.part<QCheckBox>("glossy")->setChecked(false);
     QCOMPARE(note->text(), QStringLiteral("the scene has lobes"));

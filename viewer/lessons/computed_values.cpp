@@ -109,7 +109,8 @@ const Solution* ComputedValues::solved_with_lobes(const SolveOptions& options,
     change_materials(changed, changes);
     scene = std::make_shared<const Scene>(changed, scene->options(), cancellation_);
   }
-  GlossySolver solver(scene, options, changes.empty() ? loaded_->tree : nullptr, cancellation_);
+  GlossySolver solver(scene, options, {.tree = changes.empty() ? loaded_->tree : nullptr},
+                      cancellation_);
   solver.solve();
   known.emplace_back(changes, solver.solution());
   return &known.back().second;

@@ -52,9 +52,14 @@ QString SettingsPanel::note_on_lobes() const {
   if (!largest_exponent_) {
     return tr("no material has a lobe");
   }
-  return *largest_exponent_ > resolved_exponent(directions_->value())
+  if (options().solve.goal.is_set()) {
+    return {};  // the accuracy chooses M
+  }
+  const int replicas = options().solve.replicas;
+  return *largest_exponent_ > resolved_exponent(directions_->value() / replicas)
              ? tr("n = %1 needs M = %2")
-                   .arg(number_text(*largest_exponent_), number_text(10 * *largest_exponent_))
+                   .arg(number_text(*largest_exponent_),
+                        number_text(10 * *largest_exponent_ * replicas))
              : QString();
 }
 

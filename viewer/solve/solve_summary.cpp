@@ -105,15 +105,17 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   negative_->setText(snapshot.linear_terms.empty() ? tr("constant B")
                                                    : count_text(s.negative_corners));
   const GlossyStatistics& g = s.glossy;
+  const int replicas = snapshot.options.replicas;
   const auto bytes = g.radiance_bytes + g.lobe_bytes + g.transfer_bytes;
   const QString lobes =
       tr("%1 patches, %2 MB")
           .arg(count_text(g.patches), number_text(1e-6 * static_cast<double>(bytes)));
-  lobes_->setText(g.patches == 0 ? tr("no lobe reflects")
-                  : g.exponent > resolved_exponent(s.passes)
-                      ? tr("%1; n = %2 needs M = %3")
-                            .arg(lobes, number_text(g.exponent), number_text(10 * g.exponent))
-                      : lobes);
+  lobes_->setText(
+      g.patches == 0 ? tr("no lobe reflects")
+      : g.exponent > resolved_exponent(s.passes / replicas)
+          ? tr("%1; n = %2 needs M = %3")
+                .arg(lobes, number_text(g.exponent), number_text(10 * g.exponent * replicas))
+          : lobes);
   show_error(snapshot);
   show_directions_needed(snapshot);
   energy_->setText(any_iteration ? number_text(s.energy_defect) : none);

@@ -131,14 +131,20 @@ std::string metal_of(const Scene& scene) {
   return {};
 }
 
+void warn_of_lobes(const Scene& scene, int directions_per_replica) {
+  for (const std::string& warning : lobe_warnings(scene, directions_per_replica)) {
+    print_message("warning: " + warning);
+  }
+}
+
 /// Says what about lobes a user may not expect.
 void say_of_lobes(const SolveCall& call, const SolveOptions& options, const Scene& scene) {
   const bool present = has_lobes(scene);
   if (options.glossy && !present) {
     print_message("no material has a lobe: --glossy changes nothing");
   } else if (options.glossy) {
-    for (const std::string& warning : lobe_warnings(scene, options.directions)) {
-      print_message("warning: " + warning);
+    if (!options.goal.is_set()) {  // which chooses the directions
+      warn_of_lobes(scene, options.directions / options.replicas);
     }
   } else if (present && !call.quiet) {
     const std::string metal = metal_of(scene);
@@ -227,6 +233,10 @@ int run_solve(SolveCall& call) {
   solution.eye = call.eye;
   for (const std::string& warning : solve_warnings(solution)) {
     print_message("warning: " + warning);
+  }
+  if (solution.statistics.glossy.patches > 0 && options.goal.is_set()) {
+    warn_of_lobes(*solution.scene,
+                  solution.statistics.passes / std::max(solution.error.replicas, 1));
   }
   if (shared && !call.quiet) {
     print_message(processes().traffic());

@@ -56,6 +56,11 @@ struct DirectLight {
     /// Coefficients of phi_1 and phi_2 of H for an exitance of 1; empty with Basis::constant.
     std::vector<std::array<double, 2>> linear_terms = {};
   };
+  /// The contribution of one source to one patch.
+  struct Pair {
+    PatchId receiver = 0, source = 0;
+    double irradiance = 0;  ///< H for an exitance of 1, above 0
+  };
 
   std::vector<Rgb> irradiance;   ///< H, W/m², one per patch
   std::vector<Rgb> exitance;     ///< E of the sources, which has been shot; 0 for other patches
@@ -72,6 +77,10 @@ struct DirectLight {
   /// Estimated errors of `linear_terms`, of points even where nothing stands between. Empty if
   /// unknown, and with Basis::constant.
   std::vector<LinearTerm> linear_part_errors = {};
+  /// The patches whose pairs are known, ascending: those with lobes, in a solve in which lobes take
+  /// part. Their reflection depends on where the light comes from.
+  std::vector<PatchId> paired = {};
+  std::vector<Pair> pairs = {};  ///< shoot_pairs(), for `paired`
 };
 
 /// Options of a first shot.
@@ -102,6 +111,21 @@ ShotOptions shot_options(const SolveOptions& options);
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
                   const ShotOptions& options = {}, const Cancellation& cancellation = {},
                   const std::function<void(double)>& progress = {});
+
+/// The single contributions of sources to some patches, of which shoot() adds up all.
+/// @param scene the scene.
+/// @param sources as for shoot().
+/// @param receivers patches, ascending.
+/// @param options as for shoot(); pairs have no linear terms.
+/// @param cancellation checked during computation.
+/// @param progress as for shoot().
+/// @returns pairs by receiver, then source.
+/// @throws Canceled
+std::vector<DirectLight::Pair> shoot_pairs(const Scene& scene, const std::vector<PatchId>& sources,
+                                           const std::vector<PatchId>& receivers,
+                                           const ShotOptions& options = {},
+                                           const Cancellation& cancellation = {},
+                                           const std::function<void(double)>& progress = {});
 
 /// The direct light of the same sources after a change of materials, from the parts of `light`. The
 /// result has no parts.

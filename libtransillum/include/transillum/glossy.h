@@ -30,13 +30,15 @@ namespace TRANSILLUM_API transillum {
 Lobe used_lobe(const Material& material);
 /// Whether the lobe of any patch reflects something.
 bool has_lobes(const Scene& scene);
+/// The patches whose lobes reflect something, ascending.
+std::vector<PatchId> patches_with_lobes(const Scene& scene);
 /// The exponent of the Phong lobe that is about as wide. For LobeShape::ggx, with alpha =
 /// roughness², it is ln 2 / alpha²: both lobes fall to a quarter at the same angle.
 double equivalent_exponent(const Lobe& lobe);
 /// Largest equivalent_exponent() that M passes resolve: M/10, ten directions within a lobe.
 double resolved_exponent(int directions);
 /// Sentences about the lobes of the scene's patches: which are lowered (used_lobe()), and which are
-/// too narrow for M passes.
+/// too narrow for M passes; with replicas, M is the number of passes of each.
 std::vector<std::string> lobe_warnings(const Scene& scene, int directions);
 
 /// The reflectance distribution of a lobe that reflects all light, in the limit of infinitely many
@@ -79,21 +81,21 @@ class GlossyLight {
 
   /// The scene.
   const Scene& scene() const;
-  /// omega of each pass; the set are these and their opposites.
+  /// omega of each pass, replica by replica; the sets are these and their opposites.
   const std::vector<Vec3>& directions() const;
-  /// Whether patch i has a lobe, so that the functions below differ by direction.
+  /// Whether patch i has a lobe, so that the functions below differ by direction within a replica.
   bool is_glossy(PatchId i) const;
   /// The direction of the set along which patch i sends and receives light in a pass: omega, or its
   /// opposite, whichever is above the patch. Unit.
   Vec3 direction(PatchId i, int pass) const;
   /// Phi_i: flux density that arrives along direction(i, pass), W/(m² sr), one per pass; it
-  /// contains the cosine. Empty for a patch without a lobe.
+  /// contains the cosine, but no light of a first shot. Empty for a patch without a lobe.
   std::span<const Rgb> arriving(PatchId i) const;
-  /// Radiance that patch i sends along direction(i, pass), W/(m² sr), by which the last iteration
-  /// gathered.
+  /// Radiance that patch i sends along direction(i, pass), W/(m² sr), after the last iteration, in
+  /// the pass's replica.
   Rgb leaving(PatchId i, int pass) const;
-  /// Radiance of patch i in any direction, W/(m² sr): the last reflection is evaluated for it. 0
-  /// below the patch.
+  /// Radiance of patch i in any direction, W/(m² sr): the last reflection is evaluated for it, as
+  /// the mean over replicas. 0 below the patch.
   /// @param toward unit, away from the surface.
   Rgb radiance(PatchId i, const Vec3& toward) const;
   /// Radiance of each patch from its center toward a point.
@@ -107,6 +109,9 @@ class GlossyLight {
 
 /// Solves for radiance that depends on the direction, by the same passes as a RadiositySolver.
 ///
+/// With R replicas, each is a solve of its own: R sets of M / R directions, whose B, H and radiance
+/// are averaged (ALGORITHM.md 6.14).
+///
 /// Threads: at most one thread at a time may call it. Passes and lobes are distributed over
 /// options.threads threads; the bits of the result do not depend on their number.
 class GlossySolver {
@@ -114,13 +119,11 @@ class GlossySolver {
   /// Prepares a solve; makes no pass.
   /// @param scene the scene.
   /// @param options of the solve run; `glossy` must be set.
-  /// @param tree BSP tree of `scene`; built here if null.
+  /// @param parts what the caller has already; SolverResources::sums is not used.
   /// @param cancellation checked here and in solve().
-  /// @param engine makes the passes; options.engine if null.
   /// @throws InputError, Canceled
   GlossySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-               std::shared_ptr<const BspTree> tree = nullptr, const Cancellation& cancellation = {},
-               TransferEngine engine = {});
+               SolverResources parts = {}, const Cancellation& cancellation = {});
   ~GlossySolver();
   /// The moved-from object may only be destroyed or assigned to.
   GlossySolver(GlossySolver&&) noexcept;
@@ -154,11 +157,18 @@ class GlossySolver {
   /// memory. Nothing is changed then.
   void set_materials(const std::vector<Material>& materials,
                      const std::vector<std::int32_t>& of_patch = {}, Start start = Start::emission);
+  /// The scene, shared.
+  std::shared_ptr<const Scene> shared_scene() const;
   /// The options it was constructed with.
   const SolveOptions& options() const;
+  /// The error estimate from replicas, for B of the last finished iteration. None before the first,
+  /// and for other materials than the scene's.
+  ErrorEstimate error_estimate() const;
+  /// The first shot, of the scene's own materials; all 0 if there is none.
+  std::shared_ptr<const DirectLight> direct_light() const;
   /// The current state.
   SolveProgress progress() const;
-  /// omega of each pass.
+  /// omega of each pass, replica by replica.
   const std::vector<Vec3>& directions() const;
   /// The result so far; complete once the solve has finished. Its `scene` is the constructor's.
   Solution solution() const;

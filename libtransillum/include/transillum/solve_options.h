@@ -81,7 +81,7 @@ struct SolveOptions {
   Basis basis = Basis::constant;                  ///< basis of the radiosity on a patch
   /// R²/A from which sources are small and, if bright, are shot before the first iteration;
   /// first_shot_where_it_pays: those for which it saves time (first_shot_sources()), and none where
-  /// another option excludes a first shot; nothing: no first shot.
+  /// another option excludes a first shot, or lobes take part; nothing: no first shot.
   std::optional<double> first_shot = first_shot_where_it_pays;
   /// semi_iterative: iterations omitted from the mean; unset: until what is left of the start is
   /// below a quarter of the RMS change per iteration, or a tenth of the tolerance; at most half of
@@ -103,11 +103,12 @@ struct SolveOptions {
   /// Light that enters where nothing is above a patch. Not with engines hemicube and pairs.
   Sky sky = {};
   /// solve(): lobes of materials take part (glossy.h). Requires two_way, Scheme::fixed,
-  /// Basis::constant, 1 replica, an engine that takes_directions(), normalization none or rows; no
-  /// first shot, no goal. A RadiositySolver ignores lobes.
+  /// Basis::constant, an engine that takes_directions(), normalization none or rows. A
+  /// RadiositySolver ignores lobes.
   bool glossy = false;
 
-  /// `first_shot`; nothing where it is first_shot_where_it_pays and another option excludes it.
+  /// `first_shot`; nothing where it is first_shot_where_it_pays and another option excludes it or
+  /// lobes take part.
   std::optional<double> used_first_shot() const;
   /// `sampling`, or default_sampling(two_way).
   Sampling used_sampling() const { return sampling.value_or(default_sampling(two_way)); }

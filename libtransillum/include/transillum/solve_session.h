@@ -153,7 +153,7 @@ class SolveSession {
   std::vector<LinearTerm> linear_terms() const;
   /// RadiositySolver::estimate_changes(); empty with lobes.
   std::vector<double> estimate_changes() const;
-  /// RadiositySolver::error_estimate(); empty with lobes.
+  /// RadiositySolver::error_estimate(), or GlossySolver's.
   ErrorEstimate error_estimate() const;
   /// The result so far: with a goal, of the last finished stage, if there is one. Complete once the
   /// solve has finished.

@@ -26,7 +26,6 @@ bool has_goal(const RunOptions& r) { return r.solve.goal.is_set(); }
 bool has_iterations(const RunOptions& r) { return r.solve.iterations > 0; }
 /// A first shot where it pays excludes nothing: where it cannot be, there is none.
 bool has_shot(const RunOptions& r) { return r.solve.first_shot.value_or(-1) >= 0; }
-bool has_replicas(const RunOptions& r) { return r.solve.replicas > 1; }
 bool has_rounds(const RunOptions& r) { return r.refine.is_set(); }
 bool has_no_limit_of_patches(const RunOptions& r) { return r.refine.patches == 0; }
 bool has_time_limit(const RunOptions& r) { return r.solve.goal.seconds > 0; }
@@ -74,12 +73,6 @@ constexpr Conflict conflicts[] = {
     {"glossy", is_glossy, is_not_fixed,
      "lobes are not available with another scheme than fixed: every iteration needs the same "
      "directions"},
-    {"glossy", is_glossy, has_goal,
-     "lobes are not available with an accuracy or a time limit, which require replicas"},
-    {"glossy", is_glossy, has_shot,
-     "lobes are not available with a first shot, which does not say from where its light comes"},
-    {"glossy", is_glossy, has_replicas,
-     "lobes are not available with replicas: a patch keeps its radiance for one set of directions"},
     {"accuracy", has_goal, chooses_directions,
      "the scheme {scheme} chooses its directions itself; choose fixed or conjugate-gradients"},
     {"accuracy", has_goal, has_iterations,
@@ -156,8 +149,9 @@ std::optional<double> SolveOptions::used_first_shot() const {
   }
   RunOptions run{.solve = *this};
   run.solve.first_shot = 0;
+  // Light by direction is whole where no shot is asked for.
   const bool excluded =
-      !takes_directions(engine) ||
+      glossy || !takes_directions(engine) ||
       std::any_of(std::begin(conflicts), std::end(conflicts), [&](const auto& c) {
         return (c.one == has_shot || c.other == has_shot) && c.one(run) && c.other(run);
       });

@@ -31,7 +31,9 @@ void set_default_accuracy(RunOptions& options, const std::set<std::string>& give
   if (given.count("most-passes") == 0) {
     accurate.solve.goal.passes = default_most_passes;
   }
-  if (takes_directions(options.solve.engine) && first_conflict(accurate).empty()) {
+  // With lobes, the time of a solve grows as the square of M.
+  if (takes_directions(options.solve.engine) && !options.solve.glossy &&
+      first_conflict(accurate).empty()) {
     options = accurate;
   }
 }

@@ -142,7 +142,7 @@ void add_equations(Table& t) {
       t.add("first-shot", "RATIO", "none, auto or a number",
             "treat small bright sources separately before the iteration: those with R2/A of at "
             "least this ratio, R the scene's diagonal and A the source's area; auto: those for "
-            "which it takes less time than the passes it saves");
+            "which it takes less time than the passes it saves, none with lobes");
   shot.json = Option::Json::number;
   shot.choices = {"none", "auto"};
   shot.unset = "none";

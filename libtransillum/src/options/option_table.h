@@ -38,8 +38,8 @@ std::span<const std::pair<const char*, const char*>> alternatives();
 /// The reason why two of them exclude each other; empty if all can be combined.
 std::string first_conflict(const RunOptions& options);
 /// The defaults that depend on other options: the choices of the paper; an accuracy of 1 % where
-/// neither directions nor an accuracy are given, and nothing excludes it; the iterations in the
-/// mean.
+/// neither directions nor an accuracy are given, and nothing excludes it, in solves without lobes;
+/// the iterations in the mean.
 /// @param given names of the options that were given. With "accuracy" there is no default accuracy.
 void set_dependent_defaults(RunOptions& options, const std::set<std::string>& given);
 /// The name and the value, as text, of each option that must be given to get `options` from the

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/memory_limit.h"
 #include "radiosity/error/error_estimate.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/norms.h"
@@ -20,6 +21,7 @@
 #include "radiosity/state_archive.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/glossy.h"
 
 namespace transillum {
 namespace {
@@ -36,6 +38,8 @@ constexpr int directions_at_first = 6;  ///< per replica
 constexpr int directions_at_least = 4;  ///< per replica, where time is short
 /// The error is expected to fall as M to this power, negative, before two stages show it.
 constexpr double expected_exponent = 1;
+/// Most directions per replica in a first stage, which should resolve the lobes of materials.
+constexpr double most_at_first = 256;
 /// A stage that is this many times smaller than the next costs little and shows the exponent.
 constexpr double usual_growth = 8, largest_growth = 12;
 /// Directions of a stage from which on a solve that diverges is not tried with more.
@@ -66,6 +70,22 @@ ErrorEstimate without_errors(const ErrorEstimate& error) {
   return result;
 }
 
+/// Directions per replica that resolve the lobes of a scene, up to most_at_first.
+int directions_for_lobes(const Scene& scene) {
+  double exponent = 0;
+  for (const PatchId i : patches_with_lobes(scene)) {
+    exponent = std::max(exponent, equivalent_exponent(scene.material(i).lobe));
+  }
+  return static_cast<int>(std::min(exponent / resolved_exponent(1), most_at_first));
+}
+
+/// Directions whose radiance surely fits into memory.
+double fitting_directions(const StageResult& result) {
+  const auto bytes = static_cast<double>(result.statistics.glossy.radiance_bytes);
+  return bytes > 0 ? result.options.directions * (static_cast<double>(free_memory()) / (2 * bytes))
+                   : max_directions;
+}
+
 double length(const Rgb& v) { return std::hypot(v.r, v.g, v.b); }
 
 double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorEstimate& error) {
@@ -78,23 +98,18 @@ double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorE
 }
 
 /// The part of error_for() that a bias of B makes.
-/// @param error of `solver`
 double error_of_bias(const AccuracyGoal& goal, const ErrorSurfaces& surfaces,
-                     const RadiositySolver& solver, const ErrorEstimate& error,
-                     const std::vector<Rgb>& bias) {
-  ErrorEstimate missing = without_errors(error);
-  include_bias(missing, solver.scene(), surfaces, solver.radiosity(), bias);
-  return error_for(goal, solver.scene(), solver.radiosity(), missing);
+                     const StageResult& result, const std::vector<Rgb>& bias) {
+  ErrorEstimate missing = without_errors(result.error);
+  include_bias(missing, result.scene, surfaces, result.radiosity, bias);
+  return error_for(goal, result.scene, result.radiosity, missing);
 }
 
 /// The part of error_for() that further iterations can take away: a bound of what they would
 /// change.
-/// @param error of `solver`
 double error_of_iteration(const AccuracyGoal& goal, const ErrorSurfaces& surfaces,
-                          const RadiositySolver& solver, const SolveStatistics& statistics,
-                          const ErrorEstimate& error) {
-  const Scene& scene = solver.scene();
-  const std::vector<Rgb>& b = solver.radiosity();
+                          const StageResult& result) {
+  const auto& [scene, options, b, statistics, error, shot] = result;
   if (error.replicas == 0 || statistics.iteration_records.empty()) {
     return 0;
   }
@@ -103,9 +118,9 @@ double error_of_iteration(const AccuracyGoal& goal, const ErrorSurfaces& surface
   const double to_limit = distance_to_limit(change, std::max(statistics.rho_max, last.contraction));
   std::vector<Rgb> left(scene.patches().size());
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    at(left, i) = to_limit * scene.reflectance(i);
+    at(left, i) = to_limit * at(surfaces.reflectance, i);
   }
-  return error_of_bias(goal, surfaces, solver, error, left);
+  return error_of_bias(goal, surfaces, result, left);
 }
 
 }  // namespace
@@ -165,7 +180,7 @@ void name_worst_surface(const AccuracyGoal& goal, const ErrorEstimate& error,
 }
 
 AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene)
-    : surfaces_(scene, options.goal.surfaces), stage_(options) {
+    : surfaces_(scene, options.goal.surfaces, options.glossy), stage_(options) {
   options.validate();
   report_.goal = options.goal;
   error_for(options.goal, scene, {}, {});  // checks the patch
@@ -174,6 +189,10 @@ AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene)
     stage_.replicas = options.goal.of == AccuracyOf::max ? replicas_for_max : replicas_at_first;
     stage_.directions =
         stage_.replicas * (short_of_time ? directions_at_least : directions_at_first);
+    if (options.glossy && !short_of_time) {
+      stage_.directions =
+          std::max(stage_.directions, stage_.replicas * directions_for_lobes(scene));
+    }
   }
   if (options.goal.accuracy > 0) {
     // The change by further iterations is then a fiftieth of the goal.
@@ -181,12 +200,10 @@ AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene)
   }
 }
 
-AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seconds) {
-  const SolveOptions& solved = solver.options();
-  const SolveStatistics statistics = solver.statistics();
+AccuracyPlan::Next AccuracyPlan::next(const StageResult& result, double seconds) {
+  const auto& [scene, solved, b, statistics, estimate, shot] = result;
   const AccuracyGoal& goal = report_.goal;
-  const ErrorEstimate estimate = solver.error_estimate();
-  report_.error = error_for(goal, solver.scene(), solver.radiosity(), estimate);
+  report_.error = error_for(goal, scene, b, estimate);
   if (!std::isfinite(report_.error)) {  // replicas of few directions may diverge
     report_.error = std::numeric_limits<double>::infinity();
   }
@@ -195,7 +212,7 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   light_directions_ = statistics.light_directions / solved.replicas;
   // Where no direction has met the light of a source, all replicas agree that there is none.
   const bool is_missed =
-      statistics.rho_max > 0 && solver.scene().has_light() && max_abs(estimate.mean_reflected) == 0;
+      statistics.rho_max > 0 && scene.has_light() && max_abs(estimate.mean_reflected) == 0;
   report_.trusted =
       !is_missed && (light_directions_ >= least_light_directions || light_directions_ == 0);
   report_.reached = report_.trusted && report_.error <= goal.accuracy;
@@ -212,8 +229,7 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   }
   // No number of passes replaces iterations, which the goal may ask more of than the tolerance:
   // a patch, where it is dark.
-  const double missing_iterations =
-      error_of_iteration(goal, surfaces_, solver, statistics, estimate);
+  const double missing_iterations = error_of_iteration(goal, surfaces_, result);
   if (goal.accuracy > 0 && missing_iterations > iteration_fraction * goal.accuracy &&
       std::isfinite(missing_iterations) && solved.directions * per_pass <= time_fraction * left) {
     const IterationRecord& last = statistics.iteration_records.back();
@@ -228,9 +244,8 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   // No number of passes makes the first shot more accurate.
   int& points = stage_.engine_options.points;
   const int used_points = points > 0 ? points : ShotOptions::default_points;
-  if (goal.accuracy > 0 && used_points < EngineOptions::largest_points &&
-      error_of_bias(goal, surfaces_, solver, estimate,
-                    bias_of_shot(solver.scene(), *solver.direct_light())) >
+  if (goal.accuracy > 0 && shot != nullptr && used_points < EngineOptions::largest_points &&
+      error_of_bias(goal, surfaces_, result, bias_of_shot(scene, surfaces_, *shot)) >
           shot_fraction * goal.accuracy) {
     points = std::min(more_points * used_points, EngineOptions::largest_points);
     return Next::stage;
@@ -240,11 +255,11 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   const int replicas = solved.replicas, per_replica = solved.directions / replicas;
   const double more = std::ceil(replicas * (missing * missing - 1));
   const bool replica_suffices = report_.trusted && goal.accuracy > 0 && missing <= most_missing &&
-                                replicas + more <= most_replicas;
+                                replicas + more <= most_replicas && statistics.glossy.patches == 0;
   if (replica_suffices && per_replica * per_pass <= left && per_replica <= passes_left()) {
     return Next::replica;
   }
-  return grow(growth(), per_pass, left);
+  return grow(growth(), std::min(time_fraction * left / per_pass, fitting_directions(result)));
 }
 
 /// By how much M should grow for the goal. Of errors of different numbers of replicas, those are
@@ -281,11 +296,10 @@ double AccuracyPlan::growth() const {
   return std::max(factor, 1.1);
 }
 
-AccuracyPlan::Next AccuracyPlan::grow(double factor, double seconds_per_pass, double seconds_left) {
+AccuracyPlan::Next AccuracyPlan::grow(double factor, double most) {
   const double before = stage_.directions, per_replica = before / stage_.replicas;
-  const double fits = time_fraction * seconds_left / seconds_per_pass;
   const double allowed = passes_left();
-  const double wanted = std::min({factor * before, fits, double(max_directions), allowed});
+  const double wanted = std::min({factor * before, most, double(max_directions), allowed});
   if (wanted < 1.1 * before) {
     report_.out_of_passes = allowed < 1.1 * before;
     return Next::done;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "radiosity/error/error_estimate.h"
-#include "transillum/radiosity_solver.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 
@@ -29,8 +28,18 @@ double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector
 void name_worst_surface(const AccuracyGoal& goal, const ErrorEstimate& error,
                         AccuracyReport& report);
 
-/// Chooses the stages of a solve with SolveOptions::goal. The caller makes each: a new
-/// RadiositySolver with stage(), or RadiositySolver::add_replica() of the last.
+/// The result of a stage, diffuse or with lobes.
+struct StageResult {
+  const Scene& scene;
+  const SolveOptions& options;
+  const std::vector<Rgb>& radiosity;  ///< B, W/m²
+  SolveStatistics statistics;
+  ErrorEstimate error;
+  const DirectLight* shot = nullptr;  ///< null: unknown, or there is none
+};
+
+/// Chooses the stages of a solve with SolveOptions::goal. The caller makes each: a new solver with
+/// stage(), or RadiositySolver::add_replica() of the last. With lobes all are new solvers.
 ///
 /// The first stage has few directions. Each further one has as many as are expected to suffice, by
 /// the error of those before; where only little is missing, a replica more. Earlier stages are
@@ -52,9 +61,9 @@ class AccuracyPlan {
     replica,  ///< add_replica(), then the solver again
   };
   /// To be called when the solver of a stage has finished.
-  /// @param solver the solver.
+  /// @param result of the stage.
   /// @param seconds wall time since the start of the solve.
-  Next next(const RadiositySolver& solver, double seconds);
+  Next next(const StageResult& result, double seconds);
   /// To be called where the solver of a stage throws NotConvergent: its directions are too few for
   /// the scene's reflectance.
   /// @returns whether stage() now has more; false where so many should converge.
@@ -76,7 +85,8 @@ class AccuracyPlan {
   template <class Archive, class Self>
   static void visit_state(Archive& archive, Self& self);
 
-  Next grow(double factor, double seconds_per_pass, double seconds_left);
+  /// @param most directions that time and memory allow
+  Next grow(double factor, double most);
   double growth() const;
   bool is_stalled() const;
   /// Passes that the goal still allows.

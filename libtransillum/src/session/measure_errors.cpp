@@ -180,7 +180,7 @@ void Measuring::measure_method() {
   observe(Measurement::engines, 0);
   const MethodErrors method = method_errors(solve_, surfaces_, cancellation_);
   const std::vector<Rgb> bias =
-      solve_.shot ? bias_of_shot(scene_, *solve_.shot) : std::vector<Rgb>();
+      solve_.shot ? bias_of_shot(scene_, {scene_, {}}, *solve_.shot) : std::vector<Rgb>();
   const std::vector<double> shot =
       bias.empty() ? std::vector<double>(report_.surfaces.size()) : relative(bias);
   for (std::size_t s = 0; s < report_.surfaces.size(); ++s) {

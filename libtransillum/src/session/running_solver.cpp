@@ -41,6 +41,10 @@ std::vector<Rgb> RunningSolver::radiosity() const {
   return diffuse() != nullptr ? diffuse()->radiosity() : glossy()->solution().radiosity;
 }
 
+ErrorEstimate RunningSolver::error_estimate() const {
+  return diffuse() != nullptr ? diffuse()->error_estimate() : glossy()->error_estimate();
+}
+
 Solution RunningSolver::solution() const {
   return diffuse() != nullptr ? diffuse()->solution() : glossy()->solution();
 }

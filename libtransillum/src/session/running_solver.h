@@ -36,6 +36,7 @@ class RunningSolver {
   std::vector<Vec3> directions_of(int iteration) const;
   int passes_of(int iteration) const;
   std::vector<Rgb> radiosity() const;
+  ErrorEstimate error_estimate() const;
   Solution solution() const;
 
  private:

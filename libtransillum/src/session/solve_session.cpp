@@ -79,9 +79,8 @@ void SolveSession::Impl::build_tree() {
 
 void SolveSession::Impl::shoot_first() {
   const SolveOptions& options = plan ? plan->stage() : request.options;
-  const std::optional<double> threshold = options.used_first_shot();
   const int points = options.engine_options.points;
-  if (!threshold || (shot && shot_points == points)) {
+  if (!options.used_first_shot() || (shot && shot_points == points)) {
     return;
   }
   const auto start = Clock::now();
@@ -90,10 +89,7 @@ void SolveSession::Impl::shoot_first() {
     report = [this](double fraction) { request.preparing(Preparation::first_shot, fraction); };
     report(0);
   }
-  shot = std::make_shared<const DirectLight>(shoot(
-      *scene,
-      first_shot_sources(*scene, *threshold, expected_directions(request.options), cancellation),
-      shot_options(options), cancellation, report));
+  shot = std::make_shared<const DirectLight>(first_shot(*scene, options, cancellation, report));
   shot_points = points;
   seconds_first_shot = seconds_since(start);
 }
@@ -101,7 +97,9 @@ void SolveSession::Impl::shoot_first() {
 void SolveSession::Impl::make_solver() {
   const SolveOptions& options = plan ? plan->stage() : request.options;
   if (options.glossy && has_lobes(*scene)) {
-    solver.emplace(GlossySolver(scene, options, tree, cancellation, request.engine));
+    solver.emplace(GlossySolver(scene, options,
+                                {.tree = tree, .shot = shot, .engine = request.engine, .sums = {}},
+                                cancellation));
     return;
   }
   solver.emplace(RadiositySolver(
@@ -152,8 +150,14 @@ bool SolveSession::Impl::advance_stage(SolverUntil until, const std::function<bo
 
 bool SolveSession::Impl::begin_next() {
   if (plan && !next) {
-    next = plan->next(*solver->diffuse(), request.sums->from_first(seconds()));
     best = solver->solution();
+    next = plan->next({.scene = *scene,
+                       .options = solver->options(),
+                       .radiosity = best->radiosity,
+                       .statistics = best->statistics,
+                       .error = best->error,
+                       .shot = shot.get()},
+                      request.sums->from_first(seconds()));
   }
   if (plan && next != AccuracyPlan::Next::done) {
     if (next == AccuracyPlan::Next::replica) {
@@ -320,9 +324,7 @@ std::vector<LinearTerm> SolveSession::linear_terms() const {
 std::vector<double> SolveSession::estimate_changes() const {
   return diffuse() != nullptr ? diffuse()->estimate_changes() : std::vector<double>();
 }
-ErrorEstimate SolveSession::error_estimate() const {
-  return diffuse() != nullptr ? diffuse()->error_estimate() : ErrorEstimate();
-}
+ErrorEstimate SolveSession::error_estimate() const { return impl_->solver->error_estimate(); }
 
 Solution SolveSession::solution() const {
   const Impl& s = *impl_;

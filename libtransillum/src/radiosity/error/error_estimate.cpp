@@ -11,6 +11,7 @@
 #include "radiosity/norms.h"
 #include "radiosity/reflected_light.h"
 #include "transillum/at.h"
+#include "transillum/glossy.h"
 
 namespace transillum {
 namespace {
@@ -76,21 +77,22 @@ DeviationProducts scalar_products(const std::vector<Rgb>& b, const std::vector<c
 
 /// The bias of H where the bias of B is `bias`, W/m²; where nothing is reflected, the mean over the
 /// other patches.
-std::vector<Rgb> bias_of_irradiance(const Scene& scene, const std::vector<Rgb>& bias) {
+std::vector<Rgb> bias_of_irradiance(const Scene& scene, const ErrorSurfaces& surfaces,
+                                    const std::vector<Rgb>& bias) {
   const std::size_t per_patch = unknowns_per_patch(scene, bias);
   std::vector<Rgb> result(bias.size());
   for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
     double sum = 0, area = 0;
     for (std::size_t u = 0; u < bias.size(); ++u) {
       const auto i = static_cast<PatchId>(u / per_patch);
-      if (const double rho = scene.reflectance(i).*channel; rho > 0) {
+      if (const double rho = at(surfaces.reflectance, i).*channel; rho > 0) {
         result[u].*channel = bias[u].*channel / rho;
         sum += scene.patch(i).area * result[u].*channel;
         area += scene.patch(i).area;
       }
     }
     for (std::size_t u = 0; u < bias.size() && area > 0; ++u) {
-      if (!(scene.reflectance(static_cast<PatchId>(u / per_patch)).*channel > 0)) {
+      if (!(surfaces.reflectance[u / per_patch].*channel > 0)) {
         result[u].*channel = sum / area;
       }
     }
@@ -100,9 +102,15 @@ std::vector<Rgb> bias_of_irradiance(const Scene& scene, const std::vector<Rgb>& 
 
 }  // namespace
 
-ErrorSurfaces::ErrorSurfaces(const Scene& scene, const std::vector<std::string>& kept)
-    : reflecting(find_surfaces(scene, Measured::reflecting, kept)),
-      receiving(find_surfaces(scene, Measured::receiving, kept)) {}
+ErrorSurfaces::ErrorSurfaces(const Scene& scene, const std::vector<std::string>& kept, bool lobes)
+    : reflecting(find_surfaces(
+          scene, lobes ? Measured::reflecting_with_lobes : Measured::reflecting, kept)),
+      receiving(find_surfaces(scene, Measured::receiving, kept)) {
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    reflectance.push_back(lobes ? scene.reflectance(i) + used_lobe(scene.material(i)).reflectance
+                                : scene.reflectance(i));
+  }
+}
 
 ErrorEstimate estimate_error(const Scene& scene, const ErrorSurfaces& surfaces,
                              const std::vector<Rgb>& b,
@@ -159,7 +167,7 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces&
   error.mean_standard_error =
       root_of_squares(error.mean_standard_error, mean_over_area(scene, bias));
   include_bias(error.surfaces, surfaces.reflecting, bias);
-  include_bias(error.irradiance, surfaces.receiving, bias_of_irradiance(scene, bias));
+  include_bias(error.irradiance, surfaces.receiving, bias_of_irradiance(scene, surfaces, bias));
   const ReflectedLight light(scene, per_patch);
   const std::vector<Rgb> reflected = light.of(b);
   if (const double unit = max_norm(reflected); unit > 0) {
@@ -177,10 +185,11 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces&
 
 /// An error D of H makes B wrong by X = rho D + rho F X. F X is taken as the mean of X over the
 /// area, the mean of rho D over 1 - the mean of rho.
-std::vector<Rgb> bias_of_shot(const Scene& scene, const DirectLight& shot) {
+std::vector<Rgb> bias_of_shot(const Scene& scene, const ErrorSurfaces& surfaces,
+                              const DirectLight& shot) {
   std::vector<Rgb> bias(shot.irradiance_error.size()), rho(bias.size());
   for (std::size_t i = 0; i < bias.size(); ++i) {
-    rho[i] = scene.reflectance(static_cast<PatchId>(i));
+    rho[i] = surfaces.reflectance[i];
     bias[i] = rho[i] * shot.irradiance_error[i];
   }
   if (bias.empty() || !(max_norm(bias) > 0)) {

@@ -14,12 +14,14 @@ namespace transillum {
 
 /// The surfaces of which errors are told.
 struct ErrorSurfaces {
-  Surfaces reflecting;  ///< for errors of B - E
-  Surfaces receiving;   ///< for errors of H
+  Surfaces reflecting;           ///< for errors of B - E
+  Surfaces receiving;            ///< for errors of H
+  std::vector<Rgb> reflectance;  ///< by patch: (B - E) / H
 
   ErrorSurfaces() = default;
   /// @param kept as in find_surfaces()
-  ErrorSurfaces(const Scene& scene, const std::vector<std::string>& kept);
+  /// @param lobes whether the lobes of materials reflect too
+  ErrorSurfaces(const Scene& scene, const std::vector<std::string>& kept, bool lobes = false);
 };
 
 /// The error of `b` from the spread of replicas. Lists are of unknowns: with a linear basis, the
@@ -38,6 +40,7 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces&
 
 /// Estimate of what B is off by because of the error of the first shot, W/m², one per patch; empty
 /// if there is none or it is unknown.
-std::vector<Rgb> bias_of_shot(const Scene& scene, const DirectLight& shot);
+std::vector<Rgb> bias_of_shot(const Scene& scene, const ErrorSurfaces& surfaces,
+                              const DirectLight& shot);
 
 }  // namespace transillum

@@ -8,6 +8,7 @@
 #include "radiosity/light_sources.h"
 #include "radiosity/ratio.h"
 #include "transillum/at.h"
+#include "transillum/glossy.h"
 #include "transillum/solution.h"
 
 namespace transillum {
@@ -17,9 +18,9 @@ constexpr std::size_t most_pairs = std::size_t{1} << 22;
 
 /// Whether any patch that does not emit reflects: then errors are measured on such patches only
 /// (ReflectedLight).
-bool reflects_without_emission(const Scene& scene) {
+bool reflects_without_emission(const Scene& scene, const std::vector<Rgb>& reflectance) {
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    if (max_abs(scene.exitance(i)) == 0 && max_abs(scene.reflectance(i)) > 0) {
+    if (max_abs(scene.exitance(i)) == 0 && max_abs(at(reflectance, i)) > 0) {
       return true;
     }
   }
@@ -32,7 +33,9 @@ struct UnmetLight {
   double solid_angle = 0;  ///< solid angle of the directions along which both overlap, sr
 };
 
-UnmetLight light_between(const Scene& scene, PatchId receiver, const LightSource& source) {
+/// @param reflectance of the receiver
+UnmetLight light_between(const Scene& scene, PatchId receiver, const Rgb& reflectance,
+                         const LightSource& source) {
   const Patch& i = scene.patch(receiver);
   UnmetLight between;
   double facing = 0, seen = 0, nearest = HUGE_VAL;
@@ -45,7 +48,7 @@ UnmetLight light_between(const Scene& scene, PatchId receiver, const LightSource
     }
     const double distance = std::sqrt(square);
     const double owned = j.area * toward * from / (std::numbers::pi * square * square);
-    between.light += std::min(owned, 1.0) * scene.reflectance(receiver) * scene.exitance(k);
+    between.light += std::min(owned, 1.0) * reflectance * scene.exitance(k);
     facing = std::max(facing, i.area * toward / distance);
     seen += j.area * from / distance;
     nearest = std::min(nearest, square);
@@ -69,9 +72,12 @@ std::vector<PatchId> uncertain_patches(const Solution& solution) {
   }
   const double per_steradian = statistics.directions / (error.replicas * 4 * std::numbers::pi);
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const Rgb reflectance = solution.glossy == nullptr
+                                ? scene.reflectance(i)
+                                : scene.reflectance(i) + used_lobe(scene.material(i)).reflectance;
     Rgb unmet;
     for (const LightSource& source : sources) {
-      const UnmetLight between = light_between(scene, i, source);
+      const UnmetLight between = light_between(scene, i, reflectance, source);
       if (between.solid_angle * per_steradian < least_light_directions) {
         unmet += between.light;
       }
@@ -83,18 +89,19 @@ std::vector<PatchId> uncertain_patches(const Solution& solution) {
   return uncertain;
 }
 
-LightDirections::LightDirections(const Scene& scene, bool two_way, const DirectLight& shot)
+LightDirections::LightDirections(const Scene& scene, bool two_way, const DirectLight& shot,
+                                 const std::vector<Rgb>& reflectance)
     : two_way_(two_way),
       weight_(scene.patches().size()),
       exitance_(scene.patches().size()),
       emits_(scene.patches().size()),
       column_(scene.patches().size()) {
-  const bool others_reflect = reflects_without_emission(scene);
+  const bool others_reflect = reflects_without_emission(scene, reflectance);
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const Rgb unshot = scene.exitance(i) - at(shot.exitance, i);
     const bool measured = !others_reflect || !(max_abs(scene.exitance(i)) > 0);
     at(weight_, i) =
-        measured ? std::pow(max_abs(scene.reflectance(i)) / scene.patch(i).area, 2) : 0.0;
+        measured ? std::pow(max_abs(at(reflectance, i)) / scene.patch(i).area, 2) : 0.0;
     at(exitance_, i) = unshot.r + unshot.g + unshot.b;
     at(emits_, i) = at(exitance_, i) > 0 ? 1 : 0;
   }

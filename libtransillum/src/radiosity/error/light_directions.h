@@ -17,7 +17,9 @@ namespace transillum {
 class LightDirections {
  public:
   /// @param shot its sources do not count
-  LightDirections(const Scene& scene, bool two_way, const DirectLight& shot);
+  /// @param reflectance of each patch
+  LightDirections(const Scene& scene, bool two_way, const DirectLight& shot,
+                  const std::vector<Rgb>& reflectance);
 
   /// Adds a pass along a direction that is new.
   void add(const std::vector<Transfer>& exchanges);

@@ -30,6 +30,8 @@ struct Surfaces {
 enum class Measured {
   reflecting,  ///< patches that reflect and do not emit; all patches where there are none
   receiving,   ///< patches that do not emit; all patches where there are none
+  /// The same as `reflecting`, where a patch may also reflect by its lobe only.
+  reflecting_with_lobes,
 };
 
 /// The surfaces with measured patches. Surfaces with less than 1 % of the measured area count

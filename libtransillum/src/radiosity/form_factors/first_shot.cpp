@@ -194,6 +194,26 @@ Rgb exitance_of_contribution(const DirectLight::Contribution& contribution,
   return common.value_or(Rgb{});
 }
 
+/// The contributions of all sources to patch i.
+std::vector<DirectLight::Pair> pairs_of(const Scene& scene, const ExchangeFinder& exchange,
+                                        PatchId i, const std::vector<PatchId>& sources,
+                                        ShotProgress& progress) {
+  std::vector<DirectLight::Pair> pairs;
+  for (const PatchId j : sources) {
+    progress.check();
+    progress.add_pair();
+    const double area = j == i ? 0.0 : exchange(i, j, [&] { progress.check(); }).area;
+    if (area > 0) {
+      pairs.push_back({i, j, 1 / scene.patch(i).area * area});
+    }
+  }
+  return pairs;
+}
+
+double density_of(const ShotOptions& options) {
+  return options.points > 0 ? options.points : ShotOptions::default_points;
+}
+
 }  // namespace
 
 ShotOptions shot_options(const SolveOptions& options) {
@@ -218,8 +238,7 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
   if (sources.empty()) {
     return light;
   }
-  const ExchangeFinder exchange(scene, cancellation,
-                                options.points > 0 ? options.points : ShotOptions::default_points);
+  const ExchangeFinder exchange(scene, cancellation, density_of(options));
   WorkerThreads workers(thread_count(options.threads));
   ShotProgress shot(static_cast<double>(patches) * static_cast<double>(sources.size()),
                     cancellation, progress);
@@ -233,6 +252,29 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
   count_power(
       scene, [&](PatchId i) { return scene.exitance(i); }, light);
   return light;
+}
+
+std::vector<DirectLight::Pair> shoot_pairs(const Scene& scene, const std::vector<PatchId>& sources,
+                                           const std::vector<PatchId>& receivers,
+                                           const ShotOptions& options,
+                                           const Cancellation& cancellation,
+                                           const std::function<void(double)>& progress) {
+  std::vector<DirectLight::Pair> pairs;
+  if (sources.empty() || receivers.empty()) {
+    return pairs;
+  }
+  const ExchangeFinder exchange(scene, cancellation, density_of(options));
+  WorkerThreads workers(thread_count(options.threads));
+  ShotProgress shot(static_cast<double>(receivers.size()) * static_cast<double>(sources.size()),
+                    cancellation, progress);
+  std::vector<std::vector<DirectLight::Pair>> by_receiver(receivers.size());
+  for_each_index(workers, std::size_t{0}, receivers.size(), [&](std::size_t k) {
+    by_receiver[k] = pairs_of(scene, exchange, receivers[k], sources, shot);
+  });
+  for (const std::vector<DirectLight::Pair>& of_receiver : by_receiver) {
+    pairs.insert(pairs.end(), of_receiver.begin(), of_receiver.end());
+  }
+  return pairs;
 }
 
 DirectLight with_materials(const DirectLight& light, const Scene& scene,
@@ -268,6 +310,8 @@ DirectLight with_materials(const DirectLight& light, const Scene& scene,
     }
   }
   count_power(scene, exitance_of, other);
+  other.paired = light.paired;
+  other.pairs = light.pairs;
   return other;
 }
 

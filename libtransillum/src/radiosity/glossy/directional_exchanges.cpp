@@ -7,12 +7,14 @@
 
 namespace transillum {
 
-DirectionalExchanges::DirectionalExchanges(std::vector<char> glossy, int passes,
-                                           std::uint64_t budget, const Cancellation& cancellation)
-    : glossy_(std::move(glossy)),
-      budget_(budget),
-      passes_(static_cast<std::size_t>(passes)),
-      sums_(static_cast<PatchId>(glossy_.size()), true, budget, cancellation) {}
+DirectionalExchanges::DirectionalExchanges(std::vector<char> glossy, std::size_t passes,
+                                           std::size_t replicas, std::uint64_t budget,
+                                           const Cancellation& cancellation)
+    : glossy_(std::move(glossy)), budget_(budget), passes_(passes) {
+  for (std::size_t r = 0; r < replicas; ++r) {
+    sums_.emplace_back(static_cast<PatchId>(glossy_.size()), true, budget, cancellation);
+  }
+}
 
 DirectionalExchanges::Sorted DirectionalExchanges::sort(const Transfers& transfers) const {
   Sorted sorted;
@@ -22,37 +24,46 @@ DirectionalExchanges::Sorted DirectionalExchanges::sort(const Transfers& transfe
     (directional ? sorted.directional : diffuse).push_back(t);
   }
   sorted.directional.shrink_to_fit();
-  sorted.diffuse = sums_.sort(diffuse);
+  sorted.diffuse = sums_.front().sort(diffuse);
   return sorted;
 }
 
-void DirectionalExchanges::add(int pass, Sorted sorted) {
+void DirectionalExchanges::add(std::size_t pass, std::size_t replica, Sorted sorted) {
   if (dropped_) {
     return;
   }
   directional_ += std::ssize(sorted.directional);
-  passes_[static_cast<std::size_t>(pass)] = std::move(sorted.directional);
-  sums_.add(std::move(sorted.diffuse));
+  passes_[pass] = std::move(sorted.directional);
+  ExchangeSums& sums = sums_[replica];
+  sums.add(std::move(sorted.diffuse));
   // While sums are merged, they exist twice.
-  const std::uint64_t merging = sums_.size() * sizeof(Transfer);
-  if (sums_.overrun() || bytes() + merging > budget_) {
+  const std::uint64_t merging = sums.size() * sizeof(Transfer);
+  if (sums.overrun() || bytes() + merging > budget_) {
     drop();
   }
 }
 
 void DirectionalExchanges::finish() {
-  if (!dropped_) {
-    sums_.finish();
+  for (ExchangeSums& sums : sums_) {
+    if (!dropped_) {
+      sums.finish();
+    }
   }
 }
 
 std::int64_t DirectionalExchanges::size() const {
-  return directional_ + static_cast<std::int64_t>(sums_.size());
+  std::int64_t size = directional_;
+  for (const ExchangeSums& sums : sums_) {
+    size += static_cast<std::int64_t>(sums.size());
+  }
+  return size;
 }
 
 void DirectionalExchanges::drop() {
   dropped_ = true;
-  sums_.drop();
+  for (ExchangeSums& sums : sums_) {
+    sums.drop();
+  }
   passes_ = {};
   directional_ = 0;
 }

@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <numbers>
 #include <utility>
 
 #include "base/for_each_index.h"
@@ -6,6 +7,10 @@
 #include "transillum/at.h"
 
 namespace transillum {
+
+Rgb GlossyLight::Data::shot_radiance(PatchId i) const {
+  return 1 / std::numbers::pi * at(shot->exitance, i);
+}
 
 GlossyLight::GlossyLight(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
@@ -29,10 +34,12 @@ std::span<const Rgb> GlossyLight::arriving(PatchId i) const {
 
 Rgb GlossyLight::leaving(PatchId i, int pass) const {
   const std::int32_t g = at(data_->index_of, i);
-  const Rgb& lambertian = at(data_->lambertian, i);
-  return g < 0 ? lambertian
-               : lambertian + data_->reflected[static_cast<std::size_t>(g) * data_->passes() +
-                                               static_cast<std::size_t>(pass)];
+  const auto p = static_cast<std::size_t>(pass);
+  const Rgb& lambertian = at(data_->lambertian[data_->replica_of(p)], i);
+  const Rgb emitted = data_->shot ? data_->shot_radiance(i) : Rgb{};
+  return emitted +
+         (g < 0 ? lambertian
+                : lambertian + data_->reflected[static_cast<std::size_t>(g) * data_->passes() + p]);
 }
 
 Rgb GlossyLight::radiance(PatchId i, const Vec3& toward) const {
@@ -40,13 +47,26 @@ Rgb GlossyLight::radiance(PatchId i, const Vec3& toward) const {
     return {};
   }
   const std::int32_t g = at(data_->index_of, i);
-  const Rgb& lambertian = at(data_->lambertian, i);
-  if (g < 0 || data_->lobes == nullptr) {
-    return lambertian;
+  Rgb sum;
+  for (std::size_t r = 0; r < data_->replicas(); ++r) {
+    Rgb radiance = at(data_->lambertian[r], i);
+    if (g >= 0 && !data_->lobes.empty()) {
+      const auto k = static_cast<std::size_t>(g);
+      const Rgb* from = arriving(i).data() + data_->begin[r];
+      radiance += data_->fractions[k] * data_->lobes[r]->reflected_toward(from, k, toward);
+    }
+    sum += radiance;
   }
-  const auto k = static_cast<std::size_t>(g);
-  return lambertian +
-         data_->fractions[k] * data_->lobes->reflected_toward(arriving(i).data(), k, toward);
+  Rgb result = 1 / static_cast<double>(data_->replicas()) * sum;
+  if (data_->shot) {
+    result += data_->shot_radiance(i);
+    if (g >= 0 && !data_->lobes.empty()) {
+      const auto k = static_cast<std::size_t>(g);
+      result += data_->fractions[k] * data_->lobes.front()->reflected_toward(
+                                          data_->rays->of(k), data_->shot->exitance, k, toward);
+    }
+  }
+  return result;
 }
 
 std::vector<Rgb> GlossyLight::radiance_toward(const Vec3& eye, int threads) const {

@@ -24,14 +24,14 @@ constexpr std::size_t patches_per_task = 4096;
 }  // namespace
 
 /// L of the other patch times the area, for both patches of each exchange.
-void GlossySolver::Impl::gather(const std::vector<Transfer>& exchanges, int k,
+void GlossySolver::Impl::gather(const std::vector<Transfer>& exchanges, std::size_t k,
                                 std::vector<Rgb>& sum) const {
+  const std::vector<Rgb>& diffuse = light->lambertian[light->replica_of(k)];
   const auto radiance = [&](PatchId i) {
     const std::int32_t g = at(light->index_of, i);
-    const Rgb& lambertian = at(light->lambertian, i);
+    const Rgb& lambertian = at(diffuse, i);
     return g < 0 ? lambertian
-                 : lambertian + light->reflected[static_cast<std::size_t>(g) * passes() +
-                                                 static_cast<std::size_t>(k)];
+                 : lambertian + light->reflected[static_cast<std::size_t>(g) * passes() + k];
   };
   for (const Transfer& t : exchanges) {
     at(sum, t.receiver) += t.area * radiance(t.source);
@@ -43,12 +43,12 @@ GlossySolver::Impl::PassLight GlossySolver::Impl::make(int k, bool from_kept) co
   PassLight made;
   made.gathered.resize(input.patch_count());
   if (from_kept) {
-    gather(kept->of_pass(k), k, made.gathered);
+    gather(kept->of_pass(k), static_cast<std::size_t>(k), made.gathered);
     return made;
   }
   Pass& pass_made = made.pass;
   pass_made.transfers = input.engine(at(light->directions, k), input.requested);
-  gather(pass_made.transfers.exchanges, k, made.gathered);
+  gather(pass_made.transfers.exchanges, static_cast<std::size_t>(k), made.gathered);
   if (k >= known_passes) {
     if (kept->available()) {
       made.sorted = kept->sort(pass_made.transfers);
@@ -101,7 +101,10 @@ void GlossySolver::Impl::set_of_pass(int k, bool is_new, const PassLight& made) 
 
 void GlossySolver::Impl::add_new(int k, PassLight& made) {
   const Transfers& transfers = made.pass.transfers;
+  const std::size_t replica = light->replica_of(static_cast<std::size_t>(k));
+  std::vector<double>& sky_area = replicas[replica].sky_area;
   statistics->add(made.pass);
+  replicas[replica].areas.add(transfers, true, input.owned());
   const Sky& sky = input.options.sky;
   if (sky.is_set()) {
     const double ahead = sky.relative_radiance(transfers.direction);
@@ -112,20 +115,22 @@ void GlossySolver::Impl::add_new(int k, PassLight& made) {
     }
   }
   if (kept->available()) {
-    kept->add(k, std::move(made.sorted));
+    kept->add(static_cast<std::size_t>(k), replica, std::move(made.sorted));
   }
   known_passes = k + 1;
 }
 
 /// By patch, then in the order of the passes.
 void GlossySolver::Impl::add_all(const std::vector<PassLight>& batch, WorkerThreads& workers) {
-  const std::size_t tasks = (gathered.size() + patches_per_task - 1) / patches_per_task;
+  const std::size_t patches = input.patch_count(), first_pass = static_cast<std::size_t>(pass);
+  const std::size_t tasks = (patches + patches_per_task - 1) / patches_per_task;
   for_each_index(workers, std::size_t{0}, tasks, [&](std::size_t task) {
     const std::size_t first = task * patches_per_task;
-    const std::size_t last = std::min(first + patches_per_task, gathered.size());
-    for (const PassLight& made : batch) {
+    const std::size_t last = std::min(first + patches_per_task, patches);
+    for (std::size_t b = 0; b < batch.size(); ++b) {
+      std::vector<Rgb>& gathered = replicas[light->replica_of(first_pass + b)].gathered;
       for (std::size_t i = first; i < last; ++i) {
-        gathered[i] += made.gathered[i];
+        gathered[i] += batch[b].gathered[i];
       }
     }
   });
@@ -136,9 +141,12 @@ bool GlossySolver::Impl::gather_passes(WorkerThreads& workers, const Observer& o
   const bool from_kept = kept_finished;
   const int all = static_cast<int>(passes());
   if (pass == 0) {
-    std::fill(gathered.begin(), gathered.end(), Rgb{});
-    if (from_kept) {
-      kept->gather_diffuse(light->lambertian, gathered);
+    for (std::size_t r = 0; r < replicas.size(); ++r) {
+      std::vector<Rgb>& gathered = replicas[r].gathered;
+      std::fill(gathered.begin(), gathered.end(), Rgb{});
+      if (from_kept) {
+        kept->gather_diffuse(r, light->lambertian[r], gathered);
+      }
     }
   }
   const int most = one_pass && !from_kept ? 1 : batch_per_thread * input.threads;

@@ -3,7 +3,11 @@
 // The public class of glossy solves, and what they report.
 #include <fmt/format.h>
 
+#include <numbers>
+#include <utility>
+
 #include "radiosity/channel_sums.h"
+#include "radiosity/error_bounds.h"
 #include "radiosity/glossy/glossy_iteration.h"
 #include "radiosity/ratio.h"
 #include "scene/build/description_check.h"
@@ -13,6 +17,8 @@
 
 namespace transillum {
 namespace {
+
+using std::numbers::pi;
 
 SolverInput checked(SolverInput input) {
   if (!input.options.glossy) {
@@ -43,12 +49,23 @@ void GlossySolver::Impl::check_count(const std::vector<Material>& given,
   }
 }
 
+bool GlossySolver::Impl::materials_differ() const {
+  for (std::size_t i = 0; i < input.patch_count(); ++i) {
+    const Material& own = input.scene->material(static_cast<PatchId>(i));
+    if (!(material(i).exitance == own.exitance && material(i).reflectance == own.reflectance &&
+          material(i).lobe == own.lobe)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 GlossySolver::GlossySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                           std::shared_ptr<const BspTree> tree, const Cancellation& cancellation,
-                           TransferEngine engine)
+                           SolverResources parts, const Cancellation& cancellation)
     : impl_(std::make_unique<Impl>(checked(
           SolverInput(std::move(scene), options,
-                      {.tree = std::move(tree), .engine = std::move(engine)}, cancellation)))) {}
+                      {std::move(parts.tree), std::move(parts.shot), std::move(parts.engine), {}},
+                      cancellation)))) {}
 GlossySolver::~GlossySolver() = default;
 GlossySolver::GlossySolver(GlossySolver&&) noexcept = default;
 GlossySolver& GlossySolver::operator=(GlossySolver&&) noexcept = default;
@@ -81,8 +98,10 @@ void GlossySolver::set_materials(const std::vector<Material>& materials,
     }
   }
   std::vector<Material> given = materials;
+  std::shared_ptr<const DirectLight> lit = s.shot_of(materials, indices);
   s.materials.swap(given);
   s.of_patch.swap(indices);
+  const bool had_other_materials = std::exchange(s.has_other_materials, s.materials_differ());
   bool all_known = true;
   for (std::size_t i = 0; i < s.input.patch_count(); ++i) {
     all_known = all_known && (s.light->index_of[i] >= 0 || !used_lobe(s.material(i)).present());
@@ -94,12 +113,14 @@ void GlossySolver::set_materials(const std::vector<Material>& materials,
     } catch (...) {
       s.materials.swap(given);
       s.of_patch.swap(indices);
+      s.has_other_materials = had_other_materials;
       throw;
     }
-    data->lobes = nullptr;  // they belong to other patches
+    data->lobes.clear();  // they belong to other patches
     s.light = std::move(data);
     s.forget_passes();
   }
+  s.shot = std::move(lit);
   s.start(start);
 }
 
@@ -142,6 +163,11 @@ SolveStatistics GlossySolver::Impl::solve_statistics() const {
   result.kept_form_factors = kept_finished;
   result.form_factors = kept->size();
   statistics->write_to(result);
+  // Other engines are wrong by more than the number of directions tells.
+  if (traits_of(input.options.engine).error != EngineTraits::Error::none) {
+    result.shot_disagreement = 0;
+    result.shot_disagreement_patch = -1;
+  }
   result.iterations = static_cast<int>(records.size());
   result.iteration_records = records;
   result.converged = converged;
@@ -157,26 +183,94 @@ SolveStatistics GlossySolver::Impl::solve_statistics() const {
   }
   result.energy_balance = ratio_or_zero(absorbed, emitted);
   result.rho_max = rho_max();
-  result.predicted_contraction =
-      contraction_bound(result.rho_max, quadrature_error_bound(result.directions));
+  result.predicted_contraction = contraction_bound(
+      result.rho_max,
+      quadrature_error_bound(result.directions / static_cast<int>(replicas.size())));
   GlossyStatistics& counted = result.glossy;
   counted.patches = std::ssize(glossy);
-  if (light->lobes != nullptr) {
-    light->lobes->write_to(counted);
+  for (const auto& lobes : light->lobes) {
+    lobes->write_to(counted);
   }
   counted.radiance_bytes =
       3 * light->arriving.size() * sizeof(Rgb) + (seen.size() + sky_seen.size()) * sizeof(double);
+  if (light->direct) {
+    counted.radiance_bytes += light->direct->size() * sizeof(Rgb) + light->rays->bytes();
+  }
   counted.transfer_bytes = kept_finished ? kept->bytes() : 0;
+  result.shot_sources = std::ssize(input.shot->sources);
+  result.shot_power_fraction = shot ? shot->power_fraction : 0.0;
+  result.integrated_pairs = input.shot->integrated_pairs;
   result.seconds_bsp = input.seconds_bsp;
+  result.seconds_first_shot = input.seconds_first_shot;
   result.seconds_transfers = timing.seconds_transfers;
   result.seconds_iterate = timing.seconds_iterate;
-  result.seconds_total = result.seconds_bsp + result.seconds_transfers + result.seconds_iterate;
+  result.seconds_total = result.seconds_bsp + result.seconds_first_shot + result.seconds_transfers +
+                         result.seconds_iterate;
   return result;
 }
 
+std::vector<Rgb> GlossySolver::Impl::radiosity(const std::vector<Rgb>& received) const {
+  std::vector<Rgb> b(received.size());
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    b[i] = material(i).exitance + reflectance(i) * received[i];
+  }
+  return b;
+}
+
+std::vector<Rgb> GlossySolver::Impl::left() const {
+  // H is off by at most pi times the error of radiance before the last iteration.
+  const double contraction = std::max(records.back().contraction, rho_max());
+  const double error = pi * distance_to_limit(last_change, contraction);
+  std::vector<Rgb> left(input.patch_count());
+  for (std::size_t i = 0; i < left.size() && error > 0; ++i) {
+    const auto fraction = [error](double r) { return r > 0 ? r * error : 0.0; };
+    const Rgb all = reflectance(i);
+    left[i] = {fraction(all.r), fraction(all.g), fraction(all.b)};
+  }
+  return left;
+}
+
+ErrorEstimate GlossySolver::Impl::error_estimate() const {
+  if (replicas.size() < 2 || records.empty() || has_other_materials) {
+    return {};
+  }
+  std::vector<std::vector<Rgb>> radiosities, irradiances;
+  for (const Replica& replica : replicas) {
+    radiosities.push_back(radiosity(replica.irradiance));
+    irradiances.push_back(replica.irradiance);
+  }
+  const std::vector<Rgb> b = radiosity(irradiance);
+  ErrorEstimate error = estimate_error(*input.scene, surfaces, b, radiosities);
+  error.irradiance = surface_errors(surfaces.receiving, irradiance, irradiances);
+  include_bias(error, *input.scene, surfaces, b, left());
+  include_bias(error, *input.scene, surfaces, b, bias_of_shot(*input.scene, surfaces, *input.shot));
+  return error;
+}
+
 const SolveOptions& GlossySolver::options() const { return impl_->input.options; }
+std::shared_ptr<const Scene> GlossySolver::shared_scene() const { return impl_->input.scene; }
+std::shared_ptr<const DirectLight> GlossySolver::direct_light() const { return impl_->input.shot; }
+ErrorEstimate GlossySolver::error_estimate() const { return impl_->error_estimate(); }
 SolveProgress GlossySolver::progress() const { return impl_->progress(); }
 const std::vector<Vec3>& GlossySolver::directions() const { return impl_->light->directions; }
+
+/// Means over the replicas that have passes.
+void GlossySolver::Impl::add_form_factor_sums(Solution& solution) const {
+  const bool rows = input.options.normalize == Normalization::rows;
+  const std::size_t begun = light->replica_of(static_cast<std::size_t>(known_passes) - 1) + 1;
+  const double fraction = 1 / static_cast<double>(begun);
+  solution.form_factor_sums.resize(input.patch_count());
+  solution.sky_fractions.resize(input.patch_count());
+  for (std::size_t r = 0; r < begun; ++r) {
+    const VisibleAreaSums& areas = replicas[r].areas;
+    for (std::size_t i = 0; i < input.patch_count(); ++i) {
+      const double exact = areas.passes * input.scene->patches()[i].area / 2;
+      const double whole = rows ? areas.projected[i] : exact;
+      solution.form_factor_sums[i] += fraction * ratio_or_zero(areas.rows[i], whole);
+      solution.sky_fractions[i] += fraction * ratio_or_zero(areas.uncovered[i], whole);
+    }
+  }
+}
 
 Solution GlossySolver::solution() const {
   const Impl& s = *impl_;
@@ -184,24 +278,12 @@ Solution GlossySolver::solution() const {
   solution.scene = s.input.scene;
   solution.sky = s.input.options.sky;
   solution.irradiance = s.irradiance;
-  solution.radiosity.resize(s.irradiance.size());
-  for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
-    const Material& material = s.material(i);
-    solution.radiosity[i] =
-        material.exitance +
-        (material.reflectance + used_lobe(material).reflectance) * s.irradiance[i];
-  }
-  const VisibleAreaSums& areas = s.statistics->areas();
-  if (areas.passes > 0) {
-    for (std::size_t i = 0; i < s.irradiance.size(); ++i) {
-      const bool rows = s.input.options.normalize == Normalization::rows;
-      const double exact = areas.passes * s.input.scene->patches()[i].area / 2;
-      const double whole = rows ? areas.projected[i] : exact;
-      solution.form_factor_sums.push_back(ratio_or_zero(areas.rows[i], whole));
-      solution.sky_fractions.push_back(ratio_or_zero(areas.uncovered[i], whole));
-    }
+  solution.radiosity = s.radiosity(s.irradiance);
+  if (s.known_passes > 0) {
+    s.add_form_factor_sums(solution);
     solution.sky_irradiance = s.from_sky;
   }
+  solution.error = s.error_estimate();
   solution.statistics = s.solve_statistics();
   solution.complete = s.finished;
   solution.glossy = std::make_shared<const GlossyLight>(s.light);

@@ -178,6 +178,16 @@ bool has_lobes(const Scene& scene) {
   });
 }
 
+std::vector<PatchId> patches_with_lobes(const Scene& scene) {
+  std::vector<PatchId> patches;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (used_lobe(scene.material(i)).present()) {
+      patches.push_back(i);
+    }
+  }
+  return patches;
+}
+
 double resolved_exponent(int directions) { return directions / 10.0; }
 
 std::vector<std::string> lobe_warnings(const Scene& scene, int directions) {

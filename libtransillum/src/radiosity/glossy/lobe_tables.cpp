@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "base/for_each_index.h"
 #include "base/seconds_since.h"
@@ -138,10 +139,9 @@ LobeTables::LobeTables(std::span<const LobePatch> patches, const std::vector<Vec
       is_new[table.kernel] = 1;
     }
   }
-  std::vector<std::unique_ptr<LobeFunction>> functions(shapes_.size());
   for_each_index(workers, std::size_t{0}, shapes_.size(), [&](std::size_t k) {
-    if (is_new[k] != 0) {
-      functions[k] = std::make_unique<LobeFunction>(shapes_[k], cancellation);
+    if (is_new[k] != 0 && functions_[k] == nullptr) {
+      functions_[k] = std::make_shared<const LobeFunction>(shapes_[k], cancellation);
     }
   });
   const std::size_t bytes = directions.size() * directions.size() * sizeof(double);
@@ -154,7 +154,7 @@ LobeTables::LobeTables(std::span<const LobePatch> patches, const std::vector<Vec
     }
     const Hemisphere above(directions_, table.normal);
     for (const double c : above.cosine) {
-      table.scale.push_back(functions[table.kernel]->scale(c));
+      table.scale.push_back(functions_[table.kernel]->scale(c));
     }
     scale(table, above, keep_rows, cancellation);
   };
@@ -172,6 +172,7 @@ void LobeTables::add_patches(std::span<const LobePatch> patches) {
     if (found == shapes_.end()) {
       shapes_.push_back(shape);
       kernels_.emplace_back(shape);
+      functions_.emplace_back();
     }
     const auto [entry, is_new] = known.try_emplace(key_of(kernel, normal), tables_.size());
     if (is_new) {
@@ -191,6 +192,7 @@ void LobeTables::copy_tables(const LobeTables& before) {
     if (found != shapes_.end()) {
       const auto kernel = static_cast<std::size_t>(found - shapes_.begin());
       known.emplace(key_of(kernel, before.tables_[t].normal), t);
+      functions_[kernel] = before.functions_[before.tables_[t].kernel];
     }
   }
   for (LobeTable& table : tables_) {
@@ -272,7 +274,7 @@ void LobeTables::scale(LobeTable& table, const Hemisphere& above, bool keep_rows
 
 /// For a block of directions, first the rows of the kernel, then patch by patch: its light times
 /// the scales as three planes, the products of the rows with them, and what the lobe spreads.
-LobeTables::Change LobeTables::reflect(const Light& light, std::vector<Rgb>& reflected,
+LobeTables::Change LobeTables::reflect(const Light& light, std::span<Rgb> reflected,
                                        WorkerThreads& workers, const Cancellation& cancellation,
                                        const LobeReport& report) const {
   const std::size_t count = directions_.size();
@@ -290,7 +292,7 @@ LobeTables::Change LobeTables::reflect(const Light& light, std::vector<Rgb>& ref
     Change& change = changes[task];
     for (const std::size_t g : members_[task / blocks]) {
       cancellation.throw_if_canceled();
-      const Rgb* arriving = light.arriving.data() + g * count;
+      const Rgb* arriving = light.arriving.data() + g * light.stride;
       Rgb spread;
       for (std::size_t q = 0; q < count; ++q) {
         spread += table.spread[q] * arriving[q];
@@ -299,10 +301,13 @@ LobeTables::Change LobeTables::reflect(const Light& light, std::vector<Rgb>& ref
       multiply_rows(rows, last - first, planes.data(), 3, count, sums.data());
       for (std::size_t p = first; p < last; ++p) {
         const double* sum = sums.data() + 3 * (p - first);
-        Rgb& to = reflected[g * count + p];
+        Rgb& to = reflected[g * light.stride + p];
         const Rgb before = to + light.lambertian_before[g];
         to = weight() * (light.fractions[g] *
                          (table.scale[p] * Rgb{sum[0], sum[1], sum[2]} + table.spread[p] * spread));
+        if (!light.direct.empty()) {
+          to += light.direct[g * light.stride + p];
+        }
         const Rgb after = to + light.lambertian_after[g];
         change.change = std::max(change.change, max_abs(after - before));
         change.largest = std::max(change.largest, max_abs(after));
@@ -316,6 +321,53 @@ LobeTables::Change LobeTables::reflect(const Light& light, std::vector<Rgb>& ref
     result.largest = std::max(result.largest, change.largest);
   }
   return result;
+}
+
+/// The row of the kernel for the direction of a ray gets its own scale, as toward a point.
+void LobeTables::reflect(const ShotRays& rays, const ShotLight& light, std::span<Rgb> reflected,
+                         WorkerThreads& workers, const Cancellation& cancellation) const {
+  for_each_index(workers, std::size_t{0}, table_of_.size(), [&](std::size_t g) {
+    const LobeTable& table = tables_[table_of_[g]];
+    const Hemisphere above(directions_, table.normal);
+    std::vector<double> row(above.size());
+    for (const ShotRay& ray : rays.of(g)) {
+      cancellation.throw_if_canceled();
+      const double cosine = dot(ray.direction, table.normal);
+      kernels_[table.kernel].row(ray.direction, cosine, above, row.data());
+      double all = 0;
+      for (std::size_t q = 0; q < row.size(); ++q) {
+        row[q] *= table.scale[q];
+        all += row[q] * above.cosine[q];
+      }
+      if (!(all > 0)) {  // the lobe falls between directions
+        row = table.spread;
+        for (std::size_t q = 0; q < row.size(); ++q) {
+          all += row[q] * above.cosine[q];
+        }
+      }
+      if (!(all > 0)) {
+        std::fill(row.begin(), row.end(), 1.0);
+        all = std::accumulate(above.cosine.begin(), above.cosine.end(), 0.0);
+      }
+      const Rgb power = ray.irradiance * light.exitance[static_cast<std::size_t>(ray.source)];
+      const Rgb sent = all > 0 ? 1 / (weight() * all) * (light.fractions[g] * power) : Rgb{};
+      for (std::size_t q = 0; q < row.size(); ++q) {
+        reflected[g * light.stride + q] += row[q] * sent;
+      }
+    }
+  });
+}
+
+Rgb LobeTables::reflected_toward(std::span<const ShotRay> rays, const std::vector<Rgb>& exitance,
+                                 std::size_t g, const Vec3& toward) const {
+  const LobeTable& table = tables_[table_of_[g]];
+  const LobeFunction& lobe = *functions_[table.kernel];
+  Rgb sum;
+  for (const ShotRay& ray : rays) {
+    sum += ray.irradiance * lobe.value(ray.direction, toward, table.normal) *
+           exitance[static_cast<std::size_t>(ray.source)];
+  }
+  return sum;
 }
 
 Rgb LobeTables::reflected_toward(const Rgb* arriving, std::size_t g, const Vec3& toward) const {

@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/worker_threads.h"
 #include "radiosity/glossy/lobe_kernel.h"
+#include "radiosity/glossy/shot_rays.h"
 #include "transillum/cancellation.h"
+#include "transillum/glossy.h"
 #include "transillum/scene.h"
 #include "transillum/solution.h"
 
@@ -47,19 +50,37 @@ class LobeTables {
 
   /// By glossy patch.
   struct Light {
-    std::span<const Rgb> arriving;   ///< and then by pass
+    std::span<const Rgb> arriving;  ///< and then by pass, from the first pass of these directions
+    std::size_t stride;             ///< from one patch to the next
+    std::span<const Rgb> direct;    ///< added to what is reflected, in the same order; may be empty
     std::span<const Rgb> fractions;  ///< k
     /// Radiance without the lobe.
     std::span<const Rgb> lambertian_before, lambertian_after;
+  };
+  /// The light of a first shot.
+  struct ShotLight {
+    std::span<const Rgb> exitance;   ///< of the sources, W/m², by patch
+    std::span<const Rgb> fractions;  ///< k, by glossy patch
+    std::size_t stride;              ///< as in Light
   };
   /// The largest change of reflected plus other radiance, and its largest new value.
   struct Change {
     double change = 0, largest = 0;
   };
-  /// reflected = w sum_q f(p, q) arriving_q k for all patches and directions p; by patch, then by
-  /// pass.
-  Change reflect(const Light& light, std::vector<Rgb>& reflected, WorkerThreads& workers,
+  /// reflected = w sum_q f(p, q) arriving_q k for all patches and directions p.
+  /// @param reflected by patch and pass, as Light::arriving
+  Change reflect(const Light& light, std::span<Rgb> reflected, WorkerThreads& workers,
                  const Cancellation& cancellation, const LobeReport& report) const;
+  /// reflected += what each patch reflects of the light of a first shot; its sum over the
+  /// directions is the fraction k of the light, whatever the set.
+  /// @param rays by glossy patch
+  /// @param reflected by patch and pass, as Light::arriving
+  void reflect(const ShotRays& rays, const ShotLight& light, std::span<Rgb> reflected,
+               WorkerThreads& workers, const Cancellation& cancellation) const;
+  /// Radiance that patch `g` reflects toward a direction above it, of the light of a first shot, if
+  /// its lobe reflects everything; by the lobe itself instead of its values on the set.
+  Rgb reflected_toward(std::span<const ShotRay> rays, const std::vector<Rgb>& exitance,
+                       std::size_t g, const Vec3& toward) const;
   /// The mean of what arrives at patch `g`, weighted by its lobe toward any direction above it.
   Rgb reflected_toward(const Rgb* arriving, std::size_t g, const Vec3& toward) const;
 
@@ -81,6 +102,7 @@ class LobeTables {
   std::vector<Vec3> directions_;
   std::vector<Lobe> shapes_;  ///< shapes of the kernels
   std::vector<LobeKernel> kernels_;
+  std::vector<std::shared_ptr<const LobeFunction>> functions_;  ///< by shape
   std::vector<LobeTable> tables_;
   std::vector<std::size_t> table_of_;              ///< by glossy patch
   std::vector<std::vector<std::size_t>> members_;  ///< glossy patches, by table

@@ -13,7 +13,8 @@
 namespace transillum {
 
 PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot,
-                               const OwnedPatches& owned, std::size_t per_patch)
+                               const OwnedPatches& owned, std::size_t per_patch,
+                               const std::vector<Rgb>& reflectance)
     : scene_(scene),
       two_way_(two_way),
       owned_(owned),
@@ -21,7 +22,7 @@ PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLig
       facing_area_(scene.patches().size()),
       back_seen_(scene.patches().size()),
       uncovered_(scene.patches().size()),
-      light_(scene, two_way, shot),
+      light_(scene, two_way, shot, reflectance),
       shot_(scene, shot, owned) {}
 
 void PassStatistics::begin_set() {

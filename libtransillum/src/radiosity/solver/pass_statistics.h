@@ -22,8 +22,10 @@ class PassStatistics {
   /// @param shot its sources do not count as direct light
   /// @param share the patches of the coverages of passes
   /// @param per_patch unknowns per patch
+  /// @param reflectance of each patch
   PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot,
-                 const OwnedPatches& owned, std::size_t per_patch);
+                 const OwnedPatches& owned, std::size_t per_patch,
+                 const std::vector<Rgb>& reflectance);
 
   /// Starts another set of directions (semi-iterative scheme): clears areas() and
   /// quadrature_errors(); all other values continue over all sets.

@@ -7,6 +7,7 @@
 
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
+#include "transillum/glossy.h"
 
 namespace transillum {
 namespace {
@@ -37,6 +38,31 @@ int expected_directions(const SolveOptions& options) {
   return static_cast<int>(std::clamp(at_1_percent * (0.01 / accuracy), 64.0, most));
 }
 
+DirectLight first_shot(const Scene& scene, const SolveOptions& options,
+                       const Cancellation& cancellation,
+                       const std::function<void(double)>& progress) {
+  std::vector<PatchId> sources;
+  if (const auto threshold = options.used_first_shot()) {
+    sources = first_shot_sources(scene, *threshold, expected_directions(options), cancellation);
+  }
+  const std::vector<PatchId> paired =
+      options.glossy && !sources.empty() ? patches_with_lobes(scene) : std::vector<PatchId>();
+  // Light of pairs is computed twice, and takes so much of the time.
+  const double all = scene.patch_count();
+  const double first = all / (all + static_cast<double>(paired.size()));
+  const auto report_from = [&](double done, double owned) {
+    return progress ? std::function<void(double)>(
+                          [&progress, done, owned](double now) { progress(done + owned * now); })
+                    : std::function<void(double)>();
+  };
+  DirectLight light =
+      shoot(scene, sources, shot_options(options), cancellation, report_from(0, first));
+  light.pairs = shoot_pairs(scene, sources, paired, shot_options(options), cancellation,
+                            report_from(first, 1 - first));
+  light.paired = paired;
+  return light;
+}
+
 SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
                          const SolveOptions& solve_options, SolverResources resources,
                          const Cancellation& solve_cancellation)
@@ -55,12 +81,7 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
 void SolverInput::prepare() {
   if (!shot) {
     const auto start = Clock::now();
-    std::vector<PatchId> sources;
-    if (const auto threshold = options.used_first_shot()) {
-      sources = first_shot_sources(*scene, *threshold, expected_directions(options), requested);
-    }
-    shot = std::make_shared<const DirectLight>(
-        shoot(*scene, sources, shot_options(options), requested));
+    shot = std::make_shared<const DirectLight>(transillum::first_shot(*scene, options, requested));
     seconds_first_shot = seconds_since(start);
   }
   if (!tree) {

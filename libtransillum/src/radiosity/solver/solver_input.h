@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "radiosity/exchange/owned_patches.h"
@@ -16,6 +17,13 @@ EngineOptions used_engine_options(const SolveOptions& options);
 /// Number of passes that a goal is expected to take, for decisions made before the first; M without
 /// a goal.
 int expected_directions(const SolveOptions& options);
+
+/// The light of the first shot that `options` ask for.
+/// @param progress as for shoot()
+/// @throws Canceled
+DirectLight first_shot(const Scene& scene, const SolveOptions& options,
+                       const Cancellation& cancellation,
+                       const std::function<void(double)>& progress = {});
 
 /// The input of a solve; constant once constructed, so any thread may read it.
 struct SolverInput {

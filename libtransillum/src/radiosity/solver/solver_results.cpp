@@ -38,8 +38,9 @@ void add_scene_values(const Scene& scene, const std::vector<Rgb>& h,
 
 /// bias_of_shot(), with linear functions one value per unknown: of a linear term, what its own
 /// error makes wrong. What other patches reflect of errors is treated as uniform.
-std::vector<Rgb> shot_bias(const Scene& scene, const DirectLight& shot) {
-  std::vector<Rgb> of_means = bias_of_shot(scene, shot);
+std::vector<Rgb> shot_bias(const Scene& scene, const ErrorSurfaces& surfaces,
+                           const DirectLight& shot) {
+  std::vector<Rgb> of_means = bias_of_shot(scene, surfaces, shot);
   if (shot.linear_part_errors.empty()) {
     return of_means;
   }
@@ -134,9 +135,12 @@ ErrorEstimate RadiositySolver::Impl::error_estimate() const {
                                             : Radiosity::finished_iteration;
   const auto& b = kind == Radiosity::running_estimate ? iteration.estimate : history.b();
   ErrorEstimate error = replicas.error_estimate(*input.scene, b, history.h(), kind);
+  if (error.replicas == 0) {
+    return error;
+  }
   const ErrorSurfaces& surfaces = replicas.surfaces();
   include_bias(error, *input.scene, surfaces, b, history.left());
-  include_bias(error, *input.scene, surfaces, b, shot_bias(*input.scene, *input.shot));
+  include_bias(error, *input.scene, surfaces, b, shot_bias(*input.scene, surfaces, *input.shot));
   return error;
 }
 

@@ -25,7 +25,7 @@ RadiositySolver::Impl::Impl(SolverInput solver_input)
       replicas(input),
       kept(input, plan.renews()),
       statistics(*input.scene, input.options.two_way, *input.shot, input.owned(),
-                 input.unknowns->per_patch),
+                 input.unknowns->per_patch, input.unknowns->means(input.unknowns->reflectance)),
       history(input, whole),
       owned(input.owned()),
       light(input.unknowns->light()) {
