@@ -252,14 +252,14 @@ TEST(LinearFormFactors, ExchangesOfPartsSumToWhatIsReceived) {
   for (const Solution& solution : {passes, solve_by_form_factors(scene, by_pairs)}) {
     const PowerTable table =
         power_table(solution, SurfaceKind::material, solution.form_factors.get());
-    ASSERT_EQ(table.exchanged.size(), table.parts.size());
-    for (std::size_t p = 0; p < table.parts.size(); ++p) {
+    ASSERT_EQ(table.exchanged.size(), table.surfaces.size());
+    for (std::size_t p = 0; p < table.surfaces.size(); ++p) {
       Rgb sum;
       for (const Rgb& power : table.exchanged[p]) {
         sum += power;
       }
-      EXPECT_NEAR(max_abs(sum - table.parts[p].received), 0,
-                  1e-8 * max_abs(table.parts[p].received));
+      EXPECT_NEAR(max_abs(sum - table.surfaces[p].received), 0,
+                  1e-8 * max_abs(table.surfaces[p].received));
     }
   }
 }

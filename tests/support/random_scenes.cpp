@@ -67,10 +67,10 @@ class SceneGenerator {
 };
 
 /// Corners of a plane figure placed in space: at + x u + y v.
-std::vector<Vec3> placed(const std::vector<std::array<double, 2>>& outline, const Vec3& at,
+std::vector<Vec3> placed(const std::vector<std::array<double, 2>>& flat, const Vec3& at,
                          const Vec3& u, const Vec3& v) {
   std::vector<Vec3> outline;
-  for (const auto& [x, y] : outline) {
+  for (const auto& [x, y] : flat) {
     outline.push_back(at + x * u + y * v);
   }
   return outline;

@@ -107,7 +107,7 @@ TEST(PowerTable, TheFurnaceAbsorbsWhatItEmits) {
   EXPECT_NEAR(table.total.escaped.r, 0, 1e-9 * table.total.area);
 }
 
-/// What escapes from a box without a front is neither absorbed nor lost.
+/// Light that escapes from a box without a front is neither absorbed nor lost.
 TEST(PowerTable, TheShareThatEscapesIsWhatIsNotAbsorbed) {
   const Solved s = solved(grouped("cornell-box:open=1"), Normalization::symmetric);
   const SurfacePower total = power_table(s.solution, SurfaceKind::group).total;

@@ -16,11 +16,13 @@
 #include <span>
 
 #include "patches/material_panel.h"
+#include "solve/study_dialog.h"
 #include "solved_window.h"
 #include "test_files.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/relight.h"
+#include "widgets/banner.h"
 #include "window/files/export_actions.h"
 
 namespace transillum::viewer::light_test {
@@ -206,6 +208,17 @@ class LightTest : public QObject {
     QVERIFY(wait_for([&] { return opened.scene().has_light(); }));
     QVERIFY(opened.settles());
     QVERIFY(opened.light_bar().isEmpty());
+  }
+
+  void a_study_without_light_is_refused() {
+    const Opened opened;
+    QVERIFY(opened.ready);
+    StudyDialog dialog({});
+    dialog.show_scene(opened.window->snapshot()->loaded);
+    auto* run = dialog.findChild<QPushButton*>("study_run");
+    run->click();
+    QVERIFY(dialog.findChild<Banner*>()->text().startsWith("Not started"));
+    QCOMPARE(run->text(), QString("Run the study"));
   }
 
   void an_open_scene_without_light_is_solved_once_it_has_a_sky() {

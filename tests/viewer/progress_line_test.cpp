@@ -11,6 +11,7 @@
 #include "solved_snapshot.h"
 #include "support/number_text.h"
 #include "widgets/elided.h"
+#include "window_support.h"
 
 namespace transillum::viewer::progress_line_test {
 

@@ -106,7 +106,8 @@ PairPicture::PairPicture(Selection& selection, QWidget* parent) : QWidget(parent
 }
 
 void PairPicture::show(const std::shared_ptr<const RecordedMap>& map,
-                       std::shared_ptr<const EngineComparison> comparison, PatchId receiver) {
+                       const std::shared_ptr<const EngineComparison>& comparison,
+                       PatchId receiver) {
   shares_.clear();
   receiver_ = receiver;
   const bool any = map && comparison && comparison->ok() && comparison->eye == no_patch &&

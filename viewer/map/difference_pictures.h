@@ -65,7 +65,7 @@ class PairPicture : public QWidget {
 
   /// Shows nothing without a map, a comparison of its direction and a receiver.
   void show(const std::shared_ptr<const RecordedMap>& map,
-            std::shared_ptr<const EngineComparison> comparison, PatchId receiver);
+            const std::shared_ptr<const EngineComparison>& comparison, PatchId receiver);
   /// Second minus first over the larger, of the pair of the receiver and `source`, −1 to 1; 0 for
   /// equal ones.
   double fraction(PatchId source) const;

@@ -191,6 +191,12 @@ void StudyDialog::run_or_stop() {
     return;
   }
   banner_->dismiss();
+  if (!loaded_->scene->has_light()) {
+    banner_->show_message(Banner::Kind::offer,
+                          tr("Not started: without light, B is 0 everywhere. Make a face, material "
+                             "or group emit, and solve the scene again."));
+    return;
+  }
   running_ = true;
   runner_.start({loaded_, choices_->options()});
   show_buttons();

@@ -17,7 +17,7 @@ std::string rgb_text(const Rgb& color, int digits);
 /// below 1e-9, which is rounding, "0 %".
 std::string fraction_text(double fraction);
 
-/// What the error of a surface is relative to, after the number; empty for its own level.
+/// A phrase for after the error of a surface: what it is relative to; empty for its own level.
 std::string dark_text(bool is_dark);
 
 /// 75 s -> "1:15 min".

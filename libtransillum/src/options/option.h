@@ -20,7 +20,7 @@ struct Option {
   };
 
   std::string name;                       ///< without dashes, as in files
-  std::string group;                      ///< section of help texts
+  std::string section;                    ///< section of help texts
   std::string argument;                   ///< such as "X,Y,Z"; empty for a flag
   std::string values;                     ///< the values it accepts, as "a number, or auto"
   std::string help;                       ///< begins in lower case, no full stop

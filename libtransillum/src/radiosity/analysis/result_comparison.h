@@ -12,7 +12,7 @@ namespace transillum {
 
 /// How much two results differ on one surface. Relative differences are relative to `unit`.
 struct SurfaceDifference {
-  std::string name;          ///< as SurfaceError::name
+  std::string name;          ///< group, material or component (SurfaceError::name)
   std::int64_t patches = 0;  ///< number of patches that are compared
   double level = 0;          ///< RMS of the reflected light of the first result, W/m²
   /// `level`, or 1/1000 of the level of the brightest surface where that is larger, W/m²
@@ -37,7 +37,7 @@ struct ResultComparison {
   std::string sky_difference = {};  ///< transillum::sky_difference()
 };
 
-/// What is compared of a result, W/m², one per patch.
+/// The part of a result that is compared, W/m², one per patch.
 struct PatchLight {
   std::vector<Rgb> exitance;   ///< E
   std::vector<Rgb> radiosity;  ///< B

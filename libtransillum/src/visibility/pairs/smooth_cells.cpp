@@ -21,8 +21,10 @@ void for_each_side(Outline polygon, Visit&& visit) {
   }
 }
 
+/// Up to rounding of coordinates to single precision, or to six digits in a file. What is not quite
+/// parallel spreads the kink over that much of its length: far less than the distance of points.
 bool are_parallel(const Side& a, const Side& b) {
-  constexpr double sine = 1e-9;
+  constexpr double sine = 1e-4;
   const Vec3 along_a = a.end - a.begin, along_b = b.end - b.begin;
   const Vec3 across = cross(along_a, along_b);
   return dot(across, across) <= sine * sine * dot(along_a, along_a) * dot(along_b, along_b);
