@@ -297,7 +297,7 @@ class CompareTest : public QObject {
     }
     QVERIFY(wait_for([&] { return view->up_to_date(); }));
     const auto middle = [](const MapCanvas* map) {
-      return QPointF(map->width() / 2, map->height() / 2);
+      return QPointF(QPoint(map->width() / 2, map->height() / 2));
     };
     const auto at = *moved->point_at(middle(moved));
     QTest::mouseClick(moved, Qt::LeftButton, {}, middle(moved).toPoint());

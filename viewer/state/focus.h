@@ -24,6 +24,8 @@ struct RunPosition {
   int direction = 0;       ///< from 0: number of the pass
   std::int32_t step = -1;  ///< step of the direction, from 0; -1 before the first
 
+  // clang-tidy 14 takes the 0 that a result is compared with for a pointer.
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const RunPosition&, const RunPosition&) = default;
 };
 

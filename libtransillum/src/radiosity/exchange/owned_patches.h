@@ -79,8 +79,9 @@ struct OwnedPatches {
  private:
   template <class Value>
   static std::size_t doubles_in(const std::vector<Value>& values) {
-    static_assert(std::is_standard_layout_v<Value> && sizeof(Value) % sizeof(double) == 0);
-    return values.size() * (sizeof(Value) / sizeof(double));
+    constexpr std::size_t unit = sizeof(double);
+    static_assert(std::is_standard_layout_v<Value> && sizeof(Value) % unit == 0);
+    return values.size() * (sizeof(Value) / unit);
   }
 };
 
