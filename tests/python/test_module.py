@@ -187,6 +187,7 @@ class FormFactors(unittest.TestCase):
         scene = room()
         options = {"directions": 128, "normalize": "rows"}
         f = transillum.form_factors(scene, **options)
+        options["first_shot"] = "none"
         b = scene.exitance
         for _ in range(200):
             b = scene.exitance + scene.reflectance * (f @ b)

@@ -139,7 +139,8 @@ TEST(Gather, CanBeCanceledAndRejectsBadOptions) {
 TEST(FormFactors, FromPassesGiveTheSolversRadiosity) {
   const auto scene = load_scene("cornell-box");
   for (const bool two_way : {true, false}) {
-    RadiositySolver solver(scene, {.directions = 300, .two_way = two_way, .tolerance = 1e-12});
+    RadiositySolver solver(
+        scene, {.directions = 300, .two_way = two_way, .first_shot = {}, .tolerance = 1e-12});
     EXPECT_THROW(solver.form_factors(), std::runtime_error);
     solver.advance(RadiositySolver::Until::finished);
     const FormFactors f = solver.form_factors();

@@ -397,7 +397,8 @@ TEST(Relight, FormFactorsAreKeptFromTheNextPassOn) {
 }
 
 TEST(Relight, WithTheScenesOwnMaterialsEqualsTheSolve) {
-  const Solved s = solved(describe_scene("rooms"), {.directions = 64, .tolerance = tight});
+  const Solved s =
+      solved(describe_scene("rooms"), {.directions = 64, .first_shot = {}, .tolerance = tight});
   const RelightResult relit = relight(*s.scene, s.form_factors, s.scene->materials(),
                                       {.tolerance = 1e-9, .start = s.radiosity});
   EXPECT_LE(relit.iterations, 2);

@@ -58,7 +58,8 @@ struct DirectLight {
   };
   /// The contribution of one source to one patch.
   struct Pair {
-    PatchId receiver = 0, source = 0;
+    PatchId receiver = 0;   ///< patch that receives
+    PatchId source = 0;     ///< patch that emits
     double irradiance = 0;  ///< H for an exitance of 1, above 0
   };
 
@@ -66,13 +67,13 @@ struct DirectLight {
   std::vector<Rgb> exitance;     ///< E of the sources, which has been shot; 0 for other patches
   std::vector<PatchId> sources;  ///< ascending
   double power_fraction = 0;     ///< power of the sources over all power emitted
-  std::vector<Contribution>
-      contributions;  ///< sorted by material; empty if they would exceed 256 MiB
+  /// Sorted by material; empty if they would exceed 256 MiB.
+  std::vector<Contribution> contributions;
   /// Estimated error of `irradiance`, W/m², one per patch: the error of partly hidden pairs, which
   /// are computed by points. Empty if unknown (with_materials()).
   std::vector<Rgb> irradiance_error = {};
   std::int64_t integrated_pairs = 0;  ///< SolveStatistics::integrated_pairs
-  /// Linear parts of `irradiance`, W/m², one per patch; empty with Basis::constant.
+  /// Linear terms of `irradiance`, W/m², one per patch; empty with Basis::constant.
   std::vector<LinearTerm> linear_terms = {};
   /// Estimated errors of `linear_terms`, of points even where nothing stands between. Empty if
   /// unknown, and with Basis::constant.
@@ -92,6 +93,7 @@ struct ShotOptions {
   /// Number of points along a polygon as large as its distance from the other, where something is
   /// between, up to EngineOptions::largest_points; 0 means default_points.
   int points = 0;
+  /// The number of points without a choice.
   static constexpr int default_points = 16;
 };
 

@@ -70,7 +70,7 @@ class RadiositySolver {
   /// Prepares a solve; makes no pass.
   /// @param scene the scene.
   /// @param options of the solve run.
-  /// @param parts what the caller has already.
+  /// @param resources what the caller has already.
   /// @param cancellation checked here and in advance().
   /// @throws InputError, Canceled
   RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
