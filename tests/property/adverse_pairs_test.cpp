@@ -179,7 +179,7 @@ TEST(AdversePairs, PastAnEdgeAreTheSameIfItIsParallelOnlyUpToRounding) {
   ASSERT_TRUE(reference.reached);
   EXPECT_NEAR(parallel.area, reference.area, 3 * parallel.error);
   for (const double rounding : {4.5e-7, -4.5e-7, 1e-5}) {
-    // What is lit is as wide as the gap.
+    // The lit part is as wide as the gap.
     EXPECT_NEAR(exchange(rounding).area, parallel.area,
                 10 * std::abs(rounding) / gap * parallel.area)
         << rounding;

@@ -63,7 +63,7 @@ SolveOptions reference_options() {
 TEST(GlossyReplicas, ResultIsTheMeanOfTheirSolves) {
   const auto scene = glossy_box();
   SolveOptions options = glossy_options(100);
-  options.replicas = 3;  // of 34, 33 and 33 directions
+  options.replicas = 3;  // with 34, 33 and 33 directions
   const Solution whole = solve(scene, options);
   const std::vector<Solution> alone = solved_alone(scene, options);
   EXPECT_LE(largest_difference(whole.radiosity, mean_of(alone)), 1e-11);
@@ -109,7 +109,7 @@ TEST(GlossyReplicas, ResultIsTheMeanOfTheirSolves) {
   }
 }
 
-/// Lobes that reflect next to nothing: the replicas are those of a diffuse solve.
+/// Lobes that reflect next to nothing: the replicas equal the replicas of a diffuse solve.
 TEST(GlossyReplicas, WeakLobesGiveTheMeanOfDiffuseSolves) {
   const auto plain = box_scene([](std::size_t, Material&) {});
   const auto weak = box_scene([](std::size_t f, Material& material) {
@@ -227,7 +227,7 @@ TEST(GlossyReplicas, LimitHoldsAsOftenAsStated) {
   }
   // Exceeded in 99 % of all cases, if each run holds in 95 %.
   EXPECT_GE(limit / runs, 0.95 - 2.33 * std::sqrt(0.95 * 0.05 / runs));
-  EXPECT_GE(within / all, 0.91);  // as in AccuracyTest: 24 directions per replica
+  EXPECT_GE(within / all, 0.91);  // 24 directions per replica, see AccuracyTest
   EXPECT_LE(within / all, 0.98);
   RecordProperty("limits", std::to_string(limit / runs));
   RecordProperty("intervals", std::to_string(within / all));

@@ -90,7 +90,7 @@ TEST(CliLinearBasis, PairsHaveFunctionsToo) {
   EXPECT_THAT(study.out, HasSubstr("pairs/linear"));
 }
 
-/// What passes and pairs give, by way of a file.
+/// Form factors of passes and of pairs, by way of a file.
 TEST(CliLinearBasis, StoredFormFactorsHaveMoments) {
   const TemporaryFolder folder;
   for (const Arguments& method : {Arguments{"-m", "64"}, Arguments{"--engine", "pairs"}}) {

@@ -90,9 +90,9 @@ struct Opened {
   MaterialEdits& edits() const { return window->relighting.edits(); }
   QString light_bar() const { return window->views().page.light_bar()->text(); }
   QString orientation_bar() const { return window->views().page.orientation_bar()->text(); }
-  template <class Part>
-  Part* part(const char* name) const {
-    return window->findChild<Part*>(name);
+  template <class Widget>
+  Widget* part(const char* name) const {
+    return window->findChild<Widget*>(name);
   }
   /// The entries of the menu of the bar.
   QList<QAction*> offers() const {

@@ -86,7 +86,7 @@ struct DirectLight {
 
 /// Options of a first shot.
 struct ShotOptions {
-  int threads = 0;  ///< 0: all cores; the result does not depend on it
+  int threads = 0;  ///< 0: all cores are used; the result does not depend on it
   /// linear: the linear terms of H are computed too, by points of the smaller polygon; the means
   /// have the same bits as with constant functions
   Basis basis = Basis::constant;

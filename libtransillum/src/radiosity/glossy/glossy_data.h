@@ -26,7 +26,7 @@ struct GlossyLight::Data {
   std::vector<Rgb> arriving;   ///< by glossy patch and pass: Phi
   std::vector<Rgb> reflected;  ///< by glossy patch and pass: radiance of the lobe
   // The first shot; null without one. `lambertian` lacks what the sources emit.
-  std::shared_ptr<const DirectLight> shot;  ///< of the materials
+  std::shared_ptr<const DirectLight> shot;  ///< light with the materials in effect
   std::shared_ptr<const ShotRays> rays;     ///< by glossy patch
   /// The part of `reflected` that comes from the shot; null until lobes are scaled.
   std::shared_ptr<const std::vector<Rgb>> direct;

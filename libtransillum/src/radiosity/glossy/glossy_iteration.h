@@ -64,7 +64,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
 
   /// The first shot with the emission of `materials`; null without one.
   std::shared_ptr<const DirectLight> shot;
-  /// The former input.shot, to which `statistics` refer until they begin anew.
+  /// The former input.shot, to which `statistics` refer until they begin again.
   std::shared_ptr<const DirectLight> retired_shot;
 
   explicit Impl(SolverInput solver_input);

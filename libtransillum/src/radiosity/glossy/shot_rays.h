@@ -24,8 +24,8 @@ struct ShotRay {
 /// not depend on materials.
 ///
 /// A pair of patches near each other has many directions, between parts of both that are small
-/// compared with their distance. The parts divide the exact form factor of the pair as those of
-/// unblocked parts would: what is between the patches changes how much light comes, but not from
+/// compared with their distance. The parts divide the exact form factor of the pair as form
+/// factors of unblocked parts would: what is between the patches changes how much light comes, but not from
 /// where within the pair.
 class ShotRays {
  public:

@@ -132,7 +132,7 @@ class RadiosityIterate {
   int passes_ = 0;
   std::vector<double> kept_projected_, kept_sky_areas_;
   int kept_passes_ = 0;
-  std::vector<double> scales_;    ///< of rows and columns (symmetric_scales.h), if symmetric
+  std::vector<double> scales_;    ///< scales of rows and columns (symmetric_scales.h), if symmetric
   std::vector<double> row_sums_;  ///< row sums of the kept sums, scaled; if symmetric
 };
 

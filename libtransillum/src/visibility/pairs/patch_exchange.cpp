@@ -399,7 +399,7 @@ void ExchangeFinder::add_whole(const FacingPolygons& facing, const Query& query,
   if (query.receiver == nullptr) {
     return;
   }
-  // What the points see has no kinks: half as many in a row are enough.
+  // The values at points have no kinks: half as many in a row are enough.
   const Sampled sampled(facing, tolerance_);
   PointQuadrature by_points(sampled, {}, query, scale_);
   const int divisions = std::max(divisions_of(sampled.size / 2), fewest_for_moments);

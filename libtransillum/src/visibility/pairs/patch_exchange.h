@@ -55,7 +55,7 @@ class ExchangeFinder {
   /// Past thousands of blockers, one pair takes minutes.
   /// @param tick if set, called often, on this thread; may throw to abandon the query.
   /// @param receiver basis of i, whose moments are then computed too, by points of the smaller
-  /// patch, also where nothing blocks; null: no moments
+  /// patch, also where nothing blocks; null: moments are not computed
   PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {},
                            const LinearBasis* receiver = nullptr) const;
   /// Calls visit(j, exchange, moments) for the patches j > i with which i exchanges light, in
@@ -97,11 +97,11 @@ class ExchangeFinder {
   };
   /// Blockers, by number.
   using Numbers = std::vector<std::int32_t>;
-  /// What is to be found of a pair.
+  /// The values to be found of a pair.
   struct Query {
     bool estimate;                      ///< whether errors are estimated
     const std::function<void()>& tick;  ///< may be empty
-    const LinearBasis* receiver;        ///< basis of the first patch; null: no moments
+    const LinearBasis* receiver;        ///< basis of the first patch; null: moments are not computed
   };
 
   double bend_beyond_rounding(double bend) const { return bend > tolerance_ ? bend : 0; }
