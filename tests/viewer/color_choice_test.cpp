@@ -30,6 +30,11 @@ std::shared_ptr<SolverSnapshot> times(const SolverSnapshot& snapshot, double fac
   return scaled;
 }
 
+/// Differences are of patches that reflect and do not emit.
+bool is_omitted(const Scene& scene, PatchId i) {
+  return max_abs(scene.exitance(i)) > 0 || max_abs(scene.reflectance(i)) == 0;
+}
+
 }  // namespace
 
 class ColorChoiceTest : public QObject {
@@ -196,8 +201,10 @@ class ColorChoiceTest : public QObject {
     QVERIFY(!colors.missing().isEmpty());
     colors.keep_run();
     QVERIFY(colors.missing().isEmpty());
-    for (const Color8& color : colors.patch_colors()) {
-      QCOMPARE(color, color_of(ColorMap::diverging, 0.5));
+    for (PatchId i = 0; i < snapshot->loaded->scene->patch_count(); ++i) {
+      QCOMPARE(at(colors.patch_colors(), i), is_omitted(*snapshot->loaded->scene, i)
+                                                 ? omitted_color
+                                                 : color_of(ColorMap::diverging, 0.5));
     }
     colors.fit(times(*snapshot, 1.25));
     QCOMPARE(colors.scale().low, -colors.scale().high);
@@ -244,9 +251,9 @@ class ColorChoiceTest : public QObject {
     const auto is_shown = [&](double factor) {
       for (std::size_t i = 0; i < base->radiosity.size(); ++i) {
         const Rgb& shown = colors.values().at(i);
-        const bool emits = max_abs(base->loaded->scene->exitance(static_cast<PatchId>(i))) > 0;
-        if (emits != std::isnan(shown.r) ||
-            (!emits && !(max_abs(shown - factor * of_one.at(i)) < 1e-9))) {
+        const bool omitted = is_omitted(*base->loaded->scene, static_cast<PatchId>(i));
+        if (omitted != std::isnan(shown.r) ||
+            (!omitted && !(max_abs(shown - factor * of_one.at(i)) < 1e-9))) {
           return false;
         }
       }
@@ -286,10 +293,9 @@ class ColorChoiceTest : public QObject {
     const Scene& scene = *base->loaded->scene;
     int lamps = 0;
     for (PatchId i = 0; i < scene.patch_count(); ++i) {
-      const bool emits = max_abs(scene.exitance(i)) > 0;
-      lamps += emits ? 1 : 0;
-      QCOMPARE(at(colors.patch_colors(), i) == omitted_color, emits);
-      QCOMPARE(pointer_text(colors, {i, {}}).contains("omitted"), emits);
+      lamps += max_abs(scene.exitance(i)) > 0 ? 1 : 0;
+      QCOMPARE(at(colors.patch_colors(), i) == omitted_color, is_omitted(scene, i));
+      QCOMPARE(pointer_text(colors, {i, {}}).contains("omitted"), is_omitted(scene, i));
     }
     QVERIFY(lamps > 0);
     QVERIFY(colors.scale().high < 1000);

@@ -26,7 +26,7 @@ constexpr QPoint offset{14, 18};
 QString value_text(const ColorChoice& colors, const QString& symbol, const Rgb& value) {
   const QuantityTraits& traits = traits_of(colors.quantity());
   if (std::isnan(value.r)) {
-    return PointerLabel::tr("%1  omitted, as the patch emits").arg(symbol);
+    return PointerLabel::tr("%1  omitted: the patch emits, or reflects nothing").arg(symbol);
   }
   const bool channels = colors.scale().mode == ColorMode::true_color;
   const QString number = channels ? rgb_text(value) : number_text(colors.scale().value(value));

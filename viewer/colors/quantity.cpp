@@ -265,7 +265,8 @@ constexpr QuantityTraits all_traits[] = {
          "Quantity",
          "B of the current run, or of the run chosen in Kept runs, minus B of the kept run A, "
          "relative to the level of its surface: the RMS of its reflected light in A, or a "
-         "thousandth of the brightest surface's where that is more. Patches that emit are omitted"),
+         "thousandth of the brightest surface's where that is more. Patches that emit, or reflect "
+         "nothing, are omitted"),
      .has_channels = true,
      .is_signed = true},
 };

@@ -72,7 +72,7 @@ QString tip_of(const ResultComparison& comparison) {
   constexpr int longest_name = 40;
   QStringList lines{
       KeptRunPanel::tr("RMS of B − A by surface, relative to the RMS of its reflected "
-                       "light in A;\npatches that emit are omitted")};
+                       "light in A;\npatches that emit, or reflect nothing, are omitted")};
   for (const SurfaceDifference& surface : comparison.surfaces) {
     if (lines.size() > most) {
       lines << QStringLiteral("…");

@@ -27,7 +27,8 @@ struct SurfaceDifference {
   Rgb second = {};           ///< its B in the second result, W/m²
 };
 
-/// How two results of one scene differ. Patches that emit in either are omitted, unless all do.
+/// How two results of one scene differ. Patches that emit in either, or reflect nothing, are
+/// omitted, unless all do.
 struct ResultComparison {
   std::vector<SurfaceDifference> surfaces;  ///< the largest RMS first; not empty
   /// RMS of all differences over the RMS of all reflected light of the first result
