@@ -82,9 +82,9 @@ std::set<std::int64_t> measured_keys(const Division& division, const std::vector
 std::vector<char> measured_patches(const Scene& scene, Measured measured) {
   std::vector<char> result;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const bool reflects = measured == Measured::receiving || max_abs(scene.reflectance(i)) > 0 ||
-                          (measured == Measured::reflecting_with_lobes &&
-                           used_lobe(scene.material(i)).present());
+    const bool reflects =
+        measured == Measured::receiving || max_abs(scene.reflectance(i)) > 0 ||
+        (measured == Measured::reflecting_with_lobes && used_lobe(scene.material(i)).present());
     result.push_back(reflects && !(max_abs(scene.exitance(i)) > 0) ? 1 : 0);
   }
   if (std::find(result.begin(), result.end(), 1) == result.end()) {

@@ -59,9 +59,9 @@ class LobeTables {
   };
   /// The light of a first shot.
   struct ShotLight {
-    std::span<const Rgb> exitance;   ///< of the sources, W/m², by patch
+    std::span<const Rgb> exitance;   ///< exitance of the sources, W/m², by patch
     std::span<const Rgb> fractions;  ///< k, by glossy patch
-    std::size_t stride;              ///< as in Light
+    std::size_t stride;              ///< from one patch to the next
   };
   /// The largest change of reflected plus other radiance, and its largest new value.
   struct Change {

@@ -47,9 +47,7 @@ std::vector<std::vector<Triangle>> triangles_of(const Scene& scene) {
 class PairRays {
  public:
   PairRays(const Scene& scene, const DirectLight::Pair& pair)
-      : pair_(pair),
-        receiver_(scene.patch(pair.receiver)),
-        source_(scene.patch(pair.source)) {}
+      : pair_(pair), receiver_(scene.patch(pair.receiver)), source_(scene.patch(pair.source)) {}
 
   void add(const Triangle& a, const Triangle& b, int divisions = 0) {
     const Vec3 way = center_of(b) - center_of(a);
@@ -103,9 +101,9 @@ ShotRays::ShotRays(const Scene& scene, const std::vector<DirectLight::Pair>& pai
     : rays_(receivers.size()) {
   const std::vector<std::vector<Triangle>> triangles = triangles_of(scene);
   for_each_index(workers, std::size_t{0}, receivers.size(), [&](std::size_t g) {
-    const auto [first, last] = std::equal_range(
-        pairs.begin(), pairs.end(), DirectLight::Pair{.receiver = receivers[g]},
-        [](const auto& a, const auto& b) { return a.receiver < b.receiver; });
+    const auto [first, last] =
+        std::equal_range(pairs.begin(), pairs.end(), DirectLight::Pair{.receiver = receivers[g]},
+                         [](const auto& a, const auto& b) { return a.receiver < b.receiver; });
     for (auto pair = first; pair != last; ++pair) {
       cancellation.throw_if_canceled();
       PairRays of_pair(scene, *pair);

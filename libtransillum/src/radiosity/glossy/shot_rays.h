@@ -24,9 +24,9 @@ struct ShotRay {
 /// not depend on materials.
 ///
 /// A pair of patches near each other has many directions, between parts of both that are small
-/// compared with their distance. The parts divide the exact form factor of the pair as form
-/// factors of unblocked parts would: what is between the patches changes how much light comes, but not from
-/// where within the pair.
+/// compared with their distance. The parts share the exact form factor of the pair in proportion to
+/// their own without blockers: what is between the patches changes how much light comes, but not
+/// from where within the pair.
 class ShotRays {
  public:
   /// @param pairs of `receivers`: DirectLight::pairs
