@@ -377,7 +377,6 @@ TEST(GlossyOptions, RefusesWhatItCannotDo) {
   EXPECT_THAT(refused([](SolveOptions& o) { o.normalize = Normalization::symmetric; }),
               HasSubstr("symmetric"));
   EXPECT_THAT(refused([](SolveOptions& o) { o.scheme = Scheme::growing; }), HasSubstr("scheme"));
-  EXPECT_THAT(refused([](SolveOptions& o) { o.replicas = 2; }), HasSubstr("replicas"));
   EXPECT_THAT(refused([](SolveOptions& o) { o.engine = Engine::pairs; }), HasSubstr("pairs"));
 }
 
