@@ -73,7 +73,7 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
       shot(std::move(resources.shot)),
       tree(std::move(resources.tree)),
       engine(std::move(resources.engine)),
-      sums(resources.sums ? std::move(resources.sums) : sums_in_memory()),
+      sums(resources.sums ? resources.sums : sums_in_memory()),
       cancellation(sums->own(requested)) {
   sums->agree([this] { prepare(); });
 }
