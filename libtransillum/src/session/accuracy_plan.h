@@ -35,7 +35,7 @@ struct StageResult {
   const std::vector<Rgb>& radiosity;  ///< B, W/m²
   SolveStatistics statistics;
   ErrorEstimate error;
-  const DirectLight* shot = nullptr;  ///< null: unknown, or there is none
+  const DirectLight* shot = nullptr;  ///< null where it is unknown, or there is none
 };
 
 /// Chooses the stages of a solve with SolveOptions::goal. The caller makes each: a new solver with
