@@ -235,7 +235,9 @@ void write_page(std::ostream& out, const ErrorReport& report, const MeasuredSolv
 
 std::string error_percentage(double error) {
   constexpr double least = 1e-6;
-  return error < least ? "0 %" : fmt::format("{:.2g} %", 100 * error);
+  return error < least ? "0 %"
+         : error < 1   ? fmt::format("{:.2g} %", 100 * error)
+                       : fmt::format("{:.0f} %", 100 * error);
 }
 
 std::string step_text(const NextStep& step) {
