@@ -28,8 +28,11 @@ using ::testing::HasSubstr;
 using testing::Sketch;
 
 SolveOptions options_of(int directions, Normalization normalize = Normalization::none) {
-  return {
-      .directions = directions, .normalize = normalize, .basis = Basis::linear, .tolerance = 1e-12};
+  return {.directions = directions,
+          .normalize = normalize,
+          .basis = Basis::linear,
+          .first_shot = {},
+          .tolerance = 1e-12};
 }
 
 /// A solution with the form factors of its solve.
@@ -265,7 +268,7 @@ TEST(LinearFormFactors, ExchangesOfPartsSumToWhatIsReceived) {
 }
 
 /// Oracle 3 with reciprocity: all rows of a closed scene sum to 1, those of moments to 0.
-TEST(LinearSymmetric, RowsOfClosedScenesAreThoseOfConstants) {
+TEST(LinearSymmetric, RowsOfClosedScenesAddUp) {
   for (const char* spec : {"furnace", "cornell-box", "rooms"}) {
     const auto scene = load_scene(spec);
     const Solution solution = solved(scene, options_of(48, Normalization::symmetric));
