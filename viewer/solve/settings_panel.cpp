@@ -125,7 +125,7 @@ void SettingsPanel::add_accuracy_row(QFormLayout& form) {
   accuracy_->setMinimumWidth(60);
   accuracy_->setToolTip(tip("accuracy"));
   accuracy_of_ = named("accuracy_of", new QComboBox);
-  for (const auto& [of, text] : {std::pair{AccuracyOf::surfaces, tr("% worst surface")},
+  for (const auto& [of, text] : {std::pair{AccuracyOf::surfaces, tr("% worst")},
                                  {AccuracyOf::irradiance, tr("% irradiance")},
                                  {AccuracyOf::rms, tr("% RMS")},
                                  {AccuracyOf::max, tr("% largest")},
