@@ -236,7 +236,7 @@ class LightTest : public QObject {
     opened.part<QPushButton>("restart")->click();
     QVERIFY(wait_for([&] { return opened.window->snapshot() != before; }));
     QVERIFY(opened.settles());
-    QVERIFY(opened.light_bar().isEmpty());
+    QVERIFY2(opened.light_bar().isEmpty(), qPrintable(opened.light_bar()));
     QVERIFY(largest(opened.window->snapshot()->radiosity) > 0);
     const QString closure = opened.part<QLabel>("summary_closure")->text();
     QVERIFY2(closure.startsWith("open: ") && closure.endsWith("% of the light escapes"),

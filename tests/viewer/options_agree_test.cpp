@@ -100,13 +100,13 @@ class Draw {
     const std::string whole = std::to_string(1 + below(64));
     return accepts(option, whole) ? whole : fraction;
   }
-  /// Some options with values.
+  /// Some options with values, without --total, which only the program has.
   Words set() {
     Words words;
     const std::size_t count = 1 + below(6);
     std::vector<const Option*> left;
     for (const Option& option : transillum::options()) {
-      if (!option.repeats && option.name != "threads") {
+      if (!option.repeats && option.name != "threads" && option.name != "total") {
         left.push_back(&option);
       }
     }
@@ -163,6 +163,7 @@ Words words_of(const std::string& line) {
 RunOptions stored(RunOptions options) {
   options.solve.memory = 0;
   options.solve.threads = 0;
+  options.paper = false;      // a session has the options that it chose
   options.input.patches = 0;  // once the scene is loaded, the area replaces it
   return options;
 }
@@ -208,7 +209,7 @@ class OptionsAgreeTest : public QObject {
         "session");
     QVERIFY(!options.solve.two_way);
     QVERIFY(options.input.orient);
-    QVERIFY(options.solve == SolveOptions{.two_way = false});
+    QVERIFY(options.solve == (SolveOptions{.two_way = false, .first_shot = {}}));
   }
 
  private:

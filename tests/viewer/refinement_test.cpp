@@ -253,8 +253,10 @@ class RefinementTest : public QObject {
     watched.runner.resume_from(left.toStdString());
     watched.open(few, choice, {Goal::Kind::passes, 1});
     // The solve has more than the one pass that was asked for.
-    QVERIFY(watched.reaches(
-        [](const SolverSnapshot& s) { return !s.refinement.left && s.progress.direction == 25; }));
+    QVERIFY2(watched.reaches([](const SolverSnapshot& s) {
+      return !s.refinement.left && s.progress.direction == 25;
+    }),
+             qPrintable(watched.failure));
     QVERIFY(!QFile::exists(left));
     watched.runner.run();
     QVERIFY(watched.finishes());
@@ -457,7 +459,7 @@ class RefinementTest : public QObject {
     // Limits without a criterion are kept, for a control of a lesson, and change nothing.
     const RunOptions limits =
         run_options_from_json(nlohmann::json::parse(R"({"patches": 300})"), "o");
-    QVERIFY(limits == RunOptions{});
+    QVERIFY(limits == RunOptions{.solve = {.first_shot = {}}});
     QVERIFY(with_option(limits, "refine-by", R"("error")").refine == by(RefineBy::error, 300));
   }
 

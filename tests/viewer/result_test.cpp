@@ -31,7 +31,8 @@ class ResultTest : public QObject {
  private slots:
   void initTestCase() {
     path_ = folder_.filePath("r.vtp");
-    written_ = solve(load_scene("boards", {.two_sided = true}), {.directions = 16});
+    written_ =
+        solve(load_scene("boards", {.two_sided = true}), {.directions = 16, .first_shot = {}});
     write_result(path_.toStdString(), written_);
   }
 

@@ -213,7 +213,7 @@ class SolveRunnerTest : public QObject {
     const ErrorBand& error = last.errors.back();
     QVERIFY(error.lowest <= error.estimate && error.estimate <= error.limit);
     QVERIFY(error.limit <= 0.02);
-    QCOMPARE(last.error.rms_limit, last.accuracy->error);
+    QCOMPARE(last.error.surfaces.limit, last.accuracy->error);
   }
 
   // The time most likely ends in the middle of a stage: the previous stage is the result.
@@ -227,7 +227,7 @@ class SolveRunnerTest : public QObject {
     const SolverSnapshot& last = *w.snapshot;
     QCOMPARE(last.options.directions, last.accuracy->stages.back().directions);
     QCOMPARE(static_cast<int>(last.directions->size()), last.options.directions);
-    QCOMPARE(last.error.rms_limit, last.accuracy->error);
+    QCOMPARE(last.error.surfaces.limit, last.accuracy->error);
     QCOMPARE(last.statistics.passes, last.options.directions);
     QCOMPARE(last.errors.size(), last.statistics.iteration_records.size());
   }

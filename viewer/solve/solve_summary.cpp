@@ -40,6 +40,7 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
       tr("Closed scene: the closure defect, the largest fraction of a patch's projected area\n"
          "that is unaccounted for. Open scene: the fraction of all light that escapes"));
   closure_->setObjectName("summary_closure");
+  closure_->setWordWrap(true);
   escaped_ = grid->add_row(
       tr("Open to the sky"), {},
       tr("Fraction of all projected area with nothing above it; 0 in a closed scene"));

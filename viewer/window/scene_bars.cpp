@@ -100,15 +100,11 @@ LightOffer::LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPan
   button->setMenu(menu_);
   sky_ = bar->add_button("make_sky", tr("Sky"));
   connect(sky_, &QPushButton::clicked, this, &LightOffer::ask_for_sky);
-  connect(&frame_.state.runner, &SolveRunner::state_changed, this, [this](RunState state) {
-    if (state == RunState::loading || state == RunState::running) {
-      refused_ = false;
-    }
-  });
   connect(menu_, &QMenu::aboutToShow, this, &LightOffer::fill_menu);
   connect(bar, &Banner::closed, this, [this] { closed_ = true; });
   connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] {
-    closed_ = refused_ = false;
+    closed_ = false;
+    refused_.reset();
     update();
     if (!frame_.state.relighting.edits().has_light()) {
       emit frame_.state.relighting.form_factors_requested();  // so that a light appears at once
@@ -122,6 +118,10 @@ LightOffer::LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPan
 void LightOffer::update() {
   Banner& bar = *frame_.page.light_bar();
   const auto snapshot = frame_.state.scene.snapshot();
+  // States of a short solve may be skipped, but it has a snapshot of its own.
+  if (refused_ && *refused_ != snapshot) {
+    refused_.reset();
+  }
   const bool sky = !refused_ && snapshot && snapshot->options.sky.is_set();
   if (closed_ || sky || !frame_.state.scene.loaded() ||
       frame_.state.relighting.edits().has_light()) {
@@ -143,7 +143,7 @@ void LightOffer::update() {
 }
 
 void LightOffer::show_refusal() {
-  refused_ = true;
+  refused_ = frame_.state.scene.snapshot();
   closed_ = false;
   update();
 }

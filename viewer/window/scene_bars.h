@@ -6,6 +6,7 @@
 #include <QObject>
 #include <QTimer>
 #include <memory>
+#include <optional>
 
 #include "support/newest_result.h"
 #include "transillum/orientation.h"
@@ -68,8 +69,9 @@ class LightOffer : public QObject {
   ViewStateApplier& applier_;
   QMenu* menu_;
   QPushButton* sky_;
-  bool closed_ = false;   ///< by the user, for the open scene
-  bool refused_ = false;  ///< a solve, since the last one began
+  bool closed_ = false;  ///< by the user, for the open scene
+  /// The snapshot before a solve that was refused; nothing where none was.
+  std::optional<std::shared_ptr<const SolverSnapshot>> refused_;
 };
 
 /// The bar above a scene in which more than a tenth of the surface that light meets is the back of
