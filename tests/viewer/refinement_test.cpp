@@ -235,12 +235,14 @@ class RefinementTest : public QObject {
     const QTemporaryDir folder;
     const std::string mine = folder.filePath("mine.tck").toStdString();
     const QString left = folder.filePath("left.tck");
+    SolveOptions plain = few;
+    plain.first_shot.reset();
     const RefineChoice choice = by(RefineBy::jump, 60);
     std::vector<Rgb> radiosity;
     {
       WatchedRounds watched;
       watched.runner.save_to(mine, 0);
-      watched.open(few, choice, {Goal::Kind::passes, 25});
+      watched.open(plain, choice, {Goal::Kind::passes, 25});
       QVERIFY(watched.reaches([](const SolverSnapshot& s) {
         return !s.refinement.left && s.progress.direction == 25;
       }));
@@ -251,7 +253,7 @@ class RefinementTest : public QObject {
     }
     WatchedRounds watched;
     watched.runner.resume_from(left.toStdString());
-    watched.open(few, choice, {Goal::Kind::passes, 1});
+    watched.open(plain, choice, {Goal::Kind::passes, 1});
     // The solve has more than the one pass that was asked for.
     QVERIFY2(watched.reaches([](const SolverSnapshot& s) {
       return !s.refinement.left && s.progress.direction == 25;
