@@ -158,16 +158,16 @@ class StudyTest : public QObject {
     const auto window = make_window();
     const auto* row = window->findChild<QLabel*>("summary_error");
     const auto shows = [&](const QString& scene, int directions, const QString& end) {
-      window->set_options({.directions = directions, .replicas = 4}, {});
+      window->set_options({.directions = directions, .first_shot = {}, .replicas = 4}, {});
       window->open(scene);
       return wait_for([&] {
         const auto& snapshot = window->snapshot();
         return snapshot && snapshot->progress.finished && window->settled() &&
                snapshot->options.directions == directions && row->text().endsWith(end) &&
-               row->text().contains(" %, at most ");
+               row->text().contains(" %; no surface above ");
       });
     };
-    const Solution solution = solve(load_scene("stars"), {.directions = 512, .replicas = 4});
+    const Solution solution = solve(load_scene("stars"), {.directions = 512, .first_shot = {}, .replicas = 4});
     const QString count = count_text(std::ssize(uncertain_patches(solution)));
     QVERIFY2(shows("stars", 512, QString(" %;\ncannot be trusted on %1 patches").arg(count)),
              qPrintable(row->text()));

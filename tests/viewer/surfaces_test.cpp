@@ -177,9 +177,9 @@ class SurfacesTest : public QObject {
     QVERIFY(shown.listed());
     const HiddenPatches& hidden = shown.window().views().page.hidden();
     shown.click("group_table", "wall");
-    QVERIFY(shown.press("hide_part_button"));
+    QVERIFY(shown.press("hide_surface_button"));
     QCOMPARE(hidden.flags(), (std::vector<bool>{false, false, false, true}));
-    QVERIFY(shown.press("isolate_part_button"));
+    QVERIFY(shown.press("isolate_surface_button"));
     QCOMPARE(hidden.flags(), (std::vector<bool>{true, true, true, false}));
     shown.solved.trigger("undo");
     shown.solved.trigger("undo");
@@ -203,7 +203,7 @@ class SurfacesTest : public QObject {
     }));
     const int row = shown.row_of("group_table", "wall");
     QVERIFY(wait_for([&] { return shown.cell("group_table", row, 3).startsWith("80"); }));
-    QVERIFY(!shown.press("emit_part_button"));
+    QVERIFY(!shown.press("emit_surface_button"));
     save_picture(shown.window(), "groups-emit");
     shown.solved.trigger("undo");
     QVERIFY(!shown.window().relighting.edits().any());
@@ -215,14 +215,14 @@ class SurfacesTest : public QObject {
     QVERIFY(shown.listed());
     MaterialEdits& edits = shown.window().relighting.edits();
     shown.click("group_table", "lamp");
-    QVERIFY(!shown.window().findChild<QToolButton*>("emit_part_button")->isEnabled());
-    QVERIFY(shown.press("reflect_part_button"));
+    QVERIFY(!shown.window().findChild<QToolButton*>("emit_surface_button")->isEnabled());
+    QVERIFY(shown.press("reflect_surface_button"));
     QVERIFY(edits.values_of("group:lamp").exitance == Rgb{});
     QVERIFY((edits.values_of("group:lamp").reflectance == Rgb{0.5, 0.5, 0.5}));
     shown.solved.trigger("undo");
     QVERIFY(!edits.any());
     shown.click("group_table", "(no group)");
-    QVERIFY(!shown.press("emit_part_button"));
+    QVERIFY(!shown.press("emit_surface_button"));
   }
 
   void groups_exchange_what_the_library_says() {
