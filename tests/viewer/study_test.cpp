@@ -167,7 +167,8 @@ class StudyTest : public QObject {
                row->text().contains(" %; no surface above ");
       });
     };
-    const Solution solution = solve(load_scene("stars"), {.directions = 512, .first_shot = {}, .replicas = 4});
+    const Solution solution =
+        solve(load_scene("stars"), {.directions = 512, .first_shot = {}, .replicas = 4});
     const QString count = count_text(std::ssize(uncertain_patches(solution)));
     QVERIFY2(shows("stars", 512, QString(" %;\ncannot be trusted on %1 patches").arg(count)),
              qPrintable(row->text()));
