@@ -105,13 +105,13 @@ Sketch floor_and_lamp(double size, bool board) {
   return sketch;
 }
 
-TEST(LinearFirstShot, LinearPartsAreThoseOfAQuadratureOverTheReceiver) {
+TEST(LinearFirstShot, LinearTermsAreTheQuadratureOverTheReceiver) {
   for (const bool board : {false, true}) {
     for (const double size : {0.02, 0.2, 0.8}) {
       const auto scene = floor_and_lamp(size, board).scene();
       const DirectLight light = linear_shot(*scene, {1});
       const std::array<double, 2> expected = by_points(*scene, 0, {1}, 150);
-      const LinearTerm &part = light.linear_terms[0], &error = light.linear_part_errors[0];
+      const LinearTerm &part = light.linear_terms[0], &error = light.linear_term_errors[0];
       SCOPED_TRACE(::testing::Message() << board << " " << size);
       const double h = light.irradiance[0].g;
       EXPECT_GT(std::abs(expected[0]), 0.1 * h);
@@ -137,7 +137,7 @@ TEST(LinearFirstShot, ASmallReceiverBelowALargeLamp) {
   EXPECT_NEAR(light.linear_terms[0].first.g, expected[0], 2e-5);
   EXPECT_NEAR(light.linear_terms[0].second.g, expected[1], 2e-5);
   EXPECT_LE(std::abs(light.linear_terms[0].second.g - expected[1]),
-            light.linear_part_errors[0].second.g + 1e-6);
+            light.linear_term_errors[0].second.g + 1e-6);
 }
 
 TEST(LinearFirstShot, MeansAreTheBitsOfConstantFunctions) {
@@ -154,7 +154,7 @@ TEST(LinearFirstShot, MeansAreTheBitsOfConstantFunctions) {
 }
 
 /// No place of a patch receives less than 0: |H_a| is at most H times the largest |phi_a|.
-TEST(LinearFirstShot, LinearPartsAreBoundedByTheMean) {
+TEST(LinearFirstShot, LinearTermsAreBoundedByTheMean) {
   for (const char* spec : {"cornell-box", "rooms", "boards"}) {
     const auto scene = load_scene(spec, {.max_patch_area = 0.3});
     const DirectLight light = linear_shot(*scene, find_small_sources(*scene, 0));
@@ -277,7 +277,7 @@ TEST(LinearFirstShot, IsInvariantUnderMotionAndScale) {
   EXPECT_GT(largest(a.linear_terms), 0.01);
   ASSERT_EQ(a.linear_terms.size(), b.linear_terms.size());
   for (std::size_t i = 0; i < a.linear_terms.size(); ++i) {
-    const double error = length_of(a.linear_part_errors[i]) + length_of(b.linear_part_errors[i]);
+    const double error = length_of(a.linear_term_errors[i]) + length_of(b.linear_term_errors[i]);
     EXPECT_NEAR(length_of(a.linear_terms[i]), length_of(b.linear_terms[i]),
                 error + 1e-9 * largest(a.linear_terms))
         << i;

@@ -167,13 +167,13 @@ TEST(LinearFormFactors, RelitTheyGiveASolveWithTheOtherMaterials) {
       options.first_shot = shot_first ? std::optional(0.0) : std::nullopt;
       std::shared_ptr<const DirectLight> shot;
       const Solution before = solved(scene, options, &shot), after = solved(other, options);
-      ASSERT_EQ(before.sky_linear_parts.size(), scene->patches().size());
+      ASSERT_EQ(before.sky_linear_terms.size(), scene->patches().size());
       RelightOptions relit{.tolerance = 1e-12,
                            .start = before.radiosity,
-                           .start_linear_parts = before.linear_terms,
+                           .start_linear_terms = before.linear_terms,
                            .shot = shot.get(),
                            .sky_irradiance = before.sky_irradiance,
-                           .sky_linear_parts = before.sky_linear_parts,
+                           .sky_linear_terms = before.sky_linear_terms,
                            .basis = Basis::linear};
       const RelightResult result = relight(*scene, *before.form_factors, changed.materials, relit);
       EXPECT_LT(difference(result.radiosity, result.linear_terms, after), 1e-9)
@@ -267,7 +267,7 @@ TEST(LinearFormFactors, ExchangesOfPartsSumToWhatIsReceived) {
   }
 }
 
-/// Oracle 3 with reciprocity: all rows of a closed scene sum to 1, those of moments to 0.
+/// Oracle 3 with reciprocity: all rows of a closed scene sum to 1, and rows of moments to 0.
 TEST(LinearSymmetric, RowsOfClosedScenesAddUp) {
   for (const char* spec : {"furnace", "cornell-box", "rooms"}) {
     const auto scene = load_scene(spec);

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What people read in a repository: the comments and string literals of sources, and the paragraphs
-// of documents, with the line of each character.
+// The passages that people read in a repository: the comments and string literals of sources, and
+// the paragraphs of documents, with the line of each character.
 #pragma once
 
 #include <algorithm>

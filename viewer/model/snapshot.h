@@ -104,7 +104,7 @@ struct SolverSnapshot {
   std::vector<double> form_factor_sums;      ///< one per patch; 0 before the first pass
   std::vector<double> sky_fractions;         ///< Solution::sky_fractions; 0 before the first pass
   std::vector<Rgb> sky_irradiance;           ///< Solution::sky_irradiance; empty without a sky
-  std::vector<LinearTerm> sky_linear_parts;  ///< Solution::sky_linear_parts
+  std::vector<LinearTerm> sky_linear_terms;  ///< Solution::sky_linear_terms
   std::vector<double>
       estimate_changes;  ///< changes in the newest iteration with passes, one per pass
   std::vector<double> quadrature_errors;  ///< epsilon after each pass

@@ -77,7 +77,7 @@ struct DirectLight {
   std::vector<LinearTerm> linear_terms = {};
   /// Estimated errors of `linear_terms`, of points even where nothing stands between. Empty if
   /// unknown, and with Basis::constant.
-  std::vector<LinearTerm> linear_part_errors = {};
+  std::vector<LinearTerm> linear_term_errors = {};
   /// The patches whose pairs are known, ascending: those with lobes, in a solve in which lobes take
   /// part. Their reflection depends on where the light comes from.
   std::vector<PatchId> paired = {};

@@ -174,7 +174,7 @@ class RadiositySolver {
   /// without a sky. In the semi-iterative scheme, for the last set of directions.
   std::vector<Rgb> sky_irradiance() const;
   /// Linear parts of sky_irradiance(), W/m²; empty without a sky, and with Basis::constant.
-  std::vector<LinearTerm> sky_linear_parts() const;
+  std::vector<LinearTerm> sky_linear_terms() const;
   /// Per patch: fraction of its visible area of which receivers see the back side, over all passes
   /// so far.
   std::vector<double> back_seen_fractions() const;

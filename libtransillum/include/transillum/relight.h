@@ -19,7 +19,7 @@ struct RelightOptions {
   /// Initial B, W/m², one per patch; E if empty. The closer to the result, the fewer iterations.
   std::span<const Rgb> start = {};
   /// Linear parts of `start`; 0 if empty.
-  std::span<const LinearTerm> start_linear_parts = {};
+  std::span<const LinearTerm> start_linear_terms = {};
   /// The first shot of the solve run that the form factors come from
   /// (RadiositySolver::direct_light()), if it made one: the same sources are shot again.
   const DirectLight* shot = nullptr;
@@ -29,8 +29,8 @@ struct RelightOptions {
   /// Irradiance of each patch from a sky, W/m², one per patch (Solution::sky_irradiance): it
   /// depends on the geometry only. Empty if there is no sky.
   std::span<const Rgb> sky_irradiance = {};
-  /// Solution::sky_linear_parts, with Basis::linear.
-  std::span<const LinearTerm> sky_linear_parts = {};
+  /// Solution::sky_linear_terms, with Basis::linear.
+  std::span<const LinearTerm> sky_linear_terms = {};
   /// linear: functions on patches, from FormFactors::moments.
   Basis basis = Basis::constant;
   int threads = 0;  ///< 0 uses all cores; the result does not depend on it

@@ -208,8 +208,8 @@ struct Solution {
   std::vector<double> sky_fractions = {};
   /// RadiositySolver::sky_irradiance(); part of `irradiance`; empty without a sky
   std::vector<Rgb> sky_irradiance = {};
-  /// RadiositySolver::sky_linear_parts(); empty without a sky, and with Basis::constant
-  std::vector<LinearTerm> sky_linear_parts = {};
+  /// RadiositySolver::sky_linear_terms(); empty without a sky, and with Basis::constant
+  std::vector<LinearTerm> sky_linear_terms = {};
   Sky sky = {};  ///< SolveOptions::sky
   /// The form factors given to the solve; if null, RadiositySolver::form_factors() may have them.
   std::shared_ptr<const FormFactors> form_factors = nullptr;

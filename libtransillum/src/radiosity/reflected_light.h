@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What relative values are relative to: reflected light, B - E. E of a small lamp exceeds all
+// Reflected light, B - E, to which relative values refer. E of a small lamp exceeds all
 // reflected light a million times, and would hide any error (decisions/0079-reflected-light.md).
 #pragma once
 

@@ -80,7 +80,7 @@ struct ErrorReport {
   /// Per patch: RMS over the patch of B(x) against its functions, estimated, W/m².
   std::vector<double> patch_errors;
   /// Per patch: `patch_errors` and the standard error of B, added, over the unit of its surface; 0
-  /// where no error is told.
+  /// where no error is reported.
   std::vector<double> relative_errors;
   ErrorMeasurements measurements;
 

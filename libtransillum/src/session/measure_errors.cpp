@@ -264,7 +264,7 @@ void Measuring::measure_patches(std::int64_t most_patches) {
 }
 
 /// Mean square of what the parts of patches differ by because of the directions alone: their
-/// replicas vary more than those of the whole patches.
+/// replicas vary more than replicas of the whole patches.
 std::vector<double> Measuring::noise_of_division(const SurfaceErrors& fine) const {
   const SurfaceErrors& whole = solve_.solution.error.surfaces;
   std::vector<double> noise(report_.surfaces.size());

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What the functions of patches miss. Input: solves of a scene and of the same scene with its
-// patches divided; both of the same directions, so that these errors cancel.
+// The light that the functions of patches cannot represent. Input: solves of a scene and of the
+// same scene with its patches divided; both of the same directions, so that these errors cancel.
 #include "session/patch_errors.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void add_to(Projection& projection, const Solution& fine, PatchId k, const Linea
   const auto at_center = basis->at(own->center);
   const LinearTerm& term = at(fine.linear_terms, k);
   for (std::size_t a = 0; a < 2; ++a) {
-    // The function of the whole in terms of those of the part: phi = value + s1 psi_1 + s2 psi_2.
+    // A function of the whole in terms of functions of the part: phi = value + s1 psi_1 + s2 psi_2.
     // Their gradients need not be orthogonal: psi_1 is constant across the longest edge.
     const Vec3 &g = basis->gradient[a], &h1 = own->gradient[0], &h2 = own->gradient[1];
     const double h11 = dot(h1, h1), h12 = dot(h1, h2), h22 = dot(h2, h2);

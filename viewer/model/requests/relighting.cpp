@@ -31,9 +31,9 @@ RelightResult Relighting::relit(const Request& request, const Cancellation& canc
   RelightOptions options;
   options.tolerance = request.tolerance;
   options.start = request.start;
-  options.start_linear_parts = request.start_linear_parts;
+  options.start_linear_terms = request.start_linear_terms;
   options.sky_irradiance = request.sky;
-  options.sky_linear_parts = request.sky_linear_parts;
+  options.sky_linear_terms = request.sky_linear_terms;
   options.basis = request.basis;
   options.shot = request.shot.get();
   options.patch_materials = request.materials->of_patch;
@@ -118,9 +118,9 @@ void Relighting::request_light() {
                       .shot = snapshot_->shot,
                       .materials = edits_.materials(),
                       .start = light_ ? light_->radiosity : snapshot_->radiosity,
-                      .start_linear_parts = light_ ? light_->linear_terms : snapshot_->linear_terms,
+                      .start_linear_terms = light_ ? light_->linear_terms : snapshot_->linear_terms,
                       .sky = snapshot_->sky_irradiance,
-                      .sky_linear_parts = snapshot_->sky_linear_parts,
+                      .sky_linear_terms = snapshot_->sky_linear_terms,
                       .basis = snapshot_->options.basis,
                       .tolerance = snapshot_->options.tolerance});
 }

@@ -32,7 +32,7 @@ SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const Lo
   snapshot.form_factor_sums = std::move(solution.form_factor_sums);
   snapshot.sky_fractions = std::move(solution.sky_fractions);
   snapshot.sky_irradiance = std::move(solution.sky_irradiance);
-  snapshot.sky_linear_parts = std::move(solution.sky_linear_parts);
+  snapshot.sky_linear_terms = std::move(solution.sky_linear_terms);
   // Empty before the first pass.
   snapshot.form_factor_sums.resize(snapshot.radiosity.size());
   if (!snapshot.of_file) {

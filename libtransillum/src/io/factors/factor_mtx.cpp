@@ -87,7 +87,7 @@ void read_moments(const MtxLines& lines, std::string_view text,
   }
 }
 
-/// The moments of all lines, the value of its entry before those of each.
+/// For each line the value of its entry, then the moments of the line.
 std::vector<double> with_first(const std::vector<FactorEntry>& entries,
                                const std::vector<double>& moments) {
   std::vector<double> all;

@@ -12,7 +12,7 @@
 
 namespace transillum {
 
-/// The surfaces of which errors are told.
+/// The surfaces whose errors are reported.
 struct ErrorSurfaces {
   Surfaces reflecting;           ///< for errors of B - E
   Surfaces receiving;            ///< for errors of H

@@ -9,7 +9,7 @@
 
 namespace transillum {
 
-/// The surfaces of a scene, for each of which an error is told: its groups; in a scene with fewer
+/// The surfaces of a scene, each with an error of its own: its groups; in a scene with fewer
 /// than two, its materials; with fewer than two of these, its connected components.
 struct Surfaces {
   /// The index of patches that are not measured.

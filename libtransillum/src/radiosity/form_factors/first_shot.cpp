@@ -101,7 +101,7 @@ class ErrorSum {
 };
 
 /// Computes the linear term of the irradiance of a patch.
-class LinearPartSum {
+class LinearTermSum {
  public:
   /// @param weight exitance of the source, over the area of the patch
   void add(const PatchExchange& exchange, const Rgb& weight) {
@@ -127,7 +127,7 @@ void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, Shot
   const LinearBasis basis = linear ? linear_basis(scene, i) : LinearBasis();
   Rgb power;
   ErrorSum errors;
-  LinearPartSum linear_part;
+  LinearTermSum linear_term;
   for (const PatchId j : light.sources) {
     progress.check();
     progress.add_pair();
@@ -148,14 +148,14 @@ void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, Shot
       }
     }
     if (linear) {
-      linear_part.add(found, unit * scene.exitance(j));
+      linear_term.add(found, unit * scene.exitance(j));
     }
   }
   light.irradiance[row] = unit * power;
   light.irradiance_error[row] = errors.largest();
   if (linear) {
-    light.linear_terms[row] = linear_part.sum();
-    light.linear_part_errors[row] = linear_part.error();
+    light.linear_terms[row] = linear_term.sum();
+    light.linear_term_errors[row] = linear_term.error();
   }
 }
 
@@ -233,7 +233,7 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
                     .irradiance_error = std::vector<Rgb>(patches)};
   if (basis == Basis::linear) {
     light.linear_terms.resize(patches);
-    light.linear_part_errors.resize(patches);
+    light.linear_term_errors.resize(patches);
   }
   if (sources.empty()) {
     return light;

@@ -25,8 +25,8 @@ NotConvergent divergence() {
 
 void check_start(const Scene& scene, const RelightOptions& options) {
   if ((!options.start.empty() && options.start.size() != scene.patches().size()) ||
-      (!options.start_linear_parts.empty() &&
-       options.start_linear_parts.size() != options.start.size())) {
+      (!options.start_linear_terms.empty() &&
+       options.start_linear_terms.size() != options.start.size())) {
     throw InputError(
         "the initial radiosity belongs to another scene: the number of patches differs");
   }
@@ -214,9 +214,9 @@ RelightResult relight(const Scene& scene, const FormFactors& form_factors,
     iteration.shoot_first(with_materials(*options.shot, scene, materials, options.patch_materials),
                           cancellation);
   }
-  iteration.add_sky(options.sky_irradiance, options.sky_linear_parts);
+  iteration.add_sky(options.sky_irradiance, options.sky_linear_terms);
   if (!options.start.empty()) {
-    iteration.b = unknowns_of(options.start, options.start_linear_parts, per_patch);
+    iteration.b = unknowns_of(options.start, options.start_linear_terms, per_patch);
   }
   iteration.run_to(options.tolerance, cancellation);
   std::vector<LinearTerm> linear_terms;

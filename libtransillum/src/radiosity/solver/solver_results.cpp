@@ -41,13 +41,13 @@ void add_scene_values(const Scene& scene, const std::vector<Rgb>& h,
 std::vector<Rgb> shot_bias(const Scene& scene, const ErrorSurfaces& surfaces,
                            const DirectLight& shot) {
   std::vector<Rgb> of_means = bias_of_shot(scene, surfaces, shot);
-  if (shot.linear_part_errors.empty()) {
+  if (shot.linear_term_errors.empty()) {
     return of_means;
   }
   of_means.resize(scene.patches().size());
   std::vector<Rgb> bias;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const LinearTerm& error = at(shot.linear_part_errors, i);
+    const LinearTerm& error = at(shot.linear_term_errors, i);
     const Rgb& rho = scene.reflectance(i);
     bias.insert(bias.end(), {at(of_means, i), rho * error.first, rho * error.second});
   }
@@ -189,7 +189,7 @@ std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
 
 std::vector<Rgb> RadiositySolver::sky_irradiance() const { return impl_->sky_irradiance(); }
 
-std::vector<LinearTerm> RadiositySolver::sky_linear_parts() const {
+std::vector<LinearTerm> RadiositySolver::sky_linear_terms() const {
   std::vector<LinearTerm> terms;
   if (options().sky.is_set() && options().basis == Basis::linear) {
     for (PatchId i = 0; i < impl_->input.scene->patch_count(); ++i) {
@@ -245,7 +245,7 @@ Solution RadiositySolver::solution() const {
     solution.form_factor_sums = form_factor_sums();
     solution.sky_fractions = sky_fractions();
     solution.sky_irradiance = sky_irradiance();
-    solution.sky_linear_parts = sky_linear_parts();
+    solution.sky_linear_terms = sky_linear_terms();
   }
   solution.error = error_estimate();
   solution.statistics = statistics();

@@ -514,8 +514,8 @@ std::vector<unsigned char> VtpFile::decode(const Array& array, std::size_t expec
 }
 
 /// A packed array is two sequences. The first has numbers: the number of blocks, the size of a
-/// block when unpacked, that of the last block if it is smaller (else 0), and the packed size of
-/// each. The second has the packed blocks.
+/// block when unpacked, the size of the last block if it is smaller (else 0), and the packed size
+/// of each. The second has the packed blocks.
 std::vector<unsigned char> VtpFile::unpack(const Array& array, std::size_t expected,
                                            bool exactly) const {
   const std::vector<std::uint64_t> first = header(array, 3);
