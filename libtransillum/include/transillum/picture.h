@@ -1,0 +1,135 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Pictures of a result as a camera sees it. The light of sources is computed at every point that a
+// pixel sees, exactly and with its shadows; only the rest, which has been reflected before, comes
+// from the result (final gathering; decisions/0086-pictures.md).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "transillum/cancellation.h"
+#include "transillum/export.h"
+#include "transillum/solution.h"
+#include "transillum/vec3.h"
+
+namespace TRANSILLUM_API transillum {
+
+/// How a camera maps directions to a picture.
+enum class Projection {
+  perspective,   ///< as an eye sees
+  orthographic,  ///< parallel rays
+  panorama,      ///< all directions: longitude across, latitude upward (equirectangular)
+};
+
+/// A camera without a lens: everything is sharp.
+struct Camera {
+  Vec3 eye;                               ///< m; orthographic: rays start in the plane through it
+  Vec3 target;                            ///< the point in the middle of the picture, m
+  std::optional<Vec3> up = std::nullopt;  ///< direction that is up in the picture; +z if unset
+  Projection projection = Projection::perspective;  ///< how directions become pixels
+  /// Vertical angle of view of a perspective, degrees, above 0 and below 180. Unset: the whole
+  /// scene, up to 75 degrees.
+  std::optional<double> field_of_view = std::nullopt;
+  /// Height that an orthographic picture shows, m, > 0. Unset: the whole scene.
+  std::optional<double> height = std::nullopt;
+};
+
+/// Options of a picture.
+struct PictureOptions {
+  /// Largest width and height, pixels.
+  static constexpr int largest_size = 32768;
+  /// Largest number of samples a pixel, and of rays a sample.
+  static constexpr int most_samples = 4096, most_rays = 65536;
+
+  int width = 1280;  ///< pixels, at least 1
+  int height = 960;  ///< pixels, at least 1
+  int samples = 4;   ///< points at which a pixel is sampled, at least 1
+  /// Rays from each sample that gather the reflected light. 0: it is interpolated between points of
+  /// the surfaces, which gather it by many rays.
+  int gather = 0;
+  int threads = 0;  ///< 0 uses all cores; the result does not depend on it
+
+  /// @throws InputError naming the value and its range.
+  void validate() const;
+};
+
+/// A picture.
+struct Picture {
+  int width = 0;   ///< pixels
+  int height = 0;  ///< pixels
+  /// Radiance toward the camera, W/(m² sr), mean over each pixel; row by row from the top, from
+  /// left to right.
+  std::vector<Rgb> radiance;
+};
+
+/// The light that points of a result's surfaces receive and send, computed when it is asked for;
+/// what is computed for one query serves the next.
+///
+/// Threads: any number may query; a value does not depend on the order of queries.
+class SurfaceLight {
+ public:
+  /// @param solution with its scene; B of another solve's materials gives their light.
+  /// @param gather PictureOptions::gather
+  /// @throws Canceled
+  explicit SurfaceLight(std::shared_ptr<const Solution> solution, int gather = 0,
+                        const Cancellation& cancellation = {});
+  ~SurfaceLight();
+  /// The moved-from object may only be destroyed or assigned to.
+  SurfaceLight(SurfaceLight&&) noexcept;
+  /// The moved-from object may only be destroyed or assigned to.
+  SurfaceLight& operator=(SurfaceLight&&) noexcept;
+
+  /// B at a point of a patch, W/m²: E + rho H.
+  /// @param point on the patch, m.
+  Rgb radiosity(PatchId patch, const Vec3& point) const;
+  /// Irradiance by sources alone at a point of a patch, W/m², exact but for a sky.
+  Rgb direct_irradiance(PatchId patch, const Vec3& point) const;
+  /// Radiance that arrives at `origin` from `direction`, W/(m² sr). Backs are transparent; where
+  /// nothing is met it is the sky's.
+  /// @param direction of any length but 0.
+  /// @param salt makes the sequences of rays differ between samples of a pixel.
+  Rgb radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt = 0) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The rays of a camera's pixels.
+class CameraRays {
+ public:
+  /// @throws InputError where the target is the eye, or a value of the camera or a size is not in
+  /// its range.
+  CameraRays(const Scene& scene, const Camera& camera, int width, int height);
+
+  struct Ray {
+    Vec3 origin, direction;
+  };
+  /// @param column, row position in pixels from the upper left corner of the picture
+  Ray at(double column, double row) const;
+
+ private:
+  Projection projection_;
+  Vec3 eye_, forward_, right_, above_;  ///< of the picture's half width and half height
+  double width_, height_;
+};
+
+/// Checks that the eye is not inside a solid: that of all directions some do not meet a back first.
+/// @throws InputError
+void check_eye(const Scene& scene, const Camera& camera);
+
+/// Makes a picture.
+/// @param solution B of all patches, of any kind of solve.
+/// @param camera the camera.
+/// @param options size and samples.
+/// @param cancellation checked at every row of a tile.
+/// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
+/// @throws InputError, Canceled
+Picture make_picture(std::shared_ptr<const Solution> solution, const Camera& camera,
+                     const PictureOptions& options = {}, const Cancellation& cancellation = {},
+                     const std::function<void(double)>& progress = {});
+
+}  // namespace TRANSILLUM_API transillum
