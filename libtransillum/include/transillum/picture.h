@@ -129,7 +129,7 @@ struct PixelSamples {
 /// any N.
 Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, const PixelSamples& pixel);
 
-/// Checks that the eye is not inside a solid: that of all directions some do not meet a back first.
+/// Checks that the eye is not inside a solid: that backs of faces do not surround it.
 /// @throws InputError
 void check_eye(const std::shared_ptr<const Scene>& scene, const Camera& camera);
 

@@ -22,17 +22,20 @@ Rgb limited(const Rgb& x, const Rgb& low, const Rgb& high) {
           std::clamp(x.b, low.b, high.b)};
 }
 
-/// Calls visit(point, weight) for a rule that is exact for cubic functions on a triangle.
+/// Calls visit(point, weight) for Radon's rule, which is exact for polynomials of degree 5 and
+/// whose points are inside the triangle.
 template <class Visit>
-void for_points_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c, Visit visit) {
-  const double area = 0.5 * norm(cross(b - a, c - a));
-  for (const Vec3& corner : {a, b, c}) {
-    visit(corner, area / 20);
+void for_points_of_triangle(const std::array<Vec3, 3>& corners, Visit visit) {
+  const double area = 0.5 * norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const double root = std::sqrt(15);
+  visit((corners[0] + corners[1] + corners[2]) / 3, area * 9 / 40);
+  for (const double sign : {-1.0, 1.0}) {
+    const double share = (6 + sign * root) / 21;
+    for (std::size_t k = 0; k < 3; ++k) {
+      visit(share * (corners[(k + 1) % 3] + corners[(k + 2) % 3]) + (1 - 2 * share) * corners[k],
+            area * (155 + sign * root) / 1200);
+    }
   }
-  for (const Vec3& middle : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)}) {
-    visit(middle, area * 2 / 15);
-  }
-  visit((a + b + c) / 3, area * 9 / 20);
 }
 
 }  // namespace
@@ -87,22 +90,31 @@ std::unique_ptr<const HitLight::DirectLight> HitLight::fitted(PatchId patch) con
   std::array<Rgb, 3> moments{};
   for (std::size_t k = points_.first_piece(patch); k < points_.end_piece(patch); ++k) {
     const auto corners = scene_.corners(scene_.pieces()[k]);
+    const auto fit = [&](const Vec3& x, double weight) {
+      const Rgb light = lamps_.at_point(patch, x);
+      const auto [a, b] = basis.at(x);
+      const Terms terms = terms_at(a, b);
+      normal_matrix += weight * terms * terms.transpose();
+      right += weight * terms * Eigen::RowVector3d(light.r, light.g, light.b);
+      low = {std::min(low.r, light.r), std::min(low.g, light.g), std::min(low.b, light.b)};
+      high = {std::max(high.r, light.r), std::max(high.g, light.g), std::max(high.b, light.b)};
+      return light;
+    };
     for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
-      const auto add = [&](const Vec3& x, double weight) {
-        const Rgb light = lamps_.at_point(patch, x);
-        const auto [a, b] = basis.at(x);
-        const Terms terms = terms_at(a, b);
-        normal_matrix += weight * terms * terms.transpose();
-        right += weight * terms * Eigen::RowVector3d(light.r, light.g, light.b);
-        low = {std::min(low.r, light.r), std::min(low.g, light.g), std::min(low.b, light.b)};
-        high = {std::max(high.r, light.r), std::max(high.g, light.g), std::max(high.b, light.b)};
-        area += weight;
-        moments[0] += weight * light;
-        moments[1] += weight * a * light;
-        moments[2] += weight * b * light;
-      };
-      for_points_of_triangle(scene_.point(corners[0]), scene_.point(corners[c]),
-                             scene_.point(corners[c + 1]), add);
+      for_points_of_triangle(
+          {scene_.point(corners[0]), scene_.point(corners[c]), scene_.point(corners[c + 1])},
+          [&](const Vec3& x, double weight) {
+            const Rgb light = fit(x, weight);
+            const auto [a, b] = basis.at(x);
+            area += weight;
+            moments[0] += weight * light;
+            moments[1] += weight * a * light;
+            moments[2] += weight * b * light;
+          });
+    }
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      constexpr double part = 1.0 / 20;
+      fit(at(points_.points(), points_.of_corner(k, c)).place, part * scene_.patch(patch).area);
     }
   }
   auto direct = std::make_unique<DirectLight>();
@@ -150,8 +162,8 @@ Rgb HitLight::rest_on(PatchId patch) const {
           rest(light.b, reflected.b, direct.b)};
 }
 
-/// By least squares from the patches of the same plane that touch it; limited so that no value on
-/// the patch is outside theirs.
+/// By least squares from the patches of the same plane that touch it; limited to their difference
+/// and to half of the patch's own light, so that a dark room stays dark beside a lit one.
 HitLight::Slope HitLight::slope_by_neighbors(PatchId patch) const {
   const LinearBasis& basis = at(bases_, patch);
   const Rgb own = rest_on(patch);
@@ -189,7 +201,7 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch) const {
   const Eigen::Matrix<double, 2, 3> slopes = matrix.inverse() * right;
   const auto limited_slope = [&](int channel, double value, double below, double above) {
     const double most = std::abs(slopes(0, channel)) * size + std::abs(slopes(1, channel)) * size;
-    const double allowed = std::max({value - below, above - value, 0.0});
+    const double allowed = std::min(std::max(value - below, above - value), value / 2);
     const double factor = most > allowed ? allowed / most : 1;
     return std::pair(factor * slopes(0, channel), factor * slopes(1, channel));
   };

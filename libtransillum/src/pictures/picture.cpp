@@ -37,8 +37,7 @@ std::vector<Tile> tiles_of(const PictureOptions& options) {
 Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, const PixelSamples& pixel) {
   Rgb sum;
   for (int k = pixel.first; k < pixel.end; ++k) {
-    // The first is in the middle; all are spread evenly.
-    const double x = fraction(0.5 + plastic_step * k), y = fraction(0.5 + plastic_square * k);
+    const auto [x, y] = sample_place(k);
     const CameraRays::Ray ray = rays.at(pixel.column + x, pixel.row + y);
     const std::uint64_t place =
         (static_cast<std::uint64_t>(pixel.row) << 32) + static_cast<std::uint64_t>(pixel.column);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace transillum {
 
@@ -26,5 +27,10 @@ inline double unit_fraction(std::uint64_t bits) {
 
 /// Powers of the plastic number's inverse: their multiples fill the square evenly.
 inline constexpr double plastic_step = 0.7548776662466927, plastic_square = 0.5698402909980532;
+
+/// Sample k of a pixel, in [0,1)²: the first is in the middle, and any number is spread evenly.
+inline std::pair<double, double> sample_place(int k) {
+  return {fraction(0.5 + plastic_step * k), fraction(0.5 + plastic_square * k)};
+}
 
 }  // namespace transillum

@@ -1,0 +1,274 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Light at points of surfaces, and pictures: closed forms, agreement of methods, no leaks, the same
+// bits for any number of threads. Against a path tracer: reference/pictures.
+#include "transillum/picture.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pictures/sequences.h"
+#include "support/canceled.h"
+#include "support/refusal.h"
+#include "support/scenes.h"
+#include "transillum/at.h"
+#include "transillum/point_sensors.h"
+#include "transillum/solve_session.h"
+
+namespace transillum::testing::picture_test {
+namespace {
+
+using test::refusal;
+using ::testing::HasSubstr;
+
+std::shared_ptr<const Solution> solved(std::shared_ptr<const Scene> scene, int directions = 256,
+                                       Basis basis = Basis::constant) {
+  SolveOptions options;
+  options.directions = directions;
+  options.basis = basis;
+  return std::make_shared<const Solution>(solve(std::move(scene), options));
+}
+
+std::shared_ptr<const Scene> cornell_box(double patch_area) {
+  return load_scene("cornell-box", {.max_patch_area = patch_area});
+}
+
+/// Points of patches, away from their borders.
+struct SurfacePoint {
+  PatchId patch;
+  Vec3 position;
+};
+std::vector<SurfacePoint> points_of(const Scene& scene, int count) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<PatchId> any(0, scene.patch_count() - 1);
+  std::uniform_real_distribution<double> weight(0.05, 1);
+  std::vector<SurfacePoint> points;
+  for (int n = 0; n < count; ++n) {
+    const PatchId i = any(random);
+    const auto& pieces = scene.pieces();
+    const Piece& piece =
+        *std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.patch == i; });
+    Vec3 sum;
+    double weights = 0;
+    for (const PointId p : scene.corners(piece)) {
+      const double w = weight(random);
+      sum = sum + w * scene.point(p);
+      weights += w;
+    }
+    points.push_back({i, sum / weights});
+  }
+  return points;
+}
+
+/// Irradiance by the exitance of patches, from exact form factors of sensors.
+std::vector<Rgb> direct_by_sensors(const Scene& scene, const std::vector<SurfacePoint>& points) {
+  std::vector<PointSensor> sensors;
+  for (const SurfacePoint& point : points) {
+    sensors.push_back({point.position, scene.patch(point.patch).normal});
+  }
+  std::vector<Rgb> exitance;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    exitance.push_back(scene.exitance(i));
+  }
+  return sensor_irradiance(sensor_form_factors(scene, sensors), exitance);
+}
+
+TEST(Picture, DirectLightIsThatOfExactFormFactors) {
+  for (const auto& scene :
+       {cornell_box(0.02), load_scene("rooms", {.max_patch_area = 2}), load_scene("gallery"),
+        box_in_cube().scene(), box_in_cube(4, 2, random_rotation(5)).scene()}) {
+    const SurfaceLight light(solved(scene, 8));
+    const std::vector<SurfacePoint> points = points_of(*scene, 200);
+    const std::vector<Rgb> expected = direct_by_sensors(*scene, points);
+    double largest = 0;
+    for (const Rgb& value : expected) {
+      largest = std::max(largest, max_abs(value));
+    }
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      EXPECT_LE(max_abs(light.direct_irradiance(points[n].patch, points[n].position) - expected[n]),
+                1e-9 * largest)
+          << scene->name() << ", patch " << points[n].patch;
+    }
+    EXPECT_GT(largest, 0);
+  }
+}
+
+TEST(Picture, InAFurnaceEveryPointSendsTwo) {
+  const auto scene = load_scene("furnace");
+  for (const int gather : {0, 64}) {
+    const SurfaceLight light(solved(scene), gather);
+    for (const SurfacePoint& point : points_of(*scene, 100)) {
+      EXPECT_NEAR(light.radiosity(point.patch, point.position).r, 2, 1e-3);
+    }
+    EXPECT_NEAR(light
+                    .radiance(scene->patch(0).center + 0.01 * scene->patch(0).normal,
+                              scene->patch(0).normal)
+                    .g,
+                2 / std::numbers::pi, 1e-3);
+  }
+}
+
+TEST(Picture, InterpolatedLightIsTheGathered) {
+  const auto scene = cornell_box(0.006);
+  for (const Basis basis : {Basis::constant, Basis::linear}) {
+    const auto solution = solved(scene, 512, basis);
+    const SurfaceLight interpolated(solution), gathered(solution, 8192);
+    double squares = 0, all = 0;
+    for (const SurfacePoint& point : points_of(*scene, 300)) {
+      const Rgb exact =
+                    gathered.radiosity(point.patch, point.position) - scene->exitance(point.patch),
+                found = interpolated.radiosity(point.patch, point.position) -
+                        scene->exitance(point.patch);
+      squares += std::pow(max_abs(found - exact), 2);
+      all += std::pow(max_abs(exact), 2);
+    }
+    EXPECT_LT(std::sqrt(squares / all), 0.006);
+  }
+}
+
+/// Two rooms of 1 m with one floor and one ceiling, and a wall between them; a lamp in one.
+std::shared_ptr<const Scene> divided_room() {
+  Sketch sketch("divided room");
+  const int gray = sketch.material(0.7, 0), lamp = sketch.material(0, 10);
+  const auto all_gray = [&](double, double) { return gray; };
+  // What is under the wall is a row of patches of its own.
+  sketch.grid({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, 20, all_gray);
+  sketch.grid({0, 1, 1}, {2, 0, 0}, {0, -1, 0}, 20, all_gray);
+  sketch.grid({0, 0, 0}, {0, 0, 1}, {2, 0, 0}, 20, all_gray);
+  sketch.grid({0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 20, all_gray);
+  sketch.grid({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 10, all_gray);
+  sketch.grid({2, 0, 0}, {0, 0, 1}, {0, 1, 0}, 10, all_gray);
+  sketch.box({1, 0, 0}, {1.1, 1, 1}, false, gray);
+  sketch.face({{0.3, 0.3, 0.999}, {0.3, 0.6, 0.999}, {0.6, 0.6, 0.999}, {0.6, 0.3, 0.999}}, lamp);
+  return sketch.scene();
+}
+
+TEST(Picture, NoLightLeaksUnderAWall) {
+  const auto scene = divided_room();
+  const SurfaceLight light(solved(scene, 64));
+  for (PatchId i = 0; i < scene->patch_count(); ++i) {
+    const Patch& patch = scene->patch(i);
+    if (patch.normal.z < 0.5 || patch.center.z > 0.5) {
+      continue;  // not of the floor
+    }
+    const double left = patch.center.x - 0.04, y = patch.center.y;
+    for (double x = left; x < left + 0.08; x += 0.007) {
+      if (x > 1.101) {
+        EXPECT_EQ(light.radiosity(i, {x, y, 0}).r, 0) << x << ' ' << y;
+      } else if (x < 0.999) {
+        EXPECT_GT(light.radiosity(i, {x, y, 0}).r, 0.03) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST(Picture, UnderAUniformSkyAFlatGroundReflectsAll) {
+  Sketch sketch("ground");
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, sketch.material(0.4, 0));
+  SolveOptions options;
+  options.directions = 64;
+  options.sky.exitance = {3, 2, 1};
+  const SurfaceLight light(std::make_shared<const Solution>(solve(sketch.scene(), options)));
+  const Rgb ground = light.radiosity(0, {0.3, 0.6, 0});
+  EXPECT_NEAR(ground.r, 1.2, 1e-12);
+  EXPECT_NEAR(ground.b, 0.4, 1e-12);
+  EXPECT_NEAR(light.radiance({0, 0, 1}, {0.1, 0.2, 1}).g, 2 / std::numbers::pi, 1e-12);
+}
+
+TEST(Picture, HasTheSameBitsForAnyNumberOfThreads) {
+  const auto solution = solved(cornell_box(0.02), 64);
+  const Camera camera{{0.278, 0.273, 0.05}, {0.278, 0.2, 0.5}, Vec3{0, 1, 0}};
+  for (const int gather : {0, 16}) {
+    PictureOptions options;
+    options.width = 40;
+    options.height = 30;
+    options.samples = 2;
+    options.gather = gather;
+    options.threads = 1;
+    const Picture one = make_picture(solution, camera, options);
+    options.threads = 3;
+    EXPECT_EQ(make_picture(solution, camera, options).radiance, one.radiance);
+    // A point's value does not depend on what was asked for before.
+    const SurfaceLight light(solution, gather);
+    const CameraRays rays(*solution->scene, camera, options.width, options.height);
+    EXPECT_EQ(pixel_radiance(light, rays, {33, 21, 0, 2}), one.radiance[21 * 40 + 33]);
+  }
+}
+
+TEST(Picture, SamplesOfAPixelAreSpreadEvenly) {
+  const int count = 64;
+  std::vector<int> cells(16, 0);
+  for (int k = 0; k < count; ++k) {
+    const auto [x, y] = sample_place(k);
+    ++cells[static_cast<std::size_t>(4 * std::floor(4 * y) + std::floor(4 * x))];
+  }
+  EXPECT_THAT(cells, ::testing::Each(::testing::AllOf(::testing::Ge(2), ::testing::Le(6))));
+  EXPECT_EQ(sample_place(0), (std::pair{0.5, 0.5}));
+}
+
+TEST(CameraRays, OfEachProjectionPointWhereTheyShould) {
+  const auto scene = cornell_box(0);
+  Camera camera{{0.1, 0.2, 0.3}, {0.1, 1.2, 0.3}};
+  camera.field_of_view = 90;
+  const CameraRays view(*scene, camera, 200, 100);
+  const auto near = [](const Vec3& found, const Vec3& expected) {
+    EXPECT_LT(norm(normalized(found) - normalized(expected)), 1e-12);
+  };
+  near(view.at(100, 50).direction, {0, 1, 0});
+  near(view.at(100, 0).direction, {0, 1, 1});   // 45 degrees up
+  near(view.at(200, 50).direction, {2, 1, 0});  // square pixels
+  camera.projection = Projection::panorama;
+  const CameraRays panorama(*scene, camera, 200, 100);
+  near(panorama.at(100, 50).direction, {0, 1, 0});
+  near(panorama.at(150, 50).direction, {1, 0, 0});
+  near(panorama.at(0, 50).direction, {0, -1, 0});
+  near(panorama.at(77, 0).direction, {0, 0, 1});
+  camera.projection = Projection::orthographic;
+  camera.height = 2;
+  const CameraRays parallel(*scene, camera, 200, 100);
+  near(parallel.at(0, 0).direction, {0, 1, 0});
+  EXPECT_LT(norm(parallel.at(0, 0).origin - Vec3{-1.9, 0.2, 1.3}), 1e-12);
+}
+
+TEST(Picture, RefusesWhatHasNoPicture) {
+  const auto solution = solved(cornell_box(0), 8);
+  const auto refused = [&](const Camera& camera, const PictureOptions& options = {}) {
+    return refusal([&] { make_picture(solution, camera, options); });
+  };
+  const Vec3 eye{0.278, 0.273, 0.1}, target{0.278, 0.2, 0.5};
+  EXPECT_THAT(refused({eye, eye}), HasSubstr("0.278 0.273 0.1, is the point in its middle"));
+  // In the short block.
+  EXPECT_THAT(refused({{0.185, 0.08, 0.169}, target}), HasSubstr("is inside a wall or a solid"));
+  EXPECT_THAT(refused({eye, target, Vec3{0, 0, 0}}), HasSubstr("up not 0"));
+  Camera wide{eye, target};
+  wide.field_of_view = 180;
+  EXPECT_THAT(refused(wide), HasSubstr("180 degrees"));
+  PictureOptions options;
+  options.width = 0;
+  EXPECT_THAT(refused({eye, target}, options), HasSubstr("width in pixels is 0"));
+  options.width = 100000;
+  EXPECT_THAT(refused({eye, target}, options), HasSubstr("1 to 32768"));
+}
+
+TEST(Picture, IsCanceledAtOnce) {
+  const auto solution = solved(cornell_box(0.006), 64);
+  PictureOptions options;
+  options.width = 4000;
+  options.height = 4000;
+  const Cancellation cancellation;
+  double done = 0;
+  EXPECT_THROW(
+      make_picture(solution, {{0.278, 0.273, 0.05}, {0.278, 0.2, 0.5}}, options, cancellation,
+                   [&](double fraction) {
+                     done = fraction;
+                     cancellation.cancel();
+                   }),
+      Canceled);
+  EXPECT_LT(done, 0.01);
+}
+
+}  // namespace
+}  // namespace transillum::testing::picture_test
