@@ -5,6 +5,7 @@
 // from the result (final gathering; decisions/0086-pictures.md).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -83,7 +84,7 @@ class SurfaceLight {
   /// The moved-from object may only be destroyed or assigned to.
   SurfaceLight& operator=(SurfaceLight&&) noexcept;
 
-  /// B at a point of a patch, W/m²: E + rho H.
+  /// B at a point of a patch, W/m²: E + rho H, with the reflectance of lobes in a glossy solve.
   /// @param point on the patch, m.
   Rgb radiosity(PatchId patch, const Vec3& point) const;
   /// Irradiance by sources alone at a point of a patch, W/m², exact but for a sky.
@@ -128,6 +129,43 @@ struct PixelSamples {
 /// The mean radiance of samples of a pixel, W/(m² sr). Samples 0 to N - 1 are spread evenly, for
 /// any N.
 Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, const PixelSamples& pixel);
+
+/// The radiosity of a result on grids of points of its surfaces, as one picture: a light map.
+///
+/// Patches of one plane and material that touch share a rectangle of it, so that it has no seams
+/// between them; each rectangle continues by a texel beyond its edges, for linear filtering.
+/// Threads: immutable once made.
+class SharpLightMap {
+ public:
+  /// Largest width and height, texels.
+  static constexpr int largest_side = 16384;
+
+  /// Options of a light map.
+  struct Options {
+    /// Texels per meter, > 0; 0: 1,024 along the diagonal of the scene's bounding box.
+    double density = 0;
+    int threads = 0;  ///< 0 uses all cores; the result does not depend on it
+  };
+
+  /// Computes all texels.
+  /// @param progress as make_picture()
+  /// @throws InputError where the map would be larger than largest_side; Canceled
+  explicit SharpLightMap(std::shared_ptr<const Solution> solution, const Options& options,
+                         const Cancellation& cancellation = {},
+                         const std::function<void(double)>& progress = {});
+  ~SharpLightMap();
+
+  int width() const;   ///< texels
+  int height() const;  ///< texels
+  /// B, W/m², red, green and blue; row by row from the top. 0 where no surface is.
+  const std::vector<std::array<float, 3>>& radiosity() const;
+  /// Place of a point of a patch in the map: texels from its left and its upper edge.
+  std::array<double, 2> place(PatchId patch, const Vec3& point) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
 
 /// Checks that the eye is not inside a solid: that backs of faces do not surround it.
 /// @throws InputError

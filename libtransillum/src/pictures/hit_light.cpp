@@ -73,7 +73,6 @@ Rgb HitLight::exitance(PatchId patch) const {
   return at(is_lamp_, patch) != 0 ? scene_.exitance(patch) : Rgb();
 }
 
-/// The fraction that a patch reflects, by its lobe too if the solve has lobes.
 Rgb HitLight::reflectance(PatchId patch) const {
   const Rgb& diffuse = scene_.reflectance(patch);
   return solution_.glossy ? diffuse + used_lobe(scene_.material(patch)).reflectance : diffuse;

@@ -32,6 +32,8 @@ class HitLight {
   Rgb at_point(PatchId patch, const Vec3& x) const;
   /// The exitance of a lamp, W/m²; 0 if the patch is none that LampLight treats.
   Rgb exitance(PatchId patch) const;
+  /// The fraction that a patch reflects, by its lobe too if the solve has lobes.
+  Rgb reflectance(PatchId patch) const;
 
  private:
   /// The light of lamps on a patch as a quadratic function of the basis.
@@ -49,7 +51,6 @@ class HitLight {
   Slope slope_by_neighbors(PatchId patch) const;
   Rgb rest_on(PatchId patch) const;
   std::unique_ptr<const DirectLight> fitted(PatchId patch) const;
-  Rgb reflectance(PatchId patch) const;
 
   const Solution& solution_;
   const Scene& scene_;

@@ -51,9 +51,8 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
     }
   }
 
-  /// E + rho H.
-  Rgb radiosity(PatchId patch, const Vec3& x, std::uint64_t variant) const {
-    const Rgb& reflectance = scene.reflectance(patch);
+  /// E and what `reflectance` makes of H.
+  Rgb radiosity(PatchId patch, const Vec3& x, const Rgb& reflectance, std::uint64_t variant) const {
     if (max_abs(reflectance) == 0) {
       return scene.exitance(patch);
     }
@@ -72,7 +71,7 @@ SurfaceLight::SurfaceLight(SurfaceLight&&) noexcept = default;
 SurfaceLight& SurfaceLight::operator=(SurfaceLight&&) noexcept = default;
 
 Rgb SurfaceLight::radiosity(PatchId patch, const Vec3& point) const {
-  return impl_->radiosity(patch, point, 0);
+  return impl_->radiosity(patch, point, impl_->hits.reflectance(patch), 0);
 }
 
 Rgb SurfaceLight::direct_irradiance(PatchId patch, const Vec3& point) const {
@@ -85,7 +84,7 @@ Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint6
   const Sky& sky = impl_->solution->sky;
   Rgb light;
   if (hit) {
-    light = impl_->radiosity(hit->patch, hit->point, salt);
+    light = impl_->radiosity(hit->patch, hit->point, impl_->scene.reflectance(hit->patch), salt);
     if (impl_->lobes) {
       light += impl_->lobes->at_point(hit->patch, hit->point, -along, salt);
     }
