@@ -41,7 +41,7 @@ void for_points_of_triangle(const std::array<Vec3, 3>& corners, Visit visit) {
 }  // namespace
 
 struct HitLight::DirectLight {
-  Eigen::Matrix<double, term_count, 3> coefficients;
+  std::array<Rgb, term_count> coefficients;
   Rgb low, high;                     ///< of the exact values
   std::array<Rgb, 3> in_solution{};  ///< its mean and linear terms, which the solution has
 };
@@ -118,7 +118,10 @@ std::unique_ptr<const HitLight::DirectLight> HitLight::fitted(PatchId patch) con
   }
   auto direct = std::make_unique<DirectLight>();
   normal_matrix.diagonal().array() += 1e-9 * area;
-  direct->coefficients = normal_matrix.ldlt().solve(right);
+  const Eigen::Matrix<double, term_count, 3> solved = normal_matrix.ldlt().solve(right);
+  for (int k = 0; k < term_count; ++k) {
+    at(direct->coefficients, k) = {solved(k, 0), solved(k, 1), solved(k, 2)};
+  }
   direct->low = low;
   direct->high = high;
   for (std::size_t k = 0; k < (solution_.linear_terms.empty() ? 1 : 3); ++k) {
@@ -220,9 +223,10 @@ Rgb HitLight::at_point(PatchId patch, const Vec3& x) const {
   const Rgb reflected = reflectance(patch);
   if (max_abs(reflected) > 0) {
     const DirectLight& direct = direct_on(patch);
-    const Eigen::RowVector3d value = terms_at(a, b).transpose() * direct.coefficients;
-    Rgb change = limited({value[0], value[1], value[2]}, direct.low, direct.high) -
-                 direct.in_solution[0] - a * direct.in_solution[1] - b * direct.in_solution[2];
+    const auto& c = direct.coefficients;
+    const Rgb value = c[0] + a * (c[1] + b * c[3] + a * c[4]) + b * (c[2] + b * c[5]);
+    Rgb change = limited(value, direct.low, direct.high) - direct.in_solution[0] -
+                 a * direct.in_solution[1] - b * direct.in_solution[2];
     if (!is_linear) {
       const Slope& slope = slope_on(patch);
       change += a * slope.first + b * slope.second;
