@@ -8,7 +8,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "io/results/srgb.h"
+#include "io/srgb.h"
 #include "support/program_call.h"
 #include "support/refusal.h"
 #include "support/scenes.h"

@@ -26,6 +26,7 @@ namespace transillum {}
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
 #include "transillum/scene.h"
+#include "transillum/scene_cameras.h"
 
 // Solving: options, progress, solution.
 #include "transillum/accuracy_goal.h"
@@ -64,8 +65,12 @@ namespace transillum {}
 // Studies of the error against the number of passes.
 #include "transillum/study.h"
 
-// Files: results, checkpoints, form factors, maps.
+// Pictures that a camera sees.
+#include "transillum/picture.h"
+
+// Files: results, checkpoints, form factors, maps, pictures.
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_files.h"
 #include "transillum/map_files.h"
+#include "transillum/picture_files.h"
