@@ -5,6 +5,7 @@
 // from the result (final gathering; decisions/0086-pictures.md).
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -117,9 +118,20 @@ class CameraRays {
   double width_, height_;
 };
 
+/// Some of the samples of a pixel.
+struct PixelSamples {
+  int column = 0;  ///< from the left, 0 first
+  int row = 0;     ///< from the top
+  int first = 0;   ///< first sample
+  int end = 1;     ///< one past the last
+};
+/// The mean radiance of samples of a pixel, W/(m² sr). Samples 0 to N - 1 are spread evenly, for
+/// any N.
+Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, const PixelSamples& pixel);
+
 /// Checks that the eye is not inside a solid: that of all directions some do not meet a back first.
 /// @throws InputError
-void check_eye(const Scene& scene, const Camera& camera);
+void check_eye(const std::shared_ptr<const Scene>& scene, const Camera& camera);
 
 /// Makes a picture.
 /// @param solution B of all patches, of any kind of solve.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
 #include "visibility/pairs/merged_pieces.h"
+#include "visibility/pairs/point_view.h"
 #include "visibility/pairs/shaft.h"
 
 namespace transillum {
@@ -25,6 +27,16 @@ struct PatchExchange {
   bool integrated = false;  ///< a whole part was integrated numerically (polygon_exchange())
   /// T^10 and T^20 of receiver i, and estimates of their errors, m²; 0 unless they are requested.
   std::array<double, 2> moments{}, moment_errors{};
+};
+
+/// A convex polygon that emits: patches of one face that emit alike, or an open part of one patch.
+/// Lengths are in the finder's unit.
+struct LampPolygon {
+  Rgb exitance;     ///< E, W/m²
+  Corners outline;  ///< seen from its lit side, counter-clockwise
+  HalfSpace front;  ///< in front of it
+  double bend = 0;  ///< largest distance of the corners from their plane
+  std::vector<PatchId> patches;  ///< ascending
 };
 
 /// Form factors of single pairs of patches, with blockers between them.
@@ -75,6 +87,17 @@ class ExchangeFinder {
   /// @param tick as above.
   double from_point(const Vec3& x, const Vec3& normal, PatchId j,
                     const std::function<void()>& tick = {}) const;
+  /// The finder's unit of length in meters is 1 / scale().
+  double scale() const { return scale_; }
+  /// The polygons of some emitting patches: where all patches of a face emit alike, its outline.
+  /// @param patches ascending.
+  std::vector<LampPolygon> lamps(std::span<const PatchId> patches) const;
+  /// The view of a lamp from points of patch i, past all that stands between some of them and the
+  /// lamp; nothing where no point of the patch sees the lamp.
+  std::optional<PointView> view_of(const LampPolygon& lamp, PatchId i) const;
+  /// The view from one point: blockers are found for it alone.
+  /// @param x in the finder's unit.
+  std::optional<PointView> view_from(const Vec3& x, const LampPolygon& lamp) const;
 
  private:
   /// A convex part of a patch that coplanar patches do not cover.
@@ -101,7 +124,7 @@ class ExchangeFinder {
   struct Query {
     bool estimate;                      ///< whether errors are estimated
     const std::function<void()>& tick;  ///< may be empty
-    const LinearBasis* receiver;        ///< basis of the first patch; null: moments are not computed
+    const LinearBasis* receiver;  ///< basis of the first patch; null: moments are not computed
   };
 
   double bend_beyond_rounding(double bend) const { return bend > tolerance_ ? bend : 0; }
@@ -110,6 +133,7 @@ class ExchangeFinder {
   static std::vector<Bounds> boxes_of(const std::vector<Blocker>& blockers);
   std::vector<Corners> open_pieces(std::size_t piece, const BoxTree& pieces) const;
   bool covers(PatchId upper, PatchId lower) const;
+  bool is_open(PatchId j) const;
   Corners corners_of(const Piece& piece) const;
   void collect_blockers(const FacingPolygons& facing, const Sides& sides, const Numbers* among,
                         Numbers& blockers) const;

@@ -45,6 +45,8 @@ class PointView {
     Vec3 first;      ///< integral of y - foot, y being the points of the visible part
   };
   Moments moments(const Vec3& x, const Vec3& normal, const std::function<void()>& tick = {});
+  /// Number of blockers.
+  std::size_t blocker_count() const { return blockers_.size(); }
 
  private:
   bool see(const Vec3& at, const std::function<void()>& tick);

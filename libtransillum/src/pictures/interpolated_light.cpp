@@ -1,0 +1,367 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Patches are divided into quadrilaterals: a convex piece of four corners is one, any other as many
+// as it has corners, about its middle. Lit points are computed when they are first needed, and
+// kept: at points of the scene for all patches of a plane, at others for their patch. A point is
+// moved inward by a little, so that it is not in the plane of an adjacent wall.
+#include "pictures/interpolated_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <tuple>
+#include <unordered_map>
+
+#include "base/bit_mixing.h"
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+using Place = std::array<std::int64_t, 3>;  ///< a position in steps
+
+struct PlaceHash {
+  std::size_t operator()(const Place& p) const {
+    const auto part = [](std::int64_t n) { return static_cast<std::uint64_t>(n); };
+    return mixed(part(p[0]) + mixed(part(p[1]) + mixed(part(p[2]))));
+  }
+};
+
+Vec3 blend(const std::array<Vec3, 4>& corners, double s, double t) {
+  return (1 - t) * ((1 - s) * corners[0] + s * corners[1]) +
+         t * ((1 - s) * corners[3] + s * corners[2]);
+}
+
+Rgb blend(const std::array<Rgb, 4>& corners, double s, double t) {
+  return (1 - t) * ((1 - s) * corners[0] + s * corners[1]) +
+         t * ((1 - s) * corners[3] + s * corners[2]);
+}
+
+struct Point2 {
+  double x, y;
+};
+double cross_of(const Point2& a, const Point2& b) { return a.x * b.y - a.y * b.x; }
+
+/// Coordinates (s, t) of a point of a convex quadrilateral, in which blend() gives it; in [0,1].
+std::array<double, 2> coordinates_in(const std::array<Vec3, 4>& corners, const Vec3& normal,
+                                     const Vec3& p) {
+  const Vec3 size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+  const auto flat = [&](const Vec3& a) {
+    return size.z >= size.x && size.z >= size.y ? Point2{a.x, a.y}
+           : size.y >= size.x                   ? Point2{a.x, a.z}
+                                                : Point2{a.y, a.z};
+  };
+  const Point2 e = flat(corners[1] - corners[0]), f = flat(corners[3] - corners[0]),
+               g = flat(corners[0] - corners[1] + corners[2] - corners[3]),
+               h = flat(p - corners[0]);
+  const double a = cross_of(g, f), b = cross_of(e, f) + cross_of(h, g), c = cross_of(h, e);
+  double t = 0;
+  if (std::abs(a) <= 1e-12 * std::abs(b)) {
+    t = b != 0 ? -c / b : 0;
+  } else {
+    const double root = std::sqrt(std::max(0.0, b * b - 4 * a * c));
+    const double q = -0.5 * (b + (b < 0 ? -root : root));
+    const double first = q / a, second = q != 0 ? c / q : first;
+    const auto outside = [](double x) { return std::max(-x, x - 1); };
+    t = outside(first) < outside(second) ? first : second;
+  }
+  t = std::clamp(t, 0.0, 1.0);
+  const Point2 along{e.x + t * g.x, e.y + t * g.y}, left{h.x - t * f.x, h.y - t * f.y};
+  const double square = along.x * along.x + along.y * along.y;
+  const double s = square > 0 ? (along.x * left.x + along.y * left.y) / square : 0;
+  return {std::clamp(s, 0.0, 1.0), t};
+}
+
+/// How far inside a quadrilateral a point is: the smallest distance from an edge, < 0 outside, m.
+double depth_in(const std::array<Vec3, 4>& corners, const Vec3& normal, const Vec3& p) {
+  double depth = HUGE_VAL;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 edge = corners[(k + 1) % 4] - corners[k];
+    const Vec3 inward = cross(normal, edge);
+    if (const double length = norm(inward); length > 0) {
+      depth = std::min(depth, dot(inward, p - corners[k]) / length);
+    }
+  }
+  return depth;
+}
+
+double size_of(const std::array<Vec3, 4>& corners) {
+  return std::max(norm(corners[2] - corners[0]), norm(corners[3] - corners[1]));
+}
+
+}  // namespace
+
+/// A part of a quadrilateral, a square of its coordinates.
+struct InterpolatedLight::Cell {
+  std::array<Rgb, 4> light{};                          ///< at its corners
+  bool is_part = false;                                ///< of a divided cell
+  mutable std::atomic<const Cell*> children{nullptr};  ///< four, or one of the marks; null: unknown
+
+  static const Cell whole;    ///< mark: not divided, interpolated
+  static const Cell unclear;  ///< mark: not divided, its points gather
+  bool is_divided() const {
+    const Cell* const next = children.load(std::memory_order_acquire);
+    return next != nullptr && next != &whole && next != &unclear;
+  }
+  ~Cell() {
+    if (is_divided()) {
+      delete[] children.load(std::memory_order_acquire);
+    }
+  }
+};
+const InterpolatedLight::Cell InterpolatedLight::Cell::whole;
+const InterpolatedLight::Cell InterpolatedLight::Cell::unclear;
+
+struct InterpolatedLight::PatchCells {
+  PatchId patch;
+  std::vector<Quad> quads;
+  std::vector<std::atomic<const Cell*>> roots;  ///< by quad; null: unknown
+  mutable std::mutex mutex;
+  mutable std::unordered_map<Place, Rgb, PlaceHash> light;
+
+  ~PatchCells() {
+    for (const auto& root : roots) {
+      delete root.load(std::memory_order_acquire);
+    }
+  }
+};
+
+InterpolatedLight::InterpolatedLight(const Scene& scene, const GatheredLight& gathered,
+                                     const LampLight& lamps)
+    : scene_(scene),
+      gathered_(gathered),
+      lamps_(lamps),
+      diagonal_(scene.bounds().diagonal()),
+      cells_(scene.patches().size()) {
+  make_nodes();
+}
+
+InterpolatedLight::~InterpolatedLight() {
+  for (auto& cells : cells_) {
+    delete cells.load(std::memory_order_acquire);
+  }
+  for (const auto& node : nodes_) {
+    delete node->light.load(std::memory_order_acquire);
+  }
+}
+
+/// Moves a point toward `middle` by a little.
+Vec3 InterpolatedLight::inward(const Vec3& x, const Vec3& middle) const {
+  constexpr double most = 1e-4, part = 1.0 / 64;
+  const Vec3 toward = middle - x;
+  const double distance = norm(toward);
+  return distance > 0 ? x + std::min(part, most * diagonal_ / distance) * toward : x;
+}
+
+/// Finds the points that several patches of a plane share.
+void InterpolatedLight::make_nodes() {
+  constexpr double steps = 1 << 20;
+  const auto rounded = [](double x) { return static_cast<std::int32_t>(std::lround(steps * x)); };
+  std::map<std::tuple<PointId, std::int32_t, std::int32_t, std::int32_t>, std::int32_t> numbers;
+  std::vector<std::pair<Vec3, double>> middles;
+  first_piece_.assign(scene_.patches().size() + 1, scene_.pieces().size());
+  for (std::size_t k = scene_.pieces().size(); k-- > 0;) {
+    at(first_piece_, scene_.pieces()[k].patch) = k;
+  }
+  for (const Piece& piece : scene_.pieces()) {
+    const Vec3& normal = scene_.patch(piece.patch).normal;
+    const auto corners = scene_.corners(piece);
+    first_corner_.push_back(node_of_corner_.size());
+    Vec3 middle;
+    for (const PointId p : corners) {
+      middle = middle + (1.0 / static_cast<double>(corners.size())) * scene_.point(p);
+    }
+    for (const PointId p : corners) {
+      const auto [found, is_new] =
+          numbers.try_emplace({p, rounded(normal.x), rounded(normal.y), rounded(normal.z)},
+                              static_cast<std::int32_t>(nodes_.size()));
+      if (is_new) {
+        nodes_.push_back(std::make_unique<Node>());
+        nodes_.back()->place = scene_.point(p);
+        nodes_.back()->normal = normal;
+        middles.emplace_back();
+      }
+      auto& [sum, weight] = at(middles, found->second);
+      sum = sum + middle;
+      weight += 1;
+      node_of_corner_.push_back(found->second);
+    }
+  }
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    nodes_[n]->place = inward(nodes_[n]->place, middles[n].first / middles[n].second);
+  }
+}
+
+const InterpolatedLight::PatchCells& InterpolatedLight::cells_of(PatchId patch) const {
+  std::atomic<PatchCells*>& place = at(cells_, patch);
+  if (const PatchCells* const known = place.load(std::memory_order_acquire)) {
+    return *known;
+  }
+  auto cells = std::make_unique<PatchCells>();
+  cells->patch = patch;
+  for (std::size_t k = at(first_piece_, patch);
+       k < scene_.pieces().size() && scene_.pieces()[k].patch == patch; ++k) {
+    const auto outline = scene_.corners(scene_.pieces()[k]);
+    const std::size_t count = outline.size();
+    const auto corner = [&](std::size_t c) { return scene_.point(outline[c % count]); };
+    const auto node = [&](std::size_t c) { return node_of_corner_[first_corner_[k] + c % count]; };
+    if (count == 4) {
+      cells->quads.push_back(
+          {{corner(0), corner(1), corner(2), corner(3)}, {node(0), node(1), node(2), node(3)}});
+      continue;
+    }
+    Vec3 middle;
+    for (std::size_t c = 0; c < count; ++c) {
+      middle = middle + (1.0 / static_cast<double>(count)) * corner(c);
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+      cells->quads.push_back({{corner(c), 0.5 * (corner(c) + corner(c + 1)), middle,
+                               0.5 * (corner(c) + corner(c + count - 1))},
+                              {node(c), -1, -1, -1}});
+    }
+  }
+  cells->roots = std::vector<std::atomic<const Cell*>>(cells->quads.size());
+  PatchCells* expected = nullptr;
+  if (place.compare_exchange_strong(expected, cells.get(), std::memory_order_acq_rel)) {
+    return *cells.release();
+  }
+  return *expected;
+}
+
+Rgb InterpolatedLight::light_of(Node& node) const {
+  if (const Rgb* const known = node.light.load(std::memory_order_acquire)) {
+    return *known;
+  }
+  auto light =
+      std::make_unique<const Rgb>(gathered_.at_point(node.place, node.normal, 0).irradiance);
+  const Rgb* expected = nullptr;
+  if (node.light.compare_exchange_strong(expected, light.get(), std::memory_order_acq_rel)) {
+    return *light.release();
+  }
+  return *expected;
+}
+
+/// The light at a point of a patch that is no point of the scene.
+Rgb InterpolatedLight::light_inside(const PatchCells& cells, const Vec3& x) const {
+  // A point that two cells compute differs by rounding: the place that it is rounded to is lit.
+  const double step = 0x1p-36 * diagonal_;
+  const Vec3 from_low = x - scene_.bounds().low;
+  const Place place{std::llround(from_low.x / step), std::llround(from_low.y / step),
+                    std::llround(from_low.z / step)};
+  {
+    const std::lock_guard lock(cells.mutex);
+    if (const auto found = cells.light.find(place); found != cells.light.end()) {
+      return found->second;
+    }
+  }
+  const Vec3 rounded = scene_.bounds().low + step * Vec3{static_cast<double>(place[0]),
+                                                         static_cast<double>(place[1]),
+                                                         static_cast<double>(place[2])};
+  const Patch& patch = scene_.patch(cells.patch);
+  const Rgb light = gathered_.at_point(inward(rounded, patch.center), patch.normal, 0).irradiance;
+  const std::lock_guard lock(cells.mutex);
+  return cells.light.emplace(place, light).first->second;
+}
+
+const InterpolatedLight::Cell& InterpolatedLight::root_of(const PatchCells& cells,
+                                                          std::size_t q) const {
+  auto& place = const_cast<std::atomic<const Cell*>&>(cells.roots[q]);
+  if (const Cell* const known = place.load(std::memory_order_acquire)) {
+    return *known;
+  }
+  auto root = std::make_unique<Cell>();
+  const Quad& quad = cells.quads[q];
+  for (std::size_t c = 0; c < 4; ++c) {
+    root->light[c] = quad.node[c] >= 0 ? light_of(*at(nodes_, quad.node[c]))
+                                       : light_inside(cells, quad.corners[c]);
+  }
+  const Cell* expected = nullptr;
+  if (place.compare_exchange_strong(expected, root.get(), std::memory_order_acq_rel)) {
+    return *root.release();
+  }
+  return *expected;
+}
+
+/// Decides whether a cell is divided, and divides it.
+const InterpolatedLight::Cell* InterpolatedLight::children_of(const PatchCells& cells,
+                                                              const std::array<Vec3, 4>& corners,
+                                                              const Cell& cell) const {
+  if (const Cell* const known = cell.children.load(std::memory_order_acquire)) {
+    return known;
+  }
+  constexpr double largest = 1.0 / 24, smallest = 1.0 / 1500, tiny = 1.0 / 300;
+  constexpr double tolerance = 0.004, unclear = 4 * tolerance;
+  const double size = size_of(corners) / diagonal_;
+  const Cell* next = &Cell::whole;
+  Rgb middle;
+  if (size > tiny || cell.is_part) {
+    const Vec3 center = blend(corners, 0.5, 0.5);
+    middle = light_inside(cells, center);
+    const Rgb all = middle + lamps_.at_point(cells.patch, center);
+    const double difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) /
+                              std::max(max_abs(all), std::numeric_limits<double>::min());
+    if (size > largest || (difference > tolerance && size > smallest)) {
+      next = nullptr;
+    } else if (difference > unclear) {
+      next = &Cell::unclear;
+    }
+  }
+  std::unique_ptr<Cell[]> made;
+  if (next == nullptr) {
+    made = std::make_unique<Cell[]>(4);
+    const auto edge = [&](double s, double t) { return light_inside(cells, blend(corners, s, t)); };
+    const Rgb bottom = edge(0.5, 0), right = edge(1, 0.5), top = edge(0.5, 1), left = edge(0, 0.5);
+    made[0].light = {cell.light[0], bottom, middle, left};
+    made[1].light = {bottom, cell.light[1], right, middle};
+    made[2].light = {middle, right, cell.light[2], top};
+    made[3].light = {left, middle, top, cell.light[3]};
+    for (std::size_t k = 0; k < 4; ++k) {
+      made[k].is_part = true;
+    }
+    next = made.get();
+  }
+  const Cell* expected = nullptr;
+  if (cell.children.compare_exchange_strong(expected, next, std::memory_order_acq_rel)) {
+    (void)made.release();
+    return next;
+  }
+  return expected;
+}
+
+Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x) const {
+  const PatchCells& cells = cells_of(patch);
+  const Vec3& normal = scene_.patch(patch).normal;
+  std::size_t q = 0;
+  if (cells.quads.size() > 1) {
+    double deepest = -HUGE_VAL;
+    for (std::size_t k = 0; k < cells.quads.size(); ++k) {
+      if (const double depth = depth_in(cells.quads[k].corners, normal, x); depth > deepest) {
+        deepest = depth;
+        q = k;
+      }
+    }
+  }
+  std::array<Vec3, 4> corners = cells.quads[q].corners;
+  auto [s, t] = coordinates_in(corners, normal, x);
+  const Cell* cell = &root_of(cells, q);
+  while (true) {
+    const Cell* const next = children_of(cells, corners, *cell);
+    if (next == &Cell::whole) {
+      return blend(cell->light, s, t);
+    }
+    if (next == &Cell::unclear) {
+      return gathered_.at_point(x, normal, 0).irradiance;
+    }
+    const bool is_right = s >= 0.5, is_upper = t >= 0.5;
+    cell = &next[is_upper ? (is_right ? 2 : 3) : (is_right ? 1 : 0)];
+    const double low_s = is_right ? 0.5 : 0, low_t = is_upper ? 0.5 : 0;
+    corners = {blend(corners, low_s, low_t), blend(corners, low_s + 0.5, low_t),
+               blend(corners, low_s + 0.5, low_t + 0.5), blend(corners, low_s, low_t + 0.5)};
+    s = 2 * (s - low_s);
+    t = 2 * (t - low_t);
+  }
+}
+
+}  // namespace transillum

@@ -1,0 +1,106 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "pictures/lamp_light.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+std::vector<PatchId> emitting_patches(const Scene& scene) {
+  std::vector<PatchId> patches;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (max_abs(scene.exitance(i)) > 0) {
+      patches.push_back(i);
+    }
+  }
+  return patches;
+}
+
+/// The lamps that are treated as such: as many as a picture can afford, the most powerful first,
+/// and none that only the last 1/10,000 of the power comes from.
+std::vector<LampPolygon> brightest(std::vector<LampPolygon> lamps) {
+  constexpr std::size_t most = 512;
+  constexpr double least = 1e-4;
+  // Parts of one patch stay together.
+  std::map<PatchId, double> power_of;
+  double left = 0;
+  for (const LampPolygon& lamp : lamps) {
+    const double power = norm(area_vector(lamp.outline)) * max_abs(lamp.exitance);
+    power_of[lamp.patches.front()] += power;
+    left += power;
+  }
+  std::vector<std::pair<double, PatchId>> by_power;
+  for (const auto& [patch, power] : power_of) {
+    by_power.emplace_back(-power, patch);
+  }
+  std::sort(by_power.begin(), by_power.end());
+  const double negligible = least * left;
+  std::set<PatchId> chosen;
+  for (const auto& [power, patch] : by_power) {
+    if (chosen.size() == most || left <= negligible) {
+      break;
+    }
+    chosen.insert(patch);
+    left += power;
+  }
+  std::erase_if(lamps,
+                [&](const LampPolygon& lamp) { return !chosen.contains(lamp.patches.front()); });
+  return lamps;
+}
+
+}  // namespace
+
+LampLight::LampLight(std::shared_ptr<const Scene> scene, const Cancellation& cancellation)
+    : scene_(std::move(scene)),
+      finder_(*scene_, cancellation),
+      lamps_(brightest(finder_.lamps(emitting_patches(*scene_)))) {
+  for (const LampPolygon& lamp : lamps_) {
+    patches_.insert(patches_.end(), lamp.patches.begin(), lamp.patches.end());
+  }
+  std::sort(patches_.begin(), patches_.end());
+  patches_.erase(std::unique(patches_.begin(), patches_.end()), patches_.end());
+}
+
+LampLight::Views& LampLight::views_of(PatchId patch) const {
+  // Past more blockers than this, those of a single point are found faster.
+  constexpr std::size_t most_blockers = 12;
+  constexpr std::size_t most_patches = 256;
+  ViewsByPatch& views = views_.local();
+  if (const auto found = views.find(patch); found != views.end()) {
+    return found->second;
+  }
+  if (views.size() >= most_patches) {
+    views.clear();
+  }
+  Views& of_patch = views[patch];
+  for (const LampPolygon& lamp : lamps_) {
+    if (std::optional<PointView> view = finder_.view_of(lamp, patch)) {
+      if (view->blocker_count() > most_blockers) {
+        view.reset();
+      }
+      of_patch.push_back({&lamp, std::move(view)});
+    }
+  }
+  return of_patch;
+}
+
+Rgb LampLight::at_point(PatchId patch, const Vec3& x) const {
+  const Vec3 scaled = finder_.scale() * x;
+  const Vec3& normal = scene_->patch(patch).normal;
+  Rgb sum;
+  for (View& view : views_of(patch)) {
+    if (view.shared) {
+      sum += view.shared->form_factor(scaled, normal) * view.lamp->exitance;
+    } else if (auto own = finder_.view_from(scaled, *view.lamp)) {
+      sum += own->form_factor(scaled, normal) * view.lamp->exitance;
+    }
+  }
+  return sum;
+}
+
+}  // namespace transillum

@@ -1,0 +1,50 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "transillum/cancellation.h"
+#include "transillum/scene.h"
+#include "visibility/pairs/patch_exchange.h"
+
+namespace transillum {
+
+/// The light of lamps at points of surfaces: the visible part of each lamp in closed form.
+///
+/// Threads: any number may query.
+class LampLight {
+ public:
+  /// Keeps `scene` alive.
+  /// @throws Canceled
+  LampLight(std::shared_ptr<const Scene> scene, const Cancellation& cancellation);
+
+  /// The patches whose exitance it treats, ascending: of the brightest faces.
+  const std::vector<PatchId>& patches() const { return patches_; }
+  /// Irradiance by all lamps at a point of a patch, W/m².
+  /// @param x on the patch, m
+  Rgb at_point(PatchId patch, const Vec3& x) const;
+
+ private:
+  /// What a patch sees of one lamp.
+  struct View {
+    const LampPolygon* lamp;
+    std::optional<PointView> shared;  ///< for all points; unset: blockers are found by point
+  };
+  using Views = std::vector<View>;
+  using ViewsByPatch = std::unordered_map<PatchId, Views>;
+
+  Views& views_of(PatchId patch) const;
+
+  std::shared_ptr<const Scene> scene_;
+  ExchangeFinder finder_;
+  std::vector<LampPolygon> lamps_;
+  std::vector<PatchId> patches_;
+  mutable oneapi::tbb::enumerable_thread_specific<ViewsByPatch> views_;
+};
+
+}  // namespace transillum

@@ -1,0 +1,94 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "pictures/gathered_light.h"
+#include "pictures/interpolated_light.h"
+#include "pictures/lamp_light.h"
+#include "pictures/lobe_light.h"
+#include "transillum/picture.h"
+#include "visibility/embree/picking.h"
+
+namespace transillum {
+namespace {
+
+/// Rays of the points between which light is interpolated.
+int interpolated_rays(const Scene& scene) {
+  return scene.patch_count() < 10000 ? 1024 : scene.patch_count() < 50000 ? 512 : 256;
+}
+
+constexpr int least_lobe_rays = 64;
+
+}  // namespace
+
+struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
+  std::shared_ptr<const Solution> solution;
+  const Scene& scene;
+  bool is_interpolated;
+  LampLight lamps;
+  GatheredLight gathered;
+  InterpolatedLight interpolated;
+  std::optional<LobeLight> lobes;
+  Picker picker;
+
+  Impl(std::shared_ptr<const Solution> shown, int gather, const Cancellation& cancellation)
+      : solution(std::move(shown)),
+        scene(*solution->scene),
+        is_interpolated(gather == 0),
+        lamps(solution->scene, cancellation),
+        gathered(solution, lamps.patches(), gather > 0 ? gather : interpolated_rays(scene),
+                 cancellation),
+        interpolated(scene, gathered, lamps),
+        picker(solution->scene, cancellation) {
+    if (solution->glossy) {
+      lobes.emplace(scene, gathered, std::max(gather, least_lobe_rays), cancellation);
+    }
+  }
+
+  /// E + rho H.
+  Rgb radiosity(PatchId patch, const Vec3& x, std::uint64_t variant) const {
+    const Rgb& reflectance = scene.reflectance(patch);
+    if (max_abs(reflectance) == 0) {
+      return scene.exitance(patch);
+    }
+    const Rgb rest = is_interpolated
+                         ? interpolated.at_point(patch, x)
+                         : gathered.at_point(x, scene.patch(patch).normal, variant).irradiance;
+    return scene.exitance(patch) + reflectance * (lamps.at_point(patch, x) + rest);
+  }
+};
+
+SurfaceLight::SurfaceLight(std::shared_ptr<const Solution> solution, int gather,
+                           const Cancellation& cancellation)
+    : impl_(std::make_unique<Impl>(std::move(solution), gather, cancellation)) {}
+SurfaceLight::~SurfaceLight() = default;
+SurfaceLight::SurfaceLight(SurfaceLight&&) noexcept = default;
+SurfaceLight& SurfaceLight::operator=(SurfaceLight&&) noexcept = default;
+
+Rgb SurfaceLight::radiosity(PatchId patch, const Vec3& point) const {
+  return impl_->radiosity(patch, point, 0);
+}
+
+Rgb SurfaceLight::direct_irradiance(PatchId patch, const Vec3& point) const {
+  return impl_->lamps.at_point(patch, point);
+}
+
+Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt) const {
+  const Vec3 along = normalized(direction);
+  const auto hit = impl_->picker.first_lit_hit(origin, along);
+  const Sky& sky = impl_->solution->sky;
+  Rgb light;
+  if (hit) {
+    light = impl_->radiosity(hit->patch, hit->point, salt);
+    if (impl_->lobes) {
+      light += impl_->lobes->at_point(hit->patch, hit->point, -along, salt);
+    }
+  } else if (sky.is_set()) {
+    light = sky.relative_radiance(along) * sky.exitance;
+  }
+  return 1 / std::numbers::pi * light;
+}
+
+}  // namespace transillum
