@@ -34,7 +34,7 @@ TEST(CliGlossy, IsRefusedInOneLineWhereItIsNotAvailable) {
           {{"--series", "s.pvd"}, "--series: not used with --glossy"},
           {{"--checkpoint", "c.tck"}, "--checkpoint: not used with --glossy"},
           {{"--eye", "1,2"}, "three finite numbers X,Y,Z"},
-          {{"--eye", "1,2,3"}, "--eye: used only with a .csv, .vtp, .ply or .png file"},
+          {{"--eye", "1,2,3"}, "--eye: used only with a .csv, .vtp, .ply, .png, .exr or .pfm file"},
           {{"--lobe", "white=0.5"}, "is not NAME=SHARE,EXPONENT"},
           {{"--lobe", "white=0.5,-1"}, "the exponent of the lobe (Ns) is -1"},
       });
@@ -102,9 +102,9 @@ TEST(CliGlossy, DrawsAPictureFromAnEye) {
     EXPECT_GT(png.size(), 10'000U);
   }
   expect_refused(shining + Arguments{"--out", folder / "r.png"},
-                 "a .png picture requires --eye X,Y,Z");
+                 "a picture requires --eye X,Y,Z");
   expect_refused(shining + Arguments{"--target", "1,2,3", "--out", folder / "r.ply"},
-                 "--target: used only with a .png file");
+                 "--target: used only with a .png, .exr or .pfm file");
 }
 
 TEST(CliGlossy, SaysWhatItDoesWithLobes) {

@@ -200,7 +200,7 @@ int run(PictureCall& call) {
   }
   call.picture.camera = camera_of(call, *scene, file_camera(call, cancellation));
   call.picture.options.threads = call.solve().threads;
-  check_picture_request(call.picture, *scene);
+  check_picture_request(call.picture, scene);
   if (!is_result) {
     solution = solve_scene(call, scene, display, cancellation);
   }

@@ -137,7 +137,7 @@ PreparedCall prepare_call(SolveCall& call, const Cancellation& cancellation) {
   prepared.scene = load_input_scene(call.scene, outputs, cancellation,
                                     prepared.options.sky.is_set() ? Light::sky : Light::required);
   check_series(call.colors, prepared.scene->files());
-  check_picture_request(pictures_of(call, *prepared.scene), *prepared.scene);
+  check_picture_request(pictures_of(call, *prepared.scene), prepared.scene);
   if (!call.colors.series.empty() && is_first_process()) {
     prepared.series.emplace(call.colors.series);
   }

@@ -34,13 +34,14 @@ void write(const PictureRequest& request, const std::string& file, const Picture
 
 }  // namespace
 
-void check_picture_request(const PictureRequest& request, const Scene& scene) {
+void check_picture_request(const PictureRequest& request,
+                           const std::shared_ptr<const Scene>& scene) {
   if (request.files.empty()) {
     return;
   }
   const PictureOptions& options = request.options;
   options.validate();
-  CameraRays(scene, request.camera, options.width, options.height);
+  CameraRays(*scene, request.camera, options.width, options.height);
   check_eye(scene, request.camera);
   const auto free = static_cast<double>(free_memory());
   if (memory_of(options) > free) {

@@ -26,7 +26,8 @@ struct PictureRequest {
 
 /// Checks camera, size and memory before a solve.
 /// @throws InputError
-void check_picture_request(const PictureRequest& request, const Scene& scene);
+void check_picture_request(const PictureRequest& request,
+                           const std::shared_ptr<const Scene>& scene);
 /// Makes the picture, shows the progress, writes the files and prints a line about them.
 /// @throws NothingToSave where it is canceled: then no file is written
 void write_pictures(const PictureRequest& request, std::shared_ptr<const Solution> solution,

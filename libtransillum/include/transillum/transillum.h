@@ -60,7 +60,6 @@ namespace transillum {}
 #include "transillum/form_factors.h"
 #include "transillum/hemicube.h"
 #include "transillum/pair_form_factors.h"
-#include "transillum/picture.h"
 #include "transillum/point_sensors.h"
 
 // Studies of the error against the number of passes.
