@@ -42,10 +42,16 @@ TEST(CliPicture, IsTheSameOfASceneAndOfItsResult) {
 
 TEST(CliPicture, IsWhatSolveWrites) {
   const TemporaryFolder folder;
-  const Arguments eye{"--eye", "0.278,0.27,-0.8"};
-  expect_success(Arguments{"solve", "cornell-box", "--up", "0,1,0"} + method + eye +
+  // A lamp above a floor: solve has no size.
+  const std::string scene =
+      folder.write("two.obj",
+                   "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\n"
+                   "v 0 1 1\nusemtl floor\nf 1 2 3 4\nusemtl lamp\nf 8 7 6 5\n");
+  folder.write("two.mtl", "newmtl floor\nKd .5 .4 .3\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n");
+  const Arguments eye{"--eye", "0.5,-2,0.7"};
+  expect_success(Arguments{"solve", scene, "--up", "0,1,1"} + method + eye +
                  Arguments{"--out", folder / "solve.png", "--out", folder / "solve.exr"});
-  expect_success(Arguments{"picture", "cornell-box", "--camera-up", "0,1,0"} + method + eye +
+  expect_success(Arguments{"picture", scene, "--camera-up", "0,1,1"} + method + eye +
                  Arguments{"--out", folder / "picture.png", "--out", folder / "picture.exr"});
   EXPECT_EQ(read_file(folder / "solve.png"), read_file(folder / "picture.png"));
   EXPECT_EQ(read_file(folder / "solve.exr"), read_file(folder / "picture.exr"));

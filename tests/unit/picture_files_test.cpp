@@ -4,9 +4,9 @@
 // curves and scales of false colors have known values.
 #include "transillum/picture_files.h"
 
-#include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <gmock/gmock.h>
 #include <png.h>

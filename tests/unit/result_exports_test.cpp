@@ -14,7 +14,6 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
-#include "transillum/linear_basis.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::testing::result_exports_test {

@@ -45,9 +45,9 @@ void check_picture_request(const PictureRequest& request,
   check_eye(scene, request.camera);
   const auto free = static_cast<double>(free_memory());
   if (memory_of(options) > free) {
-    throw InputError(
-        fmt::format("a picture of {} x {} pixels takes {:.3g} GB of memory, but {:.3g} GB are free",
-                    options.width, options.height, 1e-9 * memory_of(options), 1e-9 * free));
+    throw InputError(fmt::format(
+        "--size: a picture of {} x {} pixels takes {:.3g} GB of memory, but {:.3g} GB are free",
+        options.width, options.height, 1e-9 * memory_of(options), 1e-9 * free));
   }
 }
 
@@ -78,9 +78,10 @@ void write_pictures(const PictureRequest& request, std::shared_ptr<const Solutio
   write_all(writers);
   display.clear();
   if (!request.quiet) {
-    print_message(fmt::format("{}: {} x {} pixels, {} samples each, in {:.3g} s; exposure {:.4g}",
+    print_message(fmt::format("{}: {} x {} pixels, {} sample{} each, in {:.3g} s; exposure {:.4g}",
                               fmt::join(request.files, ", "), options.width, options.height,
-                              options.samples, seconds_since(start), exposure));
+                              options.samples, options.samples == 1 ? "" : "s",
+                              seconds_since(start), exposure));
   }
 }
 
