@@ -21,17 +21,36 @@ namespace {
 constexpr double lift = 2e-6;
 constexpr std::size_t table_count = 64;
 
-std::vector<Vec3> cosine_directions(int count, double shift_u, double shift_v) {
-  std::vector<Vec3> directions;
+/// The bits of two numbers below 2^8, alternating: near points get near numbers.
+std::uint32_t interleaved(std::uint32_t a, std::uint32_t b) {
+  std::uint32_t bits = 0;
+  for (unsigned k = 0; k < 8; ++k) {
+    bits |= ((a >> k) & 1U) << (2 * k) | ((b >> k) & 1U) << (2 * k + 1);
+  }
+  return bits;
+}
+
+/// Directions about +z, distributed by the cosine: two sets, each of which fills the hemisphere;
+/// those next to each other in a set are similar.
+std::array<std::vector<Vec3>, 2> cosine_directions(int count, double shift_u, double shift_v) {
+  std::array<std::vector<Vec3>, 2> sets;
   for (int k = 0; k < count; ++k) {
     const double square = fraction((k + 0.5) / count + shift_u);
-    const double angle =
-        2 * std::numbers::pi * fraction(mirrored_bits(static_cast<std::uint32_t>(k)) + shift_v);
+    const double turn = mirrored_bits(static_cast<std::uint32_t>(k / 2)) + plastic_step * (k % 2);
+    const double angle = 2 * std::numbers::pi * fraction(turn + shift_v);
     const double radius = std::sqrt(square);
-    directions.push_back(
+    sets[static_cast<std::size_t>(k % 2)].push_back(
         {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - square)});
   }
-  return directions;
+  const auto place = [](const Vec3& w) {
+    const auto step = [](double x) { return static_cast<std::uint32_t>(127.5 * (x + 1)); };
+    return interleaved(step(w.x), step(w.y));
+  };
+  for (std::vector<Vec3>& set : sets) {
+    std::stable_sort(set.begin(), set.end(),
+                     [&](const Vec3& a, const Vec3& b) { return place(a) < place(b); });
+  }
+  return sets;
 }
 
 }  // namespace
@@ -41,23 +60,13 @@ TangentFrame::TangentFrame(const Vec3& normal)
       v(cross(normal, u)),
       w(normal) {}
 
-GatheredLight::GatheredLight(std::shared_ptr<const Solution> solution,
-                             const std::vector<PatchId>& lamps, int rays,
+GatheredLight::GatheredLight(const Solution& solution, const HitLight& light, int rays,
                              const Cancellation& cancellation)
-    : solution_(std::move(solution)),
-      scene_(*solution_->scene),
+    : solution_(solution),
+      scene_(*solution.scene),
+      light_(light),
       embree_(scene_, cancellation),
-      rays_(rays),
-      means_(solution_->radiosity),
-      is_lamp_(means_.size(), 0),
-      terms_(solution_->linear_terms) {
-  for (const PatchId i : lamps) {
-    at(is_lamp_, i) = 1;
-    at(means_, i) = at(means_, i) - scene_.exitance(i);
-  }
-  if (!terms_.empty()) {
-    bases_ = linear_bases(scene_);
-  }
+      rays_(rays) {
   for (std::size_t k = 0; k < table_count; ++k) {
     const auto number = static_cast<double>(k);
     tables_.push_back(cosine_directions(rays, fraction(plastic_step * number),
@@ -69,76 +78,91 @@ Vec3 GatheredLight::start_of(const Vec3& x, const Vec3& normal) const {
   return embree_.inside(x) + lift * normal;
 }
 
-GatheredLight::Met GatheredLight::meet(const Vec3& start, const Vec3& direction) const {
-  RTCRayHit ray = make_ray(start, direction);
-  embree_.first_hit(ray, false);
-  if (!has_hit(ray)) {
-    return {};
-  }
-  const PatchId hit = embree_.patch_of(ray.hit.primID);
-  const PatchId lit = embree_.lit_at(hit, start, direction, ray.ray.tfar);
-  const double distance = static_cast<double>(ray.ray.tfar);
-  return {lit == no_patch ? hit : lit, lit != no_patch, distance / embree_.scale(),
-          scene_.bounds().center() + (1 / embree_.scale()) * (start + distance * direction)};
+/// What a ray meets that Embree says hits a triangle.
+GatheredLight::Met GatheredLight::met_at(const Line& line, unsigned triangle,
+                                         float distance) const {
+  const PatchId hit = embree_.patch_of(triangle);
+  const PatchId lit = embree_.lit_at(hit, line.start, line.direction, distance);
+  return {
+      lit == no_patch ? hit : lit, lit != no_patch,
+      scene_.bounds().center() +
+          (1 / embree_.scale()) * (line.start + static_cast<double>(distance) * line.direction)};
 }
 
-/// B where a ray meets a patch, without the exitance of lamps.
-Rgb GatheredLight::leaving(const Met& met) const {
-  Rgb light = at(means_, met.patch);
-  if (!bases_.empty()) {
-    const auto [first, second] = at(bases_, met.patch).at(met.point);
-    light += first * at(terms_, met.patch).first + second * at(terms_, met.patch).second;
-    light = {std::max(light.r, 0.0), std::max(light.g, 0.0), std::max(light.b, 0.0)};
+/// What a ray brings that meets `met`, without the exitance of lamps.
+Rgb GatheredLight::brought(const Met& met, const Vec3& direction) const {
+  if (met.is_lit) {
+    return light_.at_point(met.patch, met.point);
   }
-  return light;
+  return met.patch == no_patch && solution_.sky.is_set()
+             ? solution_.sky.relative_radiance(direction) * solution_.sky.exitance
+             : Rgb();
+}
+
+/// What up to 16 similar rays bring together.
+Rgb GatheredLight::brought(const Vec3& start, std::span<const Vec3> directions) const {
+  alignas(64) std::array<int, packet> valid{};
+  RTCRayHit16 rays{};
+  for (std::size_t k = 0; k < packet; ++k) {
+    const Vec3& direction = directions[std::min(k, directions.size() - 1)];
+    valid[k] = k < directions.size() ? -1 : 0;
+    rays.ray.org_x[k] = static_cast<float>(start.x);
+    rays.ray.org_y[k] = static_cast<float>(start.y);
+    rays.ray.org_z[k] = static_cast<float>(start.z);
+    rays.ray.dir_x[k] = static_cast<float>(direction.x);
+    rays.ray.dir_y[k] = static_cast<float>(direction.y);
+    rays.ray.dir_z[k] = static_cast<float>(direction.z);
+    rays.ray.tfar[k] = HUGE_VALF;
+    rays.ray.mask[k] = ~0U;
+    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  embree_.first_hits(valid.data(), rays);
+  Rgb sum;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    sum += brought(rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
+                       ? Met()
+                       : met_at({start, directions[k]}, rays.hit.primID[k], rays.ray.tfar[k]),
+                   directions[k]);
+  }
+  return sum;
 }
 
 GatheredLight::Gathered GatheredLight::at_point(const Vec3& x, const Vec3& normal,
                                                 std::uint64_t variant) const {
   const std::uint64_t bits = mixed(variant + golden_step);
-  const std::vector<Vec3>& table = tables_[variant == 0 ? 0 : bits % table_count];
+  const auto& table = tables_[variant == 0 ? 0 : bits % table_count];
   const double angle = variant == 0 ? 0 : 2 * std::numbers::pi * unit_fraction(bits);
   const TangentFrame about(normal);
   TangentFrame frame = about;
   frame.u = std::cos(angle) * about.u + std::sin(angle) * about.v;
   frame.v = cross(normal, frame.u);
   const Vec3 start = start_of(x, normal);
-  Rgb sum;
-  double inverse_distances = 0;
-  const double nearest = lift / embree_.scale();
-  for (const Vec3& local : table) {
-    const Vec3 direction = frame.turned(local);
-    const Met met = meet(start, direction);
-    if (met.patch == no_patch) {
-      if (solution_->sky.is_set()) {
-        sum += solution_->sky.relative_radiance(direction) * solution_->sky.exitance;
+  std::array<Rgb, 2> means{};
+  std::array<Vec3, packet> directions;
+  for (std::size_t half = 0; half < 2; ++half) {
+    const std::vector<Vec3>& set = table[half];
+    for (std::size_t first = 0; first < set.size(); first += packet) {
+      const std::size_t count = std::min(packet, set.size() - first);
+      for (std::size_t k = 0; k < count; ++k) {
+        directions[k] = frame.turned(set[first + k]);
       }
-      continue;
+      means[half] += brought(start, {directions.data(), count});
     }
-    inverse_distances += 1 / std::max(met.distance, nearest);
-    if (met.is_lit) {
-      sum += leaving(met);
-    }
+    means[half] = 1 / static_cast<double>(std::max<std::size_t>(set.size(), 1)) * means[half];
   }
-  const double count = static_cast<double>(table.size());
-  return {1 / count * sum, inverse_distances > 0 ? count / inverse_distances : HUGE_VAL};
+  if (table[1].empty()) {
+    return {means[0], means[0]};
+  }
+  return {0.5 * (means[0] + means[1]), 0.5 * (means[0] - means[1])};
 }
 
 Rgb GatheredLight::arriving(const Vec3& x, const Vec3& normal, const Vec3& direction) const {
-  const Met met = meet(start_of(x, normal), direction);
-  if (met.patch == no_patch) {
-    return solution_->sky.is_set()
-               ? solution_->sky.relative_radiance(direction) * solution_->sky.exitance
-               : Rgb();
-  }
-  if (!met.is_lit) {
-    return {};
-  }
-  Rgb light = leaving(met);
-  if (at(is_lamp_, met.patch) != 0) {
-    light += scene_.exitance(met.patch);
-  }
-  return light;
+  const Vec3 start = start_of(x, normal);
+  RTCRayHit ray = make_ray(start, direction);
+  embree_.first_hit(ray, false);
+  const Met met = has_hit(ray) ? met_at({start, direction}, ray.hit.primID, ray.ray.tfar) : Met();
+  const Rgb light = brought(met, direction);
+  return met.is_lit ? light + light_.exitance(met.patch) : light;
 }
 
 }  // namespace transillum

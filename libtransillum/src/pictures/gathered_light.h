@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <vector>
 
+#include "pictures/hit_light.h"
 #include "transillum/cancellation.h"
-#include "transillum/linear_basis.h"
 #include "transillum/solution.h"
 #include "visibility/embree/embree_scene.h"
 
@@ -27,17 +27,16 @@ struct TangentFrame {
 /// Threads: immutable once built.
 class GatheredLight {
  public:
-  /// Keeps `solution` alive.
-  /// @param lamps patches whose exitance is not gathered, ascending
+  /// Keeps references to both.
   /// @param rays to gather by, from each point.
   /// @throws Canceled
-  GatheredLight(std::shared_ptr<const Solution> solution, const std::vector<PatchId>& lamps,
-                int rays, const Cancellation& cancellation);
+  GatheredLight(const Solution& solution, const HitLight& light, int rays,
+                const Cancellation& cancellation);
 
   /// What a point receives.
   struct Gathered {
-    Rgb irradiance;       ///< W/m²
-    double distance = 0;  ///< harmonic mean of the distances of what the rays hit, m
+    Rgb irradiance;  ///< W/m²
+    Rgb noise;       ///< half the difference of what two halves of the rays give, W/m²
   };
   /// @param x on a surface, m
   /// @param normal unit
@@ -48,28 +47,29 @@ class GatheredLight {
   /// @param direction unit
   Rgb arriving(const Vec3& x, const Vec3& normal, const Vec3& direction) const;
 
-  int rays() const { return rays_; }
-
  private:
+  static constexpr std::size_t packet = 16;  ///< rays at a time
+  /// A half-line, in Embree's coordinates.
+  struct Line {
+    Vec3 start, direction;
+  };
   struct Met {
     PatchId patch = no_patch;  ///< no_patch: nothing is met
     bool is_lit = false;
-    double distance = 0;  ///< m
-    Vec3 point;           ///< m
+    Vec3 point;  ///< m
   };
-  Met meet(const Vec3& start, const Vec3& direction) const;
   Vec3 start_of(const Vec3& x, const Vec3& normal) const;
-  Rgb leaving(const Met& met) const;
+  Met met_at(const Line& line, unsigned triangle, float distance) const;
+  Rgb brought(const Met& met, const Vec3& direction) const;
+  Rgb brought(const Vec3& start, std::span<const Vec3> directions) const;
 
-  std::shared_ptr<const Solution> solution_;
+  const Solution& solution_;
   const Scene& scene_;
+  const HitLight& light_;
   EmbreeScene embree_;
   int rays_;
-  std::vector<Rgb> means_;  ///< B without the exitance of lamps
-  std::vector<std::uint8_t> is_lamp_;
-  std::vector<LinearTerm> terms_;  ///< of B
-  std::vector<LinearBasis> bases_;
-  std::vector<std::vector<Vec3>> tables_;  ///< directions about +z, by the cosine
+  /// Directions about +z, by the cosine, in two sets each.
+  std::vector<std::array<std::vector<Vec3>, 2>> tables_;
 };
 
 }  // namespace transillum

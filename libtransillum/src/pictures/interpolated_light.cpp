@@ -9,9 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <mutex>
-#include <tuple>
 #include <unordered_map>
 
 #include "base/bit_mixing.h"
@@ -119,7 +117,7 @@ struct InterpolatedLight::PatchCells {
   std::vector<Quad> quads;
   std::vector<std::atomic<const Cell*>> roots;  ///< by quad; null: unknown
   mutable std::mutex mutex;
-  mutable std::unordered_map<Place, Rgb, PlaceHash> light;
+  mutable std::unordered_map<Place, GatheredLight::Gathered, PlaceHash> light;
 
   ~PatchCells() {
     for (const auto& root : roots) {
@@ -128,69 +126,22 @@ struct InterpolatedLight::PatchCells {
   }
 };
 
-InterpolatedLight::InterpolatedLight(const Scene& scene, const GatheredLight& gathered,
-                                     const LampLight& lamps)
+InterpolatedLight::InterpolatedLight(const Scene& scene, const PlanePoints& points,
+                                     const GatheredLight& gathered, const LampLight& lamps)
     : scene_(scene),
+      points_(points),
       gathered_(gathered),
       lamps_(lamps),
       diagonal_(scene.bounds().diagonal()),
-      cells_(scene.patches().size()) {
-  make_nodes();
-}
+      light_(points.points().size()),
+      cells_(scene.patches().size()) {}
 
 InterpolatedLight::~InterpolatedLight() {
   for (auto& cells : cells_) {
     delete cells.load(std::memory_order_acquire);
   }
-  for (const auto& node : nodes_) {
-    delete node->light.load(std::memory_order_acquire);
-  }
-}
-
-/// Moves a point toward `middle` by a little.
-Vec3 InterpolatedLight::inward(const Vec3& x, const Vec3& middle) const {
-  constexpr double most = 1e-4, part = 1.0 / 64;
-  const Vec3 toward = middle - x;
-  const double distance = norm(toward);
-  return distance > 0 ? x + std::min(part, most * diagonal_ / distance) * toward : x;
-}
-
-/// Finds the points that several patches of a plane share.
-void InterpolatedLight::make_nodes() {
-  constexpr double steps = 1 << 20;
-  const auto rounded = [](double x) { return static_cast<std::int32_t>(std::lround(steps * x)); };
-  std::map<std::tuple<PointId, std::int32_t, std::int32_t, std::int32_t>, std::int32_t> numbers;
-  std::vector<std::pair<Vec3, double>> middles;
-  first_piece_.assign(scene_.patches().size() + 1, scene_.pieces().size());
-  for (std::size_t k = scene_.pieces().size(); k-- > 0;) {
-    at(first_piece_, scene_.pieces()[k].patch) = k;
-  }
-  for (const Piece& piece : scene_.pieces()) {
-    const Vec3& normal = scene_.patch(piece.patch).normal;
-    const auto corners = scene_.corners(piece);
-    first_corner_.push_back(node_of_corner_.size());
-    Vec3 middle;
-    for (const PointId p : corners) {
-      middle = middle + (1.0 / static_cast<double>(corners.size())) * scene_.point(p);
-    }
-    for (const PointId p : corners) {
-      const auto [found, is_new] =
-          numbers.try_emplace({p, rounded(normal.x), rounded(normal.y), rounded(normal.z)},
-                              static_cast<std::int32_t>(nodes_.size()));
-      if (is_new) {
-        nodes_.push_back(std::make_unique<Node>());
-        nodes_.back()->place = scene_.point(p);
-        nodes_.back()->normal = normal;
-        middles.emplace_back();
-      }
-      auto& [sum, weight] = at(middles, found->second);
-      sum = sum + middle;
-      weight += 1;
-      node_of_corner_.push_back(found->second);
-    }
-  }
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    nodes_[n]->place = inward(nodes_[n]->place, middles[n].first / middles[n].second);
+  for (const auto& light : light_) {
+    delete light.load(std::memory_order_acquire);
   }
 }
 
@@ -201,12 +152,11 @@ const InterpolatedLight::PatchCells& InterpolatedLight::cells_of(PatchId patch) 
   }
   auto cells = std::make_unique<PatchCells>();
   cells->patch = patch;
-  for (std::size_t k = at(first_piece_, patch);
-       k < scene_.pieces().size() && scene_.pieces()[k].patch == patch; ++k) {
+  for (std::size_t k = points_.first_piece(patch); k < points_.end_piece(patch); ++k) {
     const auto outline = scene_.corners(scene_.pieces()[k]);
     const std::size_t count = outline.size();
     const auto corner = [&](std::size_t c) { return scene_.point(outline[c % count]); };
-    const auto node = [&](std::size_t c) { return node_of_corner_[first_corner_[k] + c % count]; };
+    const auto node = [&](std::size_t c) { return points_.of_corner(k, c % count); };
     if (count == 4) {
       cells->quads.push_back(
           {{corner(0), corner(1), corner(2), corner(3)}, {node(0), node(1), node(2), node(3)}});
@@ -230,21 +180,24 @@ const InterpolatedLight::PatchCells& InterpolatedLight::cells_of(PatchId patch) 
   return *expected;
 }
 
-Rgb InterpolatedLight::light_of(Node& node) const {
-  if (const Rgb* const known = node.light.load(std::memory_order_acquire)) {
+Rgb InterpolatedLight::light_of(std::int32_t n) const {
+  std::atomic<const Rgb*>& place = at(light_, n);
+  if (const Rgb* const known = place.load(std::memory_order_acquire)) {
     return *known;
   }
+  const PlanePoint& point = at(points_.points(), n);
   auto light =
-      std::make_unique<const Rgb>(gathered_.at_point(node.place, node.normal, 0).irradiance);
+      std::make_unique<const Rgb>(gathered_.at_point(point.place, point.normal, 0).irradiance);
   const Rgb* expected = nullptr;
-  if (node.light.compare_exchange_strong(expected, light.get(), std::memory_order_acq_rel)) {
+  if (place.compare_exchange_strong(expected, light.get(), std::memory_order_acq_rel)) {
     return *light.release();
   }
   return *expected;
 }
 
 /// The light at a point of a patch that is no point of the scene.
-Rgb InterpolatedLight::light_inside(const PatchCells& cells, const Vec3& x) const {
+GatheredLight::Gathered InterpolatedLight::light_inside(const PatchCells& cells,
+                                                        const Vec3& x) const {
   // A point that two cells compute differs by rounding: the place that it is rounded to is lit.
   const double step = 0x1p-36 * diagonal_;
   const Vec3 from_low = x - scene_.bounds().low;
@@ -260,7 +213,8 @@ Rgb InterpolatedLight::light_inside(const PatchCells& cells, const Vec3& x) cons
                                                          static_cast<double>(place[1]),
                                                          static_cast<double>(place[2])};
   const Patch& patch = scene_.patch(cells.patch);
-  const Rgb light = gathered_.at_point(inward(rounded, patch.center), patch.normal, 0).irradiance;
+  const GatheredLight::Gathered light =
+      gathered_.at_point(points_.inward(rounded, patch.center), patch.normal, 0);
   const std::lock_guard lock(cells.mutex);
   return cells.light.emplace(place, light).first->second;
 }
@@ -274,8 +228,8 @@ const InterpolatedLight::Cell& InterpolatedLight::root_of(const PatchCells& cell
   auto root = std::make_unique<Cell>();
   const Quad& quad = cells.quads[q];
   for (std::size_t c = 0; c < 4; ++c) {
-    root->light[c] = quad.node[c] >= 0 ? light_of(*at(nodes_, quad.node[c]))
-                                       : light_inside(cells, quad.corners[c]);
+    root->light[c] = quad.node[c] >= 0 ? light_of(quad.node[c])
+                                       : light_inside(cells, quad.corners[c]).irradiance;
   }
   const Cell* expected = nullptr;
   if (place.compare_exchange_strong(expected, root.get(), std::memory_order_acq_rel)) {
@@ -291,27 +245,31 @@ const InterpolatedLight::Cell* InterpolatedLight::children_of(const PatchCells& 
   if (const Cell* const known = cell.children.load(std::memory_order_acquire)) {
     return known;
   }
-  constexpr double largest = 1.0 / 24, smallest = 1.0 / 1500, tiny = 1.0 / 300;
-  constexpr double tolerance = 0.004, unclear = 4 * tolerance;
+  constexpr double largest = 1.0 / 12, smallest = 1.0 / 1500, tiny = 1.0 / 300;
+  constexpr double least_tolerance = 0.004;
   const double size = size_of(corners) / diagonal_;
   const Cell* next = &Cell::whole;
   Rgb middle;
   if (size > tiny || cell.is_part) {
     const Vec3 center = blend(corners, 0.5, 0.5);
-    middle = light_inside(cells, center);
+    const auto [light, noise] = light_inside(cells, center);
+    middle = light;
     const Rgb all = middle + lamps_.at_point(cells.patch, center);
-    const double difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) /
-                              std::max(max_abs(all), std::numeric_limits<double>::min());
+    const double unit = std::max(max_abs(all), std::numeric_limits<double>::min());
+    const double difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) / unit;
+    const double tolerance = std::max(least_tolerance, 2 * max_abs(noise) / unit);
     if (size > largest || (difference > tolerance && size > smallest)) {
       next = nullptr;
-    } else if (difference > unclear) {
+    } else if (difference > 4 * tolerance) {
       next = &Cell::unclear;
     }
   }
   std::unique_ptr<Cell[]> made;
   if (next == nullptr) {
     made = std::make_unique<Cell[]>(4);
-    const auto edge = [&](double s, double t) { return light_inside(cells, blend(corners, s, t)); };
+    const auto edge = [&](double s, double t) {
+      return light_inside(cells, blend(corners, s, t)).irradiance;
+    };
     const Rgb bottom = edge(0.5, 0), right = edge(1, 0.5), top = edge(0.5, 1), left = edge(0, 0.5);
     made[0].light = {cell.light[0], bottom, middle, left};
     made[1].light = {bottom, cell.light[1], right, middle};

@@ -8,6 +8,7 @@
 
 #include "pictures/gathered_light.h"
 #include "pictures/lamp_light.h"
+#include "pictures/plane_points.h"
 
 namespace transillum {
 
@@ -19,7 +20,8 @@ namespace transillum {
 class InterpolatedLight {
  public:
   /// Keeps references to all.
-  InterpolatedLight(const Scene& scene, const GatheredLight& gathered, const LampLight& lamps);
+  InterpolatedLight(const Scene& scene, const PlanePoints& points, const GatheredLight& gathered,
+                    const LampLight& lamps);
   ~InterpolatedLight();
   InterpolatedLight(const InterpolatedLight&) = delete;
   InterpolatedLight& operator=(const InterpolatedLight&) = delete;
@@ -32,32 +34,21 @@ class InterpolatedLight {
   struct PatchCells;
   struct Quad {
     std::array<Vec3, 4> corners;
-    std::array<std::int32_t, 4> node;  ///< of nodes_; -1: a point inside the patch
+    std::array<std::int32_t, 4> node;  ///< index of a PlanePoint; -1: no point of the scene
   };
-  /// A point of the scene, as a part of a plane.
-  struct Node {
-    Vec3 place;  ///< a little inside
-    Vec3 normal;
-    std::atomic<const Rgb*> light{nullptr};
-  };
-
-  void make_nodes();
   const PatchCells& cells_of(PatchId patch) const;
-  Vec3 inward(const Vec3& x, const Vec3& middle) const;
-  Rgb light_of(Node& node) const;
-  Rgb light_inside(const PatchCells& cells, const Vec3& x) const;
+  Rgb light_of(std::int32_t n) const;
+  GatheredLight::Gathered light_inside(const PatchCells& cells, const Vec3& x) const;
   const Cell& root_of(const PatchCells& cells, std::size_t q) const;
   const Cell* children_of(const PatchCells& cells, const std::array<Vec3, 4>& corners,
                           const Cell& cell) const;
 
   const Scene& scene_;
+  const PlanePoints& points_;
   const GatheredLight& gathered_;
   const LampLight& lamps_;
   double diagonal_;
-  std::vector<std::unique_ptr<Node>> nodes_;
-  std::vector<std::int32_t> node_of_corner_;             ///< by corner of a piece
-  std::vector<std::size_t> first_piece_;                 ///< by patch
-  std::vector<std::size_t> first_corner_;                ///< by piece
+  mutable std::vector<std::atomic<const Rgb*>> light_;   ///< by PlanePoint; null: unknown
   mutable std::vector<std::atomic<PatchCells*>> cells_;  ///< by patch
 };
 

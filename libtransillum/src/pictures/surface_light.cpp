@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pictures/gathered_light.h"
+#include "pictures/hit_light.h"
 #include "pictures/interpolated_light.h"
 #include "pictures/lamp_light.h"
 #include "pictures/lobe_light.h"
@@ -16,7 +17,7 @@ namespace {
 
 /// Rays of the points between which light is interpolated.
 int interpolated_rays(const Scene& scene) {
-  return scene.patch_count() < 10000 ? 1024 : scene.patch_count() < 50000 ? 512 : 256;
+  return scene.patch_count() < 10000 ? 2048 : scene.patch_count() < 50000 ? 1024 : 512;
 }
 
 constexpr int least_lobe_rays = 64;
@@ -27,7 +28,9 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
   std::shared_ptr<const Solution> solution;
   const Scene& scene;
   bool is_interpolated;
+  PlanePoints points;
   LampLight lamps;
+  HitLight hits;
   GatheredLight gathered;
   InterpolatedLight interpolated;
   std::optional<LobeLight> lobes;
@@ -37,10 +40,11 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
       : solution(std::move(shown)),
         scene(*solution->scene),
         is_interpolated(gather == 0),
+        points(scene),
         lamps(solution->scene, cancellation),
-        gathered(solution, lamps.patches(), gather > 0 ? gather : interpolated_rays(scene),
-                 cancellation),
-        interpolated(scene, gathered, lamps),
+        hits(*solution, points, lamps),
+        gathered(*solution, hits, gather > 0 ? gather : interpolated_rays(scene), cancellation),
+        interpolated(scene, points, gathered, lamps),
         picker(solution->scene, cancellation) {
     if (solution->glossy) {
       lobes.emplace(scene, gathered, std::max(gather, least_lobe_rays), cancellation);

@@ -1,0 +1,69 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "pictures/plane_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace transillum {
+namespace {
+
+Vec3 middle_of_corners(const Scene& scene, std::span<const PointId> corners) {
+  Vec3 sum;
+  for (const PointId p : corners) {
+    sum = sum + scene.point(p);
+  }
+  return sum / static_cast<double>(corners.size());
+}
+
+}  // namespace
+
+PlanePoints::PlanePoints(const Scene& scene) : step_(1e-4 * scene.bounds().diagonal()) {
+  constexpr double steps = 1 << 20;  // of a normal's components
+  const auto rounded = [](double x) { return std::lround(steps * x); };
+  std::map<std::tuple<PointId, long, long, long>, std::int32_t> numbers;
+  std::vector<Vec3> sums;
+  std::vector<double> counts;
+  const std::vector<Piece>& pieces = scene.pieces();
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    while (first_piece_.size() <= static_cast<std::size_t>(pieces[k].patch)) {
+      first_piece_.push_back(k);
+    }
+    const auto corners = scene.corners(pieces[k]);
+    const Vec3& normal = scene.patch(pieces[k].patch).normal;
+    const Vec3 middle = middle_of_corners(scene, corners);
+    first_corner_.push_back(of_corner_.size());
+    for (const PointId p : corners) {
+      const auto [found, is_new] =
+          numbers.try_emplace({p, rounded(normal.x), rounded(normal.y), rounded(normal.z)},
+                              static_cast<std::int32_t>(points_.size()));
+      const std::int32_t n = found->second;
+      if (is_new) {
+        points_.push_back({scene.point(p), normal, {}});
+        sums.emplace_back();
+        counts.push_back(0);
+      }
+      at(sums, n) = at(sums, n) + middle;
+      at(counts, n) += 1;
+      of_corner_.push_back(n);
+      std::vector<PatchId>& patches = at(points_, n).patches;
+      if (patches.empty() || patches.back() != pieces[k].patch) {
+        patches.push_back(pieces[k].patch);
+      }
+    }
+  }
+  first_piece_.resize(scene.patches().size() + 1, pieces.size());
+  for (std::size_t n = 0; n < points_.size(); ++n) {
+    points_[n].place = inward(points_[n].place, sums[n] / counts[n]);
+  }
+}
+
+Vec3 PlanePoints::inward(const Vec3& x, const Vec3& middle) const {
+  constexpr double most = 1.0 / 64;
+  const Vec3 toward = middle - x;
+  const double distance = norm(toward);
+  return distance > 0 ? x + std::min(most, step_ / distance) * toward : x;
+}
+
+}  // namespace transillum

@@ -1,0 +1,49 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "transillum/at.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// A point of the scene as a corner of the patches of one plane that meet there.
+struct PlanePoint {
+  Vec3 place;   ///< moved a little into these patches, so that it is on none of their borders, m
+  Vec3 normal;  ///< of these patches
+  std::vector<PatchId> patches;  ///< ascending
+};
+
+/// The pieces of each patch, and the points that patches of a plane share.
+///
+/// Threads: immutable once built.
+class PlanePoints {
+ public:
+  /// Keeps a reference to `scene`.
+  explicit PlanePoints(const Scene& scene);
+
+  const std::vector<PlanePoint>& points() const { return points_; }
+  /// Index into points() of a corner of a piece.
+  std::int32_t of_corner(std::size_t piece, std::size_t corner) const {
+    return of_corner_[first_corner_[piece] + corner];
+  }
+  /// The first piece of a patch; the others follow.
+  std::size_t first_piece(PatchId patch) const { return at(first_piece_, patch); }
+  /// One past the last piece of a patch.
+  std::size_t end_piece(PatchId patch) const { return at(first_piece_, patch + 1); }
+
+  /// `x` moved toward `middle` by a little.
+  Vec3 inward(const Vec3& x, const Vec3& middle) const;
+
+ private:
+  double step_;  ///< m
+  std::vector<PlanePoint> points_;
+  std::vector<std::size_t> first_piece_;   ///< by patch, and the number of pieces
+  std::vector<std::size_t> first_corner_;  ///< by piece
+  std::vector<std::int32_t> of_corner_;
+};
+
+}  // namespace transillum
