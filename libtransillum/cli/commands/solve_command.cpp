@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/seconds_since.h"
 #include "cli/arguments/solve_call.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/solve_job.h"
@@ -33,10 +34,6 @@ namespace transillum::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The table of --by, on standard output unless a result is there.
 void print_powers(const SolveCall& call, const Solution& solution) {

@@ -34,7 +34,7 @@ struct SolveJob {
   const Cancellation& cancellation;
   ProgressDisplay& display;
   bool quiet = false;                    ///< no line for each round
-  std::string factors = {};              ///< file of stored form factors; empty: none
+  std::string factors = {};              ///< file of stored form factors; or empty
   bool form_factors = false;             ///< wanted in the solution, if they are kept
   bool has_series = false;               ///< a series gets the result after every iteration
   ResultSeries* series = nullptr;        ///< gets them in the first process

@@ -17,7 +17,7 @@ struct PictureRequest {
   std::vector<std::string> files;  ///< empty: no picture is made
   Camera camera;
   PictureOptions options = {};
-  std::optional<double> exposure = std::nullopt;  ///< unset: automatic_exposure()
+  std::optional<double> exposure = std::nullopt;  ///< if unset, automatic_exposure()
   ToneCurve tone = ToneCurve::linear;
   bool false_colors = false;  ///< .png files have them
   bool lux = false;           ///< the unit of their scale
