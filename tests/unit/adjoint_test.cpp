@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <string>
 
-#include "base/luminance.h"
+#include "geometry/luminance.h"
 #include "radiosity/form_factors/light_paths.h"
 #include "support/form_factor_rows.h"
 #include "transillum/at.h"

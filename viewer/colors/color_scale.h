@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "base/luminance.h"
 #include "colors/color_map.h"
+#include "geometry/luminance.h"
 #include "transillum/scene.h"
 
 namespace transillum::viewer {

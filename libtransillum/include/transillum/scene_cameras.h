@@ -13,11 +13,11 @@ namespace TRANSILLUM_API transillum {
 
 /// A camera that a scene's file has.
 struct SceneCamera {
-  std::string name;  ///< of its node, else its own, else "camera N"
+  std::string name;  ///< name of its node, else its own, else "camera N"
   Vec3 eye;          ///< position, m
   Vec3 direction;    ///< unit vector toward the middle of its picture
   Vec3 up;           ///< unit vector that is up in its picture
-  /// Vertical angle of view of a perspective, degrees; unset: it is orthographic.
+  /// Vertical angle of view, degrees; an orthographic camera has none.
   std::optional<double> field_of_view = std::nullopt;
   double height = 0;  ///< height that its picture shows, m; 0 for a perspective
 };

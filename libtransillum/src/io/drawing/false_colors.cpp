@@ -11,8 +11,8 @@
 #include <ostream>
 #include <string>
 
-#include "base/luminance.h"
 #include "base/round_step.h"
+#include "geometry/luminance.h"
 #include "io/drawing/cairo_surface.h"
 #include "io/drawing/chart_canvas.h"
 #include "io/drawing/color_bar.h"

@@ -15,7 +15,7 @@
 #include <queue>
 #include <utility>
 
-#include "base/luminance.h"
+#include "geometry/luminance.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"

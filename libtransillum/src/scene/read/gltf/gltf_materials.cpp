@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/luminance.h"
 #include "base/text_file.h"
+#include "geometry/luminance.h"
 #include "scene/read/texture_average.h"
 #include "transillum/at.h"
 
