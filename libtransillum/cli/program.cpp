@@ -77,9 +77,10 @@ struct Program {
     app.set_version_flag("--version", "transillum " TRANSILLUM_VERSION);
     app.require_subcommand(1);
     app.formatter(std::make_shared<HelpFormat>());
-    for (auto add : {add_scene_command, add_solve_command, add_transfers_command, add_map_command,
-                     add_factors_command, add_directions_command, add_bounds_command,
-                     add_study_command, add_compare_command, add_info_command, add_merge_command}) {
+    for (auto add :
+         {add_scene_command, add_solve_command, add_picture_command, add_transfers_command,
+          add_map_command, add_factors_command, add_directions_command, add_bounds_command,
+          add_study_command, add_compare_command, add_info_command, add_merge_command}) {
       Command run = add(app);
       CLI::App& command = *app.get_subcommands({}).back();
       if (command.get_groups().size() > 2) {  // one of them has the arguments
@@ -108,7 +109,8 @@ struct Program {
 };
 
 bool takes_vector(const std::string& option) {
-  return option == "--direction" || option == "--up" || option == "--eye" || option == "--target";
+  return option == "--direction" || option == "--up" || option == "--eye" || option == "--target" ||
+         option == "--camera-up";
 }
 
 /// Joins options of vectors and their values by =, since a value such as -.5,0,1 would be taken for

@@ -12,6 +12,7 @@
 #include "options/option_table.h"
 #include "radiosity/analysis/power_table.h"
 #include "transillum/engine.h"
+#include "transillum/picture_files.h"
 #include "transillum/study.h"
 #include "visibility/pixels/pixel_map.h"
 
@@ -36,6 +37,7 @@ Names choices_of(const std::string& command, const std::string& option) {
   static const std::map<std::string, Names> of_commands{
       {"by", names_of<SurfaceKind>()},
       {"error", names_of<ErrorMeasure>()},
+      {"tone", names_of<ToneCurve>()},
       {"against", names_of<StudyAxis>()},
       {"series-every", {"iteration", "direction"}},
   };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <string>
 
+#include "geometry/luminance.h"
 #include "radiosity/form_factors/light_paths.h"
 #include "support/form_factor_rows.h"
 #include "transillum/at.h"
@@ -24,8 +25,6 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr double tight = 1e-13;
-
-double luminance(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
 // The definition: a watt is added on patch j, and the scene is solved again by passes.
 TEST(Adjoint, EqualsTheDifferenceOfSolvesWithAndWithoutAWatt) {

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "io/results/srgb.h"
+#include "io/srgb.h"
 #include "support/program_call.h"
 #include "transillum/at.h"
 #include "transillum/files.h"

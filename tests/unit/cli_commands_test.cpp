@@ -43,7 +43,7 @@ TEST(CliHelp, EveryCommandHasHelpWithAnExample) {
     EXPECT_THAT(all.out, HasSubstr(word));
   }
   for (const char* command : {"scene", "solve", "transfers", "map", "factors", "directions",
-                              "bounds", "study", "compare", "info", "merge"}) {
+                              "bounds", "study", "compare", "info", "merge", "picture"}) {
     const ProgramResult result = run_program({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example: transillum " + std::string(command)));

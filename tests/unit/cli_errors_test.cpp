@@ -72,7 +72,7 @@ const std::vector<Refusal> invalid_calls{
     {{"solve", "furnace", "--memory", "nan"}, "--memory"},
     {{"solve", "furnace", "--threads", "0"}, "--threads"},
     {{"solve", "furnace", "--threads", "100000"}, "--threads"},
-    {{"solve", "furnace", "--out", "a.txt"}, ".csv, .vtp, .ply, .glb, .gltf or .png"},
+    {{"solve", "furnace", "--out", "a.txt"}, "must end in .csv, .vtp, .ply, .glb or .gltf, the name of a picture in .png"},
     {{"solve", "furnace", "--out", "/no/such/folder/a.csv"}, "/no/such/folder"},
     {{"solve", "furnace", "--out", "a.csv", "--out", "./a.csv"}, "given twice"},
     {{"solve", "furnace", "--stats", "/no/such/folder/a.json"}, "/no/such/folder"},

@@ -51,6 +51,7 @@ TEST_F(CliOutputs, NoCommandOverwritesAFileThatItReads) {
   fs::create_hard_link(folder_ / "mats.mtl", folder_ / "hard.csv");
   fs::create_hard_link(folder_ / "mats.mtl", folder_ / "hard.svg");
   fs::create_hard_link(folder_ / "mats.mtl", folder_ / "hard.json");
+  fs::create_hard_link(folder_ / "mats.mtl", folder_ / "hard.png");
   fs::create_symlink(folder_.path(), folder_ / "folder");
   const std::string obj = "would overwrite the input file a.obj";
   const std::string mtl = "would overwrite the input file mats.mtl";
@@ -65,6 +66,7 @@ TEST_F(CliOutputs, NoCommandOverwritesAFileThatItReads) {
   expect_refused({"factors", "link.obj", "-m", "8", "-o", "to-a.csv"}, "input file link.obj");
   expect_refused({"transfers", "a.obj", "--direction", "0,0,1", "-o", "mats.mtl"}, mtl);
   expect_refused({"map", "a.obj", "--direction", "0,0,1", "-o", "hard.svg"}, mtl);
+  expect_refused({"picture", "a.obj", "--eye", "0.2,0.3,0.4", "-o", "hard.png"}, mtl);
   expect_refused({"study", "a.obj", "-m", "8", "--no-cache", "-o", "folder/mats.mtl"}, mtl);
   expect_refused({"study", "a.obj", "-m", "8", "--no-cache", "--plot", "hard.svg"}, mtl);
   expect_refused({"directions", "-m", "8", "--stats", "--scene", "a.obj", "-o", "a.obj"}, obj);
@@ -194,7 +196,7 @@ TEST_F(CliOutputs, APictureFromThePointInItsMiddleIsRefusedBeforeTheSolve) {
   const Arguments solve{"solve", "a.obj", "-m", "8", "--out", "b.csv", "--out", "b.png"};
   expect_refused(solve + Arguments{"--eye", "0.2,0.3,0.4", "--target", "0.2,0.3,0.4"},
                  "a.obj: the eye of the picture, 0.2 0.3 0.4, is the point in its middle");
-  expect_refused(solve + Arguments{"--eye", "1,1,1"}, ", the center of the scene");
+  expect_refused(solve + Arguments{"--eye", "1,1,1"}, "the eye of the picture, 1 1 1, is");
 }
 
 TEST(CliOutputOrder, AFileMayBeNamedBeforeTheScene) {

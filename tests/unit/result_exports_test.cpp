@@ -8,13 +8,12 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "io/results/srgb.h"
+#include "io/srgb.h"
 #include "support/program_call.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
-#include "transillum/linear_basis.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::testing::result_exports_test {
@@ -366,52 +365,6 @@ TEST(CliExports, WritesASeriesOverDirections) {
   EXPECT_EQ(read_result(folder / "s-0008.vtp").radiosity,
             read_result(folder / "whole.vtp").radiosity);
   EXPECT_FALSE(read_result(folder / "s-0002.vtp").complete);
-}
-
-/// B along a row of pixels of a picture of the unit square in the plane z = 0, from above.
-TEST(ResultPictures, HaveLinearFunctionsPointByPoint) {
-  Sketch sketch;
-  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, sketch.material(0.5, 0));
-  Solution solution;
-  solution.scene = sketch.scene();
-  solution.radiosity = {{0.3, 0.3, 0.3}};
-  solution.irradiance = {{0.6, 0.6, 0.6}};
-  // phi_1 and phi_2 are ±sqrt(12) times x - 1/2 and y - 1/2. B = 0.8 x - 0.1, below 0 at the left.
-  const LinearBasis basis = linear_basis(*solution.scene, 0);
-  const auto part = [&](std::size_t a) {
-    const double b = 0.8 * basis.gradient[a].x / dot(basis.gradient[a], basis.gradient[a]);
-    return Rgb{b, b, b};
-  };
-  solution.linear_terms = {{part(0), part(1)}};
-  solution.eye = Vec3{0.5, 0.5, 2};
-  const TemporaryFolder folder;
-  write_result(folder / "r.png", solution, {.exposure = 1.0, .up = Vec3{0, 1, 0}});
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  ASSERT_NE(png_image_begin_read_from_file(&image, (folder / "r.png").c_str()), 0);
-  image.format = PNG_FORMAT_RGB;
-  std::vector<unsigned char> bytes(PNG_IMAGE_SIZE(image));
-  ASSERT_NE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr), 0);
-  const double width = image.width, height = image.height;
-  int inside = 0, black = 0;
-  for (std::size_t column = 0; column < image.width; ++column) {
-    // The square is 1.02 times smaller than the picture is high.
-    const double x =
-        0.5 + 0.51 * (2 * (static_cast<double>(column) + 0.5) / width - 1) * width / height;
-    if (x < 0.01 || x > 0.99) {
-      continue;
-    }
-    const int shown = bytes[3 * (image.height / 2 * image.width + column)];
-    const double b = 0.8 * x - 0.1;
-    // The rays of a pixel lie within a pixel of its middle; near 0 the curve of sRGB is steep.
-    const double reach = 0.8 * 1.02 / height;
-    EXPECT_GE(shown, srgb_byte(std::max(0.0, b - reach)) - 1) << x;
-    EXPECT_LE(shown, srgb_byte(std::max(0.0, b + reach)) + 1) << x;
-    ++inside;
-    black += shown == 0 ? 1 : 0;
-  }
-  EXPECT_GT(inside, 900);
-  EXPECT_NEAR(black, 0.125 / 0.98 * inside, 0.015 * inside);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/round_step.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -45,19 +46,7 @@ Color8 expose(const Rgb& radiosity, double factor, const GammaTable& gamma) {
   return {channel(exposed.r), channel(exposed.g), channel(exposed.b)};
 }
 
-// A tick distance of 1, 2 or 5 times a power of ten, for about `count` ticks over `width`.
-double round_step(double width, int count) {
-  const double rough = width / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  const double lead = rough / power;
-  return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
-}
-
 }  // namespace
-
-double luminance(const Rgb& value) {
-  return 0.2126 * value.r + 0.7152 * value.g + 0.0722 * value.b;
-}
 
 double ColorScale::value(const Rgb& b) const {
   switch (mode) {

@@ -5,15 +5,13 @@
 #include <vector>
 
 #include "colors/color_map.h"
+#include "geometry/luminance.h"
 #include "transillum/scene.h"
 
 namespace transillum::viewer {
 
 /// How red, green and blue are shown.
 enum class ColorMode { true_color, luminance, red, green, blue };
-
-/// Luminance of linear RGB by Rec. 709.
-double luminance(const Rgb& value);
 
 /// Maps a quantity of patches (W/m² for radiosity, else the unit of the quantity) to colors, the
 /// same in all views.

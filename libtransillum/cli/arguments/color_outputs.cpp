@@ -8,6 +8,7 @@
 #include "cli/arguments/option_values.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
+#include "transillum/picture_files.h"
 
 namespace transillum::cli {
 namespace {
@@ -34,12 +35,10 @@ void add_color_outputs(CLI::App& command, ColorOutputs& colors) {
                         throw InputError("--exposure: \"" + text + "\" is not greater than 0");
                       }
                     });
-  add_parsed_option(command, "--target", "X,Y,Z",
-                    "the point in the middle of a .png picture, in m (default: the center of the "
-                    "scene)",
-                    [&colors](const std::string& text) {
-                      colors.display.target = parse_point("--target", text);
-                    });
+  add_parsed_option(
+      command, "--target", "X,Y,Z",
+      "the point in the middle of a picture, in m (default: the center of the scene)",
+      [&colors](const std::string& text) { colors.target = parse_point("--target", text); });
   command.add_flag("--light-map", colors.display.light_map,
                    "colors in .glb and .gltf files as a picture with texture coordinates, a square "
                    "of it per patch, instead of a color per corner");
@@ -72,17 +71,18 @@ void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
                          const std::vector<std::string>& out, const SolveOptions& options) {
   refuse_unless(is_any_of(out, {".ply", ".glb", ".gltf", ".png"}), command, "--exposure",
                 "used only with a .ply, .glb, .gltf or .png file");
-  const bool has_picture = is_any_of(out, {".png"});
-  refuse_unless(has_picture, command, "--target", "used only with a .png file");
+  const bool has_picture = std::any_of(out.begin(), out.end(), is_picture_file);
+  refuse_unless(has_picture, command, "--target", "used only with a .png, .exr or .pfm file");
   if (has_picture && command.get_option("--eye")->count() == 0) {
-    throw InputError("a .png picture requires --eye X,Y,Z");
+    throw InputError("a picture requires --eye X,Y,Z");
   }
   refuse_unless(is_any_of(out, {".glb", ".gltf"}), command, "--light-map",
                 "used only with a .glb or .gltf file");
   refuse_unless(!colors.series.empty(), command, "--series-every", "used only with --series");
   const bool sky_has_zenith = options.sky.is_set() && options.sky.model != SkyModel::uniform;
-  refuse_unless(sky_has_zenith || is_any_of(out, {".glb", ".gltf", ".png"}), command, "--up",
-                "used only with --sky and --sky-model cie-overcast, or a .glb, .gltf or .png file");
+  refuse_unless(sky_has_zenith || has_picture || is_any_of(out, {".glb", ".gltf"}), command, "--up",
+                "used only with --sky and --sky-model cie-overcast, a .glb or .gltf file, or a "
+                "picture");
   const bool has_factors = command.get_option("--factors")->count() > 0;
   refuse_unless(takes_directions(options.engine) && !options.goal.is_set() && !has_factors, command,
                 "--series",
@@ -92,13 +92,6 @@ void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
 void check_series(const ColorOutputs& colors, const std::vector<std::string>& files) {
   if (!colors.series.empty()) {
     ResultSeries(colors.series).check_apart_from(files);
-  }
-}
-
-void check_pictures(const ColorOutputs& colors, const std::vector<std::string>& out,
-                    const Scene& scene, const std::optional<Vec3>& eye) {
-  if (is_any_of(out, {".png"}) && eye) {
-    check_picture(scene, *eye, colors.display);
   }
 }
 

@@ -14,11 +14,12 @@ namespace transillum::cli {
 /// Results for programs that show them.
 struct ColorOutputs {
   DisplayOptions display;
+  std::optional<Vec3> target;  ///< --target
   std::string series;    ///< --series
   int series_every = 0;  ///< --series-every: a number of directions; 0 means every iteration
 };
 
-/// --exposure, --light-map, --series, --series-every
+/// --exposure, --target, --light-map, --series, --series-every
 void add_color_outputs(CLI::App& command, ColorOutputs& colors);
 /// Takes --up, which the sky has, for the display too.
 void set_up_of_display(const CLI::App& command, const Sky& sky, ColorOutputs& colors);
@@ -29,9 +30,4 @@ void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
 /// Refuses a series that would write one of these files.
 /// @throws InputError
 void check_series(const ColorOutputs& colors, const std::vector<std::string>& files);
-/// Refuses pictures from the point in their middle.
-/// @throws InputError
-void check_pictures(const ColorOutputs& colors, const std::vector<std::string>& out,
-                    const Scene& scene, const std::optional<Vec3>& eye);
-
 }  // namespace transillum::cli

@@ -13,6 +13,7 @@
 #include "io/results/error_report_files.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/picture_files.h"
 
 namespace transillum::cli {
 namespace {
@@ -26,10 +27,11 @@ void check_glossy(const SolveCall& call) {
       return std::find(endings.begin(), endings.end(), ending) != endings.end();
     });
   };
-  refuse_unless(call.options().glossy || any_file({".png"}), *call.scene.command, "--eye",
-                "used only with --glossy, or a .png file");
-  refuse_unless(any_file({".csv", ".vtp", ".ply", ".png"}), *call.scene.command, "--eye",
-                "used only with a .csv, .vtp, .ply or .png file");
+  const bool has_picture = std::any_of(call.out.begin(), call.out.end(), is_picture_file);
+  refuse_unless(call.options().glossy || has_picture, *call.scene.command, "--eye",
+                "used only with --glossy, or a .png, .exr or .pfm file");
+  refuse_unless(has_picture || any_file({".csv", ".vtp", ".ply"}), *call.scene.command, "--eye",
+                "used only with a .csv, .vtp, .ply, .png, .exr or .pfm file");
   if (call.options().glossy) {
     for (const char* option :
          {"--factors", "--by", "--series", "--checkpoint", "--shard", "--refine-by"}) {
@@ -53,8 +55,9 @@ void check_stored_factors(const SolveCall& call) {
 void add_outputs(CLI::App& command, SolveCall& call) {
   command
       .add_option("-o,--out", call.out,
-                  "result file: .csv, .vtp, .ply, .glb, .gltf or, with --eye, .png, by its ending, "
-                  "or - for CSV on standard output; may be given several times (default: a "
+                  "result file: .csv, .vtp, .ply, .glb, .gltf or, with --eye, a picture: .png, "
+                  ".exr, .pfm, by its ending, or - for CSV on standard output; may be given "
+                  "several times (default: a "
                   "summary on standard output)")
       ->type_name("FILE")
       ->expected(1)
@@ -204,7 +207,11 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
   std::vector<std::string> files = given_files(call.out);
   if (!call.share) {
     for (const std::string& file : files) {
-      check_result_path(file);
+      if (is_picture_file(file)) {
+        check_picture_path(file);
+      } else {
+        check_result_path(file);
+      }
     }
   }
   if (!call.stats.empty()) {
@@ -256,11 +263,12 @@ void add_solve_options(CLI::App& command, SolveCall& call) {
       {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches", "Refinement", "Sky"});
   command.get_option("--up")->description(
       "the zenith of the sky cie-overcast (default 0,0,1); the direction that becomes up, +y, in "
-      ".glb and .gltf files (default 0,1,0: coordinates stay)");
+      ".glb and .gltf files (default 0,1,0: coordinates stay) and is up in pictures (default "
+      "0,0,1)");
   add_parsed_option(
       command, "--eye", "X,Y,Z",
-      "a point in m: with --glossy, .csv, .vtp and .ply files have the radiance toward it; .png "
-      "files are seen from it",
+      "a point in m: with --glossy, .csv, .vtp and .ply files have the radiance toward it; "
+      "pictures are seen from it (`picture` has more options)",
       [&call](const std::string& text) { call.eye = parse_point("--eye", text); })
       ->group("Results");
   command

@@ -24,5 +24,6 @@ Command add_study_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
 Command add_merge_command(CLI::App& program);
+Command add_picture_command(CLI::App& program);
 
 }  // namespace transillum::cli

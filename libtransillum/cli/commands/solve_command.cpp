@@ -6,12 +6,16 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <system_error>
+#include <utility>
 
+#include "base/seconds_since.h"
 #include "cli/arguments/solve_call.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/solve_job.h"
+#include "cli/commands/write_pictures.h"
 #include "cli/interruption.h"
 #include "cli/messages.h"
 #include "cli/output_files.h"
@@ -24,15 +28,12 @@
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"
+#include "transillum/picture_files.h"
 
 namespace transillum::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The table of --by, on standard output unless a result is there.
 void print_powers(const SolveCall& call, const Solution& solution) {
@@ -50,6 +51,9 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
                    const std::optional<MeasuredErrors>& errors) {
   std::vector<std::function<void()>> writers;
   for (const std::string& file : call.out) {
+    if (is_picture_file(file)) {
+      continue;
+    }
     writers.emplace_back([&] {
       if (is_standard_output(file)) {
         print_results([&](std::ostream& out) { write_result_csv(out, solution); });
@@ -79,6 +83,22 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
     writers.emplace_back([&] { print_diagnostics(summary); });
   }
   write_all(writers);
+}
+
+/// The pictures among the outputs, seen from --eye.
+PictureRequest pictures_of(const SolveCall& call, const Scene& scene) {
+  PictureRequest request;
+  std::copy_if(call.out.begin(), call.out.end(), std::back_inserter(request.files),
+               is_picture_file);
+  if (!request.files.empty()) {
+    request.camera = {.eye = *call.eye,
+                      .target = call.colors.target.value_or(scene.bounds().center()),
+                      .up = call.colors.display.up};
+    request.exposure = call.colors.display.exposure;
+    request.options.threads = call.options().threads;
+    request.quiet = call.quiet;
+  }
+  return request;
 }
 
 /// "12.3 MB"
@@ -114,7 +134,7 @@ PreparedCall prepare_call(SolveCall& call, const Cancellation& cancellation) {
   prepared.scene = load_input_scene(call.scene, outputs, cancellation,
                                     prepared.options.sky.is_set() ? Light::sky : Light::required);
   check_series(call.colors, prepared.scene->files());
-  check_pictures(call.colors, call.out, *prepared.scene, call.eye);
+  check_picture_request(pictures_of(call, *prepared.scene), prepared.scene);
   if (!call.colors.series.empty() && is_first_process()) {
     prepared.series.emplace(call.colors.series);
   }
@@ -154,15 +174,6 @@ void say_of_lobes(const SolveCall& call, const SolveOptions& options, const Scen
              ? ")"
              : fmt::format("; {0} reflects nothing else: try --reflectance '{0}=0.5')", metal)));
   }
-}
-
-TotalGoal total_goal(const RunOptions& run) {
-  TotalGoal goal;
-  goal.total = run.solve.goal.accuracy;
-  if (run.refine.patches > 0) {
-    goal.patches = run.refine.patches;
-  }
-  return goal;
 }
 
 /// Whether several processes share the solve. Otherwise the first does it alone.
@@ -212,6 +223,7 @@ int run_solve(SolveCall& call) {
       .cancellation = cancellation,
       .display = display,
       .quiet = call.quiet,
+      .factors = call.factors,
       .form_factors = call.by.has_value(),
       .has_series = !call.colors.series.empty(),
       .series = prepared.series ? &*prepared.series : nullptr,
@@ -219,14 +231,11 @@ int run_solve(SolveCall& call) {
       .checkpoint = call.checkpoint,
       .checkpoint_every = call.checkpoint_every,
       .shards = call.shards,
-      .total = call.scene.run.total ? std::optional(total_goal(call.scene.run)) : std::nullopt,
+      .total = total_goal(call.scene.run),
       .errors = call.error_report.empty() && !call.scene.run.total ? nullptr : &errors,
       .sums = shared ? processes().sums : nullptr};
   say_of_lobes(call, options, *prepared.scene);
-  Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
-                      : job.total                        ? solve_by_total(job)
-                      : takes_directions(options.engine) ? solve_by_passes(job, checkpoint)
-                                                         : solve_without_directions(job);
+  Solution solution = run_job(job, checkpoint);
   display.clear();
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
@@ -241,13 +250,19 @@ int run_solve(SolveCall& call) {
   if (shared && !call.quiet) {
     print_message(processes().traffic());
   }
+  const bool complete = solution.complete;
   if (is_first_process()) {
-    write_outputs(call, options, solution, errors);
+    const auto shown = std::make_shared<const Solution>(std::move(solution));
+    write_all({[&] { write_outputs(call, options, *shown, errors); },
+               [&] {
+                 write_pictures(pictures_of(call, *shown->scene), shown, display,
+                                complete ? cancellation : Cancellation());
+               }});
   }
   if (checkpoint) {
     print_cost(call, *checkpoint);
   }
-  if (solution.complete) {
+  if (complete) {
     return success;
   }
   print_message(call.out.empty() && call.stats.empty()

@@ -243,8 +243,7 @@ void measure(const SolveSession& session, const SolveJob& job) {
   }
 }
 
-}  // namespace
-
+/// Solves by passes.
 Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
   SolveSession session(request_of(job), job.cancellation);
   run_rounds(session, job);
@@ -278,6 +277,7 @@ Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpo
   return solution;
 }
 
+/// Solves until the total error is as asked; the job has `total` and `errors`.
 Solution solve_by_total(const SolveJob& job) {
   TotalObservers observers;
   observers.solve = [&](const SolveSession& session) {
@@ -306,6 +306,7 @@ Solution solve_by_total(const SolveJob& job) {
   return solution;
 }
 
+/// Solves with the form factors in a file.
 Solution solve_with_stored(const std::string& file, const SolveJob& job) {
   job.display.begin("reading form factors");
   StoredFormFactors stored = read_form_factors(file, job.cancellation);
@@ -325,6 +326,7 @@ Solution solve_with_stored(const std::string& file, const SolveJob& job) {
   }
 }
 
+/// Solves with an engine that makes no passes.
 Solution solve_without_directions(const SolveJob& job) {
   const SolveOptions& options = job.options;
   const bool hemicubes = traits_of(options.engine).factors == EngineTraits::Factors::hemicubes;
@@ -347,6 +349,27 @@ Solution solve_without_directions(const SolveJob& job) {
         "{:.0f} % of the {}, but B requires all of them: nothing is saved", std::floor(100 * done),
         hemicubes ? "hemicubes were drawn" : "pairs were computed"));
   }
+}
+
+}  // namespace
+
+std::optional<TotalGoal> total_goal(const RunOptions& run) {
+  if (!run.total) {
+    return std::nullopt;
+  }
+  TotalGoal goal;
+  goal.total = run.solve.goal.accuracy;
+  if (run.refine.patches > 0) {
+    goal.patches = run.refine.patches;
+  }
+  return goal;
+}
+
+Solution run_job(const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
+  return !job.factors.empty()                   ? solve_with_stored(job.factors, job)
+         : job.total                            ? solve_by_total(job)
+         : takes_directions(job.options.engine) ? solve_by_passes(job, checkpoint)
+                                                : solve_without_directions(job);
 }
 
 }  // namespace transillum::cli

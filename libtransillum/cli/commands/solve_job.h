@@ -34,6 +34,7 @@ struct SolveJob {
   const Cancellation& cancellation;
   ProgressDisplay& display;
   bool quiet = false;                    ///< no line for each round
+  std::string factors = {};              ///< file of stored form factors; or empty
   bool form_factors = false;             ///< wanted in the solution, if they are kept
   bool has_series = false;               ///< a series gets the result after every iteration
   ResultSeries* series = nullptr;        ///< gets them in the first process
@@ -46,14 +47,10 @@ struct SolveJob {
   std::shared_ptr<PatchSums> sums = nullptr;        ///< sums over the passes that processes share
 };
 
-/// Solves by passes, until it has finished or is interrupted.
+/// The total error that a run asks for, if any.
+std::optional<TotalGoal> total_goal(const RunOptions& run);
+/// Solves in the way that the options ask for, until it has finished or is interrupted.
 /// @param checkpoint made here if the job has one.
-Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint);
-/// Solves until the total error is as asked; the job has `total` and `errors`.
-Solution solve_by_total(const SolveJob& job);
-/// Solves with the form factors in a file.
-Solution solve_with_stored(const std::string& file, const SolveJob& job);
-/// Solves with an engine that makes no passes.
-Solution solve_without_directions(const SolveJob& job);
+Solution run_job(const SolveJob& job, std::optional<Checkpoint>& checkpoint);
 
 }  // namespace transillum::cli

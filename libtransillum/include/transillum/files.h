@@ -55,10 +55,8 @@ struct DisplayOptions {
   /// automatic_exposure() gives it.
   std::optional<double> exposure = std::nullopt;
   /// .glb, .gltf: the direction, a unit vector, that becomes their up, +y; if unset, coordinates
-  /// stay. .png: the direction that is up in the picture; +z if unset.
+  /// stay.
   std::optional<Vec3> up = std::nullopt;
-  /// .png: the point in the middle of the picture, m; unset: the center of the scene's bounds.
-  std::optional<Vec3> target = std::nullopt;
   /// .glb, .gltf: colors as a picture (8 bits, sRGB) with texture coordinates, a square of it per
   /// patch, instead of a color per corner.
   bool light_map = false;
@@ -70,13 +68,9 @@ struct DisplayOptions {
 /// (of all area, where all emits); 1 without light.
 double automatic_exposure(const Solution& solution);
 
-/// Checks that `path` is writable and ends in .csv, .vtp, .ply, .obj, .glb, .gltf or .png.
+/// Checks that `path` is writable and ends in .csv, .vtp, .ply, .glb or .gltf.
 /// @throws InputError
 void check_result_path(const std::filesystem::path& path);
-/// Checks that a .png picture of a scene has a direction: that `eye` is not the point in its
-/// middle.
-/// @throws InputError
-void check_picture(const Scene& scene, const Vec3& eye, const DisplayOptions& display);
 /// Checks that `path` is writable and ends in .json.
 /// @throws InputError
 void check_statistics_path(const std::filesystem::path& path);

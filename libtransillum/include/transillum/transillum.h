@@ -26,6 +26,7 @@ namespace transillum {}
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
 #include "transillum/scene.h"
+#include "transillum/scene_cameras.h"
 
 // Solving: options, progress, solution.
 #include "transillum/accuracy_goal.h"
@@ -59,14 +60,17 @@ namespace transillum {}
 #include "transillum/form_factors.h"
 #include "transillum/hemicube.h"
 #include "transillum/pair_form_factors.h"
-#include "transillum/picture.h"
 #include "transillum/point_sensors.h"
 
 // Studies of the error against the number of passes.
 #include "transillum/study.h"
 
-// Files: results, checkpoints, form factors, maps.
+// Pictures that a camera sees.
+#include "transillum/picture.h"
+
+// Files: results, checkpoints, form factors, maps, pictures.
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_files.h"
 #include "transillum/map_files.h"
+#include "transillum/picture_files.h"

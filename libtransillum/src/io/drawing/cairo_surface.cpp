@@ -8,7 +8,7 @@
 
 namespace transillum {
 
-CairoSurface make_picture(int width, int height) {
+CairoSurface make_surface(int width, int height) {
   return {cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy};
 }
 

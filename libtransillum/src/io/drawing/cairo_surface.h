@@ -11,8 +11,8 @@ namespace transillum {
 using CairoSurface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
 using CairoContext = std::unique_ptr<cairo_t, void (*)(cairo_t*)>;
 
-/// A picture of `width` by `height` pixels, 0x..rrggbb each.
-CairoSurface make_picture(int width, int height);
+/// A surface of `width` by `height` pixels, 0x..rrggbb each.
+CairoSurface make_surface(int width, int height);
 /// @throws std::runtime_error if drawing has failed
 void check_drawn(cairo_status_t status);
 /// A function for Cairo's writers to streams; `out` is a std::ostream, which records its failures.

@@ -66,7 +66,7 @@ void write_chart_svg(std::ostream& out, const std::vector<LineChart>& charts,
 
 void write_chart_png(std::ostream& out, const std::vector<LineChart>& charts,
                      const ChartPage& page) {
-  const CairoSurface surface = make_picture(static_cast<int>(page.width * page.scale),
+  const CairoSurface surface = make_surface(static_cast<int>(page.width * page.scale),
                                             static_cast<int>(page.height * page.scale));
   paint(surface.get(), charts, page.width, page.height, page.scale);
   write_png(out, surface.get());

@@ -72,7 +72,7 @@ class Canvas {
   }
 
   CairoSurface picture() const {
-    CairoSurface surface = make_picture(width_, height_);
+    CairoSurface surface = make_surface(width_, height_);
     check_drawn(cairo_surface_status(surface.get()));
     unsigned char* bytes = cairo_image_surface_get_data(surface.get());
     const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface.get());

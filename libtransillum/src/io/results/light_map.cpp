@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "io/results/srgb.h"
+#include "io/srgb.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 

@@ -41,11 +41,10 @@ ResultWriter writer_for(const std::filesystem::path& path) {
   if (ending == ".gltf") {
     return write_result_gltf;
   }
-  if (ending == ".png") {
-    return write_result_png;
-  }
   throw InputError(fmt::format(
-      "{}: the name of a result must end in .csv, .vtp, .ply, .glb, .gltf or .png", path.string()));
+      "{}: the name of a result must end in .csv, .vtp, .ply, .glb or .gltf, the name of a picture "
+      "in .png, .exr or .pfm",
+      path.string()));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "io/results/result_writers.h"
-#include "io/results/srgb.h"
+#include "io/srgb.h"
 #include "io/text.h"
 #include "transillum/at.h"
 #include "transillum/files.h"

@@ -26,10 +26,6 @@ void write_result_ply(std::ostream& out, const Solution& solution, const Display
 void write_result_glb(std::ostream& out, const Solution& solution, const DisplayOptions& display);
 /// The same as JSON, with the buffer in a data URI.
 void write_result_gltf(std::ostream& out, const Solution& solution, const DisplayOptions& display);
-/// A picture from solution.eye, 1280 by 960 pixels: radiance toward it, or B where no lobes took
-/// part.
-/// @throws InputError without an eye
-void write_result_png(std::ostream& out, const Solution& solution, const DisplayOptions& display);
 
 /// The exposure of `display`, or the automatic one.
 double exposure_of(const Solution& solution, const DisplayOptions& display);

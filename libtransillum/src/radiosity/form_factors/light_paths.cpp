@@ -15,6 +15,7 @@
 #include <queue>
 #include <utility>
 
+#include "geometry/luminance.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -23,9 +24,6 @@ namespace transillum {
 namespace {
 
 constexpr std::size_t most_unfinished = 4'000'000;  // about 250 MB
-
-/// Rec. 709.
-double luminance(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
 void check(const Scene& scene, PatchId receiver, const LightPathOptions& options) {
   check_receiver(scene, receiver);

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "base/text_file.h"
+#include "geometry/luminance.h"
 #include "scene/read/texture_average.h"
 #include "transillum/at.h"
 
@@ -18,7 +19,6 @@ namespace {
 
 /// Limit for all decoded textures together; 12 bytes each.
 constexpr std::uint64_t most_decoded_pixels = std::uint64_t{1} << 27;
-constexpr double lumens_per_watt = 683;
 
 Rgb color_of(const std::vector<double>& factors, const Rgb& otherwise) {
   return factors.size() < 3 ? otherwise : Rgb{factors[0], factors[1], factors[2]};

@@ -20,6 +20,7 @@
 #include "scene/read/gltf/gltf_expansion.h"
 #include "scene/read/gltf/gltf_file.h"
 #include "scene/read/gltf/gltf_materials.h"
+#include "scene/read/gltf/gltf_nodes.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -29,65 +30,6 @@ namespace {
 constexpr double part_count = 1024;
 /// Their roughness to fewer: each is a lobe of its own.
 constexpr double roughness_parts = 64;
-
-/// An affine map: columns, then the origin.
-struct Placement {
-  std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  Vec3 origin;
-
-  Vec3 direction(const Vec3& v) const { return v.x * axes[0] + v.y * axes[1] + v.z * axes[2]; }
-  Vec3 point(const Vec3& p) const { return direction(p) + origin; }
-  Placement operator*(const Placement& inner) const {
-    return {{direction(inner.axes[0]), direction(inner.axes[1]), direction(inner.axes[2])},
-            point(inner.origin)};
-  }
-  /// Whether no triangle has an area.
-  bool flattens() const {
-    return norm(cross(axes[0], axes[1])) == 0 && norm(cross(axes[1], axes[2])) == 0 &&
-           norm(cross(axes[2], axes[0])) == 0;
-  }
-  bool mirrors() const { return dot(cross(axes[0], axes[1]), axes[2]) < 0; }
-  /// The largest sum of magnitudes in a row.
-  double growth() const {
-    const auto row = [&](double Vec3::*c) {
-      return std::abs(axes[0].*c) + std::abs(axes[1].*c) + std::abs(axes[2].*c);
-    };
-    return std::max({row(&Vec3::x), row(&Vec3::y), row(&Vec3::z)});
-  }
-};
-
-Vec3 vector_of(const std::vector<double>& v, std::size_t first = 0) {
-  return {v[first], v[first + 1], v[first + 2]};
-}
-
-Placement placement_of(const tinygltf::Node& node) {
-  Placement placement;
-  if (node.matrix.size() == 16) {
-    placement.axes = {vector_of(node.matrix, 0), vector_of(node.matrix, 4),
-                      vector_of(node.matrix, 8)};
-    placement.origin = vector_of(node.matrix, 12);
-    return placement;
-  }
-  if (node.rotation.size() == 4) {
-    const std::vector<double>& q = node.rotation;
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (length > 0) {
-      const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
-      placement.axes = {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
-                        Vec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
-                        Vec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}};
-    }
-  }
-  if (node.scale.size() == 3) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      placement.axes[k] = node.scale[k] * placement.axes[k];
-    }
-  }
-  if (node.translation.size() == 3) {
-    placement.origin = vector_of(node.translation);
-  }
-  return placement;
-}
 
 class GltfReader {
  public:
@@ -101,9 +43,9 @@ class GltfReader {
   }
 
   SceneDescription read() {
-    for (const Visit& visit : visits()) {
+    for (const PlacedNode& node : placed_nodes(file_)) {
       cancellation_.throw_if_canceled();
-      add_node(visit);
+      add_node(node);
     }
     if (description_.face_count() == 0) {
       file_.fail("has no triangles");
@@ -119,70 +61,9 @@ class GltfReader {
   }
 
  private:
-  struct Visit {
-    int node;
-    Placement placement;
-  };
-
   const tinygltf::Model& model() const { return file_.model(); }
 
-  /// The nodes of the scene, each with its place, parents first.
-  std::vector<Visit> visits() {
-    std::vector<Visit> order, open;
-    std::vector<char> met(model().nodes.size(), 0);
-    const auto meet = [&](int node, const Placement& placement) {
-      if (node < 0 || static_cast<std::size_t>(node) >= model().nodes.size()) {
-        file_.fail(fmt::format("node {} does not exist; there are {}", node, model().nodes.size()));
-      }
-      if (std::exchange(at(met, node), 1) != 0) {
-        file_.fail(fmt::format("node {} has two parents or is a child of itself", node));
-      }
-      open.push_back({node, placement * placement_of(at(model().nodes, node))});
-    };
-    const std::vector<int> roots = root_nodes();
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-      meet(*root, {});
-    }
-    while (!open.empty()) {
-      const Visit visit = open.back();
-      open.pop_back();
-      order.push_back(visit);
-      const std::vector<int>& children = at(model().nodes, visit.node).children;
-      for (auto child = children.rbegin(); child != children.rend(); ++child) {
-        meet(*child, visit.placement);
-      }
-    }
-    return order;
-  }
-
-  /// Root nodes of the scene to be shown first; in a file without scenes, all without a parent.
-  std::vector<int> root_nodes() const {
-    if (!model().scenes.empty()) {
-      const auto shown = static_cast<std::size_t>(std::max(model().defaultScene, 0));
-      if (shown >= model().scenes.size()) {
-        file_.fail(
-            fmt::format("scene {} does not exist; there are {}", shown, model().scenes.size()));
-      }
-      return model().scenes[shown].nodes;
-    }
-    std::vector<char> is_child(model().nodes.size(), 0);
-    for (const tinygltf::Node& node : model().nodes) {
-      for (const int child : node.children) {
-        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size()) {
-          at(is_child, child) = 1;
-        }
-      }
-    }
-    std::vector<int> roots;
-    for (std::size_t n = 0; n < is_child.size(); ++n) {
-      if (is_child[n] == 0) {
-        roots.push_back(static_cast<int>(n));
-      }
-    }
-    return roots;
-  }
-
-  void add_node(const Visit& visit) {
+  void add_node(const PlacedNode& visit) {
     const tinygltf::Node& node = at(model().nodes, visit.node);
     if (node.mesh < 0) {
       return;

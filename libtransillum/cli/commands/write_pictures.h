@@ -1,0 +1,36 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/progress_display.h"
+#include "transillum/picture.h"
+#include "transillum/picture_files.h"
+
+namespace transillum::cli {
+
+/// A picture, and the files that have it.
+struct PictureRequest {
+  std::vector<std::string> files;  ///< empty: no picture is made
+  Camera camera;
+  PictureOptions options = {};
+  std::optional<double> exposure = std::nullopt;  ///< if unset, automatic_exposure()
+  ToneCurve tone = ToneCurve::linear;
+  bool false_colors = false;  ///< .png files have them
+  bool lux = false;           ///< the unit of their scale
+  bool quiet = false;         ///< no line on standard error
+};
+
+/// Checks camera, size and memory before a solve.
+/// @throws InputError
+void check_picture_request(const PictureRequest& request,
+                           const std::shared_ptr<const Scene>& scene);
+/// Makes the picture, shows the progress, writes the files and prints a line about them.
+/// @throws NothingToSave where it is canceled: then no file is written
+void write_pictures(const PictureRequest& request, std::shared_ptr<const Solution> solution,
+                    ProgressDisplay& display, const Cancellation& cancellation);
+
+}  // namespace transillum::cli
