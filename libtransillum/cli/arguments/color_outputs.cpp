@@ -42,6 +42,17 @@ void add_color_outputs(CLI::App& command, ColorOutputs& colors) {
   command.add_flag("--light-map", colors.display.light_map,
                    "colors in .glb and .gltf files as a picture with texture coordinates, a square "
                    "of it per patch, instead of a color per corner");
+  command.add_flag("--sharp", colors.sharp,
+                   "--light-map has exact direct light with its shadows, on grids of points of "
+                   "whole faces");
+  add_parsed_option(command, "--texels", "N",
+                    "points of --sharp per meter (default: 1,024 along the diagonal of the scene)",
+                    [&colors](const std::string& text) {
+                      colors.texels = parse_number("--texels", text);
+                      if (!(colors.texels > 0)) {
+                        throw InputError("--texels: \"" + text + "\" is not greater than 0");
+                      }
+                    });
   command
       .add_option(
           "--series", colors.series,
@@ -78,6 +89,8 @@ void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
   }
   refuse_unless(is_any_of(out, {".glb", ".gltf"}), command, "--light-map",
                 "used only with a .glb or .gltf file");
+  refuse_unless(colors.display.light_map, command, "--sharp", "used only with --light-map");
+  refuse_unless(colors.sharp, command, "--texels", "used only with --sharp");
   refuse_unless(!colors.series.empty(), command, "--series-every", "used only with --series");
   const bool sky_has_zenith = options.sky.is_set() && options.sky.model != SkyModel::uniform;
   refuse_unless(sky_has_zenith || has_picture || is_any_of(out, {".glb", ".gltf"}), command, "--up",

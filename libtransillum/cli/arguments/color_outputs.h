@@ -15,11 +15,13 @@ namespace transillum::cli {
 struct ColorOutputs {
   DisplayOptions display;
   std::optional<Vec3> target;  ///< --target
-  std::string series;    ///< --series
-  int series_every = 0;  ///< --series-every: a number of directions; 0 means every iteration
+  bool sharp = false;          ///< --sharp
+  double texels = 0;           ///< --texels, per meter; 0: SharpLightMap's default
+  std::string series;          ///< --series
+  int series_every = 0;        ///< --series-every: a number of directions; 0 means every iteration
 };
 
-/// --exposure, --target, --light-map, --series, --series-every
+/// --exposure, --target, --light-map, --sharp, --texels, --series, --series-every
 void add_color_outputs(CLI::App& command, ColorOutputs& colors);
 /// Takes --up, which the sky has, for the display too.
 void set_up_of_display(const CLI::App& command, const Sky& sky, ColorOutputs& colors);

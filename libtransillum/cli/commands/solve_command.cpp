@@ -48,8 +48,11 @@ void print_powers(const SolveCall& call, const Solution& solution) {
 
 /// Writes the files and the summary.
 void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution,
-                   const std::optional<MeasuredErrors>& errors) {
+                   const std::optional<MeasuredErrors>& errors,
+                   const std::shared_ptr<const SharpLightMap>& sharp_map) {
   std::vector<std::function<void()>> writers;
+  DisplayOptions display = call.colors.display;
+  display.sharp_map = sharp_map;
   for (const std::string& file : call.out) {
     if (is_picture_file(file)) {
       continue;
@@ -58,7 +61,7 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
       if (is_standard_output(file)) {
         print_results([&](std::ostream& out) { write_result_csv(out, solution); });
       } else {
-        write_result(file, solution, call.colors.display);
+        write_result(file, solution, display);
       }
     });
   }
@@ -83,6 +86,28 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
     writers.emplace_back([&] { print_diagnostics(summary); });
   }
   write_all(writers);
+}
+
+/// The map of --sharp; null without it.
+/// @throws NothingToSave where it is canceled
+std::shared_ptr<const SharpLightMap> sharp_map_of(const SolveCall& call,
+                                                  std::shared_ptr<const Solution> solution,
+                                                  ProgressDisplay& display,
+                                                  const Cancellation& cancellation) {
+  if (!call.colors.sharp) {
+    return nullptr;
+  }
+  display.begin("light map");
+  try {
+    auto map = std::make_shared<const SharpLightMap>(
+        std::move(solution),
+        SharpLightMap::Options{.density = call.colors.texels, .threads = call.options().threads},
+        cancellation, [&](double fraction) { display.show("light map", fraction); });
+    display.clear();
+    return map;
+  } catch (const Canceled&) {
+    throw NothingToSave("the light map is not finished: no result is written");
+  }
 }
 
 /// The pictures among the outputs, seen from --eye.
@@ -253,7 +278,9 @@ int run_solve(SolveCall& call) {
   const bool complete = solution.complete;
   if (is_first_process()) {
     const auto shown = std::make_shared<const Solution>(std::move(solution));
-    write_all({[&] { write_outputs(call, options, *shown, errors); },
+    const auto sharp_map =
+        sharp_map_of(call, shown, display, complete ? cancellation : Cancellation());
+    write_all({[&] { write_outputs(call, options, *shown, errors, sharp_map); },
                [&] {
                  write_pictures(pictures_of(call, *shown->scene), shown, display,
                                 complete ? cancellation : Cancellation());

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "transillum/directions.h"
 #include "transillum/export.h"
 #include "transillum/form_factors.h"
+#include "transillum/picture.h"
 #include "transillum/run_options.h"
 #include "transillum/scene.h"
 #include "transillum/solution.h"
@@ -60,6 +62,8 @@ struct DisplayOptions {
   /// .glb, .gltf: colors as a picture (8 bits, sRGB) with texture coordinates, a square of it per
   /// patch, instead of a color per corner.
   bool light_map = false;
+  /// .glb, .gltf with `light_map`: the picture, of the solution that is written, instead.
+  std::shared_ptr<const SharpLightMap> sharp_map = nullptr;
 
   /// @throws InputError naming the value and its range.
   void validate() const;

@@ -1,13 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <fmt/format.h>
-#include <png.h>
-
 #include <ostream>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "io/pictures/picture_writers.h"
+#include "io/png_text.h"
 #include "io/srgb.h"
 
 namespace transillum {
@@ -21,17 +17,7 @@ void write_picture_png(std::ostream& out, const Picture& picture, const PictureL
       bytes.push_back(static_cast<unsigned char>(srgb_byte(channel)));
     }
   }
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(picture.width);
-  image.height = static_cast<png_uint_32>(picture.height);
-  image.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::string file(size, '\0');
-  if (png_image_write_to_memory(&image, file.data(), &size, 0, bytes.data(), 0, nullptr) == 0) {
-    throw std::runtime_error(fmt::format("picture: {}", image.message));
-  }
-  out.write(file.data(), static_cast<std::streamsize>(size));
+  out << png_of(picture.width, picture.height, bytes);
 }
 
 }  // namespace transillum

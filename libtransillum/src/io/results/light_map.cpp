@@ -2,14 +2,13 @@
 #include "io/results/light_map.h"
 
 #include <fmt/format.h>
-#include <png.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
+#include "io/png_text.h"
 #include "io/srgb.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -108,18 +107,7 @@ std::string LightMap::png() const {
       }
     }
   }
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(width());
-  image.height = static_cast<png_uint_32>(height());
-  image.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::string bytes(size, '\0');
-  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
-    throw std::runtime_error(fmt::format("light map: {}", image.message));
-  }
-  bytes.resize(size);
-  return bytes;
+  return png_of(static_cast<int>(width()), static_cast<int>(height()), pixels);
 }
 
 }  // namespace transillum

@@ -6,14 +6,17 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 
 #include "base/base64.h"
+#include "io/png_text.h"
 #include "io/results/light_map.h"
 #include "io/results/result_writers.h"
+#include "io/srgb.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 
@@ -73,10 +76,30 @@ class PatchColors {
   std::optional<LinearBasis> basis_;  ///< nothing: B is constant on patches
 };
 
+/// Texture coordinates of a point of a patch.
+using TexturePlace = std::function<std::array<float, 2>(PatchId, const Vec3&)>;
+
+std::array<float, 2> sharp_place(const SharpLightMap& map, PatchId i, const Vec3& point) {
+  const auto [x, y] = map.place(i, point);
+  return {static_cast<float>(x / map.width()), static_cast<float>(y / map.height())};
+}
+
+std::string sharp_png(const SharpLightMap& map, double exposure) {
+  std::vector<unsigned char> bytes;
+  bytes.reserve(3 * map.radiosity().size());
+  for (const auto& b : map.radiosity()) {
+    for (const float channel : b) {
+      bytes.push_back(
+          static_cast<unsigned char>(srgb_byte(exposure * static_cast<double>(channel))));
+    }
+  }
+  return png_of(map.width(), map.height(), bytes);
+}
+
 /// Triangles by group, with coordinates relative to `origin`: floats have few digits.
-/// @param light_map null: colors of corners
+/// @param place coordinates in a light map; empty: colors of corners
 std::map<std::int32_t, Triangles> triangles_of(const Solution& solution, double exposure,
-                                               const LightMap* light_map, const Vec3& origin) {
+                                               const TexturePlace& place, const Vec3& origin) {
   const Scene& scene = *solution.scene;
   std::map<std::int32_t, Triangles> groups;
   for (const Piece& piece : scene.pieces()) {
@@ -84,12 +107,10 @@ std::map<std::int32_t, Triangles> triangles_of(const Solution& solution, double 
     const auto corners = scene.corners(piece);
     const auto first = static_cast<std::uint32_t>(group.positions.size());
     const PatchColors colors(solution, piece.patch, exposure);
-    const LightMap::Chart chart =
-        light_map != nullptr ? light_map->chart(piece.patch) : LightMap::Chart();
     for (const PointId corner : corners) {
       group.positions.push_back(triple(scene.point(corner) - origin));
-      if (light_map != nullptr) {
-        group.texture_points.push_back(light_map->coordinates(chart, scene.point(corner)));
+      if (place) {
+        group.texture_points.push_back(place(piece.patch, scene.point(corner)));
       } else {
         group.colors.push_back(colors.at_point(scene.point(corner)));
       }
@@ -135,15 +156,22 @@ class GltfDocument {
           {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
          {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
     std::optional<LightMap> light_map;
-    if (display.light_map) {
+    TexturePlace place;
+    if (display.light_map && display.sharp_map) {
+      place = [&](PatchId i, const Vec3& point) {
+        return sharp_place(*display.sharp_map, i, point);
+      };
+    } else if (display.light_map) {
       light_map.emplace(solution, exposure);
+      place = [&](PatchId i, const Vec3& point) {
+        return light_map->coordinates(light_map->chart(i), point);
+      };
     }
-    for (const auto& [group, triangles] :
-         triangles_of(solution, exposure, light_map ? &*light_map : nullptr, origin)) {
+    for (const auto& [group, triangles] : triangles_of(solution, exposure, place, origin)) {
       add_mesh(group == no_group ? scene.name() : at(scene.groups(), group), triangles, origin);
     }
-    if (light_map) {
-      add_texture(light_map->png());
+    if (display.light_map) {
+      add_texture(light_map ? light_map->png() : sharp_png(*display.sharp_map, exposure));
     }
   }
 
