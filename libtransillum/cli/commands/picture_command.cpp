@@ -187,6 +187,7 @@ int run(PictureCall& call) {
   check_options(call);
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.picture.quiet);
+  const std::optional<SceneCamera> given = file_camera(call, cancellation);
   const bool is_result = is_result_file(call.scene.spec);
   std::optional<Solution> solution;
   std::shared_ptr<const Scene> scene;
@@ -198,7 +199,7 @@ int run(PictureCall& call) {
     scene = load_input_scene(call.scene, call.picture.files, cancellation,
                              call.solve().sky.is_set() ? Light::sky : Light::required);
   }
-  call.picture.camera = camera_of(call, *scene, file_camera(call, cancellation));
+  call.picture.camera = camera_of(call, *scene, given);
   call.picture.options.threads = call.solve().threads;
   check_picture_request(call.picture, scene);
   if (!is_result) {
