@@ -142,19 +142,24 @@ std::string overlap_advice(const Scene& scene, const Cancellation& cancellation)
 /// division will make.
 SceneOptions division(const SceneInput& input, const SceneDescription& description,
                       const Cancellation& cancellation) {
+  constexpr int few_faces = 1000, enough_patches = 2000;
   SceneOptions options = input.run.scene;
+  std::int64_t patches = input.run.input.patches;
+  if (input.divides_few_faces && patches == 0 && options.max_patch_area == 0 &&
+      description.face_count() < few_faces) {
+    patches = enough_patches;
+  }
   if (input.run.refine.is_set() || input.run.total ||
-      (input.run.input.patches == 0 && options.max_patch_area == 0)) {
+      (patches == 0 && options.max_patch_area == 0)) {
     return options;
   }
   options.max_patch_area = 0;
   const Scene whole(description, options, cancellation);
-  options.max_patch_area = input.run.input.patches > 0
-                               ? max_patch_area_for(whole, input.run.input.patches, cancellation)
-                               : input.run.scene.max_patch_area;
-  if (whole.patch_count() > input.run.input.patches && input.run.input.patches > 0) {
+  options.max_patch_area = patches > 0 ? max_patch_area_for(whole, patches, cancellation)
+                                       : input.run.scene.max_patch_area;
+  if (whole.patch_count() > patches && patches > 0) {
     print_message(fmt::format("warning: --patches: the faces make {} patches already, more than {}",
-                              whole.patch_count(), input.run.input.patches));
+                              whole.patch_count(), patches));
   } else if (options.max_patch_area > 0) {
     const std::int64_t count = count_patches(whole, options.max_patch_area);
     if (!is_quiet(*input.command)) {

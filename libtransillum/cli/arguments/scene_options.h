@@ -19,6 +19,8 @@ namespace transillum::cli {
 struct SceneInput : GivenOptions {
   std::string spec;  ///< file or built-in scene
   const CLI::App* command = nullptr;
+  /// A scene of fewer than 1,000 faces makes 2,000 patches, unless other patches are asked for.
+  bool divides_few_faces = false;
 };
 
 /// SCENE, required.

@@ -195,6 +195,7 @@ int run(PictureCall& call) {
     solution = read_solution(call, cancellation);
     scene = solution->scene;
   } else {
+    call.scene.divides_few_faces = true;
     complete(call.scene);
     scene = load_input_scene(call.scene, call.picture.files, cancellation,
                              call.solve().sky.is_set() ? Light::sky : Light::required);
@@ -306,8 +307,10 @@ Command add_picture_command(CLI::App& program) {
                                               "shadows of direct light");
   add_scene_argument(command, call->scene);
   CLI::Option* scene = command.get_option("SCENE");
-  scene->description("a result, .vtp, or what is solved first, as `solve` does it: " +
-                     scene->get_description());
+  scene->description(
+      "a result, .vtp, or what is solved first, as `solve` does it, in 2,000 patches if it has "
+      "fewer than 1,000 faces: " +
+      scene->get_description());
   add_camera_options(command, call);
   add_picture_options(command, call);
   add_sections(command, call->scene,
