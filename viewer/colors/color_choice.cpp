@@ -30,7 +30,8 @@ void shade_gray(const Scene& scene, std::span<const Rgb> radiosity, std::vector<
 bool needs_light(Quantity quantity) {
   return quantity == Quantity::radiosity || quantity == Quantity::exitance ||
          quantity == Quantity::irradiance || quantity == Quantity::eye_radiance ||
-         quantity == Quantity::error || quantity == Quantity::last_change ||
+         quantity == Quantity::error || quantity == Quantity::measured_error ||
+         quantity == Quantity::last_change ||
          quantity == Quantity::jump;
 }
 
@@ -167,6 +168,11 @@ Rgb ColorChoice::value_at(PatchId i, const Vec3& point) const {
              : mean;
 }
 
+void ColorChoice::set_errors(std::shared_ptr<const MeasuredErrors> errors) {
+  errors_ = std::move(errors);
+  change_if(&QuantityTraits::by_measurement);
+}
+
 void ColorChoice::set_eye(const Vec3& eye) {
   if (eye == eye_) {
     return;
@@ -266,6 +272,7 @@ PatchValues ColorChoice::values_of_shown(const std::shared_ptr<const SolverSnaps
   const QuantityTraits& traits = traits_of(quantity_);
   return traits.by_response ? values_by_response(*snapshot)
          : traits.by_jumps  ? values_by_jumps(snapshot)
+         : traits.by_measurement ? values_by_measurement(*snapshot)
          : traits.by_eye && snapshot->glossy
              ? values_by_eye(snapshot)
              : values_of(quantity_, *snapshot, selection_.patch(), other);
@@ -301,6 +308,18 @@ PatchValues ColorChoice::values_by_jumps(const std::shared_ptr<const SolverSnaps
   PatchValues result;
   for (const double jump : jumps->values) {
     result.values.push_back({jump, jump, jump});
+  }
+  return result;
+}
+
+PatchValues ColorChoice::values_by_measurement(const SolverSnapshot& snapshot) const {
+  PatchValues result;
+  if (!errors_ || !errors_->are_of(snapshot)) {
+    return values_of(quantity_, snapshot, no_patch, nullptr);
+  }
+  for (const double error : errors_->report.relative_errors) {
+    const double percent = 100 * error;
+    result.values.push_back({percent, percent, percent});
   }
   return result;
 }

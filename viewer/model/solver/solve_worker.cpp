@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "model/solver/session_snapshot.h"
+#include "scene/build/division.h"
 
 namespace transillum::viewer {
 
@@ -19,12 +20,16 @@ SolveWorker::Prepared SolveWorker::load(const std::string& spec, const RunOption
                  {options.solve, options.refine}, cancellation);
 }
 
-SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& whole,
+SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& start,
                                            Choice choice, const Cancellation& cancellation) {
-  if (whole->stored) {
+  if (start->stored) {
     choice.refine = {};
   }
-  SolveRequest request{.scene = whole->scene, .options = choice.solve, .tree = whole->tree};
+  SolveRequest request{.scene = start->scene, .options = choice.solve, .tree = start->tree};
+  if (!choice.divided.empty()) {
+    request.scene = divide(*start->scene, choice.divided, cancellation).scene;
+    request.tree = nullptr;
+  }
   if (choice.refine.is_set()) {
     request.refine = choice.refine.options();
   }
@@ -33,7 +38,7 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
   SolveSession session(std::move(request), cancellation);
   checkpoints_.resume(session, choice.solve);
   session.prepare();
-  auto loaded = with_patches_of(session, whole, cancellation);
+  auto loaded = with_patches_of(session, start, cancellation);
   return {std::move(choice), std::move(loaded), std::move(session), cancellation};
 }
 
@@ -52,7 +57,13 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation) {
   }
   unstarted_ = choice;
   cancellation_ = cancellation;
-  Prepared prepared = prepare(whole_of(loaded_), std::move(choice), cancellation);
+  // Another scene may have been opened since.
+  if (choice.from && whole_of(choice.from) != whole_of(loaded_)) {
+    choice.from = nullptr;
+    choice.divided.clear();
+  }
+  const auto begun = choice.from ? choice.from : whole_of(loaded_);
+  Prepared prepared = prepare(begun, std::move(choice), cancellation);
   if (prepared.session.glossy() != nullptr && materials_) {
     set_materials(prepared.session);
   }

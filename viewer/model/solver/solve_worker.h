@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/solver/checkpoint_keeper.h"
 #include "model/solver/goal.h"
@@ -29,7 +30,10 @@ class SolveWorker {
   /// The options of a run.
   struct Choice {
     SolveOptions solve;
-    RefineChoice refine;
+    RefineChoice refine = {};
+    /// The patches to begin with; null for the scene as it was read.
+    std::shared_ptr<const LoadedScene> from = nullptr;
+    std::vector<PatchId> divided = {};  ///< patches of `from` that are divided first
   };
   /// A run that can begin.
   struct Prepared {
@@ -73,7 +77,7 @@ class SolveWorker {
   CheckpointKeeper& checkpoints() { return checkpoints_; }
 
  private:
-  Prepared prepare(const std::shared_ptr<const LoadedScene>& whole, Choice choice,
+  Prepared prepare(const std::shared_ptr<const LoadedScene>& start, Choice choice,
                    const Cancellation& cancellation);
   void replace_session(Prepared prepared);
   void prepare_stage();

@@ -446,7 +446,8 @@ void ViewStateApplier::read_patches(ViewState& state) const {
 ViewState ViewStateApplier::appearance() const {
   ViewState state;
   const ColorChoice& colors = frame_.state.colors;
-  if (colors.quantity() != Quantity::difference) {
+  // Kept runs and measured errors are not part of a state.
+  if (colors.quantity() != Quantity::difference && colors.quantity() != Quantity::measured_error) {
     state.quantity = colors.quantity();
   }
   state.range_rule = colors.range_rule();

@@ -1,0 +1,67 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/requests/measured_errors.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+
+#include "model/snapshot_values.h"
+#include "support/number_text.h"
+#include "transillum/errors.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("MeasuredErrors", text); }
+
+}  // namespace
+
+bool MeasuredErrors::are_of(const SolverSnapshot& snapshot) const {
+  return snapshot.loaded == loaded && !snapshot.materials && snapshot.progress.finished &&
+         snapshot.radiosity == solve.solution.radiosity;
+}
+
+QString why_not_measurable(const SolverSnapshot& snapshot) {
+  try {
+    check_measurable(snapshot.options, snapshot.glossy != nullptr);
+  } catch (const InputError& error) {
+    return capitalized(QString::fromUtf8(error.what()));
+  }
+  return {};
+}
+
+MeasuredSolve measured_solve(const SolverSnapshot& snapshot) {
+  check_measurable(snapshot.options, snapshot.glossy != nullptr);
+  MeasuredSolve solve;
+  solve.solution = solution_of(snapshot);
+  solve.options = snapshot.options;
+  solve.options.directions = std::max(1, solve.solution.statistics.passes);
+  solve.options.replicas = std::max(1, solve.solution.error.replicas);
+  solve.tree = snapshot.loaded->tree;
+  solve.directions = *snapshot.directions;
+  if (snapshot.shot && !snapshot.shot->sources.empty()) {
+    solve.shot = snapshot.shot;
+  }
+  return solve;
+}
+
+MeasuredErrors measure(const SolverSnapshot& snapshot, const Cancellation& cancellation,
+                       const MeasurementObserver& observer) {
+  MeasuredErrors errors{snapshot.loaded, measured_solve(snapshot), {}};
+  errors.report = measure_errors(errors.solve, cancellation, observer);
+  return errors;
+}
+
+QString text_of(Measurement what) {
+  switch (what) {
+    case Measurement::replicas:
+      return tr("Directions: solving with replicas");
+    case Measurement::engines:
+      return tr("Method: comparing engines");
+    case Measurement::divided:
+      break;
+  }
+  return tr("Patches: solving with all of them divided");
+}
+
+}  // namespace transillum::viewer
