@@ -31,8 +31,7 @@ bool needs_light(Quantity quantity) {
   return quantity == Quantity::radiosity || quantity == Quantity::exitance ||
          quantity == Quantity::irradiance || quantity == Quantity::eye_radiance ||
          quantity == Quantity::error || quantity == Quantity::measured_error ||
-         quantity == Quantity::last_change ||
-         quantity == Quantity::jump;
+         quantity == Quantity::last_change || quantity == Quantity::jump;
 }
 
 /// B/pi: the mean of the radiance, weighted by the cosine.
@@ -270,8 +269,8 @@ void ColorChoice::refit() {
 PatchValues ColorChoice::values_of_shown(const std::shared_ptr<const SolverSnapshot>& snapshot,
                                          const SolverSnapshot* other) {
   const QuantityTraits& traits = traits_of(quantity_);
-  return traits.by_response ? values_by_response(*snapshot)
-         : traits.by_jumps  ? values_by_jumps(snapshot)
+  return traits.by_response      ? values_by_response(*snapshot)
+         : traits.by_jumps       ? values_by_jumps(snapshot)
          : traits.by_measurement ? values_by_measurement(*snapshot)
          : traits.by_eye && snapshot->glossy
              ? values_by_eye(snapshot)

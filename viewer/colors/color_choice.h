@@ -10,7 +10,7 @@
 
 #include "colors/color_scale.h"
 #include "colors/quantity.h"
-#include "model/requests/measured_errors.h"
+#include "model/measured_errors.h"
 #include "model/requests/slow_quantities.h"
 #include "model/snapshot.h"
 #include "state/kept_runs.h"

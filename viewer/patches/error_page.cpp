@@ -30,8 +30,7 @@ constexpr int total_column = 5;
 QString text_of(const NextStep& step) {
   constexpr int longest_name = 24;
   NextStep shown = step;
-  shown.surface =
-      elided_name(QString::fromStdString(step.surface), longest_name).toStdString();
+  shown.surface = elided_name(QString::fromStdString(step.surface), longest_name).toStdString();
   return capitalized(QString::fromStdString(step_text(shown)));
 }
 
@@ -40,10 +39,10 @@ QString text_of(const NextStep& step) {
 ErrorPage::ErrorPage(ColorChoice& colors, QTabWidget& tabs)
     : QObject(&tabs),
       colors_(colors),
-      page_(add_table_page(tabs, tr("Errors"), "error_table",
-                           {QStringLiteral("Name of it"), QStringLiteral("88.88"),
-                            QStringLiteral("88.88"), QStringLiteral("88.88"),
-                            QStringLiteral("88.88"), QStringLiteral("88.88")})),
+      page_(add_table_page(
+          tabs, tr("Errors"), "error_table",
+          {QStringLiteral("Name of it"), QStringLiteral("88.88"), QStringLiteral("88.88"),
+           QStringLiteral("88.88"), QStringLiteral("88.88"), QStringLiteral("88.88")})),
       measuring_(
           *this,
           [this](const Job& job, const Cancellation& cancellation) {

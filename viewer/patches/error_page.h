@@ -7,7 +7,7 @@
 #include <string>
 
 #include "colors/color_choice.h"
-#include "model/requests/measured_errors.h"
+#include "model/measured_errors.h"
 #include "model/snapshot.h"
 #include "patches/patch_table.h"
 #include "support/newest_result.h"

@@ -33,8 +33,7 @@ QString text_of(const PatchColumn& column, int entry) {
 
 QString percent_text(double percent) {
   constexpr double least = 0.005;
-  return percent > 0 && percent < least ? QStringLiteral("≈ 0")
-                                        : QString::number(percent, 'f', 2);
+  return percent > 0 && percent < least ? QStringLiteral("≈ 0") : QString::number(percent, 'f', 2);
 }
 
 std::string exact_text(double value) {

@@ -20,6 +20,7 @@ class QTimer;
 
 namespace transillum::viewer {
 
+class ColorChoice;
 class ErrorPage;
 
 /// The groups and the materials of the scene with their powers, the powers that they exchange, and

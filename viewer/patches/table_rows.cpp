@@ -291,9 +291,9 @@ PatchRows rows_of_errors(const ErrorReport& report) {
     const QString name = QString::fromStdString(surface.name);
     names << (surface.is_dark ? surface_text("%1 (dark)").arg(name) : name);
   }
-  rows.columns.push_back(column_of_names(
-      surface_text("Surface"), surface_text("Group, material or connected component"), "surface",
-      names));
+  rows.columns.push_back(column_of_names(surface_text("Surface"),
+                                         surface_text("Group, material or connected component"),
+                                         "surface", names));
   const auto add = [&](const char* title, const char* tip, const char* csv_name,
                        const auto& error) {
     PatchColumn column{surface_text(title), surface_text(tip), csv_name, Kind::percent, {}};

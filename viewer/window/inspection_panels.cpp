@@ -27,7 +27,8 @@ InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QW
     : QObject(window), undo_(state.undo), relighting_(state.relighting) {
   materials_ = new MaterialPanel(relighting_, state.selection, state.colors);
   tables_ = named("table_panel", new PatchTablePanel(state.selection));
-  surfaces_ = named("surface_panel", new SurfacePanel(relighting_, state.selection, hidden, state.colors));
+  surfaces_ =
+      named("surface_panel", new SurfacePanel(relighting_, state.selection, hidden, state.colors));
   paths_ = named("path_panel", new PathPanel(state.selection));
   warnings_ = new WarningList(state.selection);
   connect(warnings_, &WarningList::face_chosen, this, &InspectionPanels::face_chosen);

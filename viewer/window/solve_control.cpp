@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/requests/measured_errors.h"
+#include "model/measured_errors.h"
 #include "scene/build/patch_count.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "model/requests/measured_errors.h"
+#include "model/measured_errors.h"
 
 #include <QCoreApplication>
 #include <algorithm>
