@@ -223,7 +223,6 @@ class ErrorsTest : public QObject {
 
   void changed_materials_are_solved_first() {
     const Shown shown;
-    QVERIFY(shown.finishes() || true);
     shown.window->relighting.edits().set_reflectance("material:white", {0.3, 0.3, 0.3});
     QVERIFY(comes_to_rest(*shown.window));
     QVERIFY(shown.measures());
