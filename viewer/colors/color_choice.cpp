@@ -210,6 +210,9 @@ void ColorChoice::show_kept_run(bool shown) {
 void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
   const bool new_scene = !snapshot_ || snapshot_->loaded != snapshot->loaded;
   snapshot_ = std::move(snapshot);
+  if (snapshot_->errors) {
+    errors_ = snapshot_->errors;
+  }
   if (new_scene) {
     kept_runs_.set_scene(snapshot_->loaded->scene);
     shows_kept_run_ = shows_kept_run_ && run_a();

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <utility>
 
 #include "model/snapshot_values.h"
 #include "support/number_text.h"
@@ -62,6 +63,16 @@ QString text_of(Measurement what) {
       break;
   }
   return tr("Patches: solving with all of them divided");
+}
+
+MeasurementObserver by_percent(std::function<void(Measurement, int percent)> observer) {
+  return [observer = std::move(observer), newest = std::pair(Measurement::replicas, -1)](
+             Measurement what, double fraction) mutable {
+    const auto now = std::pair(what, static_cast<int>(100 * fraction));
+    if (std::exchange(newest, now) != now) {
+      observer(now.first, now.second);
+    }
+  };
 }
 
 }  // namespace transillum::viewer

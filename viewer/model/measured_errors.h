@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QString>
+#include <functional>
 #include <memory>
 
 #include "model/snapshot.h"
@@ -32,5 +33,7 @@ MeasuredErrors measure(const SolverSnapshot& snapshot, const Cancellation& cance
                        const MeasurementObserver& observer);
 /// The measurement that is made, for the user.
 QString text_of(Measurement what);
+/// An observer that passes whole percents on, when they have changed.
+MeasurementObserver by_percent(std::function<void(Measurement, int percent)> observer);
 
 }  // namespace transillum::viewer

@@ -151,15 +151,11 @@ void ErrorPage::cancel() {
 }
 
 MeasuredErrors ErrorPage::measure_and_report(const Job& job, const Cancellation& cancellation) {
-  auto newest = std::pair(Measurement::replicas, -1);
-  return measure(*job.snapshot, cancellation, [&](Measurement what, double fraction) {
-    const auto now = std::pair(what, static_cast<int>(100 * fraction));
-    if (std::exchange(newest, now) != now) {
-      QMetaObject::invokeMethod(
-          this, [this, number = job.number, now] { show_progress(number, now.first, now.second); },
-          Qt::QueuedConnection);
-    }
-  });
+  return measure(*job.snapshot, cancellation, by_percent([&](Measurement what, int percent) {
+    QMetaObject::invokeMethod(
+        this, [this, number = job.number, what, percent] { show_progress(number, what, percent); },
+        Qt::QueuedConnection);
+  }));
 }
 
 void ErrorPage::show_progress(int number, Measurement what, int percent) {

@@ -348,7 +348,8 @@ void MainWindow::connect_scene() {
     }
   });
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
-    settings_->set_in_effect(snapshot->options, state_.scene.options(), snapshot->refine);
+    settings_->set_in_effect(snapshot->options, state_.scene.options(), snapshot->refine,
+                             snapshot->total.has_value());
     settings_->show_escape(escape_of(*snapshot));
     study_->set_solve(snapshot->options);
     state_.colors.fit(snapshot);

@@ -126,7 +126,7 @@ void SolveControl::solve_again() {
     return;
   }
   if (frame_.state.scene.is_open(frame_.state.scene.spec(), options)) {
-    frame_.state.runner.restart(options.solve, {Goal::Kind::finished}, options.refine);
+    frame_.state.runner.restart(SolveWorker::choice_of(options), {Goal::Kind::finished});
   } else if (frame_.state.scene.loaded()->description) {
     awaits_forecast_ = true;
     request_forecast(options.scene);
