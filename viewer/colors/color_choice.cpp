@@ -210,8 +210,8 @@ void ColorChoice::show_kept_run(bool shown) {
 void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
   const bool new_scene = !snapshot_ || snapshot_->loaded != snapshot->loaded;
   snapshot_ = std::move(snapshot);
-  if (snapshot_->errors) {
-    errors_ = snapshot_->errors;
+  if (snapshot_->measured_errors) {
+    errors_ = snapshot_->measured_errors;
   }
   if (new_scene) {
     kept_runs_.set_scene(snapshot_->loaded->scene);

@@ -326,7 +326,7 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
     snapshot->refinement = {session.scene()->patch_count(), !total_end_};
     snapshot->accuracy.reset();
   }
-  snapshot->errors = errors_;
+  snapshot->measured_errors = errors_;
   snapshot->materials = session.glossy() != nullptr ? materials_ : nullptr;
   history_.write_to(*snapshot);
   if (!snapshot->directions) {
