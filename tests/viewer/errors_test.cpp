@@ -2,10 +2,13 @@
 //
 // The tab "Errors" of the panel "Surfaces": errors of surfaces by cause, measured on request, the
 // step that makes them smaller, and the errors of patches in color.
+#include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
+#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QTabWidget>
 #include <QTableView>
 #include <QTemporaryDir>
@@ -18,6 +21,7 @@
 #include "patches/error_page.h"
 #include "patches/patch_table.h"
 #include "session/measure_errors.h"
+#include "session/total_plan.h"
 #include "solved_window.h"
 #include "window/base/dock_layouts.h"
 #include "window/files/export_actions.h"
@@ -259,6 +263,52 @@ class ErrorsTest : public QObject {
     QVERIFY(shown.ready);
     QVERIFY(!shown.measure->isEnabled());
     QVERIFY2(shown.caption().contains("semi-iterative"), qPrintable(shown.caption()));
+  }
+
+  void an_accuracy_in_all_is_solved_as_by_the_library() {
+    const Shown shown;
+    shown.window->findChild<QLineEdit*>("accuracy")->setText("25");
+    auto* of = shown.window->findChild<QComboBox*>("accuracy_of");
+    of->setCurrentText("% in all");
+    shown.window->findChild<QSpinBox*>("refine_patches")->setValue(5000);
+    const RunOptions options = shown.window->views().settings.options();
+    QVERIFY(options.total);
+    QVERIFY(!shown.window->findChild<QComboBox*>("refine_by")->isEnabled());
+    const auto scene = shown.window->snapshot()->loaded->scene;
+    const TotalSolve expected = solve_to_total({.scene = scene, .options = options.solve},
+                                               {.total = 0.25, .patches = 5000});
+    QVERIFY(expected.stages.size() > 1);
+
+    // A pause, perhaps while errors are measured, changes no bit.
+    shown.window->findChild<QPushButton*>("restart")->click();
+    QVERIFY(wait_for([&] {
+      const auto snapshot = shown.window->snapshot();
+      return snapshot && snapshot->total && !snapshot->total->stages.empty();
+    }));
+    shown.window->runner.pause();
+    QVERIFY(wait_for([&] { return shown.window->runner.state() != RunState::running; }));
+    shown.window->runner.run();
+    QVERIFY(wait_for([&] {
+      const auto snapshot = shown.window->snapshot();
+      return shown.window->runner.state() == RunState::finished && snapshot && snapshot->total &&
+             snapshot->total->end;
+    }));
+    const SolverSnapshot& snapshot = *shown.window->snapshot();
+    QVERIFY(snapshot.total->end == TotalEnd::reached);
+    QCOMPARE(snapshot.total->stages.size(), expected.stages.size());
+    QVERIFY(snapshot.radiosity == expected.solve.solution.radiosity);
+    QVERIFY(!shown.window->views().settings.differ_from_effect());
+    // The tab has the errors of the last stage, which need no further measurement.
+    QVERIFY(shown.errors());
+    QCOMPARE(shown.errors()->report.total(), expected.report.total());
+    QVERIFY(shown.table().rowCount() > 0);
+    QVERIFY2(shown.text("phase").contains("limit 25 %: reached"), qPrintable(shown.text("phase")));
+    save_picture(*shown.window, "errors-in-all");
+    // To start over returns to the scene as it was read.
+    shown.window->runner.stop();
+    QVERIFY(wait_for([&] {
+      return shown.window->snapshot() && shown.window->snapshot()->loaded->scene == scene;
+    }));
   }
 
   void reports_are_written() {
