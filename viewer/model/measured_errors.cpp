@@ -11,12 +11,6 @@
 
 namespace transillum::viewer {
 
-namespace {
-
-QString tr(const char* text) { return QCoreApplication::translate("MeasuredErrors", text); }
-
-}  // namespace
-
 bool MeasuredErrors::are_of(const SolverSnapshot& snapshot) const {
   return snapshot.loaded == loaded && !snapshot.materials && snapshot.progress.finished &&
          snapshot.radiosity == solve.solution.radiosity;
@@ -54,15 +48,10 @@ MeasuredErrors measure(const SolverSnapshot& snapshot, const Cancellation& cance
 }
 
 QString text_of(Measurement what) {
-  switch (what) {
-    case Measurement::replicas:
-      return tr("Directions: solving with replicas");
-    case Measurement::engines:
-      return tr("Method: comparing engines");
-    case Measurement::divided:
-      break;
-  }
-  return tr("Patches: solving with all of them divided");
+  const char* text = what == Measurement::replicas  ? "Directions: solving with replicas"
+                     : what == Measurement::engines ? "Method: comparing engines"
+                                                    : "Patches: solving with all of them divided";
+  return QCoreApplication::translate("MeasuredErrors", text);
 }
 
 MeasurementObserver by_percent(std::function<void(Measurement, int percent)> observer) {
