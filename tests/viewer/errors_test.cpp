@@ -6,6 +6,7 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
@@ -32,7 +33,7 @@ using namespace test;
 
 namespace {
 
-const SolveOptions few{.directions = 48, .replicas = 4, .first_shot = {}};
+const SolveOptions few{.directions = 48, .first_shot = {}, .replicas = 4};
 
 /// The report of a solve by the library.
 ErrorReport report_of(const std::shared_ptr<const Scene>& scene, const SolveOptions& options) {
@@ -160,18 +161,36 @@ class ErrorsTest : public QObject {
     shown.set_dark(false);
   }
 
-  void the_button_divides_a_surface() {
+  void the_button_carries_out_the_first_step() {
     const Shown shown;
     QVERIFY(shown.measures());
     const auto before = shown.errors();
     auto* button = shown.window->findChild<QToolButton*>("error_step");
     QVERIFY(button->isVisible());
-    const NextStep* step = &before->report.steps.front();
-    QVERIFY2(button->text().contains(number_text(double(step->patches))),
+    // Few directions are the largest error.
+    const NextStep step = before->report.steps.front();
+    QVERIFY(step.kind == NextStep::Kind::directions);
+    QVERIFY2(button->text().startsWith("More directions: " + QString::number(step.passes)),
              qPrintable(button->text()));
+    button->click();
+    QVERIFY(wait_for([&] {
+      return shown.window->snapshot() && shown.window->snapshot()->statistics.passes == step.passes;
+    }));
+    QVERIFY(shown.finishes());
+    QVERIFY(shown.window->snapshot()->loaded == before->loaded);
+    QVERIFY(!shown.errors());
+  }
+
+  void a_step_divides_a_surface() {
+    const Shown shown("cornell-box", {.directions = 1024, .first_shot = {}, .replicas = 4});
+    QVERIFY(shown.measures());
+    const auto before = shown.errors();
+    auto* button = shown.window->findChild<QToolButton*>("error_step");
+    const NextStep* step = step_of(before->report, NextStep::Kind::divide_surface);
+    QVERIFY(step != nullptr);
     const std::vector<PatchId> divided = divided_patches(*step, before->solve);
     QVERIFY(!divided.empty());
-    button->click();
+    button->menu()->actions().at(int(step - before->report.steps.data()))->trigger();
     QVERIFY(wait_for([&] {
       return shown.window->snapshot() && shown.window->snapshot()->loaded != before->loaded;
     }));
@@ -239,7 +258,7 @@ class ErrorsTest : public QObject {
   }
 
   void a_measurement_is_canceled() {
-    const Shown shown("sphere-flake", {.directions = 512, .replicas = 4, .first_shot = {}});
+    const Shown shown("sphere-flake", {.directions = 512, .first_shot = {}, .replicas = 4});
     QVERIFY(shown.ready);
     shown.measure->click();
     QVERIFY(wait_for([&] { return shown.page->busy(); }));

@@ -41,7 +41,7 @@ ErrorPage::ErrorPage(ColorChoice& colors, QTabWidget& tabs)
       colors_(colors),
       page_(add_table_page(
           tabs, tr("Errors"), "error_table",
-          {QStringLiteral("Name of it"), QStringLiteral("88.88"), QStringLiteral("88.88"),
+          {QStringLiteral("material"), QStringLiteral("88.88"), QStringLiteral("88.88"),
            QStringLiteral("88.88"), QStringLiteral("88.88"), QStringLiteral("88.88")})),
       measuring_(
           *this,
@@ -78,15 +78,13 @@ QWidget* ErrorPage::make_foot() {
   progress_->setRange(0, 100);
   progress_->setTextVisible(false);
   progress_->setFixedHeight(8);
-  QSizePolicy kept(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  kept.setRetainSizeWhenHidden(true);
-  progress_->setSizePolicy(kept);
   auto* row = make_row({}, 8);
   row->addWidget(measure_);
   row->addWidget(progress_, 1);
+  row->addWidget(total_, 1);
+  row->addStretch();
   row->addWidget(save_);
   auto* layout = make_column(foot, {10, 6, 8, 6}, 6);
-  layout->addWidget(total_);
   layout->addWidget(step_);
   layout->addLayout(row);
   connect(measure_, &QPushButton::clicked, this, &ErrorPage::start_or_cancel);
@@ -179,7 +177,6 @@ void ErrorPage::show_errors() {
 
 /// The first step is the button's; its menu has all.
 void ErrorPage::show_steps(const ErrorReport& report) {
-  total_->setVisible(report.worst >= 0);
   if (report.worst >= 0) {
     total_->setText(tr("In all, at most %1 (%2)")
                         .arg(QString::fromStdString(error_percentage(report.total())),
@@ -208,6 +205,7 @@ void ErrorPage::show_buttons() {
                      why_not_measurable(*snapshot_).isEmpty();
   measure_->setEnabled(works || ready);
   progress_->setVisible(busy());
+  total_->setVisible(!busy() && shown_ && shown_->report.worst >= 0);
   save_->setEnabled(!works && errors());
   step_->setEnabled(!works);
 }

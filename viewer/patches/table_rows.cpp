@@ -310,7 +310,7 @@ PatchRows rows_of_errors(const ErrorReport& report) {
       "iterations_percent", [](const CauseErrors& errors) { return errors.iterations; });
   add("Method", "The engine, compared with another one, the first shot, and light that is lost",
       "method_percent", [](const CauseErrors& errors) { return errors.method; });
-  add("Total, %", "The sum of the four", "total_percent",
+  add("Total", "The sum of the four", "total_percent",
       [](const CauseErrors& errors) { return errors.total(); });
   return rows;
 }
