@@ -100,13 +100,13 @@ class Draw {
     const std::string whole = std::to_string(1 + below(64));
     return accepts(option, whole) ? whole : fraction;
   }
-  /// Some options with values, without --total, which only the program has.
+  /// Some options with values.
   Words set() {
     Words words;
     const std::size_t count = 1 + below(6);
     std::vector<const Option*> left;
     for (const Option& option : transillum::options()) {
-      if (!option.repeats && option.name != "threads" && option.name != "total") {
+      if (!option.repeats && option.name != "threads") {
         left.push_back(&option);
       }
     }

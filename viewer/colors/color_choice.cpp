@@ -30,8 +30,8 @@ void shade_gray(const Scene& scene, std::span<const Rgb> radiosity, std::vector<
 bool needs_light(Quantity quantity) {
   return quantity == Quantity::radiosity || quantity == Quantity::exitance ||
          quantity == Quantity::irradiance || quantity == Quantity::eye_radiance ||
-         quantity == Quantity::error || quantity == Quantity::last_change ||
-         quantity == Quantity::jump;
+         quantity == Quantity::error || quantity == Quantity::measured_error ||
+         quantity == Quantity::last_change || quantity == Quantity::jump;
 }
 
 /// B/pi: the mean of the radiance, weighted by the cosine.
@@ -167,6 +167,11 @@ Rgb ColorChoice::value_at(PatchId i, const Vec3& point) const {
              : mean;
 }
 
+void ColorChoice::set_errors(std::shared_ptr<const MeasuredErrors> errors) {
+  errors_ = std::move(errors);
+  change_if(&QuantityTraits::by_measurement);
+}
+
 void ColorChoice::set_eye(const Vec3& eye) {
   if (eye == eye_) {
     return;
@@ -205,6 +210,9 @@ void ColorChoice::show_kept_run(bool shown) {
 void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
   const bool new_scene = !snapshot_ || snapshot_->loaded != snapshot->loaded;
   snapshot_ = std::move(snapshot);
+  if (snapshot_->measured_errors) {
+    errors_ = snapshot_->measured_errors;
+  }
   if (new_scene) {
     kept_runs_.set_scene(snapshot_->loaded->scene);
     shows_kept_run_ = shows_kept_run_ && run_a();
@@ -264,8 +272,9 @@ void ColorChoice::refit() {
 PatchValues ColorChoice::values_of_shown(const std::shared_ptr<const SolverSnapshot>& snapshot,
                                          const SolverSnapshot* other) {
   const QuantityTraits& traits = traits_of(quantity_);
-  return traits.by_response ? values_by_response(*snapshot)
-         : traits.by_jumps  ? values_by_jumps(snapshot)
+  return traits.by_response      ? values_by_response(*snapshot)
+         : traits.by_jumps       ? values_by_jumps(snapshot)
+         : traits.by_measurement ? values_by_measurement(*snapshot)
          : traits.by_eye && snapshot->glossy
              ? values_by_eye(snapshot)
              : values_of(quantity_, *snapshot, selection_.patch(), other);
@@ -301,6 +310,18 @@ PatchValues ColorChoice::values_by_jumps(const std::shared_ptr<const SolverSnaps
   PatchValues result;
   for (const double jump : jumps->values) {
     result.values.push_back({jump, jump, jump});
+  }
+  return result;
+}
+
+PatchValues ColorChoice::values_by_measurement(const SolverSnapshot& snapshot) const {
+  PatchValues result;
+  if (!errors_ || !errors_->are_of(snapshot)) {
+    return values_of(quantity_, snapshot, no_patch, nullptr);
+  }
+  for (const double error : errors_->report.relative_errors) {
+    const double percent = 100 * error;
+    result.values.push_back({percent, percent, percent});
   }
   return result;
 }

@@ -10,6 +10,7 @@
 
 #include "colors/color_scale.h"
 #include "colors/quantity.h"
+#include "model/measured_errors.h"
 #include "model/requests/slow_quantities.h"
 #include "model/snapshot.h"
 #include "state/kept_runs.h"
@@ -77,6 +78,10 @@ class ColorChoice : public QObject {
   void show_kept_run(bool shown);
   bool shows_kept_run() const { return shows_kept_run_; }
 
+  /// The newest measured errors, perhaps of an earlier solve; null if none were measured.
+  const std::shared_ptr<const MeasuredErrors>& errors() const { return errors_; }
+  void set_errors(std::shared_ptr<const MeasuredErrors> errors);
+
   /// Sets the point, m, of quantities that depend on the camera.
   void set_eye(const Vec3& eye);
   const Vec3& eye() const { return eye_; }
@@ -113,6 +118,7 @@ class ColorChoice : public QObject {
   bool& logarithmic_choice();
   PatchValues values_by_response(const SolverSnapshot& snapshot);
   PatchValues values_by_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot);
+  PatchValues values_by_measurement(const SolverSnapshot& snapshot) const;
   PatchValues values_by_eye(const std::shared_ptr<const SolverSnapshot>& snapshot);
   PatchValues values_of_shown(const std::shared_ptr<const SolverSnapshot>& snapshot,
                               const SolverSnapshot* other);
@@ -135,6 +141,7 @@ class ColorChoice : public QObject {
   bool automatic_ = true;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   KeptRuns kept_runs_;
+  std::shared_ptr<const MeasuredErrors> errors_;
   bool shows_kept_run_ = false;
   bool lit_ = true;  ///< something emits
   PatchValues values_;

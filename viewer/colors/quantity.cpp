@@ -240,6 +240,16 @@ constexpr QuantityTraits all_traits[] = {
          QT_TRANSLATE_NOOP("Quantity", "Standard error of B, from the spread of the replicas"),
      .section = "6.3",
      .has_channels = true},
+    {.quantity = Quantity::measured_error,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Measured error of B"),
+     .symbol = "error of B",
+     .unit = "% of level",
+     .meaning = QT_TRANSLATE_NOOP(
+         "Quantity",
+         "Error of B by the size of each patch and by the directions, relative to the reflected "
+         "light of its surface, as measured in Surfaces, Errors"),
+     .section = "6.15",
+     .by_measurement = true},
     {.quantity = Quantity::last_change,
      .name = QT_TRANSLATE_NOOP("Quantity", "Change in the last iteration"),
      .symbol = "|Δ B|",
@@ -352,6 +362,8 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
                          "none.")};
       }
       return {snapshot.error.standard_error, {}};
+    case Quantity::measured_error:
+      return {{}, tr("Measure the errors first: panel Surfaces, Errors.")};
     case Quantity::last_change: {
       PatchValues result{last_change(snapshot), {}};
       if (result.values.empty()) {

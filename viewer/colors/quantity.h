@@ -26,6 +26,7 @@ enum class Quantity {
   response,
   fragments,
   error,
+  measured_error,
   last_change,
   jump,
   difference
@@ -46,9 +47,10 @@ struct QuantityTraits {
   /// The quantity spans many powers of ten, and 0 means something else than a small value: it is
   /// shown on a logarithmic scale unless the user chooses otherwise, and 0 in zero_color.
   bool spans_decades = false;
-  bool by_response = false;  ///< computed from a PatchResponse
-  bool by_jumps = false;     ///< computed by find_jumps()
-  bool by_eye = false;       ///< depends on the camera; where lobes take part by radiance_toward()
+  bool by_response = false;     ///< computed from a PatchResponse
+  bool by_jumps = false;        ///< computed by find_jumps()
+  bool by_measurement = false;  ///< of MeasuredErrors
+  bool by_eye = false;  ///< depends on the camera; where lobes take part by radiance_toward()
 };
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();

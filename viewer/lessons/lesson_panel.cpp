@@ -298,6 +298,7 @@ void LessonPanel::show_text(const Lesson::Page& page) {
 void LessonPanel::show_snapshot(const SolverSnapshot& snapshot) {
   options_.solve = snapshot.options;
   options_.refine = snapshot.refine;
+  options_.total = snapshot.total.has_value();
   for (ControlWidget* control : controls_) {
     control->show_options(options_);
   }

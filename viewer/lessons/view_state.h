@@ -54,6 +54,7 @@ struct ViewState {
   std::optional<ClipPlane> clip;            ///< if not set, clipping is off
   std::optional<ViewPoint> camera;          ///< the initial view if not set
   Quantity quantity = Quantity::radiosity;  ///< shown in color; never Quantity::difference
+                                            ///< or measured_error
   ColorMode color_mode = ColorMode::true_color;
   ColorMap color_map = default_color_map;
   std::optional<bool> logarithmic;  ///< chosen by the quantity if not set

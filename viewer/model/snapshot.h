@@ -9,6 +9,7 @@
 
 #include "model/patch_materials.h"
 #include "model/run_options.h"
+#include "session/total_plan.h"
 #include "support/has_index.h"
 #include "transillum/accuracy_goal.h"
 #include "transillum/at.h"
@@ -50,7 +51,15 @@ inline std::shared_ptr<const LoadedScene> whole_of(
 /// The progress of a refinement; its finished rounds are in SolveStatistics::refinement.
 struct RefinementState {
   PatchId patches = 0;  ///< patches of the scene so far
-  bool left = false;    ///< the solve belongs to a round, not yet to the refined scene
+  bool left = false;    ///< patches may be divided further after this solve
+};
+
+struct MeasuredErrors;
+
+/// The progress of a solve to a total error.
+struct TotalState {
+  std::vector<TotalStage> stages;  ///< finished ones
+  std::optional<TotalEnd> end;     ///< not set while further stages follow
 };
 
 /// The RMS error of B over RMS of B, estimated from replicas, and the limits that it is between in
@@ -64,7 +73,10 @@ struct SolverSnapshot {
   std::shared_ptr<const LoadedScene> loaded;
   SolveOptions options;
   RefineChoice refine;
-  RefinementState refinement;  ///< if `refine` is set
+  RefinementState refinement;       ///< if `refine` or `total` is set
+  std::optional<TotalState> total;  ///< if the accuracy limits the sum of all errors
+  std::shared_ptr<const MeasuredErrors>
+      measured_errors;  ///< of this solve, if it was made for a total error
   SolveProgress progress;
   /// The passes of all iterations so far. A pass that several iterations use (in the growing
   /// scheme, or from stored sums) counts in each.

@@ -47,6 +47,15 @@ Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point) {
              : value_at(mean, at(snapshot.linear_terms, i), at(*snapshot.bases, i), point);
 }
 
+RunOptions run_options_of(const SolverSnapshot& snapshot, const SceneOptions& scene,
+                          const SceneInput& input) {
+  return {.solve = snapshot.options,
+          .scene = scene,
+          .input = input,
+          .refine = snapshot.refine,
+          .total = snapshot.total.has_value()};
+}
+
 bool has_light(const SolverSnapshot& snapshot) {
   if (snapshot.options.sky.is_set()) {
     return true;

@@ -27,6 +27,10 @@ Rgb value_at(const Rgb& mean, const LinearTerm& term, const LinearBasis& basis, 
 /// on patches.
 Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point);
 
+/// The options of a snapshot's run.
+RunOptions run_options_of(const SolverSnapshot& snapshot, const SceneOptions& scene,
+                          const SceneInput& input);
+
 /// Whether any patch emits, with the materials of the snapshot, or a sky does.
 bool has_light(const SolverSnapshot& snapshot);
 

@@ -18,6 +18,7 @@
 
 #include "model/command_text.h"
 #include "model/run_comparison.h"
+#include "model/snapshot_values.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
@@ -34,7 +35,7 @@ constexpr int name_column = 0, column_count = 6;
 QString settings_tip(const KeptRun& run) {
   const SolverSnapshot& snapshot = *run.snapshot;
   const Scene& scene = *snapshot.loaded->scene;
-  const RunOptions options{snapshot.options, scene.options(), {}, snapshot.refine};
+  const RunOptions options = run_options_of(snapshot, scene.options(), {});
   return snapshot.of_file
              ? KeptRunPanel::tr("Values of the file %1").arg(QString::fromStdString(scene.name()))
              : KeptRunPanel::tr("Settings: %1")

@@ -31,6 +31,11 @@ QString text_of(const PatchColumn& column, int entry) {
   return column.texts.value(static_cast<int>(at(column.values, entry).r));
 }
 
+QString percent_text(double percent) {
+  constexpr double least = 0.005;
+  return percent > 0 && percent < least ? QStringLiteral("≈ 0") : QString::number(percent, 'f', 2);
+}
+
 std::string exact_text(double value) {
   return QByteArray::number(value, 'g', QLocale::FloatingPointShortest).toStdString();
 }
@@ -71,6 +76,9 @@ void PatchTable::set_contents(std::vector<PatchId> patches, std::vector<PatchCol
 
 void PatchTable::set_formats() {
   for (PatchColumn& column : columns_) {
+    if (column.kind == PatchColumn::Kind::percent) {
+      continue;
+    }
     double largest = 0;
     for (int entry = 0; entry < size(); ++entry) {
       const double value = std::abs(key_of(column, entry));
@@ -192,11 +200,14 @@ QVariant PatchTable::data(const QModelIndex& index, int role) const {
       if (column.kind == PatchColumn::Kind::integer) {
         return QString::number(static_cast<qint64>(key_of(column, entry)));
       }
+      if (column.kind == PatchColumn::Kind::percent) {
+        return percent_text(key_of(column, entry));
+      }
       return column.format.text(key_of(column, entry));
     case Qt::ToolTipRole:
       return column.kind == PatchColumn::Kind::channels
                  ? QVariant(tr("Red, green, blue: %1").arg(rgb_text(at(column.values, entry))))
-             : column.kind == PatchColumn::Kind::number
+             : column.kind == PatchColumn::Kind::number || column.kind == PatchColumn::Kind::percent
                  ? QVariant(number_text(key_of(column, entry)))
                  : QVariant();
     case Qt::TextAlignmentRole:

@@ -21,6 +21,7 @@ struct PatchColumn {
   enum class Kind {
     integer,
     number,
+    percent,   ///< with two decimals in all columns
     channels,  ///< sorted and shown by luminance
     text       ///< index into `texts`
   };

@@ -17,6 +17,7 @@
 
 #include "colors/color_scale.h"
 #include "model/snapshot_values.h"
+#include "patches/error_page.h"
 #include "patches/table_rows.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
@@ -57,7 +58,7 @@ QString total_text(const PowerTable& table, SurfaceKind by, bool received_known)
 }  // namespace
 
 SurfacePanel::SurfacePanel(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
-                           QWidget* parent)
+                           ColorChoice& colors, QWidget* parent)
     : QWidget(parent),
       relighting_(relighting),
       selection_(selection),
@@ -78,18 +79,20 @@ SurfacePanel::SurfacePanel(Relighting& relighting, Selection& selection, HiddenP
           CurrentJob::finish) {
   tabs_->setDocumentMode(true);
   tabs_->setObjectName("surface_tabs");
-  QLayout* buttons = make_buttons();
+  buttons_ = make_buttons();
   groups_ = add_page(tr("Groups"), "group_table");
   materials_ = add_page(tr("Materials"), "material_table");
   exchanges_ = add_page(tr("Exchange"), "exchange_table");
   exchanges_.view->sortByColumn(power_column, Qt::DescendingOrder);
+  errors_ = new ErrorPage(colors, *tabs_);
   refresh_timer_ = new QTimer(this);
   refresh_timer_->setSingleShot(true);
   auto* layout = make_column(this, {}, 0);
   layout->addWidget(tabs_, 1);
-  layout->addLayout(buttons);
+  layout->addWidget(buttons_);
   connect(refresh_timer_, &QTimer::timeout, this, &SurfacePanel::refresh);
   connect(tabs_, &QTabWidget::currentChanged, this, [this] {
+    buttons_->setVisible(tabs_->currentWidget() != errors_->widget());
     refresh();
     show_state();
   });
@@ -141,7 +144,7 @@ QAction* SurfacePanel::add_action(const char* name, const QString& text, const Q
   return action;
 }
 
-QLayout* SurfacePanel::make_buttons() {
+QWidget* SurfacePanel::make_buttons() {
   select_ =
       add_action("select_surface", tr("Select its patches"), tr("Select all its patches (Return)"),
                  "Return", &SurfacePanel::select_current);
@@ -156,14 +159,15 @@ QLayout* SurfacePanel::make_buttons() {
   emit_ = add_action("emit_surface", tr("Make it emit"), {}, "E", &SurfacePanel::make_emit);
   reflect_ =
       add_action("reflect_surface", tr("Make it reflect"), {}, "R", &SurfacePanel::make_reflect);
-  auto* row = make_row({8, 4, 8, 6});
+  auto* buttons = new QWidget;
+  auto* row = make_row(buttons, {8, 4, 8, 6});
   for (QAction* action : {hide_, isolate_, emit_, reflect_}) {
     auto* button = named(action->objectName() + "_button", new QToolButton);
     button->setDefaultAction(action);
     row->addWidget(button);
   }
   row->addStretch(1);
-  return row;
+  return buttons;
 }
 
 void SurfacePanel::clear() {
@@ -187,6 +191,7 @@ void SurfacePanel::show_scene(std::shared_ptr<const Scene> scene) {
 }
 
 void SurfacePanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  errors_->show_snapshot(snapshot);
   snapshot_ = std::move(snapshot);
   if (watched_ && !refresh_timer_->isActive()) {
     refresh_timer_->start(tables_ ? parts_interval_ms : 0);
@@ -249,7 +254,7 @@ SurfaceKind SurfacePanel::current_kind() const {
 }
 
 const SurfacePower* SurfacePanel::current() const {
-  if (!tables_ || tabs_->currentIndex() == 2) {
+  if (!tables_ || tabs_->currentIndex() > 1) {
     return nullptr;
   }
   const bool groups = current_kind() == SurfaceKind::group;

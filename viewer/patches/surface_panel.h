@@ -15,20 +15,23 @@
 #include "support/newest_result.h"
 
 class QAction;
-class QLayout;
 class QTabWidget;
 class QTimer;
 
 namespace transillum::viewer {
 
-/// The groups and the materials of the scene with their powers, and the powers that they exchange.
+class ColorChoice;
+class ErrorPage;
+
+/// The groups and the materials of the scene with their powers, the powers that they exchange, and
+/// the errors of surfaces.
 /// A row selects its patches; actions hide or isolate them, and make them emit or reflect.
 class SurfacePanel : public QWidget {
   Q_OBJECT
 
  public:
   SurfacePanel(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
-               QWidget* parent = nullptr);
+               ColorChoice& colors, QWidget* parent = nullptr);
 
   void show_scene(std::shared_ptr<const Scene> scene);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
@@ -36,6 +39,7 @@ class SurfacePanel : public QWidget {
   void set_watched(bool watched);
   /// Whether the tables wait for sums.
   bool busy() const;
+  ErrorPage* errors() const { return errors_; }
 
  signals:
   void form_factors_requested();
@@ -45,7 +49,7 @@ class SurfacePanel : public QWidget {
 
  private:
   TablePage add_page(const QString& title, const char* name);
-  QLayout* make_buttons();
+  QWidget* make_buttons();
   QAction* add_action(const char* name, const QString& text, const QString& tip, const char* key,
                       void (SurfacePanel::*what)());
   void refresh();
@@ -55,7 +59,7 @@ class SurfacePanel : public QWidget {
   void show_state();
   void clear();
 
-  /// The part of the current row; null on the page of exchanges, or without a current row.
+  /// The part of the current row; null without one, and on other pages than groups and materials.
   const SurfacePower* current() const;
   SurfaceKind current_kind() const;
   std::vector<PatchId> patches_of(const SurfacePower& surface) const;
@@ -75,6 +79,8 @@ class SurfacePanel : public QWidget {
   std::shared_ptr<const PowerTables> tables_;
   QTabWidget* tabs_;
   TablePage groups_, materials_, exchanges_;
+  ErrorPage* errors_;
+  QWidget* buttons_;  ///< of groups and materials
   QAction *select_, *hide_, *isolate_, *emit_, *reflect_;
   bool watched_ = false;
   bool selects_ = false;   ///< while the panel itself changes the selection

@@ -283,4 +283,36 @@ PatchRows rows_of_exchanges(const PowerTable& table) {
   return rows;
 }
 
+PatchRows rows_of_errors(const ErrorReport& report) {
+  PatchRows rows;
+  QStringList names;
+  for (const SurfaceCauses& surface : report.surfaces) {
+    rows.patches.push_back(static_cast<PatchId>(rows.patches.size()));
+    const QString name = QString::fromStdString(surface.name);
+    names << (surface.is_dark ? surface_text("%1 (dark)").arg(name) : name);
+  }
+  rows.columns.push_back(column_of_names(surface_text("Surface"),
+                                         surface_text("Group, material or connected component"),
+                                         "surface", names));
+  const auto add = [&](const char* title, const char* tip, const char* csv_name,
+                       const auto& error) {
+    PatchColumn column{surface_text(title), surface_text(tip), csv_name, Kind::percent, {}};
+    for (const SurfaceCauses& surface : report.surfaces) {
+      column.values.push_back({100 * error(surface.errors), 0, 0});
+    }
+    rows.columns.push_back(std::move(column));
+  };
+  add("Directions", "Too few directions: at most that in 95 % of all runs, by replicas",
+      "directions_percent", [](const CauseErrors& errors) { return errors.directions; });
+  add("Patches", "Too large patches: estimated by a solve with all of them divided",
+      "patches_percent", [](const CauseErrors& errors) { return errors.patches; });
+  add("Iterations", "Too few iterations: a bound of what further ones would change",
+      "iterations_percent", [](const CauseErrors& errors) { return errors.iterations; });
+  add("Method", "The engine, compared with another one, the first shot, and light that is lost",
+      "method_percent", [](const CauseErrors& errors) { return errors.method; });
+  add("Total", "The sum of the four", "total_percent",
+      [](const CauseErrors& errors) { return errors.total(); });
+  return rows;
+}
+
 }  // namespace transillum::viewer

@@ -9,6 +9,7 @@
 #include "model/snapshot.h"
 #include "patches/patch_table.h"
 #include "radiosity/analysis/power_table.h"
+#include "session/error_report.h"
 
 namespace transillum::viewer {
 
@@ -36,5 +37,8 @@ PatchRows rows_of_parts(const PowerTable& table, bool received_known);
 /// The powers that parts exchange: the pairs whose exchange is above rounding. Entry k of the rows
 /// is pair number `patches[k]` = receiver * number of parts + sender.
 PatchRows rows_of_exchanges(const PowerTable& table);
+
+/// The surfaces of a report, by their position, with their errors by cause and in all.
+PatchRows rows_of_errors(const ErrorReport& report);
 
 }  // namespace transillum::viewer

@@ -62,6 +62,18 @@ QString accuracy_tip(const AccuracyReport& report) {
                         : text;
 }
 
+// The text on a finished solve to a total error.
+QString total_text(const SolverSnapshot& snapshot) {
+  const TotalState& total = *snapshot.total;
+  const TotalStage& last = total.stages.back();
+  const std::int64_t most =
+      snapshot.refine.patches > 0 ? snapshot.refine.patches : TotalGoal().patches;
+  return ProgressLine::tr("In all %1 (%2), limit %3: %4")
+      .arg(percent(last.errors.total()), elided_name(QString::fromStdString(last.surface), 20),
+           percent(snapshot.options.goal.accuracy),
+           QString::fromStdString(end_text(*total.end, most)));
+}
+
 // The name of the scene; for a result file, the names of the file and of its scene.
 QString name_of(const LoadedScene& loaded) {
   const auto short_name = [](const std::string& path) {
@@ -124,7 +136,9 @@ void ProgressLine::show_scene(const LoadedScene& loaded) {
 }
 
 void ProgressLine::show_loading(const QString& phase, double fraction) {
-  if (state_ != RunState::loading) {
+  const bool measuring =
+      state_ == RunState::running && snapshot_ && snapshot_->total && snapshot_->progress.finished;
+  if (state_ != RunState::loading && !measuring) {
     return;
   }
   phase_->setText(phase + QStringLiteral("…"));
@@ -170,10 +184,10 @@ void ProgressLine::show_solve() {
                      : progress.direction);
 
   const auto& rounds = snapshot_->statistics.refinement;
-  const QString round =
-      snapshot_->refinement.left
-          ? tr("Round %1: ").arg(count_text(static_cast<std::int64_t>(rounds.size()) + 1))
-          : QString();
+  const auto& total = snapshot_->total;
+  const QString round = !snapshot_->refinement.left ? QString()
+                        : total ? tr("Stage %1: ").arg(count_text(std::ssize(total->stages) + 1))
+                                : tr("Round %1: ").arg(count_text(std::ssize(rounds) + 1));
   const QString at = within_iteration || progress.iteration == 0
                          ? tr("Iteration %1, direction %2 of %3")
                                .arg(count_text(progress.iteration + 1),
@@ -184,6 +198,8 @@ void ProgressLine::show_solve() {
   if (finished && !has_light(*snapshot_)) {
     phase_->setToolTip({});
     phase_->setText(tr("No light: B is 0 everywhere"));
+  } else if (finished && total && total->end && !total->stages.empty()) {
+    phase_->setText(total_text(*snapshot_));
   } else if (finished && accuracy) {
     constexpr int longest_name = 20;
     phase_->setText(accuracy_text(*accuracy, longest_name));

@@ -50,6 +50,7 @@ RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
   limits->setVerticalSpacing(4);
   limits->addRow(tr("Patches"), patches_);
   limits->addRow(tr("Until, %"), until_);
+  until_label_ = limits->labelForField(until_);
   auto* layout = make_column(this, {}, 2);
   layout->addWidget(by_);
   layout->addWidget(limits_);
@@ -82,12 +83,17 @@ void RefineControls::set_choice(const RefineChoice& choice) {
   by_->setCurrentIndex(choice.is_set() ? static_cast<int>(*choice.by) + 1 : 0);
 }
 
-void RefineControls::set_available(bool available) {
+void RefineControls::set_available(bool available, bool total) {
   available_ = available;
-  by_->setEnabled(available);
+  total_ = total;
+  by_->setEnabled(available && !total);
   show_limits();
 }
 
-void RefineControls::show_limits() { limits_->setVisible(by_->currentIndex() > 0 && available_); }
+void RefineControls::show_limits() {
+  limits_->setVisible(available_ && (total_ || by_->currentIndex() > 0));
+  until_->setVisible(!total_);
+  until_label_->setVisible(!total_);
+}
 
 }  // namespace transillum::viewer

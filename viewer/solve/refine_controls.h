@@ -20,8 +20,10 @@ class RefineControls : public QWidget {
 
   RefineChoice choice() const;
   void set_choice(const RefineChoice& choice);
-  /// Whether the scene allows rounds; a result file does not.
-  void set_available(bool available);
+  /// Sets what the solve allows.
+  /// @param available  whether patches may be divided: not those of a result file
+  /// @param total  whether a total error takes the place of rounds; the number of patches limits it
+  void set_available(bool available, bool total);
 
  signals:
   void changed();
@@ -29,11 +31,12 @@ class RefineControls : public QWidget {
  private:
   void show_limits();
 
-  bool available_ = true;
+  bool available_ = true, total_ = false;
   RefineChoice base_;  ///< with all digits of what the controls show
   QComboBox* by_;      ///< none, then the values of RefineBy
   QSpinBox* patches_;
   QLineEdit* until_;  ///< percent; empty without a limit
+  QWidget* until_label_ = nullptr;
   QWidget* limits_;
 };
 

@@ -25,6 +25,7 @@
 #include <string>
 
 #include "model/run_options.h"
+#include "session/total_plan.h"
 #include "solve/refine_controls.h"
 #include "solve/round_panel.h"
 #include "support/number_text.h"
@@ -43,6 +44,9 @@ void add_choices(QComboBox& box) {
     box.addItem(QString::fromStdString(label));
   }
 }
+
+// The accuracy is about the sum of all errors: data of its entry, beside the values of AccuracyOf.
+constexpr int in_all = -1;
 
 // The slider's position is the square root of the sky's fraction of this.
 constexpr int sky_steps = 200;
@@ -133,6 +137,8 @@ void SettingsPanel::add_accuracy_row(QFormLayout& form) {
                                  {AccuracyOf::mean, tr("% mean")}}) {
     accuracy_of_->addItem(text, static_cast<int>(of));
   }
+  accuracy_of_->insertItem(1, tr("% in all"), in_all);
+  accuracy_of_->setItemData(1, tip("total"), Qt::ToolTipRole);
   accuracy_of_->setToolTip(tip("accuracy-of"));
   accuracy_of_->setMinimumWidth(60);
   auto* row = make_row({}, 6);
@@ -397,10 +403,14 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
 
 RefineChoice SettingsPanel::refinement() const {
   RefineChoice refine = refine_->choice();
-  if (fixed_) {
+  if (fixed_ || total()) {
     refine.by.reset();
   }
   return refine;
+}
+
+bool SettingsPanel::total() const {
+  return !fixed_ && accuracy_of_->currentData().toInt() == in_all && goal().accuracy > 0;
 }
 
 AccuracyGoal SettingsPanel::goal() const {
@@ -408,7 +418,8 @@ AccuracyGoal SettingsPanel::goal() const {
   if (accuracy_->text() != exact_text(100 * goal.accuracy)) {
     goal.accuracy = QLocale::c().toDouble(accuracy_->text()) / 100;
   }
-  goal.of = static_cast<AccuracyOf>(accuracy_of_->currentData().toInt());
+  const int of = accuracy_of_->currentData().toInt();
+  goal.of = of == in_all ? AccuracyOf::surfaces : static_cast<AccuracyOf>(of);
   return goal;
 }
 
@@ -457,7 +468,9 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   if (solve.goal.of == AccuracyOf::groups && item_of(AccuracyOf::groups) < 0) {
     accuracy_of_->addItem(tr("% groups named"), static_cast<int>(AccuracyOf::groups));
   }
-  accuracy_of_->setCurrentIndex(item_of(solve.goal.of));
+  if (!(accuracy_of_->currentData().toInt() == in_all && solve.goal.of == AccuracyOf::surfaces)) {
+    accuracy_of_->setCurrentIndex(item_of(solve.goal.of));
+  }
   seed_->setText(QString::number(solve.seed));
   choose_engine(*engine_, solve.engine);
   resolution_->setValue(solve.engine_options.resolution);
@@ -480,15 +493,21 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
 }
 
 void SettingsPanel::set_options(const RunOptions& options) {
-  refine_->set_choice(options.refine);
+  RefineChoice refine = options.refine;
+  if (options.total && refine.patches == 0) {
+    refine.patches = static_cast<int>(TotalGoal().patches);
+  }
+  refine_->set_choice(refine);
+  accuracy_of_->setCurrentIndex(options.total ? accuracy_of_->findData(in_all) : 0);
   set_options(options.solve, options.scene);
 }
 
 void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions& scene,
-                                  const RefineChoice& refine) {
+                                  const RefineChoice& refine, bool total) {
   solve_in_effect_ = solve;
   scene_in_effect_ = scene;
   refine_in_effect_ = refine;
+  total_in_effect_ = total;
   if (same(scene_options(), scene)) {
     forecast_->hide();
   }
@@ -496,7 +515,11 @@ void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions&
 }
 
 bool SettingsPanel::differ_from_effect() const {
-  return !is_run_of(solve_in_effect_, solve_options()) ||
+  const auto limit = [](const RefineChoice& refine) {
+    return refine.patches > 0 ? refine.patches : TotalGoal().patches;
+  };
+  return !is_run_of(solve_in_effect_, solve_options()) || total() != total_in_effect_ ||
+         (total() && limit(refinement()) != limit(refine_in_effect_)) ||
          !same(scene_options(), scene_in_effect_) || !(refinement() == refine_in_effect_);
 }
 
@@ -550,7 +573,7 @@ void SettingsPanel::show_state() {
   engine_->setToolTip(engine_sentence(engine));
   show_sky_state();
   show_basis_state();
-  refine_->set_available(!fixed_);
+  refine_->set_available(!fixed_, total());
   show_glossy_state();
   show_row(order_label_, order_, has_effect("order"));
   show_row(resolution_label_, resolution_, has_effect("resolution"));

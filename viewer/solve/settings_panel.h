@@ -34,13 +34,17 @@ class SettingsPanel : public QWidget {
   SolveOptions solve_options() const;
   SceneOptions scene_options() const;
   RefineChoice refinement() const;
-  RunOptions options() const { return {solve_options(), scene_options(), {}, refinement()}; }
-  /// Leaves refinement() as it is.
+  /// Whether the accuracy limits the sum of all errors, for which patches are divided.
+  bool total() const;
+  RunOptions options() const {
+    return {solve_options(), scene_options(), {}, refinement(), false, total()};
+  }
+  /// Leaves refinement() as it is, and total() where the goal is about surfaces.
   void set_options(const SolveOptions& solve, const SceneOptions& scene);
   void set_options(const RunOptions& options);
   /// Sets the options of the current solve; the button is emphasized while the panel differs.
   void set_in_effect(const SolveOptions& solve, const SceneOptions& scene,
-                     const RefineChoice& refine = {});
+                     const RefineChoice& refine = {}, bool total = false);
   bool differ_from_effect() const;
   void set_restart_enabled(bool enabled);
   /// Sets the fraction of the light of all patches that escapes from the open scene; not set while
@@ -94,6 +98,7 @@ class SettingsPanel : public QWidget {
   SolveOptions solve_in_effect_;
   SceneOptions scene_in_effect_;
   RefineChoice refine_in_effect_;
+  bool total_in_effect_ = false;
   bool fixed_ = false;  ///< set_scene_fixed()
   bool enabled_ = false;
   QFormLayout* form_;

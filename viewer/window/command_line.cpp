@@ -68,9 +68,6 @@ void finish(CommandLine& line, const cli::GivenOptions& given, const CLI::App& a
     choose_look(line, app);
   }
   line.options.validate();
-  if (line.options.total) {
-    throw InputError("--total: not available in the window; transillum solve has it");
-  }
   line.reading_given = std::any_of(
       given.given.begin(), given.given.end(),
       [](const std::string& name) { return option(name).reads_scene && !option(name).repeats; });

@@ -8,6 +8,7 @@
 
 #include "model/solver/solve_runner.h"
 #include "patches/compare_actions.h"
+#include "patches/error_page.h"
 #include "patches/kept_run_panel.h"
 #include "patches/material_panel.h"
 #include "patches/patch_table_panel.h"
@@ -26,7 +27,8 @@ InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QW
     : QObject(window), undo_(state.undo), relighting_(state.relighting) {
   materials_ = new MaterialPanel(relighting_, state.selection, state.colors);
   tables_ = named("table_panel", new PatchTablePanel(state.selection));
-  surfaces_ = named("surface_panel", new SurfacePanel(relighting_, state.selection, hidden));
+  surfaces_ =
+      named("surface_panel", new SurfacePanel(relighting_, state.selection, hidden, state.colors));
   paths_ = named("path_panel", new PathPanel(state.selection));
   warnings_ = new WarningList(state.selection);
   connect(warnings_, &WarningList::face_chosen, this, &InspectionPanels::face_chosen);
@@ -53,6 +55,8 @@ InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QW
   connect(surfaces_, &SurfacePanel::form_factors_requested, &state.runner,
           &SolveRunner::include_form_factors);
   connect(surfaces_, &SurfacePanel::failed, this, &InspectionPanels::failed);
+  connect(surfaces_->errors(), &ErrorPage::failed, this, &InspectionPanels::failed);
+  connect(&state.runner, &SolveRunner::state_changed, surfaces_->errors(), &ErrorPage::show_state);
   connect(surfaces_, &SurfacePanel::target_changed, this, [this](const std::string& target) {
     materials_->show_target(target);
     material_dock_->show();
@@ -134,6 +138,8 @@ void InspectionPanels::show_snapshot(std::shared_ptr<const SolverSnapshot> snaps
   surfaces_->show_snapshot(snapshot);
   tables_->show_snapshot(std::move(snapshot));
 }
+
+ErrorPage& InspectionPanels::errors() const { return *surfaces_->errors(); }
 
 bool InspectionPanels::busy() const { return paths_->busy() || surfaces_->busy(); }
 

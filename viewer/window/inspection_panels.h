@@ -19,6 +19,7 @@ namespace transillum::viewer {
 
 class CompareActions;
 class DockLayouts;
+class ErrorPage;
 class MaterialPanel;
 class SurfacePanel;
 class PatchTablePanel;
@@ -46,6 +47,7 @@ class InspectionPanels : public QObject {
   /// Whether a panel still waits for its content.
   bool busy() const;
   MaterialPanel& materials() const { return *materials_; }
+  ErrorPage& errors() const;
 
   void show_scene(const LoadedScene& loaded);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);

@@ -26,6 +26,7 @@
 #include "map/map_canvas.h"
 #include "map/map_view.h"
 #include "map/phase_pair.h"
+#include "patches/error_page.h"
 #include "patches/patch_inspector.h"
 #include "scene/color_controls.h"
 #include "scene/error_view.h"
@@ -177,6 +178,10 @@ void MainWindow::make_whole_window_actions() {
   new LoadingNotice(frame);
   lesson_export_ = new LessonExport(frame, *lesson_panel_, [this] { return settled(); });
   auto* light = new LightOffer(frame, docks_, *settings_, inspection_->materials(), *applier_);
+  ErrorPage& errors = inspection_->errors();
+  connect(&errors, &ErrorPage::solve_wanted, control, &SolveControl::finish);
+  connect(&errors, &ErrorPage::step_chosen, control, &SolveControl::take_step);
+  connect(&errors, &ErrorPage::save_wanted, exports_->errors_action(), &QAction::trigger);
   connect(control, &SolveControl::light_missing, light, &LightOffer::show_refusal);
   new OrientationOffer(frame, *settings_, *applier_);
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
@@ -343,7 +348,8 @@ void MainWindow::connect_scene() {
     }
   });
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
-    settings_->set_in_effect(snapshot->options, state_.scene.options(), snapshot->refine);
+    settings_->set_in_effect(snapshot->options, state_.scene.options(), snapshot->refine,
+                             snapshot->total.has_value());
     settings_->show_escape(escape_of(*snapshot));
     study_->set_solve(snapshot->options);
     state_.colors.fit(snapshot);

@@ -194,8 +194,9 @@ void LightOffer::make_emit(const std::string& target) {
     if (!frame_.guard.may_lose(&frame_.window, tr("Make it emit"))) {
       return;
     }
-    RunOptions options{settings_.solve_options(), frame_.state.scene.options(),
-                       frame_.state.scene.input(), settings_.refinement()};
+    RunOptions options = settings_.options();
+    options.scene = frame_.state.scene.options();
+    options.input = frame_.state.scene.input();
     options.input.changes.push_back({target, {}, white});
     applier_.open_again(options);
     return;
@@ -316,8 +317,9 @@ void OrientationOffer::turn() {
   if (!frame_.guard.may_lose(&frame_.window, tr("Turn them"))) {
     return;
   }
-  RunOptions options{settings_.solve_options(), frame_.state.scene.options(),
-                     frame_.state.scene.input(), settings_.refinement()};
+  RunOptions options = settings_.options();
+  options.scene = frame_.state.scene.options();
+  options.input = frame_.state.scene.input();
   options.input.orient = true;
   applier_.open_again(options);
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/measured_errors.h"
 #include "scene/build/patch_count.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
@@ -125,7 +126,7 @@ void SolveControl::solve_again() {
     return;
   }
   if (frame_.state.scene.is_open(frame_.state.scene.spec(), options)) {
-    frame_.state.runner.restart(options.solve, {Goal::Kind::finished}, options.refine);
+    frame_.state.runner.restart(SolveWorker::choice_of(options), {Goal::Kind::finished});
   } else if (frame_.state.scene.loaded()->description) {
     awaits_forecast_ = true;
     request_forecast(options.scene);
@@ -186,6 +187,33 @@ void SolveControl::solve_with_replicas() {
   solve.replicas = replicas;
   settings_.set_options(solve, settings_.scene_options());
   solve_again();
+}
+
+void SolveControl::finish() {
+  if (frame_.state.relighting.edits().changes().empty()) {
+    run();
+  } else if (finds_light(settings_.solve_options().sky) && may_solve_again()) {
+    solve_again();
+  }
+}
+
+void SolveControl::take_step(const NextStep& step) {
+  const auto errors = frame_.state.colors.errors();
+  if (!errors || errors->loaded != frame_.state.scene.loaded() || !may_solve_again()) {
+    return;
+  }
+  std::vector<PatchId> divided = divided_patches(step, errors->solve);
+  if (!divided.empty() && !may_refine(step.patches)) {
+    return;
+  }
+  frame_.notifier.dismiss();
+  SolveOptions solve = errors->solve.options;
+  solve.goal = {};  // the step is about a number of passes
+  solve.directions = step.passes;
+  solve.tolerance = step.tolerance;
+  settings_.set_options({solve, settings_.scene_options()});
+  frame_.state.runner.restart({solve, {}, errors->loaded, std::move(divided)},
+                              {Goal::Kind::finished});
 }
 
 void SolveControl::show_state(RunState state) {

@@ -5,6 +5,7 @@
 
 #include "model/requests/patch_forecast.h"
 #include "model/snapshot.h"
+#include "session/error_report.h"
 #include "support/newest_result.h"
 #include "window/base/window_views.h"
 
@@ -27,6 +28,13 @@ class SolveControl : public QObject {
  signals:
   /// A solve was refused, because nothing emits light.
   void light_missing();
+
+ public slots:
+  /// Solves to the end, with the changed materials.
+  void finish();
+  /// Carries out a step of ColorChoice::errors(): solves again with more passes, more iterations or
+  /// divided patches.
+  void take_step(const transillum::NextStep& step);
 
  private:
   void run();

@@ -337,15 +337,19 @@ void Measuring::add_up() {
 
 }  // namespace
 
-MeasuredSolve measured_solve(const SolveSession& session) {
-  if (session.diffuse() == nullptr) {
+void check_measurable(const SolveOptions& options, bool lobes_take_part) {
+  if (lobes_take_part) {
     throw InputError("errors by cause: not available with lobes (glossy)");
   }
-  if (traits_of(session.options().scheme).renews_directions) {
+  if (traits_of(options.scheme).renews_directions) {
     throw InputError(fmt::format(
         "errors by cause: not available with the scheme {}, which renews its directions",
-        name_of(session.options().scheme)));
+        name_of(options.scheme)));
   }
+}
+
+MeasuredSolve measured_solve(const SolveSession& session) {
+  check_measurable(session.options(), session.glossy() != nullptr);
   MeasuredSolve solve;
   solve.solution = session.solution();
   solve.options = session.options();

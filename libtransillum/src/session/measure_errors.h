@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "session/error_report.h"
 #include "transillum/cancellation.h"
@@ -10,8 +11,11 @@
 
 namespace transillum {
 
+/// Checks that the errors of a solve can be measured.
+/// @throws InputError where lobes take part, or with a scheme that renews directions
+void check_measurable(const SolveOptions& options, bool lobes_take_part);
 /// The solve of a finished session.
-/// @throws InputError where lobes took part, or with a scheme that renews directions
+/// @throws InputError as check_measurable()
 MeasuredSolve measured_solve(const SolveSession& session);
 
 /// A measurement under way.
@@ -29,5 +33,9 @@ using MeasurementObserver = std::function<void(Measurement, double fraction)>;
 ErrorReport measure_errors(const MeasuredSolve& solve, const Cancellation& cancellation = {},
                            const MeasurementObserver& observer = {},
                            std::int64_t most_patches = 2'000'000);
+
+/// The patches that a step divides, in ascending order; empty if it divides none.
+/// @param solve whose errors were measured
+std::vector<PatchId> divided_patches(const NextStep& step, const MeasuredSolve& solve);
 
 }  // namespace transillum

@@ -6,6 +6,7 @@
 
 #include "radiosity/error/surfaces.h"
 #include "scene/build/division.h"
+#include "session/measure_errors.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -84,6 +85,23 @@ std::vector<NextStep> next_steps(const ErrorReport& report, const MeasuredSolve&
   std::stable_sort(steps.begin(), steps.end(),
                    [](const NextStep& a, const NextStep& b) { return a.gain() > b.gain(); });
   return steps;
+}
+
+std::vector<PatchId> divided_patches(const NextStep& step, const MeasuredSolve& solve) {
+  const bool all = step.kind == NextStep::Kind::divide_all;
+  std::vector<PatchId> patches;
+  if (!all && step.kind != NextStep::Kind::divide_surface) {
+    return patches;
+  }
+  const Scene& scene = *solve.solution.scene;
+  const Surfaces surfaces = find_surfaces(scene, Measured::reflecting, solve.options.goal.surfaces);
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const std::int32_t s = surfaces.of(i);
+    if (all || (s != Surfaces::none && at(surfaces.surfaces, s).name == step.surface)) {
+      patches.push_back(i);
+    }
+  }
+  return patches;
 }
 
 }  // namespace transillum

@@ -42,78 +42,29 @@ double allowed_for_patches(const CauseErrors& errors, double total) {
   return caution * std::max(directions_fraction * total, total - others);
 }
 
-class TotalPlan {
- public:
-  TotalPlan(SolveRequest request, const TotalGoal& goal, const TotalObservers& observers,
-            const Cancellation& cancellation)
-      : request_(std::move(request)),
-        goal_(goal),
-        observers_(observers),
-        cancellation_(cancellation),
-        directions_(std::max(directions_fraction * goal.total, first_directions)) {}
+}  // namespace
 
-  TotalSolve run() {
-    for (bool last = false; !last;) {
-      try {
-        last = make_stage();
-      } catch (const Canceled&) {
-        if (outcome_.stages.empty()) {
-          throw;
-        }
-        outcome_.solve.solution.complete = false;
-        last = end(TotalEnd::canceled);
-      }
-    }
-    outcome_.solve.solution.accuracy.reset();
-    return std::move(outcome_);
+TotalPlan::TotalPlan(SolveRequest request, const TotalGoal& goal)
+    : request_(std::move(request)),
+      goal_(goal),
+      directions_(std::max(directions_fraction * goal.total, first_directions)) {
+  if (!(goal.total > 0 && goal.total < 1)) {
+    throw InputError(fmt::format("total error: {} is not above 0 and below 1", goal.total));
   }
-
- private:
-  /// @returns whether it was the last
-  bool make_stage();
-  bool end(TotalEnd why) {
-    outcome_.end = why;
-    return true;
-  }
-  /// @returns whether that is not possible
-  bool divide_worst();
-  /// @returns whether the directions cannot become better
-  bool ask_more_of_directions(const CauseErrors& worst);
-
-  SolveRequest request_;
-  TotalGoal goal_;
-  const TotalObservers& observers_;
-  const Cancellation& cancellation_;
-  double directions_;  ///< error of directions to reach in the next stage
-  TotalSolve outcome_;
-};
-
-bool TotalPlan::make_stage() {
-  const auto start = std::chrono::steady_clock::now();
   request_.options.goal.accuracy = directions_;
-  SolveSession session(request_, cancellation_);
-  session.advance(SolveSession::Until::finished, [&](const SolveSession& watched) {
-    if (observers_.solve) {
-      observers_.solve(watched);
-    }
-    return true;
-  });
-  MeasuredSolve solve = measured_solve(session);
-  outcome_.report = measure_errors(solve, cancellation_, observers_.measurement);
-  outcome_.solve = std::move(solve);
-  const ErrorReport& report = outcome_.report;
+}
+
+bool TotalPlan::next(const MeasuredSolve& solve, const ErrorReport& report, double seconds,
+                     const Cancellation& cancellation) {
   if (report.worst < 0) {
     return end(TotalEnd::reached);
   }
   const SurfaceCauses& worst = at(report.surfaces, report.worst);
-  outcome_.stages.push_back({.patches = request_.scene->patch_count(),
-                             .passes = outcome_.solve.options.directions,
-                             .surface = worst.name,
-                             .errors = worst.errors,
-                             .seconds = seconds_since(start)});
-  if (observers_.stage) {
-    observers_.stage(outcome_.stages.back());
-  }
+  stages_.push_back({.patches = request_.scene->patch_count(),
+                     .passes = solve.options.directions,
+                     .surface = worst.name,
+                     .errors = worst.errors,
+                     .seconds = seconds});
   if (report.total() <= goal_.total) {
     return end(TotalEnd::reached);
   }
@@ -124,15 +75,18 @@ bool TotalPlan::make_stage() {
       report.surfaces.begin(), report.surfaces.end(), [&](const SurfaceCauses& surface) {
         return surface.errors.patches > allowed_for_patches(surface.errors, goal_.total) / caution;
       });
-  return patches_too_large ? divide_worst() : ask_more_of_directions(worst.errors);
+  const bool follows = patches_too_large ? divide_worst(report, cancellation)
+                                         : ask_more_of_directions(worst.errors, solve);
+  request_.options.goal.accuracy = directions_;
+  return follows;
 }
 
-bool TotalPlan::divide_worst() {
+bool TotalPlan::divide_worst(const ErrorReport& report, const Cancellation& cancellation) {
   const Scene& scene = *request_.scene;
   std::vector<PatchId> chosen =
-      patches_to_divide(scene, outcome_.report, goal_.total, request_.options.goal.surfaces);
+      patches_to_divide(scene, report, goal_.total, request_.options.goal.surfaces);
   const std::int64_t count = scene.patch_count();
-  DividedScene divided = divide(scene, chosen, cancellation_);
+  DividedScene divided = divide(scene, chosen, cancellation);
   if (divided.scene->patch_count() == count) {
     return end(TotalEnd::thin);
   }
@@ -149,25 +103,24 @@ bool TotalPlan::divide_worst() {
   request_.tree = nullptr;
   request_.shot = nullptr;
   double expected = 0;
-  for (const SurfaceCauses& surface : outcome_.report.surfaces) {
+  for (const SurfaceCauses& surface : report.surfaces) {
     expected = std::max(expected, std::sqrt(left_within) * surface.errors.patches);
   }
   directions_ = std::max(directions_fraction * goal_.total, early_fraction * expected);
-  return false;
+  return true;
 }
 
-bool TotalPlan::ask_more_of_directions(const CauseErrors& worst) {
+bool TotalPlan::ask_more_of_directions(const CauseErrors& worst, const MeasuredSolve& solve) {
   const double others = worst.total() - worst.directions;
   const double asked = std::min(caution * (goal_.total - others), 0.9 * directions_);
-  const auto& accuracy = outcome_.solve.solution.accuracy;
+  const auto& accuracy = solve.solution.accuracy;
   if (asked < least_directions_fraction * goal_.total || (accuracy && !accuracy->reached)) {
     return end(TotalEnd::directions);
   }
+  request_.tree = solve.tree;
   directions_ = asked;
-  return false;
+  return true;
 }
-
-}  // namespace
 
 std::string end_text(TotalEnd end, std::int64_t most_patches) {
   switch (end) {
@@ -239,10 +192,37 @@ std::vector<PatchId> patches_to_divide(const Scene& scene, const ErrorReport& re
 
 TotalSolve solve_to_total(SolveRequest request, const TotalGoal& goal,
                           const TotalObservers& observers, const Cancellation& cancellation) {
-  if (!(goal.total > 0 && goal.total < 1)) {
-    throw InputError(fmt::format("total error: {} is not above 0 and below 1", goal.total));
+  TotalPlan plan(std::move(request), goal);
+  TotalSolve outcome;
+  try {
+    for (bool follows = true; follows;) {
+      const auto start = std::chrono::steady_clock::now();
+      SolveSession session(plan.request(), cancellation);
+      session.advance(SolveSession::Until::finished, [&](const SolveSession& watched) {
+        if (observers.solve) {
+          observers.solve(watched);
+        }
+        return true;
+      });
+      MeasuredSolve solve = measured_solve(session);
+      outcome.report = measure_errors(solve, cancellation, observers.measurement);
+      outcome.solve = std::move(solve);
+      follows = plan.next(outcome.solve, outcome.report, seconds_since(start), cancellation);
+      if (observers.stage && !plan.stages().empty()) {
+        observers.stage(plan.stages().back());
+      }
+    }
+    outcome.end = plan.end();
+  } catch (const Canceled&) {
+    if (plan.stages().empty()) {
+      throw;
+    }
+    outcome.solve.solution.complete = false;
+    outcome.end = TotalEnd::canceled;
   }
-  return TotalPlan(std::move(request), goal, observers, cancellation).run();
+  outcome.stages = plan.stages();
+  outcome.solve.solution.accuracy.reset();
+  return outcome;
 }
 
 }  // namespace transillum

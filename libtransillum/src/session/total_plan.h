@@ -43,6 +43,45 @@ struct TotalGoal {
   std::int64_t patches = 1'000'000;  ///< the most patches to make
 };
 
+/// The stages of a solve to a total error. For each, the caller solves request(), measures its
+/// errors, and calls next(). A third of the total is meant for directions, the rest for patches:
+/// with errors that fall as 1/M and as the size of patches, this costs least. Not thread-safe.
+class TotalPlan {
+ public:
+  /// @param request without rounds; its options need no goal.
+  /// @throws InputError
+  TotalPlan(SolveRequest request, const TotalGoal& goal);
+
+  /// The next solve.
+  const SolveRequest& request() const { return request_; }
+  /// To be called after each stage.
+  /// @param solve of request().
+  /// @param report its errors.
+  /// @param seconds wall time of both.
+  /// @returns whether another stage follows
+  /// @throws Canceled while patches are divided
+  bool next(const MeasuredSolve& solve, const ErrorReport& report, double seconds,
+            const Cancellation& cancellation = {});
+  /// The finished stages, in order; none in a scene without surfaces to measure.
+  const std::vector<TotalStage>& stages() const { return stages_; }
+  /// Why no stage follows. Requires that next() has returned false.
+  TotalEnd end() const { return end_; }
+
+ private:
+  bool end(TotalEnd why) {
+    end_ = why;
+    return false;
+  }
+  bool divide_worst(const ErrorReport& report, const Cancellation& cancellation);
+  bool ask_more_of_directions(const CauseErrors& worst, const MeasuredSolve& solve);
+
+  SolveRequest request_;
+  TotalGoal goal_;
+  double directions_;  ///< error of directions to reach in the next stage
+  std::vector<TotalStage> stages_;
+  TotalEnd end_ = TotalEnd::reached;
+};
+
 /// The outcome of a solve to a total error.
 struct TotalSolve {
   MeasuredSolve solve;             ///< the last solve
@@ -65,10 +104,8 @@ struct TotalObservers {
 std::vector<PatchId> patches_to_divide(const Scene& scene, const ErrorReport& report, double total,
                                        const std::vector<std::string>& kept = {});
 
-/// Solves until the total error of each surface is at most as asked. A third of it is meant for
-/// directions, the rest for patches: with errors that fall as 1/M and as the size of patches, this
-/// costs least.
-/// @param request without rounds; its options need no goal.
+/// Solves until the total error of each surface is at most as asked, by the stages of a TotalPlan.
+/// @param request as for TotalPlan.
 /// Once a stage has ended, a cancellation ends it with the result of that stage.
 /// @throws InputError; Canceled in the first stage; exceptions of solve()
 TotalSolve solve_to_total(SolveRequest request, const TotalGoal& goal,

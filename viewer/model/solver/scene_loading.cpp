@@ -110,19 +110,19 @@ std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, const R
 }
 
 std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
-                                                   const std::shared_ptr<const LoadedScene>& whole,
+                                                   const std::shared_ptr<const LoadedScene>& start,
                                                    const Cancellation& cancellation) {
-  if (session.scene() == whole->scene) {
-    return whole;
+  if (session.scene() == start->scene) {
+    return start;
   }
   auto loaded = std::make_shared<LoadedScene>();
   loaded->scene = session.scene();
-  loaded->description = whole->description;
+  loaded->description = start->description;
   loaded->tree = session.tree();
-  loaded->back_fraction = whole->back_fraction;
-  loaded->seconds_load = whole->seconds_load;
+  loaded->back_fraction = start->back_fraction;
+  loaded->seconds_load = start->seconds_load;
   loaded->seconds_bsp = session.statistics().seconds_bsp;
-  loaded->whole = whole;
+  loaded->whole = whole_of(start);
   examine(*loaded, cancellation);
   return loaded;
 }

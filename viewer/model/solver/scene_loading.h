@@ -30,10 +30,10 @@ std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, const R
                                                 const Cancellation& cancellation);
 
 /// The scene of a session with its tree, which must be prepared.
-/// @param whole  the scene before patches were divided; it is returned if none were
+/// @param start  the scene before patches were divided; it is returned if none were
 /// @throws Canceled
 std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
-                                                   const std::shared_ptr<const LoadedScene>& whole,
+                                                   const std::shared_ptr<const LoadedScene>& start,
                                                    const Cancellation& cancellation);
 
 }  // namespace transillum::viewer

@@ -90,12 +90,12 @@ void SolveRunner::stop() {
   replace_goal({});
 }
 
-void SolveRunner::restart(const SolveOptions& options, Goal then, const RefineChoice& refine) {
+void SolveRunner::restart(SolveWorker::Choice choice, Goal then) {
   const std::lock_guard lock(mutex_);
   if (!loading_) {
     solve_cancellation_.cancel();
   }
-  restart_request_ = {options, refine};
+  restart_request_ = std::move(choice);
   relight_request_.reset();
   replace_goal(then);
 }

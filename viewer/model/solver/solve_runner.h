@@ -52,7 +52,11 @@ class SolveRunner : public SolveMessages {
   void relight(std::shared_ptr<const PatchMaterials> materials);
   /// Starts a new solve run of the open scene.
   /// @param refine rounds that come first; not of a result file
-  void restart(const SolveOptions& options, Goal then, const RefineChoice& refine = {});
+  void restart(const SolveOptions& options, Goal then, const RefineChoice& refine = {}) {
+    restart({options, refine}, then);
+  }
+  /// The same, beginning with patches that have been divided.
+  void restart(SolveWorker::Choice choice, Goal then);
 
   /// From now on, the solve is saved to `file`: every minute, some seconds after iterations and
   /// when it pauses; with an interval of 0 after every pass. A solve that is replaced is not kept,

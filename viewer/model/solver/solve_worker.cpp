@@ -8,33 +8,50 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/measured_errors.h"
 #include "model/solver/session_snapshot.h"
+#include "scene/build/division.h"
 
 namespace transillum::viewer {
 
 SolveWorker::Prepared SolveWorker::load(const std::string& spec, const RunOptions& options,
                                         const Cancellation& cancellation) {
   options.solve.validate();
-  return prepare(loaded_scene(spec, options, report_, cancellation),
-                 {options.solve, options.refine}, cancellation);
+  return prepare(loaded_scene(spec, options, report_, cancellation), choice_of(options),
+                 cancellation);
 }
 
-SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& whole,
+SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& start,
                                            Choice choice, const Cancellation& cancellation) {
-  if (whole->stored) {
+  if (start->stored) {
     choice.refine = {};
+    choice.total = false;
   }
-  SolveRequest request{.scene = whole->scene, .options = choice.solve, .tree = whole->tree};
+  SolveRequest request{.scene = start->scene, .options = choice.solve, .tree = start->tree};
+  if (!choice.divided.empty()) {
+    request.scene = divide(*start->scene, choice.divided, cancellation).scene;
+    request.tree = nullptr;
+  }
   if (choice.refine.is_set()) {
     request.refine = choice.refine.options();
   }
   request.keep_form_factors = true;
   request.preparing = phase_reporter(report_);
+  std::optional<TotalPlan> total;
+  if (choice.total) {
+    check_measurable(choice.solve, choice.solve.glossy && has_lobes(*request.scene));
+    TotalGoal goal{.total = choice.solve.goal.accuracy};
+    if (choice.refine.patches > 0) {
+      goal.patches = choice.refine.patches;
+    }
+    total.emplace(std::move(request), goal);
+    request = total->request();
+  }
   SolveSession session(std::move(request), cancellation);
   checkpoints_.resume(session, choice.solve);
   session.prepare();
-  auto loaded = with_patches_of(session, whole, cancellation);
-  return {std::move(choice), std::move(loaded), std::move(session), cancellation};
+  auto loaded = with_patches_of(session, start, cancellation);
+  return {std::move(choice), std::move(loaded), std::move(session), cancellation, std::move(total)};
 }
 
 void SolveWorker::open(Prepared prepared) {
@@ -52,7 +69,13 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation) {
   }
   unstarted_ = choice;
   cancellation_ = cancellation;
-  Prepared prepared = prepare(whole_of(loaded_), std::move(choice), cancellation);
+  // Another scene may have been opened since.
+  if (choice.from && whole_of(choice.from) != whole_of(loaded_)) {
+    choice.from = nullptr;
+    choice.divided.clear();
+  }
+  const auto begun = choice.from ? choice.from : whole_of(loaded_);
+  Prepared prepared = prepare(begun, std::move(choice), cancellation);
   if (prepared.session.glossy() != nullptr && materials_) {
     set_materials(prepared.session);
   }
@@ -63,8 +86,12 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation) {
 
 void SolveWorker::replace_session(Prepared prepared) {
   history_ = SolveHistory(prepared.session);
-  checkpoints_.begin(prepared.loaded->scene, prepared.choice.solve);
+  // A stage of a total error could not be continued: its accuracy is another.
+  checkpoints_.begin(prepared.total ? nullptr : prepared.loaded->scene, prepared.choice.solve);
   choice_ = std::move(prepared.choice);
+  total_ = std::move(prepared.total);
+  total_end_.reset();
+  errors_ = nullptr;
   session_ = std::move(prepared.session);
   cancellation_ = prepared.cancellation;
   unstarted_.reset();
@@ -92,7 +119,8 @@ void SolveWorker::set_materials(SolveSession& session) const {
 }
 
 bool SolveWorker::has_more() const {
-  return unstarted_ || (session_ && !failed_ && !session_->finished());
+  const bool stages_follow = total_ && !total_end_;
+  return unstarted_ || (session_ && !failed_ && (!session_->finished() || stages_follow));
 }
 
 RunState SolveWorker::state() const {
@@ -112,7 +140,7 @@ void SolveWorker::advance(const Goal& goal) {
     start(*unstarted_, cancellation_);
   }
   const bool by_passes = goal.kind == Goal::Kind::passes;
-  if (!has_more() || (by_passes && !session_->in_rounds() && is_ready() &&
+  if (!has_more() || (by_passes && !session_->in_rounds() && !total_ && is_ready() &&
                       session_->passes_done() >= goal.passes)) {
     return;
   }
@@ -125,7 +153,7 @@ void SolveWorker::advance(const Goal& goal) {
 /// @returns whether to continue with the next stage
 bool SolveWorker::advance_stage(const Goal& goal) {
   using Until = SolveSession::Until;
-  const bool to_passes = goal.kind == Goal::Kind::passes && !session_->in_rounds();
+  const bool to_passes = goal.kind == Goal::Kind::passes && !session_->in_rounds() && !total_;
   const Until until = goal.kind == Goal::Kind::direction   ? Until::direction
                       : goal.kind == Goal::Kind::iteration ? Until::iteration
                                                            : Until::stage;
@@ -140,6 +168,9 @@ bool SolveWorker::advance_stage(const Goal& goal) {
     }
     if (session_->is_prepared() && !session_->finished()) {
       checkpoints_.save_if_due(*session_, true);
+    }
+    if (session_->finished() && has_more()) {
+      end_stage_of_total();
     }
     prepare_stage();
   } catch (const Canceled&) {
@@ -160,6 +191,46 @@ bool SolveWorker::advance_stage(const Goal& goal) {
   return continues;
 }
 
+void SolveWorker::interrupt(bool interrupted) {
+  interrupted_ = interrupted;
+  if (interrupted) {
+    const std::lock_guard lock(measuring_mutex_);
+    measuring_.cancel();
+  }
+}
+
+/// Measures the errors of the finished solve, and begins the next one for a total error, if the
+/// measurement is not interrupted.
+void SolveWorker::end_stage_of_total() {
+  post_snapshot();
+  Cancellation measuring;
+  {
+    const std::lock_guard lock(measuring_mutex_);
+    measuring_ = measuring;
+  }
+  if (interrupted_) {
+    return;
+  }
+  MeasuredErrors errors{loaded_, measured_solve(*session_), {}};
+  try {
+    errors.report =
+        measure_errors(errors.solve, measuring, by_percent([this](Measurement what, int percent) {
+                         report_(text_of(what), 0.01 * percent);
+                       }));
+  } catch (const Canceled&) {
+    cancellation_.throw_if_canceled();
+    return;
+  }
+  errors_ = std::make_shared<const MeasuredErrors>(std::move(errors));
+  const double seconds = session_->seconds() + errors_->report.measurements.seconds;
+  if (!total_->next(errors_->solve, errors_->report, seconds, cancellation_)) {
+    total_end_ = total_->end();
+    return;
+  }
+  post_snapshot();
+  session_ = SolveSession(total_->request(), cancellation_);
+}
+
 /// Prepares the present stage of the session, unless that is done.
 void SolveWorker::prepare_stage() {
   if (is_ready()) {
@@ -167,15 +238,16 @@ void SolveWorker::prepare_stage() {
   }
   // A round has its own tree, even if no patch was divided before the last round.
   const auto is_round = [this] { return session_->tree() != loaded_->tree; };
-  if (is_round()) {
+  if (is_round() && !total_) {
     checkpoints_.resume(*session_, choice_.solve);
   }
   session_->prepare();
   if (is_round()) {
     take_patches(with_patches_of(*session_, whole_of(loaded_), cancellation_));
-    checkpoints_.begin(loaded_->scene, choice_.solve);
+    checkpoints_.begin(total_ ? nullptr : loaded_->scene, choice_.solve);
     stage_result_ = nullptr;
   }
+  errors_ = nullptr;
   history_ = SolveHistory(*session_);
   form_factors_.clear();
 }
@@ -212,8 +284,9 @@ void SolveWorker::take_patches(const std::shared_ptr<const LoadedScene>& loaded)
 /// place of the finished one before it.
 bool SolveWorker::holds_patches_back() const {
   constexpr qint64 longest_ms = 1000;
-  return patches_to_announce_ && !session_->rounds().empty() &&
-         session_->progress().iteration == 0 && since_patches_.elapsed() < longest_ms;
+  const bool is_first = session_->rounds().empty() && !(total_ && !total_->stages().empty());
+  return patches_to_announce_ && !is_first && session_->progress().iteration == 0 &&
+         since_patches_.elapsed() < longest_ms;
 }
 
 void SolveWorker::post_snapshot() {
@@ -247,6 +320,13 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   if (choice_.refine.is_set()) {
     snapshot->refinement = {session.refined_scene()->patch_count(), session.in_rounds()};
   }
+  if (total_) {
+    snapshot->options.goal = choice_.solve.goal;
+    snapshot->total = {total_->stages(), total_end_};
+    snapshot->refinement = {session.scene()->patch_count(), !total_end_};
+    snapshot->accuracy.reset();
+  }
+  snapshot->measured_errors = errors_;
   snapshot->materials = session.glossy() != nullptr ? materials_ : nullptr;
   history_.write_to(*snapshot);
   if (!snapshot->directions) {

@@ -4,8 +4,10 @@
 #include <QElapsedTimer>
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/solver/checkpoint_keeper.h"
 #include "model/solver/goal.h"
@@ -13,6 +15,7 @@
 #include "model/solver/session_snapshot.h"
 #include "model/solver/solve_messages.h"
 #include "options/option_table.h"
+#include "session/total_plan.h"
 #include "transillum/cancellation.h"
 #include "transillum/solve_session.h"
 
@@ -29,14 +32,24 @@ class SolveWorker {
   /// The options of a run.
   struct Choice {
     SolveOptions solve;
-    RefineChoice refine;
+    RefineChoice refine = {};
+    /// The patches to begin with; null for the scene as it was read.
+    std::shared_ptr<const LoadedScene> from = nullptr;
+    std::vector<PatchId> divided = {};  ///< patches of `from` that are divided first
+    /// The accuracy of `solve` is about all errors; refine.patches limits the patches.
+    bool total = false;
   };
+  /// The run of the scene as it was read.
+  static Choice choice_of(const RunOptions& options) {
+    return {.solve = options.solve, .refine = options.refine, .total = options.total};
+  }
   /// A run that can begin.
   struct Prepared {
     Choice choice;
     std::shared_ptr<const LoadedScene> loaded;  ///< with the patches of the first round
     SolveSession session;
-    Cancellation cancellation;  ///< cancels the session
+    Cancellation cancellation;       ///< cancels the session
+    std::optional<TotalPlan> total;  ///< if chosen; the session is its first stage
   };
 
   /// @param messages get snapshots, scenes and progress
@@ -63,8 +76,8 @@ class SolveWorker {
   /// The state between two calls.
   RunState state() const;
 
-  /// Whether advance() pauses after the current pass.
-  void interrupt(bool interrupted = true) { interrupted_ = interrupted; }
+  /// Whether advance() pauses after the current pass; a measurement of errors begins anew then.
+  void interrupt(bool interrupted = true);
   /// The least time between two snapshots, ms.
   void set_refresh_interval(int milliseconds) { refresh_interval_ = milliseconds; }
   /// From now on, snapshots include the form factors if they fit into the memory limit.
@@ -73,11 +86,12 @@ class SolveWorker {
   CheckpointKeeper& checkpoints() { return checkpoints_; }
 
  private:
-  Prepared prepare(const std::shared_ptr<const LoadedScene>& whole, Choice choice,
+  Prepared prepare(const std::shared_ptr<const LoadedScene>& start, Choice choice,
                    const Cancellation& cancellation);
   void replace_session(Prepared prepared);
   void prepare_stage();
   bool advance_stage(const Goal& goal);
+  void end_stage_of_total();
   bool observe();
   bool has_more() const;
   bool is_ready() const;
@@ -103,7 +117,12 @@ class SolveWorker {
   std::optional<Choice> unstarted_;  // to be started; session_ is canceled
   Cancellation cancellation_;        // cancels session_ or unstarted_
   bool failed_ = false;              // session_ cannot be continued
-  SolveHistory history_;             // history of the present stage
+  std::optional<TotalPlan> total_;   // where session_ is a stage of it
+  std::optional<TotalEnd> total_end_;
+  std::shared_ptr<const MeasuredErrors> errors_;  // of session_; null if not known
+  std::mutex measuring_mutex_;                    // guards measuring_
+  Cancellation measuring_;                        // cancels a measurement of errors
+  SolveHistory history_;                          // history of the present stage
   /// The end of the last stage, if the goal has a time limit.
   std::shared_ptr<const SolverSnapshot> stage_result_;
 

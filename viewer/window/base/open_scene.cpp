@@ -36,7 +36,8 @@ bool OpenScene::is_open(const std::string& spec, const RunOptions& options) cons
 
 bool OpenScene::at_start() const {
   return !shown_ || (shown_->progress.iteration == 0 && shown_->progress.direction == 0 &&
-                     shown_->statistics.refinement.empty());
+                     shown_->statistics.refinement.empty() &&
+                     !(shown_->total && !shown_->total->stages.empty()));
 }
 
 bool OpenScene::outlined_by_default() const {

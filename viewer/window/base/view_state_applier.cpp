@@ -6,6 +6,7 @@
 
 #include "lessons/page_control.h"
 #include "map/map_view.h"
+#include "model/snapshot_values.h"
 #include "scene/color_controls.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
@@ -206,7 +207,7 @@ void ViewStateApplier::start_run() {
                        (requested_.solve.passes == 0 && !snapshot->statistics.refinement.empty()));
   if (beyond || !is_requested(*snapshot)) {
     run_before_ = snapshot->kept_directions.front();
-    frame_.state.runner.restart(solve, requested_.solve, requested_.options.refine);
+    frame_.state.runner.restart(SolveWorker::choice_of(requested_.options), requested_.solve);
   } else {
     frame_.state.runner.set_goal(requested_.solve);
   }
@@ -249,6 +250,8 @@ bool ViewStateApplier::run_has_started() const {
 
 bool ViewStateApplier::is_requested(const SolverSnapshot& snapshot) const {
   return is_run_of(snapshot.options, requested_.options.solve) &&
+         snapshot.total.has_value() == requested_.options.total &&
+         (!snapshot.total || snapshot.refine.patches == requested_.options.refine.patches) &&
          (snapshot.refine == requested_.options.refine || snapshot.loaded->stored);
 }
 
@@ -405,9 +408,12 @@ ViewState ViewStateApplier::state() const {
   state.scene = frame_.state.scene.spec();
   // A scene that has just been loaded has no snapshot yet.
   const auto snapshot = frame_.state.scene.snapshot();
-  state.options = {snapshot ? snapshot->options : settings_.solve_options(),
-                   frame_.state.scene.options(), frame_.state.scene.input(),
-                   snapshot ? snapshot->refine : settings_.refinement()};
+  state.options = settings_.options();
+  state.options.scene = frame_.state.scene.options();
+  state.options.input = frame_.state.scene.input();
+  if (snapshot) {
+    state.options = run_options_of(*snapshot, state.options.scene, state.options.input);
+  }
   const RunState run = frame_.state.runner.state();
   if ((frame_.state.scene.loaded()->stored && !snapshot) ||
       (snapshot && snapshot->refinement.left && run != RunState::running)) {
@@ -446,7 +452,8 @@ void ViewStateApplier::read_patches(ViewState& state) const {
 ViewState ViewStateApplier::appearance() const {
   ViewState state;
   const ColorChoice& colors = frame_.state.colors;
-  if (colors.quantity() != Quantity::difference) {
+  // Kept runs and measured errors are not part of a state.
+  if (colors.quantity() != Quantity::difference && colors.quantity() != Quantity::measured_error) {
     state.quantity = colors.quantity();
   }
   state.range_rule = colors.range_rule();

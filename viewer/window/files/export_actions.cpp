@@ -11,6 +11,7 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "io/results/error_report_files.h"
 #include "map/map_canvas.h"
 #include "map/map_view.h"
 #include "model/snapshot_values.h"
@@ -118,6 +119,9 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
       make_action(this, "export_colors", tr("Export for Blender or the web…"),
                   tr("Write the colors shown, without lighting, as glTF or PLY; with a preview"));
   connect(export_colors_, &QAction::triggered, this, &ExportActions::choose_colors);
+  export_errors_ = make_action(this, "export_errors", tr("Measured errors…"),
+                               tr("Write the measured errors as a page (HTML) or JSON"));
+  connect(export_errors_, &QAction::triggered, this, &ExportActions::choose_errors);
   const auto enable = [this] {
     export_colors_->setEnabled(frame_.state.scene.snapshot() != nullptr);
     save_scene_->setEnabled(frame_.state.scene.snapshot() != nullptr);
@@ -171,6 +175,17 @@ void ExportActions::write_colors(const QString& path, const DisplayOptions& disp
   display.validate();
   writer_.request({path, [file, snapshot, display] {
                      transillum::write_result(file, solution_of(*snapshot), display);
+                   }});
+}
+
+void ExportActions::write_errors(const QString& path) {
+  const auto errors = frame_.state.colors.errors();
+  if (!errors) {
+    throw InputError("no errors have been measured yet");
+  }
+  check_error_report_path(path.toStdString());
+  writer_.request({path, [path, errors] {
+                     write_error_report(path.toStdString(), errors->report, errors->solve);
                    }});
 }
 
@@ -290,6 +305,11 @@ void ExportActions::choose_colors() {
                  name_with(ending.toLatin1()),
                  [&](const QString& path) { write_colors(path, dialog.display()); });
   }
+}
+
+void ExportActions::choose_errors() {
+  write_chosen(tr("Measured errors"), tr("Reports (*.html *.json)"), name_with("-errors.html"),
+               [this](const QString& path) { write_errors(path); });
 }
 
 void ExportActions::choose_scene_file() {

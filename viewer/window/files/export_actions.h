@@ -41,6 +41,10 @@ class ExportActions : public QObject {
   /// programs: .glb, .gltf or .ply. A worker thread writes, as in write_result().
   /// @throws InputError where it is clear at once that it cannot be written
   void write_colors(const QString& path, const DisplayOptions& display);
+  /// Writes the measured errors as a page, .html, or as .json. A worker thread writes, as in
+  /// write_result().
+  /// @throws InputError where it is clear at once that they cannot be written
+  void write_errors(const QString& path);
   /// Writes the open scene with the changes of materials and the faces turned, as OBJ with MTL, in
   /// meters. A worker thread writes, as in write_result().
   /// @throws InputError where it is clear at once that it cannot be written
@@ -49,6 +53,8 @@ class ExportActions : public QObject {
   QAction* save_scene_action() const { return save_scene_; }
   /// For the menu File.
   QAction* color_action() const { return export_colors_; }
+  /// Writes ColorChoice::errors(), for the page that shows them.
+  QAction* errors_action() const { return export_errors_; }
   /// Whether a result or a scene is still being written.
   bool writing() const { return writer_.busy(); }
   /// Writes the map of the step in focus, as vectors (.svg) or in the formats of write_map().
@@ -65,6 +71,7 @@ class ExportActions : public QObject {
   void choose_result();
   void choose_scene_file();
   void choose_colors();
+  void choose_errors();
   void choose_map();
   void choose_charts();
   void choose_values();
@@ -78,7 +85,7 @@ class ExportActions : public QObject {
   MapView& map_;
   ConvergenceView& charts_;
   QList<QAction*> actions_;
-  QAction *save_scene_, *export_colors_;
+  QAction *save_scene_, *export_colors_, *export_errors_;
 
   struct FileToWrite {
     QString path;

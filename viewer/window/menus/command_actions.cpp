@@ -7,6 +7,7 @@
 #include <QMenu>
 
 #include "model/command_text.h"
+#include "model/snapshot_values.h"
 #include "solve/settings_panel.h"
 #include "widgets/build.h"
 
@@ -42,9 +43,8 @@ CommandActions::CommandActions(const WindowFrame& frame) : QObject(&frame.window
 void CommandActions::add_to(QMenu& menu) const { menu.addActions({solve_, map_, step_}); }
 
 RunOptions CommandActions::options() const {
-  const SolverSnapshot& snapshot = *frame_.state.scene.snapshot();
-  return {snapshot.options, frame_.state.scene.options(), frame_.state.scene.input(),
-          snapshot.refine};
+  return run_options_of(*frame_.state.scene.snapshot(), frame_.state.scene.options(),
+                        frame_.state.scene.input());
 }
 
 void CommandActions::copy_solve() {
