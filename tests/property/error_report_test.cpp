@@ -253,9 +253,18 @@ TEST(ErrorReport, DividesASampleWherePatchesWouldBeTooMany) {
               0.5 * worst(all).errors.patches);
 }
 
+TotalSolve solve_to_total(const TotalGoal& goal) {
+  TotalPlan plan({.scene = load_scene("cornell-box")}, goal);
+  while (!plan.finished()) {
+    SolveSession session(plan.stage());
+    session.advance(SolveSession::Until::finished);
+    plan.assess(session);
+  }
+  return plan.outcome();
+}
+
 TEST(TotalError, IsReachedByDividingPatchesAndAddingDirections) {
-  const TotalSolve total =
-      solve_to_total({.scene = load_scene("cornell-box")}, {.total = 0.25, .patches = 5000});
+  const TotalSolve total = solve_to_total({.total = 0.25, .patches = 5000});
   EXPECT_EQ(total.end, TotalEnd::reached);
   EXPECT_LE(total.report.total(), 0.25);
   ASSERT_GE(total.stages.size(), 2U);
@@ -264,8 +273,7 @@ TEST(TotalError, IsReachedByDividingPatchesAndAddingDirections) {
 }
 
 TEST(TotalError, EndsWhereThePatchesAreTooMany) {
-  const TotalSolve total =
-      solve_to_total({.scene = load_scene("cornell-box")}, {.total = 0.1, .patches = 60});
+  const TotalSolve total = solve_to_total({.total = 0.1, .patches = 60});
   EXPECT_EQ(total.end, TotalEnd::patches);
   EXPECT_LE(total.solve.solution.scene->patch_count(), 60);
   EXPECT_EQ(total.stages.back().patches, total.solve.solution.scene->patch_count());

@@ -224,7 +224,7 @@ int run_solve(SolveCall& call) {
       .sums = shared ? processes().sums : nullptr};
   say_of_lobes(call, options, *prepared.scene);
   Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
-                      : job.total                        ? solve_by_total(job)
+                      : job.total                        ? solve_by_total(job, checkpoint)
                       : takes_directions(options.engine) ? solve_by_passes(job, checkpoint)
                                                          : solve_without_directions(job);
   display.clear();

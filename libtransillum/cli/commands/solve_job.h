@@ -50,7 +50,7 @@ struct SolveJob {
 /// @param checkpoint made here if the job has one.
 Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint);
 /// Solves until the total error is as asked; the job has `total` and `errors`.
-Solution solve_by_total(const SolveJob& job);
+Solution solve_by_total(const SolveJob& job, std::optional<Checkpoint>& checkpoint);
 /// Solves with the form factors in a file.
 Solution solve_with_stored(const std::string& file, const SolveJob& job);
 /// Solves with an engine that makes no passes.

@@ -7,13 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "base/seconds_since.h"
 #include "radiosity/error/surfaces.h"
+#include "radiosity/state_archive.h"
 #include "scene/build/division.h"
 #include "scene/build/patch_count.h"
 #include "session/next_steps.h"
@@ -40,131 +39,6 @@ double allowed_for_patches(const CauseErrors& errors, double total) {
   const double others =
       std::min(errors.directions, directions_fraction * total) + errors.iterations + errors.method;
   return caution * std::max(directions_fraction * total, total - others);
-}
-
-class TotalPlan {
- public:
-  TotalPlan(SolveRequest request, const TotalGoal& goal, const TotalObservers& observers,
-            const Cancellation& cancellation)
-      : request_(std::move(request)),
-        goal_(goal),
-        observers_(observers),
-        cancellation_(cancellation),
-        directions_(std::max(directions_fraction * goal.total, first_directions)) {}
-
-  TotalSolve run() {
-    for (bool last = false; !last;) {
-      try {
-        last = make_stage();
-      } catch (const Canceled&) {
-        if (outcome_.stages.empty()) {
-          throw;
-        }
-        outcome_.solve.solution.complete = false;
-        last = end(TotalEnd::canceled);
-      }
-    }
-    outcome_.solve.solution.accuracy.reset();
-    return std::move(outcome_);
-  }
-
- private:
-  /// @returns whether it was the last
-  bool make_stage();
-  bool end(TotalEnd why) {
-    outcome_.end = why;
-    return true;
-  }
-  /// @returns whether that is not possible
-  bool divide_worst();
-  /// @returns whether the directions cannot become better
-  bool ask_more_of_directions(const CauseErrors& worst);
-
-  SolveRequest request_;
-  TotalGoal goal_;
-  const TotalObservers& observers_;
-  const Cancellation& cancellation_;
-  double directions_;  ///< error of directions to reach in the next stage
-  TotalSolve outcome_;
-};
-
-bool TotalPlan::make_stage() {
-  const auto start = std::chrono::steady_clock::now();
-  request_.options.goal.accuracy = directions_;
-  SolveSession session(request_, cancellation_);
-  session.advance(SolveSession::Until::finished, [&](const SolveSession& watched) {
-    if (observers_.solve) {
-      observers_.solve(watched);
-    }
-    return true;
-  });
-  MeasuredSolve solve = measured_solve(session);
-  outcome_.report = measure_errors(solve, cancellation_, observers_.measurement);
-  outcome_.solve = std::move(solve);
-  const ErrorReport& report = outcome_.report;
-  if (report.worst < 0) {
-    return end(TotalEnd::reached);
-  }
-  const SurfaceCauses& worst = at(report.surfaces, report.worst);
-  outcome_.stages.push_back({.patches = request_.scene->patch_count(),
-                             .passes = outcome_.solve.options.directions,
-                             .surface = worst.name,
-                             .errors = worst.errors,
-                             .seconds = seconds_since(start)});
-  if (observers_.stage) {
-    observers_.stage(outcome_.stages.back());
-  }
-  if (report.total() <= goal_.total) {
-    return end(TotalEnd::reached);
-  }
-  if (worst.errors.iterations + worst.errors.method >= goal_.total) {
-    return end(TotalEnd::other);
-  }
-  const bool patches_too_large = std::any_of(
-      report.surfaces.begin(), report.surfaces.end(), [&](const SurfaceCauses& surface) {
-        return surface.errors.patches > allowed_for_patches(surface.errors, goal_.total) / caution;
-      });
-  return patches_too_large ? divide_worst() : ask_more_of_directions(worst.errors);
-}
-
-bool TotalPlan::divide_worst() {
-  const Scene& scene = *request_.scene;
-  std::vector<PatchId> chosen =
-      patches_to_divide(scene, outcome_.report, goal_.total, request_.options.goal.surfaces);
-  const std::int64_t count = scene.patch_count();
-  DividedScene divided = divide(scene, chosen, cancellation_);
-  if (divided.scene->patch_count() == count) {
-    return end(TotalEnd::thin);
-  }
-  if (divided.scene->patch_count() > goal_.patches) {
-    return end(TotalEnd::patches);
-  }
-  try {
-    check_memory(scene.name(), divided.scene->patch_count(), request_.options.replicas,
-                 request_.options.basis == Basis::linear ? 3 : 1);
-  } catch (const std::runtime_error&) {
-    return end(TotalEnd::memory);
-  }
-  request_.scene = divided.scene;
-  request_.tree = nullptr;
-  request_.shot = nullptr;
-  double expected = 0;
-  for (const SurfaceCauses& surface : outcome_.report.surfaces) {
-    expected = std::max(expected, std::sqrt(left_within) * surface.errors.patches);
-  }
-  directions_ = std::max(directions_fraction * goal_.total, early_fraction * expected);
-  return false;
-}
-
-bool TotalPlan::ask_more_of_directions(const CauseErrors& worst) {
-  const double others = worst.total() - worst.directions;
-  const double asked = std::min(caution * (goal_.total - others), 0.9 * directions_);
-  const auto& accuracy = outcome_.solve.solution.accuracy;
-  if (asked < least_directions_fraction * goal_.total || (accuracy && !accuracy->reached)) {
-    return end(TotalEnd::directions);
-  }
-  directions_ = asked;
-  return false;
 }
 
 }  // namespace
@@ -237,12 +111,136 @@ std::vector<PatchId> patches_to_divide(const Scene& scene, const ErrorReport& re
   return chosen;
 }
 
-TotalSolve solve_to_total(SolveRequest request, const TotalGoal& goal,
-                          const TotalObservers& observers, const Cancellation& cancellation) {
+TotalPlan::TotalPlan(SolveRequest request, const TotalGoal& goal)
+    : request_(std::move(request)), goal_(goal) {
   if (!(goal.total > 0 && goal.total < 1)) {
     throw InputError(fmt::format("total error: {} is not above 0 and below 1", goal.total));
   }
-  return TotalPlan(std::move(request), goal, observers, cancellation).run();
+  request_.options.goal.accuracy = std::max(directions_fraction * goal.total, first_directions);
+}
+
+void TotalPlan::assess(const SolveSession& session, const Cancellation& cancellation,
+                       const MeasurementObserver& observer) {
+  MeasuredSolve solve = measured_solve(session);
+  outcome_.report = measure_errors(solve, cancellation, observer);
+  outcome_.solve = std::move(solve);
+  const ErrorReport& report = outcome_.report;
+  if (report.worst < 0) {
+    return end(TotalEnd::reached);
+  }
+  const SurfaceCauses& worst = at(report.surfaces, report.worst);
+  outcome_.stages.push_back({.patches = request_.scene->patch_count(),
+                             .passes = outcome_.solve.options.directions,
+                             .surface = worst.name,
+                             .errors = worst.errors,
+                             .seconds = session.seconds() + report.measurements.seconds});
+  divisions_.emplace_back();
+  if (report.total() <= goal_.total) {
+    return end(TotalEnd::reached);
+  }
+  if (worst.errors.iterations + worst.errors.method >= goal_.total) {
+    return end(TotalEnd::other);
+  }
+  const bool patches_too_large = std::any_of(
+      report.surfaces.begin(), report.surfaces.end(), [&](const SurfaceCauses& surface) {
+        return surface.errors.patches > allowed_for_patches(surface.errors, goal_.total) / caution;
+      });
+  if (patches_too_large) {
+    divide_worst(cancellation);
+  } else {
+    ask_more_of_directions(worst.errors);
+  }
+}
+
+void TotalPlan::end(TotalEnd why) {
+  outcome_.end = why;
+  outcome_.solve.solution.complete = why != TotalEnd::canceled;
+  outcome_.solve.solution.accuracy.reset();
+  finished_ = true;
+}
+
+void TotalPlan::cancel() { end(TotalEnd::canceled); }
+
+void TotalPlan::divide_worst(const Cancellation& cancellation) {
+  const Scene& scene = *request_.scene;
+  std::vector<PatchId> chosen =
+      patches_to_divide(scene, outcome_.report, goal_.total, request_.options.goal.surfaces);
+  const std::shared_ptr<const Scene> divided = divide(scene, chosen, cancellation).scene;
+  if (divided->patch_count() == scene.patch_count()) {
+    return end(TotalEnd::thin);
+  }
+  if (divided->patch_count() > goal_.patches) {
+    return end(TotalEnd::patches);
+  }
+  try {
+    check_memory(scene.name(), divided->patch_count(), request_.options.replicas,
+                 request_.options.basis == Basis::linear ? 3 : 1);
+  } catch (const std::runtime_error&) {
+    return end(TotalEnd::memory);
+  }
+  solve_next(divided);
+  divisions_.back() = std::move(chosen);
+  double expected = 0;
+  for (const SurfaceCauses& surface : outcome_.report.surfaces) {
+    expected = std::max(expected, std::sqrt(left_within) * surface.errors.patches);
+  }
+  request_.options.goal.accuracy =
+      std::max(directions_fraction * goal_.total, early_fraction * expected);
+}
+
+void TotalPlan::solve_next(const std::shared_ptr<const Scene>& scene) {
+  request_.scene = scene;
+  request_.tree = nullptr;
+  request_.shot = nullptr;
+}
+
+void TotalPlan::ask_more_of_directions(const CauseErrors& worst) {
+  double& directions = request_.options.goal.accuracy;
+  const double others = worst.total() - worst.directions;
+  const double asked = std::min(caution * (goal_.total - others), 0.9 * directions);
+  const auto& accuracy = outcome_.solve.solution.accuracy;
+  if (asked < least_directions_fraction * goal_.total || (accuracy && !accuracy->reached)) {
+    return end(TotalEnd::directions);
+  }
+  directions = asked;
+}
+
+template <class Archive, class Self>
+void TotalPlan::visit_state(Archive& archive, Self& self) {
+  auto& stages = self.outcome_.stages;
+  archive(self.request_.options.goal.accuracy, self.divisions_);
+  if constexpr (Archive::reading) {
+    stages.resize(self.divisions_.size());
+  }
+  for (auto& stage : stages) {
+    std::vector<char> surface(stage.surface.begin(), stage.surface.end());
+    archive(stage.patches, stage.passes, surface, stage.errors.directions, stage.errors.patches,
+            stage.errors.iterations, stage.errors.method, stage.seconds);
+    if constexpr (Archive::reading) {
+      stage.surface.assign(surface.begin(), surface.end());
+    }
+  }
+}
+
+void TotalPlan::save(std::ostream& out) const {
+  StateOutput archive(out);
+  visit_state(archive, *this);
+}
+
+void TotalPlan::restore(std::istream& in, std::uint64_t size, const Cancellation& cancellation) {
+  StateInput archive(in, size);
+  visit_state(archive, *this);
+  archive.finish();
+  archive.require(request_.options.goal.accuracy > 0 && request_.options.goal.accuracy < 1);
+  for (const std::vector<PatchId>& chosen : divisions_) {
+    const PatchId count = request_.scene->patch_count();
+    for (const PatchId i : chosen) {
+      archive.require(i >= 0 && i < count);
+    }
+    if (!chosen.empty()) {
+      solve_next(divide(*request_.scene, chosen, cancellation).scene);
+    }
+  }
 }
 
 }  // namespace transillum
