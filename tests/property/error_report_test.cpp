@@ -181,15 +181,14 @@ ErrorReport report_of(const ScenePointer& scene, const SolveOptions& options) {
   return measure_errors(solve_to_measure(scene, options));
 }
 
+const SolveOptions in_replicas{.directions = 64, .replicas = 4};
+
 const SurfaceCauses& worst(const ErrorReport& report) { return at(report.surfaces, report.worst); }
 
 TEST(ErrorReport, ExpectsOfADivisionAboutWhatItBrings) {
   const ScenePointer scene = built_in("cornell-box", 60);
-  SolveOptions options;
-  options.directions = 64;
-  options.replicas = 4;
-  const ErrorReport before = report_of(scene, options);
-  const ErrorReport after = report_of(divide(*scene, all_patches(*scene)).scene, options);
+  const ErrorReport before = report_of(scene, in_replicas);
+  const ErrorReport after = report_of(divide(*scene, all_patches(*scene)).scene, in_replicas);
   ASSERT_EQ(before.surfaces.size(), after.surfaces.size());
   for (std::size_t s = 0; s < before.surfaces.size(); ++s) {
     const SurfaceCauses& surface = before.surfaces[s];
@@ -202,9 +201,7 @@ TEST(ErrorReport, ExpectsOfADivisionAboutWhatItBrings) {
 }
 
 TEST(ErrorReport, HasNoErrorOfPatchesWhereTheLightIsTheSameEverywhere) {
-  SolveOptions options;
-  options.directions = 64;
-  options.replicas = 4;
+  SolveOptions options = in_replicas;
   options.normalize = Normalization::rows;
   const ErrorReport report = report_of(load_scene("furnace"), options);
   EXPECT_LT(worst(report).errors.patches, 1e-7);  // the root of rounding
@@ -215,9 +212,7 @@ TEST(ErrorReport, HasNoErrorOfPatchesWhereTheLightIsTheSameEverywhere) {
 
 TEST(ErrorReport, FindsTheErrorOfAnEngineAndOfFewIterations) {
   const ScenePointer scene = load_scene("cornell-box");
-  SolveOptions options;
-  options.directions = 64;
-  options.replicas = 4;
+  SolveOptions options = in_replicas;
   const ErrorReport exact = report_of(scene, options);
   options.engine = Engine::zbuffer;
   options.engine_options.resolution = 32;
@@ -241,10 +236,7 @@ TEST(ErrorReport, AddsReplicasToASolveWithoutAny) {
 
 TEST(ErrorReport, DividesASampleWherePatchesWouldBeTooMany) {
   const ScenePointer scene = built_in("cornell-box", 200);
-  SolveOptions options;
-  options.directions = 64;
-  options.replicas = 4;
-  const MeasuredSolve solve = solve_to_measure(scene, options);
+  const MeasuredSolve solve = solve_to_measure(scene, in_replicas);
   const ErrorReport all = measure_errors(solve);
   const ErrorReport sample = measure_errors(solve, {}, {}, 2 * scene->patch_count());
   EXPECT_LT(sample.measurements.divided_fraction, 0.34);

@@ -200,8 +200,8 @@ TotalSolve total_solve(int events, const std::string& file) {
   while (!plan.finished()) {
     SolveSession session(plan.stage());
     int count = 0;
-    const bool paused = session.advance(
-        SolveSession::Until::finished, [&](const SolveSession&) { return ++count != events; });
+    const bool paused = session.advance(SolveSession::Until::finished,
+                                        [&](const SolveSession&) { return ++count != events; });
     if (paused) {
       std::stringstream state;
       plan.save(state);

@@ -163,13 +163,13 @@ void resume(SolveSession& session, const SolveJob& job, Checkpoint& checkpoint,
   checkpoint.resume(session);
   const SolveProgress progress = session.progress();
   job.display.clear();
-  print_message(fmt::format(
-      "{}: resumes after {}{} iterations{}, {:.3g} s done", job.checkpoint.file, stages,
-      progress.iteration,
-      progress.direction > 0
-          ? fmt::format(" and {} of {} passes", progress.direction, progress.passes)
-          : "",
-      session.seconds()));
+  print_message(
+      fmt::format("{}: resumes after {}{} iterations{}, {:.3g} s done", job.checkpoint.file, stages,
+                  progress.iteration,
+                  progress.direction > 0
+                      ? fmt::format(" and {} of {} passes", progress.direction, progress.passes)
+                      : "",
+                  session.seconds()));
 }
 
 void advance(SolveSession& session, const SolveJob& job, Saver& saver) {

@@ -233,9 +233,10 @@ void TotalPlan::restore(std::istream& in, std::uint64_t size, const Cancellation
   archive.finish();
   archive.require(request_.options.goal.accuracy > 0 && request_.options.goal.accuracy < 1);
   for (const std::vector<PatchId>& chosen : divisions_) {
-    const PatchId count = request_.scene->patch_count();
+    PatchId before = -1;
     for (const PatchId i : chosen) {
-      archive.require(i >= 0 && i < count);
+      archive.require(before < i && i < request_.scene->patch_count());
+      before = i;
     }
     if (!chosen.empty()) {
       solve_next(divide(*request_.scene, chosen, cancellation).scene);

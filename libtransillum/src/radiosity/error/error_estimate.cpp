@@ -183,6 +183,21 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces&
   }
 }
 
+std::vector<Rgb> bias_of_iteration(const Scene& scene, const ErrorSurfaces& surfaces,
+                                   const SolveStatistics& statistics, const std::vector<Rgb>& b) {
+  if (statistics.iteration_records.empty()) {
+    return {};
+  }
+  const IterationRecord& last = statistics.iteration_records.back();
+  const double change = last.change * max_norm(reflected_light(scene, b));
+  const double contraction = std::max(statistics.rho_max, is_rounding(last) ? 0 : last.contraction);
+  std::vector<Rgb> left;
+  for (const Rgb& rho : surfaces.reflectance) {
+    left.push_back(distance_to_limit(change, contraction) * rho);
+  }
+  return left;
+}
+
 /// An error D of H makes B wrong by X = rho D + rho F X. F X is taken as the mean of X over the
 /// area, the mean of rho D over 1 - the mean of rho. What is reflected of errors is treated as
 /// uniform, so that linear terms are wrong by rho D alone.
