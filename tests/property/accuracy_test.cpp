@@ -405,6 +405,15 @@ TEST(Accuracy, FirstShotIsTakenWhereItPays) {
   EXPECT_TRUE(find_small_sources(box).empty());
   const Scene furnace(describe_scene("furnace"), {});
   EXPECT_TRUE(first_shot_sources(furnace, first_shot_where_it_pays, 128).empty());
+  // Linear terms cost a shot more than passes, so it pays from more directions on.
+  const auto least_directions = [&box](Basis basis) {
+    int directions = 1;
+    while (first_shot_sources(box, first_shot_where_it_pays, directions, basis).empty()) {
+      ++directions;
+    }
+    return directions;
+  };
+  EXPECT_GT(least_directions(Basis::linear), 1.1 * least_directions(Basis::constant));
 }
 
 TEST(Accuracy, LimitsHoldAsOftenAsStated) {

@@ -181,15 +181,14 @@ ErrorReport report_of(const ScenePointer& scene, const SolveOptions& options) {
   return measure_errors(solve_to_measure(scene, options));
 }
 
+const SolveOptions in_replicas{.directions = 64, .replicas = 4};
+
 const SurfaceCauses& worst(const ErrorReport& report) { return at(report.surfaces, report.worst); }
 
 TEST(ErrorReport, ExpectsOfADivisionAboutWhatItBrings) {
   const ScenePointer scene = built_in("cornell-box", 60);
-  SolveOptions options;
-  options.directions = 64;
-  options.replicas = 4;
-  const ErrorReport before = report_of(scene, options);
-  const ErrorReport after = report_of(divide(*scene, all_patches(*scene)).scene, options);
+  const ErrorReport before = report_of(scene, in_replicas);
+  const ErrorReport after = report_of(divide(*scene, all_patches(*scene)).scene, in_replicas);
   ASSERT_EQ(before.surfaces.size(), after.surfaces.size());
   for (std::size_t s = 0; s < before.surfaces.size(); ++s) {
     const SurfaceCauses& surface = before.surfaces[s];
@@ -202,9 +201,7 @@ TEST(ErrorReport, ExpectsOfADivisionAboutWhatItBrings) {
 }
 
 TEST(ErrorReport, HasNoErrorOfPatchesWhereTheLightIsTheSameEverywhere) {
-  SolveOptions options;
-  options.directions = 64;
-  options.replicas = 4;
+  SolveOptions options = in_replicas;
   options.normalize = Normalization::rows;
   const ErrorReport report = report_of(load_scene("furnace"), options);
   EXPECT_LT(worst(report).errors.patches, 1e-7);  // the root of rounding
@@ -215,9 +212,7 @@ TEST(ErrorReport, HasNoErrorOfPatchesWhereTheLightIsTheSameEverywhere) {
 
 TEST(ErrorReport, FindsTheErrorOfAnEngineAndOfFewIterations) {
   const ScenePointer scene = load_scene("cornell-box");
-  SolveOptions options;
-  options.directions = 64;
-  options.replicas = 4;
+  SolveOptions options = in_replicas;
   const ErrorReport exact = report_of(scene, options);
   options.engine = Engine::zbuffer;
   options.engine_options.resolution = 32;
@@ -241,10 +236,7 @@ TEST(ErrorReport, AddsReplicasToASolveWithoutAny) {
 
 TEST(ErrorReport, DividesASampleWherePatchesWouldBeTooMany) {
   const ScenePointer scene = built_in("cornell-box", 200);
-  SolveOptions options;
-  options.directions = 64;
-  options.replicas = 4;
-  const MeasuredSolve solve = solve_to_measure(scene, options);
+  const MeasuredSolve solve = solve_to_measure(scene, in_replicas);
   const ErrorReport all = measure_errors(solve);
   const ErrorReport sample = measure_errors(solve, {}, {}, 2 * scene->patch_count());
   EXPECT_LT(sample.measurements.divided_fraction, 0.34);
@@ -253,9 +245,18 @@ TEST(ErrorReport, DividesASampleWherePatchesWouldBeTooMany) {
               0.5 * worst(all).errors.patches);
 }
 
+TotalSolve solve_to_total(const TotalGoal& goal) {
+  TotalPlan plan({.scene = load_scene("cornell-box")}, goal);
+  while (!plan.finished()) {
+    SolveSession session(plan.stage());
+    session.advance(SolveSession::Until::finished);
+    plan.assess(session);
+  }
+  return plan.outcome();
+}
+
 TEST(TotalError, IsReachedByDividingPatchesAndAddingDirections) {
-  const TotalSolve total =
-      solve_to_total({.scene = load_scene("cornell-box")}, {.total = 0.25, .patches = 5000});
+  const TotalSolve total = solve_to_total({.total = 0.25, .patches = 5000});
   EXPECT_EQ(total.end, TotalEnd::reached);
   EXPECT_LE(total.report.total(), 0.25);
   ASSERT_GE(total.stages.size(), 2U);
@@ -264,8 +265,7 @@ TEST(TotalError, IsReachedByDividingPatchesAndAddingDirections) {
 }
 
 TEST(TotalError, EndsWhereThePatchesAreTooMany) {
-  const TotalSolve total =
-      solve_to_total({.scene = load_scene("cornell-box")}, {.total = 0.1, .patches = 60});
+  const TotalSolve total = solve_to_total({.total = 0.1, .patches = 60});
   EXPECT_EQ(total.end, TotalEnd::patches);
   EXPECT_LE(total.solve.solution.scene->patch_count(), 60);
   EXPECT_EQ(total.stages.back().patches, total.solve.solution.scene->patch_count());

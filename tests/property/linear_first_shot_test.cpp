@@ -10,6 +10,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "session/measure_errors.h"
 #include "support/imperfect_scenes.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
@@ -257,6 +258,25 @@ TEST(LinearFirstShot, ItsErrorIsIncludedInTheErrorFromReplicas) {
   EXPECT_LT(std::sqrt(squares / all), solution.error.rms_limit);
   EXPECT_GT(rms(Basis::linear), rms(Basis::constant));
   EXPECT_LT(rms(Basis::linear), 1e-2);
+}
+
+/// Nothing stands between, so that means are exact and only linear terms are wrong.
+TEST(LinearFirstShot, TheErrorOfItsLinearTermsCountsInReportsAndGoals) {
+  const auto solved = [](double accuracy) {
+    SolveOptions options{.directions = 64, .basis = Basis::linear, .first_shot = 0, .replicas = 4};
+    options.goal.accuracy = accuracy;
+    SolveSession session({.scene = floor_and_lamp(0.8, false).scene(), .options = options});
+    session.advance(SolveSession::Until::finished);
+    return session;
+  };
+  const SolveSession one = solved(0);
+  const double limit = one.solution().error.surfaces.limit;
+  const ErrorReport report = measure_errors(measured_solve(one));
+  EXPECT_GT(limit, 1e-5);
+  EXPECT_NEAR(at(report.surfaces, report.worst).errors.method, limit, 0.01 * limit);
+  const SolveSession finer = solved(0.1 * limit);
+  EXPECT_TRUE(finer.accuracy()->reached);
+  EXPECT_GT(finer.options().engine_options.points, ShotOptions::default_points);
 }
 
 /// The length of a linear term, which does not depend on the axes that a patch has.

@@ -45,6 +45,15 @@ std::shared_ptr<const Scene> box_scene(Change of) {
   return std::make_shared<const Scene>(box_description(of));
 }
 
+/// The same with lobes that reflect next to nothing on a third of the faces.
+inline std::shared_ptr<const Scene> box_with_weak_lobes() {
+  return box_scene([](std::size_t f, Material& material) {
+    if (f % 3 == 0) {
+      material.lobe = phong(1e-200, 10);
+    }
+  });
+}
+
 /// The same with lobes of three kinds on about half of the faces; rho + k <= 0.8.
 inline SceneDescription glossy_box_description() {
   return box_description([](std::size_t f, Material& material) {

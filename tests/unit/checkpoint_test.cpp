@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "io/runs/study_checkpoint.h"
+#include "session/total_plan.h"
 #include "support/refusal.h"
 #include "support/temporary_folder.h"
 
@@ -187,6 +188,57 @@ TEST(Checkpoint, AnAccuracyIsReachedByTheSameStages) {
   }
 }
 
+/// A solve to a total error; where it is interrupted, it is continued from its file.
+/// @param events of each stage after which it is interrupted; 0: never
+TotalSolve total_solve(int events, const std::string& file) {
+  SolveOptions options;
+  options.goal.accuracy = 0.2;
+  const TotalGoal goal{.total = options.goal.accuracy};
+  const SolveRequest request{.scene = box(), .options = options};
+  TotalPlan plan(request, goal);
+  Checkpoint checkpoint(file, *request.scene, options, true);
+  while (!plan.finished()) {
+    SolveSession session(plan.stage());
+    int count = 0;
+    const bool paused = session.advance(SolveSession::Until::finished,
+                                        [&](const SolveSession&) { return ++count != events; });
+    if (paused) {
+      std::stringstream state;
+      plan.save(state);
+      checkpoint.set_total_plan(state.str());
+      checkpoint.save(session);
+      std::istringstream saved(checkpoint.total_plan());
+      plan = TotalPlan(request, goal);
+      plan.restore(saved, saved.str().size());
+      session = SolveSession(plan.stage());
+      checkpoint.resume(session);
+      session.advance(SolveSession::Until::finished);
+    }
+    plan.assess(session);
+  }
+  return plan.outcome();
+}
+
+TEST(Checkpoint, ATotalErrorIsReachedByTheSameStages) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "t.tck";
+  const TotalSolve whole = total_solve(0, file);
+  ASSERT_EQ(whole.end, TotalEnd::reached);
+  ASSERT_GE(whole.stages.size(), 3U);
+  for (const int events : {1, 30, 55}) {
+    SCOPED_TRACE(events);
+    const TotalSolve resumed = total_solve(events, file);
+    EXPECT_TRUE(whole.solve.solution.radiosity == resumed.solve.solution.radiosity);
+    EXPECT_EQ(whole.report.total(), resumed.report.total());
+    ASSERT_EQ(whole.stages.size(), resumed.stages.size());
+    for (std::size_t k = 0; k < whole.stages.size(); ++k) {
+      EXPECT_EQ(whole.stages[k].patches, resumed.stages[k].patches);
+      EXPECT_EQ(whole.stages[k].surface, resumed.stages[k].surface);
+      EXPECT_EQ(whole.stages[k].errors.total(), resumed.stages[k].errors.total());
+    }
+  }
+}
+
 /// A file with the state in the middle of a solve.
 class CheckpointFile : public ::testing::Test {
  protected:
@@ -250,6 +302,8 @@ TEST_F(CheckpointFile, IsRefusedByAnotherSolveWhichNamesTheDifference) {
   other = options_;
   other.goal.accuracy = 0.1;
   EXPECT_THAT(refused(other), HasSubstr("accuracy is not given there and 0.1 here"));
+  EXPECT_THAT(refusal([&] { Checkpoint(file_, *scene_, options_, true).total_plan(); }),
+              HasSubstr("total is false there and true here"));
   EXPECT_THAT(refused_scene(describe_scene("furnace")),
               HasSubstr("of another scene: \"cornell-box\" has 27 patches, this one has"));
   SceneDescription description = describe_scene("cornell-box");

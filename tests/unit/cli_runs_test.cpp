@@ -98,12 +98,14 @@ TEST(CliRuns, KillsAtRandomMomentsChangeNoBit) {
   expect_kills_change_nothing(4, {"--scheme", "semi-iterative", "-m", "60", "--iterations", "20"},
                               2);
   expect_kills_change_nothing(4, {"--accuracy", "1%"}, 3);
+  expect_kills_change_nothing(3, {"--accuracy", "25%", "--total"}, 7);
 }
 
 TEST(CliRuns, NightlyFiftyKillsChangeNoBit) {
   expect_kills_change_nothing(50, {}, 4);
   expect_kills_change_nothing(50, {"--replicas", "4", "--threads", "1"}, 5);
   expect_kills_change_nothing(50, {"--accuracy", "0.5%"}, 6);
+  expect_kills_change_nothing(50, {"--accuracy", "15%", "--total"}, 8);
 }
 
 /// A file that may not grow stands for a disk that is full.

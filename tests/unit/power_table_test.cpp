@@ -22,9 +22,11 @@ struct Solved {
   FormFactors form_factors;
 };
 
-Solved solved(const std::shared_ptr<const Scene>& scene, Normalization normalize) {
+Solved solved(const std::shared_ptr<const Scene>& scene, Normalization normalize,
+              std::optional<double> first_shot = {}) {
   RadiositySolver solver(
-      scene, {.directions = 64, .normalize = normalize, .first_shot = {}, .tolerance = 1e-13});
+      scene,
+      {.directions = 64, .normalize = normalize, .first_shot = first_shot, .tolerance = 1e-13});
   solver.advance(RadiositySolver::Until::finished);
   return {solver.solution(), solver.form_factors()};
 }
@@ -45,8 +47,12 @@ std::shared_ptr<const Scene> grouped(const char* spec) {
 }
 
 TEST(PowerTable, PartsSumToTheStatistics) {
-  for (const SurfaceKind by : {SurfaceKind::group, SurfaceKind::material}) {
-    const Solved s = solved(grouped("cornell-box"), Normalization::none);
+  for (const auto& [by, first_shot] :
+       {std::pair(SurfaceKind::group, std::optional<double>()),
+        std::pair(SurfaceKind::material, std::optional<double>()),
+        std::pair(SurfaceKind::group, std::optional(0.0)),
+        std::pair(SurfaceKind::material, std::optional(first_shot_where_it_pays))}) {
+    const Solved s = solved(grouped("cornell-box"), Normalization::none, first_shot);
     const PowerTable table = power_table(s.solution, by, &s.form_factors);
     ASSERT_GT(table.surfaces.size(), 2U);
     double area = 0;
@@ -77,8 +83,10 @@ TEST(PowerTable, ExchangesAreReciprocal) {
   // A part that emits B sends to another part the power that it would receive from it at the same
   // B.
   Solved s = solved(grouped("rooms"), Normalization::none);
-  for (Rgb& b : s.solution.radiosity) {
-    b = {1, 1, 1};
+  for (std::size_t i = 0; i < s.solution.radiosity.size(); ++i) {
+    const double sum = s.solution.form_factor_sums[i];
+    s.solution.radiosity[i] = {1, 1, 1};
+    s.solution.irradiance[i] = {sum, sum, sum};
   }
   const auto exchanged = power_table(s.solution, SurfaceKind::group, &s.form_factors).exchanged;
   for (std::size_t i = 0; i < exchanged.size(); ++i) {

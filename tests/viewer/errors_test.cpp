@@ -294,8 +294,13 @@ class ErrorsTest : public QObject {
     QVERIFY(options.total);
     QVERIFY(!shown.window->findChild<QComboBox*>("refine_by")->isEnabled());
     const auto scene = shown.window->snapshot()->loaded->scene;
-    const TotalSolve expected = solve_to_total({.scene = scene, .options = options.solve},
-                                               {.total = 0.25, .patches = 5000});
+    TotalPlan plan({.scene = scene, .options = options.solve}, {.total = 0.25, .patches = 5000});
+    while (!plan.finished()) {
+      SolveSession session(plan.stage());
+      session.advance(SolveSession::Until::finished);
+      plan.assess(session);
+    }
+    const TotalSolve& expected = plan.outcome();
     QVERIFY(expected.stages.size() > 1);
 
     // A pause, perhaps while errors are measured, changes no bit.

@@ -35,6 +35,10 @@ using namespace test;
 
 namespace {
 
+SolveOptions under_a_sky() {
+  return {.directions = 64, .tolerance = 1e-10, .sky = {.exitance = {5, 6, 7}}};
+}
+
 /// The open scene with its panel in front.
 struct Shown {
   QTemporaryDir folder;
@@ -57,6 +61,11 @@ struct Shown {
   bool listed(const char* name = "group_table") const {
     return solved.ready &&
            wait_for([&] { return !panel->busy() && view(name).model()->rowCount() > 0; });
+  }
+  /// Solves the scene. @returns whether it has finished
+  bool run() const {
+    window().runner.run();
+    return wait_for([&] { return window().runner.state() == RunState::finished; });
   }
   QString cell(const char* table, int row, int column) const {
     return view(table).model()->index(row, column).data().toString();
@@ -321,12 +330,8 @@ class SurfacesTest : public QObject {
   }
 
   void the_light_of_the_sky_remains_when_materials_change() {
-    SolveOptions options{.directions = 64, .tolerance = 1e-10};
-    options.sky.exitance = {5, 6, 7};
-    const Shown shown({}, options);
-    QVERIFY(shown.listed());
-    shown.window().runner.run();
-    QVERIFY(wait_for([&] { return shown.window().runner.state() == RunState::finished; }));
+    const Shown shown({}, under_a_sky());
+    QVERIFY(shown.listed() && shown.run());
     shown.window().runner.include_form_factors();
     QVERIFY(wait_for([&] { return shown.window().snapshot()->form_factors != nullptr; }));
     const auto before = shown.window().snapshot();
@@ -341,12 +346,8 @@ class SurfacesTest : public QObject {
   }
 
   void light_paths_have_the_light_of_the_sky() {
-    SolveOptions options{.directions = 64, .tolerance = 1e-10};
-    options.sky.exitance = {5, 6, 7};
-    const Shown shown({}, options);
-    QVERIFY(shown.listed());
-    shown.window().runner.run();
-    QVERIFY(wait_for([&] { return shown.window().runner.state() == RunState::finished; }));
+    const Shown shown({}, under_a_sky());
+    QVERIFY(shown.listed() && shown.run());
     shown.window().selection.select(0);
     shown.window().views().docks.bring_to_front("paths");
     auto* panel = shown.window().findChild<PathPanel*>("path_panel");

@@ -130,8 +130,8 @@ void check_share(const SolveCall& call) {
   if (!shard_file) {
     throw InputError("--shard: requires --out FILE.tsh, once, and no other result");
   }
-  for (const char* option : {"--stats", "--error-report", "--by", "--series", "--checkpoint",
-                             "--factors", "--exposure", "--light-map"}) {
+  for (const char* option :
+       {"--stats", "--by", "--series", "--checkpoint", "--factors", "--exposure", "--light-map"}) {
     refuse_unless(false, *call.scene.command, option, "not used with --shard; `merge` takes it");
   }
 }
@@ -146,39 +146,30 @@ void check_refinement(const SolveCall& call) {
                 "not available with several processes");
 }
 
-/// Refuses reports of errors that cannot be measured.
-void check_error_report(const SolveCall& call) {
-  if (call.error_report.empty()) {
+/// Refuses errors by cause that cannot be measured.
+void check_errors(const SolveCall& call) {
+  const bool total = call.scene.run.total;
+  if (call.error_report.empty() && !total) {
     return;
   }
   const CLI::App& command = *call.scene.command;
-  const char* option = "--error-report";
+  const char* option = total ? "--total" : "--error-report";
   refuse_unless(!processes().sums, command, option, "not available with several processes");
-  refuse_unless(call.shards.empty(), command, option, "not available with shards");
+  refuse_unless(call.shards.empty() && !call.share, command, option, "not available with shards");
   refuse_unless(call.factors.empty(), command, option, "not used with --factors");
   refuse_unless(!call.options().glossy, command, option, "not used with --glossy");
   refuse_unless(takes_directions(call.options().engine), command, option,
                 fmt::format("not used with engine {}", name_of(call.options().engine)));
   refuse_unless(!traits_of(call.options().scheme).renews_directions, command, option,
                 fmt::format("not used with scheme {}", name_of(call.options().scheme)));
+  if (call.error_report.empty()) {
+    return;
+  }
   if (is_standard_output(call.error_report)) {
     throw InputError(
         "--error-report: standard output (-) takes only the CSV of --out; name a file");
   }
   check_error_report_path(call.error_report);
-}
-
-/// Refuses what a solve to a total error cannot have.
-void check_total(const SolveCall& call) {
-  if (!call.scene.run.total) {
-    return;
-  }
-  for (const char* option : {"--shard", "--factors", "--checkpoint", "--series"}) {
-    refuse_unless(false, *call.scene.command, option, "not used with --total");
-  }
-  refuse_unless(!processes().sums, *call.scene.command, "--total",
-                "not available with several processes");
-  refuse_unless(call.shards.empty(), *call.scene.command, "--total", "not available with shards");
 }
 
 /// Refuses checkpoints where there are no passes.
@@ -202,8 +193,7 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
   check_share(call);
   check_refinement(call);
   check_run(call);
-  check_error_report(call);
-  check_total(call);
+  check_errors(call);
   std::vector<std::string> files = given_files(call.out);
   if (!call.share) {
     for (const std::string& file : files) {

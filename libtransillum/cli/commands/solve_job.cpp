@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "cli/interruption.h"
 #include "cli/messages.h"
@@ -66,6 +67,14 @@ class Saver {
   Saver(const SolveJob& job, std::optional<Checkpoint>& checkpoint)
       : job_(job), checkpoint_(checkpoint) {}
 
+  /// Saves the state of a plan with each solve from now on.
+  void set_plan(const TotalPlan& plan) {
+    if (checkpoint_) {
+      std::ostringstream state;
+      plan.save(state);
+      checkpoint_->set_total_plan(state.str());
+    }
+  }
   void save_if_due(const SolveSession& session) {
     constexpr double between_stages = 1;
     if (job_.sums) {
@@ -138,24 +147,29 @@ void run_rounds(SolveSession& session, const SolveJob& job) {
   }
 }
 
-/// Makes the checkpoint that the job asks for, and resumes the solve in its file, if there is one.
-void resume(SolveSession& session, const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
+/// Makes the checkpoint that the job asks for.
+/// @returns whether there is a run in its file to resume
+bool make_checkpoint(const Scene& scene, const SolveJob& job,
+                     std::optional<Checkpoint>& checkpoint) {
   if (job.checkpoint.file.empty()) {
-    return;
+    return false;
   }
-  checkpoint.emplace(job.checkpoint.file, *session.scene(), job.options);
-  if (!can_resume(job.checkpoint)) {
-    return;
-  }
-  checkpoint->resume(session);
+  checkpoint.emplace(job.checkpoint.file, scene, job.options, job.total.has_value());
+  return can_resume(job.checkpoint);
+}
+
+void resume(SolveSession& session, const SolveJob& job, Checkpoint& checkpoint,
+            const std::string& stages = {}) {
+  checkpoint.resume(session);
   const SolveProgress progress = session.progress();
   job.display.clear();
-  print_message(fmt::format(
-      "{}: resumes after {} iterations{}, {:.3g} s done", job.checkpoint.file, progress.iteration,
-      progress.direction > 0
-          ? fmt::format(" and {} of {} passes", progress.direction, progress.passes)
-          : "",
-      session.seconds()));
+  print_message(
+      fmt::format("{}: resumes after {}{} iterations{}, {:.3g} s done", job.checkpoint.file, stages,
+                  progress.iteration,
+                  progress.direction > 0
+                      ? fmt::format(" and {} of {} passes", progress.direction, progress.passes)
+                      : "",
+                  session.seconds()));
 }
 
 void advance(SolveSession& session, const SolveJob& job, Saver& saver) {
@@ -227,6 +241,27 @@ MeasurementObserver measurement_display(const SolveJob& job) {
   };
 }
 
+/// Solves a stage of a total error; saves it where it is interrupted.
+void solve_stage(SolveSession& session, const SolveJob& job, Saver& saver) {
+  try {
+    advance(session, job, saver);
+  } catch (const Canceled&) {
+    if (session.is_prepared()) {
+      saver.save(session);
+    }
+    throw;
+  }
+}
+
+std::string stage_text(const std::vector<TotalStage>& stages) {
+  const TotalStage& stage = stages.back();
+  return fmt::format(
+      "stage {}: {} patches, {} passes, {:.2g} s: {} of {} ({} directions, {} patches)",
+      stages.size(), stage.patches, stage.passes, stage.seconds,
+      error_percentage(stage.errors.total()), stage.surface,
+      error_percentage(stage.errors.directions), error_percentage(stage.errors.patches));
+}
+
 /// Measures the errors of a finished solve. An interruption leaves them unknown.
 void measure(const SolveSession& session, const SolveJob& job) {
   if (job.errors == nullptr || !session.finished()) {
@@ -247,7 +282,9 @@ void measure(const SolveSession& session, const SolveJob& job) {
 Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
   SolveSession session(request_of(job), job.cancellation);
   run_rounds(session, job);
-  resume(session, job, checkpoint);
+  if (make_checkpoint(*session.scene(), job, checkpoint)) {
+    resume(session, job, *checkpoint);
+  }
   session.prepare();
   const bool lobes = session.glossy() != nullptr;
   if (lobes) {
@@ -277,33 +314,42 @@ Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpo
   return solution;
 }
 
-/// Solves until the total error is as asked; the job has `total` and `errors`.
-Solution solve_by_total(const SolveJob& job) {
-  TotalObservers observers;
-  observers.solve = [&](const SolveSession& session) {
-    show_progress(job.display, session);
-    return true;
-  };
-  observers.measurement = measurement_display(job);
-  int number = 0;
-  observers.stage = [&](const TotalStage& stage) {
-    job.display.clear();
-    ++number;
-    if (!job.quiet) {
-      print_message(fmt::format(
-          "stage {}: {} patches, {} passes, {:.2g} s: {} of {} ({} directions, {} patches)", number,
-          stage.patches, stage.passes, stage.seconds, error_percentage(stage.errors.total()),
-          stage.surface, error_percentage(stage.errors.directions),
-          error_percentage(stage.errors.patches)));
+Solution solve_by_total(const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
+  TotalPlan plan(request_of(job), *job.total);
+  bool resumes = make_checkpoint(*job.scene, job, checkpoint);
+  if (resumes) {
+    std::istringstream state(checkpoint->total_plan(job.cancellation));
+    plan.restore(state, state.str().size(), job.cancellation);
+  }
+  Saver saver(job, checkpoint);
+  const std::vector<TotalStage>& stages = plan.outcome().stages;
+  try {
+    while (!plan.finished()) {
+      SolveSession session(plan.stage(), job.cancellation);
+      if (resumes) {
+        resume(session, job, *checkpoint, fmt::format("{} stages and ", stages.size()));
+      }
+      resumes = false;
+      saver.set_plan(plan);
+      solve_stage(session, job, saver);
+      plan.assess(session, job.cancellation, measurement_display(job));
+      job.display.clear();
+      if (!job.quiet) {
+        print_message(stage_text(stages));
+      }
     }
-  };
-  TotalSolve total = solve_to_total(request_of(job), *job.total, observers, job.cancellation);
-  const Solution solution = total.solve.solution;
+  } catch (const Canceled&) {
+    if (!plan.has_result()) {
+      throw;
+    }
+    plan.cancel();
+  }
+  const TotalSolve& total = plan.outcome();
   const std::string text =
       fmt::format("{:.3g} % asked, {}; {} stages", 100 * job.total->total,
                   end_text(total.end, job.total->patches), total.stages.size());
-  job.errors->emplace(MeasuredErrors{std::move(total.solve), std::move(total.report), text});
-  return solution;
+  job.errors->emplace(MeasuredErrors{total.solve, total.report, text});
+  return total.solve.solution;
 }
 
 /// Solves with the form factors in a file.
@@ -367,7 +413,7 @@ std::optional<TotalGoal> total_goal(const RunOptions& run) {
 
 Solution run_job(const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
   return !job.factors.empty()                   ? solve_with_stored(job.factors, job)
-         : job.total                            ? solve_by_total(job)
+         : job.total                            ? solve_by_total(job, checkpoint)
          : takes_directions(job.options.engine) ? solve_by_passes(job, checkpoint)
                                                 : solve_without_directions(job);
 }

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 
+#include "transillum/cancellation.h"
 #include "transillum/export.h"
 #include "transillum/scene.h"
 #include "transillum/solve_options.h"
@@ -22,7 +24,10 @@ class Checkpoint {
  public:
   /// @param file created when something is saved.
   /// @param scene, options of the solve.
-  Checkpoint(std::filesystem::path file, const Scene& scene, const SolveOptions& options);
+  /// @param total whether it is a solve to a total error (RunOptions::total): `scene` and `options`
+  /// are those of the first stage, sessions are the stages.
+  Checkpoint(std::filesystem::path file, const Scene& scene, const SolveOptions& options,
+             bool total = false);
   ~Checkpoint();
   /// The moved-from object may only be destroyed or assigned to.
   Checkpoint(Checkpoint&&) noexcept;
@@ -56,6 +61,12 @@ class Checkpoint {
   /// option or property of the scene is another; the session then begins at its beginning.
   /// Canceled; as SolveSession::prepare()
   void resume(SolveSession& session);
+
+  /// Sets what is saved with each stage of a solve to a total error: the state of its plan.
+  void set_total_plan(std::string state);
+  /// The state of the plan in the file, which resume() makes a stage of.
+  /// @throws InputError, Canceled as resume()
+  std::string total_plan(const Cancellation& cancellation = {}) const;
 
   /// Compares the file with the scene and options, without its content, before work is done that
   /// takes long.

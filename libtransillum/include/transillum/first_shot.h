@@ -39,10 +39,12 @@ std::vector<PatchId> find_small_sources(const Scene& scene, double ratio = small
 /// @param scene the scene.
 /// @param threshold R²/A, or first_shot_where_it_pays.
 /// @param directions M, of the passes to come.
+/// @param basis of the solve: linear terms cost a shot more than passes.
 /// @param cancellation checked during computation.
 /// @returns patches, ascending.
 /// @throws Canceled
 std::vector<PatchId> first_shot_sources(const Scene& scene, double threshold, int directions,
+                                        Basis basis = Basis::constant,
                                         const Cancellation& cancellation = {});
 /// The name that first_shot_from_name() reads.
 std::string name_of_first_shot(const std::optional<double>& threshold);

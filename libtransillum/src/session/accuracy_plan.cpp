@@ -14,7 +14,6 @@
 
 #include "base/memory_limit.h"
 #include "radiosity/error/error_estimate.h"
-#include "radiosity/error_bounds.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
@@ -97,30 +96,15 @@ double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorE
   return ratio_or_zero(error.quantile * largest, max_norm(reflected_light(scene, b)));
 }
 
-/// The part of error_for() that a bias of B makes.
+/// The part of error_for() that a bias of B makes; 0 without an estimate.
 double error_of_bias(const AccuracyGoal& goal, const ErrorSurfaces& surfaces,
                      const StageResult& result, const std::vector<Rgb>& bias) {
+  if (result.error.replicas == 0) {
+    return 0;
+  }
   ErrorEstimate missing = without_errors(result.error);
   include_bias(missing, result.scene, surfaces, result.radiosity, bias);
   return error_for(goal, result.scene, result.radiosity, missing);
-}
-
-/// The part of error_for() that further iterations can take away: a bound of what they would
-/// change.
-double error_of_iteration(const AccuracyGoal& goal, const ErrorSurfaces& surfaces,
-                          const StageResult& result) {
-  const auto& [scene, options, b, statistics, error, shot] = result;
-  if (error.replicas == 0 || statistics.iteration_records.empty()) {
-    return 0;
-  }
-  const IterationRecord& last = statistics.iteration_records.back();
-  const double change = last.change * max_norm(reflected_light(scene, b));
-  const double to_limit = distance_to_limit(change, std::max(statistics.rho_max, last.contraction));
-  std::vector<Rgb> left(scene.patches().size());
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    at(left, i) = to_limit * at(surfaces.reflectance, i);
-  }
-  return error_of_bias(goal, surfaces, result, left);
 }
 
 }  // namespace
@@ -229,7 +213,8 @@ AccuracyPlan::Next AccuracyPlan::next(const StageResult& result, double seconds)
   }
   // No number of passes replaces iterations, which the goal may ask more of than the tolerance:
   // a patch, where it is dark.
-  const double missing_iterations = error_of_iteration(goal, surfaces_, result);
+  const double missing_iterations =
+      error_of_bias(goal, surfaces_, result, bias_of_iteration(scene, surfaces_, statistics, b));
   if (goal.accuracy > 0 && missing_iterations > iteration_fraction * goal.accuracy &&
       std::isfinite(missing_iterations) && solved.directions * per_pass <= time_fraction * left) {
     const IterationRecord& last = statistics.iteration_records.back();

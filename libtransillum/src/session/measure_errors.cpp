@@ -17,7 +17,6 @@
 #include "base/seconds_since.h"
 #include "radiosity/channel_sums.h"
 #include "radiosity/error/error_estimate.h"
-#include "radiosity/error_bounds.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
@@ -47,7 +46,7 @@ class Measuring {
         cancellation_(cancellation),
         observer_(observer),
         scene_(*solve.solution.scene),
-        surfaces_(find_surfaces(scene_, Measured::reflecting, solve.options.goal.surfaces)) {}
+        surfaces_(scene_, solve.options.goal.surfaces) {}
 
   ErrorReport run(std::int64_t most_patches) {
     const auto start = Clock::now();
@@ -81,14 +80,14 @@ class Measuring {
   Solution solve_again(SolveOptions options, const std::shared_ptr<const Scene>& scene,
                        const std::shared_ptr<const DirectLight>& shot, Measurement what) const;
   std::shared_ptr<const DirectLight> shot_of(const DividedScene& divided) const;
-  /// RMS of a quantity by surface, over the unit of each.
+  /// RMS of a quantity by surface, over the unit of each; 0 without values.
   std::vector<double> relative(const std::vector<Rgb>& values) const;
 
   const MeasuredSolve& solve_;
   const Cancellation& cancellation_;
   const MeasurementObserver& observer_;
   const Scene& scene_;
-  const Surfaces surfaces_;
+  const ErrorSurfaces surfaces_;
   std::vector<Rgb> standard_error_;  ///< standard error of B, W/m², one per patch
   ErrorReport report_;
 };
@@ -146,8 +145,8 @@ void Measuring::measure_directions() {
 
 std::vector<double> Measuring::relative(const std::vector<Rgb>& values) const {
   const std::vector<Rgb>& b = solve_.solution.radiosity;
-  const SurfaceErrors errors =
-      surface_differences(surfaces_, difference(b, ReflectedLight(scene_).exitance()), values);
+  const SurfaceErrors errors = surface_differences(
+      surfaces_.reflecting, difference(b, ReflectedLight(scene_).exitance()), values);
   std::vector<double> result;
   for (std::size_t s = 0; s < report_.surfaces.size(); ++s) {
     const SurfaceError& surface = errors.surfaces[s];
@@ -156,21 +155,9 @@ std::vector<double> Measuring::relative(const std::vector<Rgb>& values) const {
   return result;
 }
 
-/// Bound of the distance to the limit of the iteration: as much on a patch as its reflectance times
-/// the largest that any can receive.
 void Measuring::measure_iterations() {
-  const SolveStatistics& statistics = solve_.solution.statistics;
-  if (statistics.iteration_records.empty()) {
-    return;
-  }
-  const IterationRecord& last = statistics.iteration_records.back();
-  const double change = last.change * max_norm(reflected_light(scene_, solve_.solution.radiosity));
-  const double contraction = std::max(statistics.rho_max, is_rounding(last) ? 0 : last.contraction);
-  std::vector<Rgb> left(scene_.patches().size());
-  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-    at(left, i) = distance_to_limit(change, contraction) * scene_.reflectance(i);
-  }
-  const std::vector<double> errors = relative(left);
+  const std::vector<double> errors = relative(
+      bias_of_iteration(scene_, surfaces_, solve_.solution.statistics, solve_.solution.radiosity));
   for (std::size_t s = 0; s < errors.size(); ++s) {
     report_.surfaces[s].errors.iterations = errors[s];
   }
@@ -178,11 +165,9 @@ void Measuring::measure_iterations() {
 
 void Measuring::measure_method() {
   observe(Measurement::engines, 0);
-  const MethodErrors method = method_errors(solve_, surfaces_, cancellation_);
-  const std::vector<Rgb> bias =
-      solve_.shot ? bias_of_shot(scene_, {scene_, {}}, *solve_.shot) : std::vector<Rgb>();
+  const MethodErrors method = method_errors(solve_, surfaces_.reflecting, cancellation_);
   const std::vector<double> shot =
-      bias.empty() ? std::vector<double>(report_.surfaces.size()) : relative(bias);
+      relative(solve_.shot ? bias_of_shot(scene_, surfaces_, *solve_.shot) : std::vector<Rgb>());
   for (std::size_t s = 0; s < report_.surfaces.size(); ++s) {
     SurfaceCauses& surface = report_.surfaces[s];
     const double engine = ratio_or_zero(at(method.rms, s), surface.unit);
@@ -216,11 +201,11 @@ std::vector<PatchId> Measuring::patches_to_divide(std::int64_t most_patches) {
                                  scene_.patch_count(), most_patches));
   }
   report_.measurements.divided_fraction = fraction;
-  std::vector<double> filled(surfaces_.surfaces.size(), 0.5);
+  std::vector<double> filled(surfaces_.reflecting.surfaces.size(), 0.5);
   std::vector<PatchId> chosen;
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
     bool is_chosen = fraction == 1;
-    if (const std::int32_t s = surfaces_.of(i); !is_chosen && s != Surfaces::none) {
+    if (const std::int32_t s = surfaces_.reflecting.of(i); !is_chosen && s != Surfaces::none) {
       at(filled, s) += fraction;
       is_chosen = at(filled, s) >= 1;
       at(filled, s) -= is_chosen ? 1 : 0;
@@ -283,14 +268,14 @@ void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchI
   struct Sums {
     double area = 0, within = 0, shifted = 0;
   };
-  std::vector<Sums> sums(surfaces_.surfaces.size());
+  std::vector<Sums> sums(surfaces_.reflecting.surfaces.size());
   report_.patch_errors.assign(scene_.patches().size(), 0);
   for (const PatchId i : chosen) {
     const double within = at(squares.unrepresented, i), shifted = at(squares.displaced, i);
     const double area = scene_.patch(i).area;
     at(report_.patch_errors, i) =
         std::sqrt((within_error * within + shift_error * shifted) / (3 * area));
-    if (const std::int32_t s = surfaces_.of(i); s != Surfaces::none) {
+    if (const std::int32_t s = surfaces_.reflecting.of(i); s != Surfaces::none) {
       at(sums, s).area += area;
       at(sums, s).within += within;
       at(sums, s).shifted += shifted;
@@ -311,7 +296,7 @@ void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchI
   }
   // The surface's mean square is the best guess for patches that were not divided.
   for (PatchId i = 0; report_.measurements.divided_fraction < 1 && i < scene_.patch_count(); ++i) {
-    const std::int32_t s = surfaces_.of(i);
+    const std::int32_t s = surfaces_.reflecting.of(i);
     if (s != Surfaces::none && !std::binary_search(chosen.begin(), chosen.end(), i)) {
       const SurfaceCauses& surface = at(report_.surfaces, s);
       at(report_.patch_errors, i) = surface.errors.patches * surface.unit;
@@ -327,7 +312,7 @@ void Measuring::add_up() {
     }
   }
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-    const std::int32_t s = surfaces_.of(i);
+    const std::int32_t s = surfaces_.reflecting.of(i);
     const double error =
         at(report_.patch_errors, i) + std::sqrt(sum_of_squares(at(standard_error_, i)) / 3);
     report_.relative_errors.push_back(

@@ -9,10 +9,8 @@
 #include "session/method_errors.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
-#include "base/seconds_since.h"
 #include "radiosity/channel_sums.h"
 #include "radiosity/ratio.h"
 #include "transillum/at.h"
@@ -24,8 +22,9 @@ namespace {
 constexpr int most_directions = 4;
 /// With more patches, exact arithmetic along one direction takes longer than a solve.
 constexpr PatchId most_patches_exact = 5000;
-/// No further direction is compared after this time, s.
-constexpr double enough_seconds = 10;
+/// Most patches times directions in exact arithmetic. A limit of time would make what a solve to a
+/// total error decides depend on the machine.
+constexpr int most_exact_work = 10'000;
 /// Share of the projected area above which light escapes: the scene is open.
 constexpr double most_escaped = 1e-9;
 
@@ -112,7 +111,6 @@ Engine reference_of(const MeasuredSolve& solve) {
 
 MethodErrors method_errors(const MeasuredSolve& solve, const Surfaces& surfaces,
                            const Cancellation& cancellation) {
-  const auto start = std::chrono::steady_clock::now();
   const Scene& scene = *solve.solution.scene;
   MethodErrors result;
   result.reference = reference_of(solve);
@@ -123,8 +121,10 @@ MethodErrors method_errors(const MeasuredSolve& solve, const Surfaces& surfaces,
                      std::vector<Rgb>(scene.patches().size())};
   ReceivedAreas areas;
   const auto all = static_cast<int>(solve.directions.size());
-  const int wanted = std::min(most_directions, all);
-  for (int d = 0; d < wanted && (d == 0 || seconds_since(start) < enough_seconds); ++d) {
+  const int affordable =
+      result.reference == Engine::exact ? std::max(1, most_exact_work / scene.patch_count()) : all;
+  const int wanted = std::min({most_directions, affordable, all});
+  for (int d = 0; d < wanted; ++d) {
     const Vec3& omega = at(solve.directions, d * (all / wanted));
     const Transfers found = engine(omega, cancellation);
     const TransferComparison comparison = compare(reference(omega, cancellation), found);

@@ -7,13 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "base/seconds_since.h"
 #include "radiosity/error/surfaces.h"
+#include "radiosity/state_archive.h"
 #include "scene/build/division.h"
 #include "scene/build/patch_count.h"
 #include "session/next_steps.h"
@@ -43,84 +42,6 @@ double allowed_for_patches(const CauseErrors& errors, double total) {
 }
 
 }  // namespace
-
-TotalPlan::TotalPlan(SolveRequest request, const TotalGoal& goal)
-    : request_(std::move(request)),
-      goal_(goal),
-      directions_(std::max(directions_fraction * goal.total, first_directions)) {
-  if (!(goal.total > 0 && goal.total < 1)) {
-    throw InputError(fmt::format("total error: {} is not above 0 and below 1", goal.total));
-  }
-  request_.options.goal.accuracy = directions_;
-}
-
-bool TotalPlan::next(const MeasuredSolve& solve, const ErrorReport& report, double seconds,
-                     const Cancellation& cancellation) {
-  if (report.worst < 0) {
-    return end(TotalEnd::reached);
-  }
-  const SurfaceCauses& worst = at(report.surfaces, report.worst);
-  stages_.push_back({.patches = request_.scene->patch_count(),
-                     .passes = solve.options.directions,
-                     .surface = worst.name,
-                     .errors = worst.errors,
-                     .seconds = seconds});
-  if (report.total() <= goal_.total) {
-    return end(TotalEnd::reached);
-  }
-  if (worst.errors.iterations + worst.errors.method >= goal_.total) {
-    return end(TotalEnd::other);
-  }
-  const bool patches_too_large = std::any_of(
-      report.surfaces.begin(), report.surfaces.end(), [&](const SurfaceCauses& surface) {
-        return surface.errors.patches > allowed_for_patches(surface.errors, goal_.total) / caution;
-      });
-  const bool follows = patches_too_large ? divide_worst(report, cancellation)
-                                         : ask_more_of_directions(worst.errors, solve);
-  request_.options.goal.accuracy = directions_;
-  return follows;
-}
-
-bool TotalPlan::divide_worst(const ErrorReport& report, const Cancellation& cancellation) {
-  const Scene& scene = *request_.scene;
-  std::vector<PatchId> chosen =
-      patches_to_divide(scene, report, goal_.total, request_.options.goal.surfaces);
-  const std::int64_t count = scene.patch_count();
-  DividedScene divided = divide(scene, chosen, cancellation);
-  if (divided.scene->patch_count() == count) {
-    return end(TotalEnd::thin);
-  }
-  if (divided.scene->patch_count() > goal_.patches) {
-    return end(TotalEnd::patches);
-  }
-  try {
-    check_memory(scene.name(), divided.scene->patch_count(), request_.options.replicas,
-                 request_.options.basis == Basis::linear ? 3 : 1);
-  } catch (const std::runtime_error&) {
-    return end(TotalEnd::memory);
-  }
-  request_.scene = divided.scene;
-  request_.tree = nullptr;
-  request_.shot = nullptr;
-  double expected = 0;
-  for (const SurfaceCauses& surface : report.surfaces) {
-    expected = std::max(expected, std::sqrt(left_within) * surface.errors.patches);
-  }
-  directions_ = std::max(directions_fraction * goal_.total, early_fraction * expected);
-  return true;
-}
-
-bool TotalPlan::ask_more_of_directions(const CauseErrors& worst, const MeasuredSolve& solve) {
-  const double others = worst.total() - worst.directions;
-  const double asked = std::min(caution * (goal_.total - others), 0.9 * directions_);
-  const auto& accuracy = solve.solution.accuracy;
-  if (asked < least_directions_fraction * goal_.total || (accuracy && !accuracy->reached)) {
-    return end(TotalEnd::directions);
-  }
-  request_.tree = solve.tree;
-  directions_ = asked;
-  return true;
-}
 
 std::string end_text(TotalEnd end, std::int64_t most_patches) {
   switch (end) {
@@ -190,39 +111,144 @@ std::vector<PatchId> patches_to_divide(const Scene& scene, const ErrorReport& re
   return chosen;
 }
 
-TotalSolve solve_to_total(SolveRequest request, const TotalGoal& goal,
-                          const TotalObservers& observers, const Cancellation& cancellation) {
-  TotalPlan plan(std::move(request), goal);
-  TotalSolve outcome;
-  try {
-    for (bool follows = true; follows;) {
-      const auto start = std::chrono::steady_clock::now();
-      SolveSession session(plan.request(), cancellation);
-      session.advance(SolveSession::Until::finished, [&](const SolveSession& watched) {
-        if (observers.solve) {
-          observers.solve(watched);
-        }
-        return true;
-      });
-      MeasuredSolve solve = measured_solve(session);
-      outcome.report = measure_errors(solve, cancellation, observers.measurement);
-      outcome.solve = std::move(solve);
-      follows = plan.next(outcome.solve, outcome.report, seconds_since(start), cancellation);
-      if (observers.stage && !plan.stages().empty()) {
-        observers.stage(plan.stages().back());
-      }
-    }
-    outcome.end = plan.end();
-  } catch (const Canceled&) {
-    if (plan.stages().empty()) {
-      throw;
-    }
-    outcome.solve.solution.complete = false;
-    outcome.end = TotalEnd::canceled;
+TotalPlan::TotalPlan(SolveRequest request, const TotalGoal& goal)
+    : request_(std::move(request)), goal_(goal) {
+  if (!(goal.total > 0 && goal.total < 1)) {
+    throw InputError(fmt::format("total error: {} is not above 0 and below 1", goal.total));
   }
-  outcome.stages = plan.stages();
-  outcome.solve.solution.accuracy.reset();
-  return outcome;
+  request_.options.goal.accuracy = std::max(directions_fraction * goal.total, first_directions);
+}
+
+void TotalPlan::assess(const SolveSession& session, const Cancellation& cancellation,
+                       const MeasurementObserver& observer) {
+  MeasuredSolve solve = measured_solve(session);
+  ErrorReport measured = measure_errors(solve, cancellation, observer);
+  const TotalSolve before = outcome_;
+  outcome_.report = std::move(measured);
+  outcome_.solve = std::move(solve);
+  const ErrorReport& report = outcome_.report;
+  if (report.worst < 0) {
+    return end(TotalEnd::reached);
+  }
+  const SurfaceCauses& worst = at(report.surfaces, report.worst);
+  outcome_.stages.push_back({.patches = request_.scene->patch_count(),
+                             .passes = outcome_.solve.options.directions,
+                             .surface = worst.name,
+                             .errors = worst.errors,
+                             .seconds = session.seconds() + report.measurements.seconds});
+  divisions_.emplace_back();
+  if (report.total() <= goal_.total) {
+    return end(TotalEnd::reached);
+  }
+  if (worst.errors.iterations + worst.errors.method >= goal_.total) {
+    return end(TotalEnd::other);
+  }
+  const bool patches_too_large = std::any_of(
+      report.surfaces.begin(), report.surfaces.end(), [&](const SurfaceCauses& surface) {
+        return surface.errors.patches > allowed_for_patches(surface.errors, goal_.total) / caution;
+      });
+  if (!patches_too_large) {
+    return ask_more_of_directions(worst.errors);
+  }
+  try {
+    divide_worst(cancellation);
+  } catch (const Canceled&) {
+    outcome_ = before;
+    divisions_.pop_back();
+    throw;
+  }
+}
+
+void TotalPlan::end(TotalEnd why) {
+  outcome_.end = why;
+  outcome_.solve.solution.complete = why != TotalEnd::canceled;
+  outcome_.solve.solution.accuracy.reset();
+  finished_ = true;
+}
+
+void TotalPlan::cancel() { end(TotalEnd::canceled); }
+
+void TotalPlan::divide_worst(const Cancellation& cancellation) {
+  const Scene& scene = *request_.scene;
+  std::vector<PatchId> chosen =
+      patches_to_divide(scene, outcome_.report, goal_.total, request_.options.goal.surfaces);
+  const std::shared_ptr<const Scene> divided = divide(scene, chosen, cancellation).scene;
+  if (divided->patch_count() == scene.patch_count()) {
+    return end(TotalEnd::thin);
+  }
+  if (divided->patch_count() > goal_.patches) {
+    return end(TotalEnd::patches);
+  }
+  try {
+    check_memory(scene.name(), divided->patch_count(), request_.options.replicas,
+                 request_.options.basis == Basis::linear ? 3 : 1);
+  } catch (const std::runtime_error&) {
+    return end(TotalEnd::memory);
+  }
+  solve_next(divided);
+  divisions_.back() = std::move(chosen);
+  double expected = 0;
+  for (const SurfaceCauses& surface : outcome_.report.surfaces) {
+    expected = std::max(expected, std::sqrt(left_within) * surface.errors.patches);
+  }
+  request_.options.goal.accuracy =
+      std::max(directions_fraction * goal_.total, early_fraction * expected);
+}
+
+void TotalPlan::solve_next(const std::shared_ptr<const Scene>& scene) {
+  request_.scene = scene;
+  request_.tree = nullptr;
+  request_.shot = nullptr;
+}
+
+void TotalPlan::ask_more_of_directions(const CauseErrors& worst) {
+  double& directions = request_.options.goal.accuracy;
+  const double others = worst.total() - worst.directions;
+  const double asked = std::min(caution * (goal_.total - others), 0.9 * directions);
+  const auto& accuracy = outcome_.solve.solution.accuracy;
+  if (asked < least_directions_fraction * goal_.total || (accuracy && !accuracy->reached)) {
+    return end(TotalEnd::directions);
+  }
+  directions = asked;
+}
+
+template <class Archive, class Self>
+void TotalPlan::visit_state(Archive& archive, Self& self) {
+  auto& stages = self.outcome_.stages;
+  archive(self.request_.options.goal.accuracy, self.divisions_);
+  if constexpr (Archive::reading) {
+    stages.resize(self.divisions_.size());
+  }
+  for (auto& stage : stages) {
+    std::vector<char> surface(stage.surface.begin(), stage.surface.end());
+    archive(stage.patches, stage.passes, surface, stage.errors.directions, stage.errors.patches,
+            stage.errors.iterations, stage.errors.method, stage.seconds);
+    if constexpr (Archive::reading) {
+      stage.surface.assign(surface.begin(), surface.end());
+    }
+  }
+}
+
+void TotalPlan::save(std::ostream& out) const {
+  StateOutput archive(out);
+  visit_state(archive, *this);
+}
+
+void TotalPlan::restore(std::istream& in, std::uint64_t size, const Cancellation& cancellation) {
+  StateInput archive(in, size);
+  visit_state(archive, *this);
+  archive.finish();
+  archive.require(request_.options.goal.accuracy > 0 && request_.options.goal.accuracy < 1);
+  for (const std::vector<PatchId>& chosen : divisions_) {
+    PatchId before = -1;
+    for (const PatchId i : chosen) {
+      archive.require(before < i && i < request_.scene->patch_count());
+      before = i;
+    }
+    if (!chosen.empty()) {
+      solve_next(divide(*request_.scene, chosen, cancellation).scene);
+    }
+  }
 }
 
 }  // namespace transillum

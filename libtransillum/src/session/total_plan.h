@@ -5,7 +5,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -43,58 +44,12 @@ struct TotalGoal {
   std::int64_t patches = 1'000'000;  ///< the most patches to make
 };
 
-/// The stages of a solve to a total error. For each, the caller solves request(), measures its
-/// errors, and calls next(). A third of the total is meant for directions, the rest for patches:
-/// with errors that fall as 1/M and as the size of patches, this costs least. Not thread-safe.
-class TotalPlan {
- public:
-  /// @param request without rounds; its options need no goal.
-  /// @throws InputError
-  TotalPlan(SolveRequest request, const TotalGoal& goal);
-
-  /// The next solve.
-  const SolveRequest& request() const { return request_; }
-  /// To be called after each stage.
-  /// @param solve of request().
-  /// @param report its errors.
-  /// @param seconds wall time of both.
-  /// @returns whether another stage follows
-  /// @throws Canceled while patches are divided
-  bool next(const MeasuredSolve& solve, const ErrorReport& report, double seconds,
-            const Cancellation& cancellation = {});
-  /// The finished stages, in order; none in a scene without surfaces to measure.
-  const std::vector<TotalStage>& stages() const { return stages_; }
-  /// Why no stage follows. Requires that next() has returned false.
-  TotalEnd end() const { return end_; }
-
- private:
-  bool end(TotalEnd why) {
-    end_ = why;
-    return false;
-  }
-  bool divide_worst(const ErrorReport& report, const Cancellation& cancellation);
-  bool ask_more_of_directions(const CauseErrors& worst, const MeasuredSolve& solve);
-
-  SolveRequest request_;
-  TotalGoal goal_;
-  double directions_;  ///< error of directions to reach in the next stage
-  std::vector<TotalStage> stages_;
-  TotalEnd end_ = TotalEnd::reached;
-};
-
 /// The outcome of a solve to a total error.
 struct TotalSolve {
   MeasuredSolve solve;             ///< the last solve
   ErrorReport report;              ///< its errors
   std::vector<TotalStage> stages;  ///< in order; the last is of `solve`
   TotalEnd end = TotalEnd::reached;
-};
-
-/// Functions that are called meanwhile; each may be empty.
-struct TotalObservers {
-  SolveSession::Observer solve = {};             ///< observes each solve; its result is not used
-  MeasurementObserver measurement = {};          ///< observes each measurement
-  std::function<void(const TotalStage&)> stage;  ///< called after each stage
 };
 
 /// Which patches of a solve are to be divided for `total`, in ascending order: on each surface
@@ -104,12 +59,55 @@ struct TotalObservers {
 std::vector<PatchId> patches_to_divide(const Scene& scene, const ErrorReport& report, double total,
                                        const std::vector<std::string>& kept = {});
 
-/// Solves until the total error of each surface is at most as asked, by the stages of a TotalPlan.
-/// @param request as for TotalPlan.
-/// Once a stage has ended, a cancellation ends it with the result of that stage.
-/// @throws InputError; Canceled in the first stage; exceptions of solve()
-TotalSolve solve_to_total(SolveRequest request, const TotalGoal& goal,
-                          const TotalObservers& observers = {},
-                          const Cancellation& cancellation = {});
+/// The stages of a solve until the total error of each surface is at most as asked. Each stage: the
+/// caller solves stage() in a SolveSession, then calls assess(). A third of the total is meant for
+/// directions, the rest for patches: with errors that fall as 1/M and as the size of patches, this
+/// costs least. Not thread-safe.
+class TotalPlan {
+ public:
+  /// @param request without rounds; its options need no goal.
+  /// @throws InputError
+  TotalPlan(SolveRequest request, const TotalGoal& goal);
+
+  /// The solve of the present stage.
+  const SolveRequest& stage() const { return request_; }
+  /// Whether no stage is left.
+  bool finished() const { return finished_; }
+  /// Whether outcome() has a solve.
+  bool has_result() const { return outcome_.solve.solution.scene != nullptr; }
+  /// The outcome so far.
+  const TotalSolve& outcome() const { return outcome_; }
+  /// Measures the errors of a stage, and divides patches or asks more of the directions.
+  /// @param session of stage(), finished.
+  /// @throws Canceled, after which the stage before is the last, and it may be called again;
+  /// InputError
+  void assess(const SolveSession& session, const Cancellation& cancellation = {},
+              const MeasurementObserver& observer = {});
+  /// Ends with the result of the stage before.
+  void cancel();
+
+  /// Writes what was decided so far. The result of the stage before is not kept.
+  void save(std::ostream& out) const;
+  /// Sets a new plan to what save() wrote from a plan with the same request and goal.
+  /// @param size length of the state, bytes.
+  /// @throws DamagedState, Canceled
+  void restore(std::istream& in, std::uint64_t size, const Cancellation& cancellation = {});
+
+ private:
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self);
+
+  void end(TotalEnd why);
+  void divide_worst(const Cancellation& cancellation);
+  void solve_next(const std::shared_ptr<const Scene>& scene);
+  void ask_more_of_directions(const CauseErrors& worst);
+
+  SolveRequest request_;
+  TotalGoal goal_;
+  bool finished_ = false;
+  TotalSolve outcome_;
+  /// After each stage, the patches of its scene that were divided.
+  std::vector<std::vector<PatchId>> divisions_;
+};
 
 }  // namespace transillum

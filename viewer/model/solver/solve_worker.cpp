@@ -45,7 +45,7 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
       goal.patches = choice.refine.patches;
     }
     total.emplace(std::move(request), goal);
-    request = total->request();
+    request = total->stage();
   }
   SolveSession session(std::move(request), cancellation);
   checkpoints_.resume(session, choice.solve);
@@ -90,7 +90,6 @@ void SolveWorker::replace_session(Prepared prepared) {
   checkpoints_.begin(prepared.total ? nullptr : prepared.loaded->scene, prepared.choice.solve);
   choice_ = std::move(prepared.choice);
   total_ = std::move(prepared.total);
-  total_end_.reset();
   errors_ = nullptr;
   session_ = std::move(prepared.session);
   cancellation_ = prepared.cancellation;
@@ -119,7 +118,7 @@ void SolveWorker::set_materials(SolveSession& session) const {
 }
 
 bool SolveWorker::has_more() const {
-  const bool stages_follow = total_ && !total_end_;
+  const bool stages_follow = total_ && !total_->finished();
   return unstarted_ || (session_ && !failed_ && (!session_->finished() || stages_follow));
 }
 
@@ -211,24 +210,22 @@ void SolveWorker::end_stage_of_total() {
   if (interrupted_) {
     return;
   }
-  MeasuredErrors errors{loaded_, measured_solve(*session_), {}};
   try {
-    errors.report =
-        measure_errors(errors.solve, measuring, by_percent([this](Measurement what, int percent) {
-                         report_(text_of(what), 0.01 * percent);
-                       }));
+    total_->assess(*session_, measuring, by_percent([this](Measurement what, int percent) {
+      report_(text_of(what), 0.01 * percent);
+    }));
   } catch (const Canceled&) {
     cancellation_.throw_if_canceled();
     return;
   }
-  errors_ = std::make_shared<const MeasuredErrors>(std::move(errors));
-  const double seconds = session_->seconds() + errors_->report.measurements.seconds;
-  if (!total_->next(errors_->solve, errors_->report, seconds, cancellation_)) {
-    total_end_ = total_->end();
+  const TotalSolve& outcome = total_->outcome();
+  errors_ = std::make_shared<const MeasuredErrors>(
+      MeasuredErrors{loaded_, outcome.solve, outcome.report});
+  if (total_->finished()) {
     return;
   }
   post_snapshot();
-  session_ = SolveSession(total_->request(), cancellation_);
+  session_ = SolveSession(total_->stage(), cancellation_);
 }
 
 /// Prepares the present stage of the session, unless that is done.
@@ -284,7 +281,7 @@ void SolveWorker::take_patches(const std::shared_ptr<const LoadedScene>& loaded)
 /// place of the finished one before it.
 bool SolveWorker::holds_patches_back() const {
   constexpr qint64 longest_ms = 1000;
-  const bool is_first = session_->rounds().empty() && !(total_ && !total_->stages().empty());
+  const bool is_first = session_->rounds().empty() && !(total_ && total_->has_result());
   return patches_to_announce_ && !is_first && session_->progress().iteration == 0 &&
          since_patches_.elapsed() < longest_ms;
 }
@@ -322,8 +319,10 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   }
   if (total_) {
     snapshot->options.goal = choice_.solve.goal;
-    snapshot->total = {total_->stages(), total_end_};
-    snapshot->refinement = {session.scene()->patch_count(), !total_end_};
+    const TotalSolve& outcome = total_->outcome();
+    snapshot->total = {outcome.stages,
+                       total_->finished() ? std::optional(outcome.end) : std::nullopt};
+    snapshot->refinement = {session.scene()->patch_count(), !total_->finished()};
     snapshot->accuracy.reset();
   }
   snapshot->measured_errors = errors_;

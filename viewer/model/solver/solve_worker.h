@@ -118,7 +118,6 @@ class SolveWorker {
   Cancellation cancellation_;        // cancels session_ or unstarted_
   bool failed_ = false;              // session_ cannot be continued
   std::optional<TotalPlan> total_;   // where session_ is a stage of it
-  std::optional<TotalEnd> total_end_;
   std::shared_ptr<const MeasuredErrors> errors_;  // of session_; null if not known
   std::mutex measuring_mutex_;                    // guards measuring_
   Cancellation measuring_;                        // cancels a measurement of errors

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Checkpoints: sealed files with the state of an accuracy plan, if any, and of a solver.
+// Checkpoints: sealed files with the states of plans, if any, and of a solver: of a total error, of
+// an accuracy.
 #include "transillum/checkpoint.h"
 
 #include <algorithm>
@@ -25,6 +26,12 @@ constexpr const char* checkpoint_kind = "checkpoint";
 /// Longest share of the time that saving may take.
 constexpr double cost_fraction = 0.01;
 
+/// Bytes of a state that comes before the solver's; 0 if the file has none.
+std::uint64_t size_of(const SealedFile& file, const char* part) {
+  const Json size = file.head().value(part, Json());
+  return size.is_number_unsigned() ? size.get<std::uint64_t>() : 0;
+}
+
 /// Takes part in saving, where nothing is written.
 void save_nowhere(const RadiositySolver& solver) {
   std::ostringstream nowhere;
@@ -37,43 +44,38 @@ void save_nowhere(const RadiositySolver& solver) {
 struct [[gnu::visibility("hidden")]] Checkpoint::Impl {
   std::filesystem::path file;
   RunIdentity identity;
-  Cost cost;
+  std::string total_plan = {};
+  Cost cost = {};
   Clock::time_point saved = Clock::now();
   double seconds_of_last = 0;
 
-  /// The plan in the file, if the solve has a goal; the solver's state is what is left then.
+  /// Opens the file and checks all of it.
   /// @throws InputError, Canceled
-  std::optional<AccuracyPlan> read_plan(SealedFile& file_in, const Scene& scene,
-                                        const SolveOptions& options,
-                                        const Cancellation& cancellation) const;
+  SealedFile open(const Cancellation& cancellation) const;
 };
 
-std::optional<AccuracyPlan> Checkpoint::Impl::read_plan(SealedFile& file_in, const Scene& scene,
-                                                        const SolveOptions& options,
-                                                        const Cancellation& cancellation) const {
-  check_identity(file_in, identity);
-  file_in.check(cancellation);
-  const Json seconds_used = file_in.head().value("seconds", Json());
-  const Json plan_size = file_in.head().value("plan", Json());
-  if (!seconds_used.is_number() || plan_size.is_null() == options.goal.is_set() ||
-      (options.goal.is_set() &&
-       (!plan_size.is_number_unsigned() || plan_size.get<std::uint64_t>() > file_in.size()))) {
-    file_in.refuse("its head is damaged");
+SealedFile Checkpoint::Impl::open(const Cancellation& cancellation) const {
+  SealedFile in(file, checkpoint_kind);
+  check_identity(in, identity);
+  in.check(cancellation);
+  std::uint64_t left = in.size();
+  bool is_right = in.head().value("seconds", Json()).is_number();
+  for (const char* part : {"total", "plan"}) {
+    const std::uint64_t size = size_of(in, part);
+    is_right = is_right && size <= left;
+    left -= size;
   }
-  std::optional<AccuracyPlan> plan;
-  if (options.goal.is_set()) {
-    plan.emplace(options, scene);
-    try {
-      plan->restore(file_in.in(), plan_size.get<std::uint64_t>());
-    } catch (const DamagedState& error) {
-      file_in.refuse(error.what());
-    }
+  if (!is_right) {
+    in.refuse("its head is damaged");
   }
-  return plan;
+  return in;
 }
 
-Checkpoint::Checkpoint(std::filesystem::path file, const Scene& scene, const SolveOptions& options)
-    : impl_(std::make_unique<Impl>(Impl{std::move(file), run_identity(scene, options), {}})) {}
+Checkpoint::Checkpoint(std::filesystem::path file, const Scene& scene, const SolveOptions& options,
+                       bool total)
+    : impl_(std::make_unique<Impl>(Impl{std::move(file), run_identity(scene, options)})) {
+  impl_->identity.json["options"]["total"] = total;
+}
 Checkpoint::~Checkpoint() = default;
 Checkpoint::Checkpoint(Checkpoint&&) noexcept = default;
 Checkpoint& Checkpoint::operator=(Checkpoint&&) noexcept = default;
@@ -93,7 +95,8 @@ void Checkpoint::save(const SolveSession& session) {
   Json head;
   head["run"] = impl_->identity.json;
   head["seconds"] = session.seconds();
-  head["plan"] = plan ? Json(plan_bytes.size()) : Json();
+  head["total"] = impl_->total_plan.size();
+  head["plan"] = plan_bytes.size();
   std::uint64_t size = 0;
   // A save that fails is not tried again at once.
   impl_->saved = start;
@@ -105,7 +108,7 @@ void Checkpoint::save(const SolveSession& session) {
   bool begun = false;
   try {
     write_sealed(impl_->file, checkpoint_kind, head, [&](std::ostream& out) {
-      out << plan_bytes;
+      out << impl_->total_plan << plan_bytes;
       begun = true;
       solver.save(out);
     });
@@ -138,6 +141,15 @@ bool Checkpoint::is_due(double interval) const {
   return seconds_since(impl_->saved) >= std::max(interval, least);
 }
 
+void Checkpoint::set_total_plan(std::string state) { impl_->total_plan = std::move(state); }
+
+std::string Checkpoint::total_plan(const Cancellation& cancellation) const {
+  SealedFile file = impl_->open(cancellation);
+  std::string state(static_cast<std::size_t>(size_of(file, "total")), '\0');
+  file.in().read(state.data(), static_cast<std::streamsize>(state.size()));
+  return state;
+}
+
 void Checkpoint::check() const {
   check_identity(SealedFile(impl_->file, checkpoint_kind), impl_->identity);
 }
@@ -149,10 +161,18 @@ void Checkpoint::resume(SolveSession& session) {
   std::optional<AccuracyPlan> plan;
   std::uint64_t left = 0;
   sums->agree([&] {
-    file.emplace(impl_->file, checkpoint_kind);
-    plan = impl_->read_plan(*file, *s.scene, s.request.options, s.cancellation);
-    const Json plan_size = file->head().value("plan", Json());
-    left = file->size() - (plan ? plan_size.get<std::uint64_t>() : 0);
+    file.emplace(impl_->open(s.cancellation));
+    const std::uint64_t total_size = size_of(*file, "total"), plan_size = size_of(*file, "plan");
+    left = file->size() - total_size - plan_size;
+    file->seek(total_size);
+    if (s.request.options.goal.is_set()) {
+      plan.emplace(s.request.options, *s.scene);
+      try {
+        plan->restore(file->in(), plan_size);
+      } catch (const DamagedState& error) {
+        file->refuse(error.what());
+      }
+    }
   });
   s.solver.reset();
   s.plan.swap(plan);

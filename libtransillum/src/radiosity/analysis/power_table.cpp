@@ -78,32 +78,79 @@ SurfacePower power_of(const Solution& solution, PatchId i, const Material& mater
   return power;
 }
 
-void add_exchanges(const Solution& solution, const Division& division,
-                   const FormFactors& form_factors, std::vector<std::vector<Rgb>>& exchanged) {
-  const std::size_t patches = solution.radiosity.size();
-  if (form_factors.row_begin.size() != patches + 1) {
-    throw InputError("the form factors belong to another scene: the number of patches differs");
-  }
-  const bool linear = !solution.linear_terms.empty();
-  if (linear && form_factors.moments.size() != form_factors.size()) {
-    throw InputError("the form factors have no moments for the linear functions of the solution");
-  }
-  exchanged.assign(division.names.size(), std::vector<Rgb>(division.names.size()));
-  for (std::size_t i = 0; i < patches; ++i) {
-    const double area = solution.scene->patches()[i].area;
-    std::vector<Rgb>& row = exchanged[division.of_patch[i]];
-    for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
-      const PatchId j = form_factors.source[k];
-      Rgb& power = row[at(division.of_patch, j)];
-      power += (area * form_factors.value[k]) * at(solution.radiosity, j);
-      if (linear) {
-        const TransferMoments& moments = form_factors.moments[k];
-        const LinearTerm& surface = at(solution.linear_terms, j);
-        power += area * (moments.of(0, 1) * surface.first + moments.of(0, 2) * surface.second);
-      }
+/// a / b, per channel; 0 where b is 0.
+Rgb quotient(const Rgb& a, const Rgb& b) {
+  return {ratio_or_zero(a.r, b.r), ratio_or_zero(a.g, b.g), ratio_or_zero(a.b, b.b)};
+}
+
+/// Adds up what parts exchange by form factors. What a patch receives besides, because a first shot
+/// is more accurate, is direct light: sources have it in proportion to theirs by form factors, or
+/// where no direction has met one, to what they emit.
+class Exchanges {
+ public:
+  Exchanges(const Solution& solution, const Division& division, const FormFactors& form_factors,
+            const PowerTable& table, const std::vector<Rgb>& exitance)
+      : solution_(solution),
+        division_(division),
+        form_factors_(form_factors),
+        table_(table),
+        exitance_(exitance) {
+    if (form_factors.row_begin.size() != solution.radiosity.size() + 1) {
+      throw InputError("the form factors belong to another scene: the number of patches differs");
+    }
+    if (!solution.linear_terms.empty() && form_factors.moments.size() != form_factors.size()) {
+      throw InputError("the form factors have no moments for the linear functions of the solution");
     }
   }
-}
+
+  /// Adds what patch i receives to a row of PowerTable::exchanged.
+  void add(std::size_t i, std::vector<Rgb>& row) const {
+    const double area = solution_.scene->patches()[i].area;
+    Rgb missing = area * solution_.irradiance[i], direct;
+    if (!solution_.sky_irradiance.empty()) {
+      missing = missing - area * solution_.sky_irradiance[i];
+    }
+    const std::size_t begin = form_factors_.row_begin[i], end = form_factors_.row_begin[i + 1];
+    for (std::size_t k = begin; k < end; ++k) {
+      const Rgb power = area * irradiance_by(k);
+      row[part_of(k)] += power;
+      missing = missing - power;
+      direct += area * direct_by(k);
+    }
+    const Rgb share = quotient(missing, direct);
+    for (std::size_t k = begin; k < end; ++k) {
+      row[part_of(k)] += share * (area * direct_by(k));
+    }
+    const Rgb unmet = quotient(missing - share * direct, table_.total.emitted);
+    for (std::size_t part = 0; part < row.size(); ++part) {
+      row[part] += unmet * table_.surfaces[part].emitted;
+    }
+  }
+
+ private:
+  std::size_t part_of(std::size_t k) const {
+    return at(division_.of_patch, form_factors_.source[k]);
+  }
+  Rgb direct_by(std::size_t k) const {
+    return form_factors_.value[k] * at(exitance_, form_factors_.source[k]);
+  }
+  Rgb irradiance_by(std::size_t k) const {
+    const PatchId j = form_factors_.source[k];
+    Rgb h = form_factors_.value[k] * at(solution_.radiosity, j);
+    if (!solution_.linear_terms.empty()) {
+      const TransferMoments& moments = form_factors_.moments[k];
+      const LinearTerm& surface = at(solution_.linear_terms, j);
+      h += moments.of(0, 1) * surface.first + moments.of(0, 2) * surface.second;
+    }
+    return h;
+  }
+
+  const Solution& solution_;
+  const Division& division_;
+  const FormFactors& form_factors_;
+  const PowerTable& table_;
+  const std::vector<Rgb>& exitance_;
+};
 
 }  // namespace
 
@@ -140,9 +187,11 @@ PowerTable power_table(const Solution& solution, SurfaceKind by, const FormFacto
   for (std::size_t surface = 0; surface < division.names.size(); ++surface) {
     table.surfaces.push_back({.name = division.names[surface], .index = division.indices[surface]});
   }
+  std::vector<Rgb> exitance;
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     const Material& material =
         materials.empty() ? solution.scene->material(i) : at(materials, at(patch_materials, i));
+    exitance.push_back(material.exitance);
     add(table.surfaces[at(division.of_patch, i)], power_of(solution, i, material));
   }
   table.total.name = "total";
@@ -150,7 +199,12 @@ PowerTable power_table(const Solution& solution, SurfaceKind by, const FormFacto
     add(table.total, surface);
   }
   if (form_factors != nullptr) {
-    add_exchanges(solution, division, *form_factors, table.exchanged);
+    const std::size_t parts = table.surfaces.size();
+    const Exchanges exchanges(solution, division, *form_factors, table, exitance);
+    table.exchanged.assign(parts, std::vector<Rgb>(parts));
+    for (std::size_t i = 0; i < exitance.size(); ++i) {
+      exchanges.add(i, table.exchanged[division.of_patch[i]]);
+    }
   }
   return table;
 }

@@ -53,7 +53,9 @@ struct PowerTable {
   SurfacePower total;                  ///< over all patches; its name is "total"
   bool escape_known = false;           ///< Solution::sky_fractions is known
   /// Entry [i][j]: power that leaves part j and arrives directly at part i, sum A_k F_kl B_l over
-  /// their patches, with linear functions sum_b T^0b(k,l) b_lb, W; empty without form factors.
+  /// their patches, with linear functions sum_b T^0b(k,l) b_lb, W; empty without form factors. What
+  /// a first shot found the sources to send more or less is included: rows and `from_sky` add up to
+  /// `received`.
   std::vector<std::vector<Rgb>> exchanged;
 };
 

@@ -168,7 +168,7 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces&
       root_of_squares(error.mean_standard_error, mean_over_area(scene, bias));
   include_bias(error.surfaces, surfaces.reflecting, bias);
   include_bias(error.irradiance, surfaces.receiving, bias_of_irradiance(scene, surfaces, bias));
-  const ReflectedLight light(scene, per_patch);
+  const ReflectedLight light(scene, unknowns_per_patch(scene, b));
   const std::vector<Rgb> reflected = light.of(b);
   if (const double unit = max_norm(reflected); unit > 0) {
     const std::vector<char> measured = light.measured(b);
@@ -183,8 +183,24 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces&
   }
 }
 
+std::vector<Rgb> bias_of_iteration(const Scene& scene, const ErrorSurfaces& surfaces,
+                                   const SolveStatistics& statistics, const std::vector<Rgb>& b) {
+  if (statistics.iteration_records.empty()) {
+    return {};
+  }
+  const IterationRecord& last = statistics.iteration_records.back();
+  const double change = last.change * max_norm(reflected_light(scene, b));
+  const double contraction = std::max(statistics.rho_max, is_rounding(last) ? 0 : last.contraction);
+  std::vector<Rgb> left;
+  for (const Rgb& rho : surfaces.reflectance) {
+    left.push_back(distance_to_limit(change, contraction) * rho);
+  }
+  return left;
+}
+
 /// An error D of H makes B wrong by X = rho D + rho F X. F X is taken as the mean of X over the
-/// area, the mean of rho D over 1 - the mean of rho.
+/// area, the mean of rho D over 1 - the mean of rho. What is reflected of errors is treated as
+/// uniform, so that linear terms are wrong by rho D alone.
 std::vector<Rgb> bias_of_shot(const Scene& scene, const ErrorSurfaces& surfaces,
                               const DirectLight& shot) {
   std::vector<Rgb> bias(shot.irradiance_error.size()), rho(bias.size());
@@ -192,7 +208,8 @@ std::vector<Rgb> bias_of_shot(const Scene& scene, const ErrorSurfaces& surfaces,
     rho[i] = surfaces.reflectance[i];
     bias[i] = rho[i] * shot.irradiance_error[i];
   }
-  if (bias.empty() || !(max_norm(bias) > 0)) {
+  const bool linear = !shot.linear_term_errors.empty();
+  if (bias.empty() || !(linear || max_norm(bias) > 0)) {
     return {};
   }
   const Rgb direct = mean_over_area(scene, bias), mean = mean_over_area(scene, rho);
@@ -200,7 +217,15 @@ std::vector<Rgb> bias_of_shot(const Scene& scene, const ErrorSurfaces& surfaces,
   for (std::size_t i = 0; i < bias.size(); ++i) {
     bias[i] += rho[i] * gathered;
   }
-  return bias;
+  if (!linear) {
+    return bias;
+  }
+  std::vector<Rgb> of_unknowns;
+  for (std::size_t i = 0; i < bias.size(); ++i) {
+    const LinearTerm& error = shot.linear_term_errors[i];
+    of_unknowns.insert(of_unknowns.end(), {bias[i], rho[i] * error.first, rho[i] * error.second});
+  }
+  return of_unknowns;
 }
 
 }  // namespace transillum

@@ -48,13 +48,13 @@ std::vector<PatchId> patches_of(const std::vector<LightSource>& sources, auto is
 class ShotBalance {
  public:
   ShotBalance(const Scene& scene, const std::vector<LightSource>& sources, int directions,
-              const Cancellation& cancellation)
+              Basis basis, const Cancellation& cancellation)
       : scene_(scene),
         cancellation_(cancellation),
+        unit_(basis == Basis::linear ? linear_unit : constant_unit),
         directions_(directions),
-        power_(total_power(sources)) {
-    area_ = total_area(scene);
-  }
+        power_(total_power(sources)),
+        area_(total_area(scene)) {}
 
   bool pays(const LightSource& source) {
     const double saved = saved_passes(source);
@@ -62,9 +62,13 @@ class ShotBalance {
   }
 
  private:
-  /// Microseconds on one core, so that costs of pairs and passes compare: a pass by patch, a pair
-  /// without blockers, one blocker seen from one point. Only their ratios count.
-  static constexpr double pass_unit = 1.2, pair_unit = 4, blocker_unit = 0.4;
+  /// Microseconds on one core, so that costs of pairs and passes compare. Only their ratios count.
+  struct Units {
+    double pass;     ///< a pass, by patch
+    double pair;     ///< a pair without blockers
+    double blocker;  ///< one blocker seen from one point
+  };
+  static constexpr Units constant_unit{1.2, 4, 0.4}, linear_unit{2.2, 18, 0.8};
   static constexpr int sampled_pairs = 48;
 
   double saved_passes(const LightSource& source) const {
@@ -77,11 +81,11 @@ class ShotBalance {
   /// In passes; stops counting above `limit`.
   double cost(const LightSource& source, double limit) {
     const double pairs = static_cast<double>(source.patches.size()) * scene_.patch_count();
-    const double pass = pass_unit * scene_.patch_count();
+    const double pass = unit_.pass * scene_.patch_count();
     const auto allowed = static_cast<std::int64_t>(
-        std::min(1e6, limit * pass / pairs / blocker_unit * sampled_pairs));
+        std::min(1e6, limit * pass / pairs / unit_.blocker * sampled_pairs));
     const std::int64_t blockers = blockers_of_sample(source, allowed);
-    return pairs * (pair_unit + blocker_unit * static_cast<double>(blockers) / sampled_pairs) /
+    return pairs * (unit_.pair + unit_.blocker * static_cast<double>(blockers) / sampled_pairs) /
            pass;
   }
 
@@ -115,10 +119,11 @@ class ShotBalance {
 
   const Scene& scene_;
   Cancellation cancellation_;
-  std::optional<ExchangeFinder> exchange_;  ///< made for the first source that may pay
+  Units unit_;
   double directions_;
   double power_;
-  double area_ = 0;
+  double area_;
+  std::optional<ExchangeFinder> exchange_;  ///< made for the first source that may pay
 };
 
 }  // namespace
@@ -158,7 +163,7 @@ std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
 }
 
 std::vector<PatchId> first_shot_sources(const Scene& scene, double threshold, int directions,
-                                        const Cancellation& cancellation) {
+                                        Basis basis, const Cancellation& cancellation) {
   if (threshold != first_shot_where_it_pays) {
     return find_small_sources(scene, threshold);
   }
@@ -166,7 +171,7 @@ std::vector<PatchId> first_shot_sources(const Scene& scene, double threshold, in
   if (sources.empty()) {
     return {};
   }
-  ShotBalance balance(scene, sources, directions, cancellation);
+  ShotBalance balance(scene, sources, directions, basis, cancellation);
   return patches_of(sources, [&](const LightSource& source) { return balance.pays(source); });
 }
 

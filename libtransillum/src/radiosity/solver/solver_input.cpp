@@ -43,7 +43,8 @@ DirectLight first_shot(const Scene& scene, const SolveOptions& options,
                        const std::function<void(double)>& progress) {
   std::vector<PatchId> sources;
   if (const auto threshold = options.used_first_shot()) {
-    sources = first_shot_sources(scene, *threshold, expected_directions(options), cancellation);
+    sources = first_shot_sources(scene, *threshold, expected_directions(options), options.basis,
+                                 cancellation);
   }
   const std::vector<PatchId> paired =
       options.glossy && !sources.empty() ? patches_with_lobes(scene) : std::vector<PatchId>();

@@ -36,24 +36,6 @@ void add_scene_values(const Scene& scene, const std::vector<Rgb>& h,
       contraction_bound(statistics.rho_max, quadrature_error_bound(statistics.directions));
 }
 
-/// bias_of_shot(), with linear functions one value per unknown: of a linear term, what its own
-/// error makes wrong. What other patches reflect of errors is treated as uniform.
-std::vector<Rgb> shot_bias(const Scene& scene, const ErrorSurfaces& surfaces,
-                           const DirectLight& shot) {
-  std::vector<Rgb> of_means = bias_of_shot(scene, surfaces, shot);
-  if (shot.linear_term_errors.empty()) {
-    return of_means;
-  }
-  of_means.resize(scene.patches().size());
-  std::vector<Rgb> bias;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const LinearTerm& error = at(shot.linear_term_errors, i);
-    const Rgb& rho = scene.reflectance(i);
-    bias.insert(bias.end(), {at(of_means, i), rho * error.first, rho * error.second});
-  }
-  return bias;
-}
-
 }  // namespace
 
 SolveProgress RadiositySolver::Impl::progress() const {
@@ -140,7 +122,7 @@ ErrorEstimate RadiositySolver::Impl::error_estimate() const {
   }
   const ErrorSurfaces& surfaces = replicas.surfaces();
   include_bias(error, *input.scene, surfaces, b, history.left());
-  include_bias(error, *input.scene, surfaces, b, shot_bias(*input.scene, surfaces, *input.shot));
+  include_bias(error, *input.scene, surfaces, b, bias_of_shot(*input.scene, surfaces, *input.shot));
   return error;
 }
 
