@@ -220,13 +220,13 @@ TEST(CameraRays, OfEachProjectionPointWhereTheyShould) {
   near(view.at(100, 50).direction, {0, 1, 0});
   near(view.at(100, 0).direction, {0, 1, 1});   // 45 degrees up
   near(view.at(200, 50).direction, {2, 1, 0});  // square pixels
-  camera.projection = Projection::panorama;
+  camera.projection = CameraProjection::panorama;
   const CameraRays panorama(*scene, camera, 200, 100);
   near(panorama.at(100, 50).direction, {0, 1, 0});
   near(panorama.at(150, 50).direction, {1, 0, 0});
   near(panorama.at(0, 50).direction, {0, -1, 0});
   near(panorama.at(77, 0).direction, {0, 0, 1});
-  camera.projection = Projection::orthographic;
+  camera.projection = CameraProjection::orthographic;
   camera.height = 2;
   const CameraRays parallel(*scene, camera, 200, 100);
   near(parallel.at(0, 0).direction, {0, 1, 0});

@@ -107,7 +107,7 @@ Camera camera_of(const PictureCall& call, const Scene& scene,
     camera.up = given->up;
     camera.field_of_view = given->field_of_view;
     if (!given->field_of_view) {
-      camera.projection = Projection::orthographic;
+      camera.projection = CameraProjection::orthographic;
       camera.height = given->height;
     }
   }
@@ -115,14 +115,14 @@ Camera camera_of(const PictureCall& call, const Scene& scene,
   camera.target = call.target.value_or(camera.target);
   camera.up = call.up ? call.up : camera.up;
   if (call.panorama || call.orthographic) {
-    camera.projection = call.panorama ? Projection::panorama : Projection::orthographic;
+    camera.projection = call.panorama ? CameraProjection::panorama : CameraProjection::orthographic;
   }
   camera.field_of_view = call.field_of_view ? call.field_of_view : camera.field_of_view;
   camera.height = call.height ? call.height : camera.height;
   const CLI::App& command = *call.scene.command;
-  refuse_unless(camera.projection == Projection::perspective, command, "--fov",
+  refuse_unless(camera.projection == CameraProjection::perspective, command, "--fov",
                 "not used with a panorama or an orthographic picture");
-  refuse_unless(camera.projection == Projection::orthographic, command, "--height",
+  refuse_unless(camera.projection == CameraProjection::orthographic, command, "--height",
                 "used only with an orthographic picture");
   return camera;
 }

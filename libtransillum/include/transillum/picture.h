@@ -20,7 +20,7 @@
 namespace TRANSILLUM_API transillum {
 
 /// How a camera maps directions to a picture.
-enum class Projection {
+enum class CameraProjection {
   perspective,   ///< as an eye sees
   orthographic,  ///< parallel rays
   panorama,      ///< all directions: longitude across, latitude upward (equirectangular)
@@ -31,7 +31,7 @@ struct Camera {
   Vec3 eye;                               ///< m; orthographic: rays start in the plane through it
   Vec3 target;                            ///< the point in the middle of the picture, m
   std::optional<Vec3> up = std::nullopt;  ///< direction that is up in the picture; +z if unset
-  Projection projection = Projection::perspective;  ///< how directions become pixels
+  CameraProjection projection = CameraProjection::perspective;  ///< how directions become pixels
   /// Vertical angle of view of a perspective, degrees, above 0 and below 180. Unset: the whole
   /// scene, up to 75 degrees.
   std::optional<double> field_of_view = std::nullopt;
@@ -114,7 +114,7 @@ class CameraRays {
   Ray at(double column, double row) const;
 
  private:
-  Projection projection_;
+  CameraProjection projection_;
   Vec3 eye_, forward_, right_, above_;  ///< of the picture's half width and half height
   double width_, height_;
 };

@@ -66,7 +66,7 @@ CameraRays::CameraRays(const Scene& scene, const Camera& camera, int width, int 
   check_camera(scene, camera, width, height);
   forward_ = normalized(camera.target - camera.eye);
   const Vec3 upward = normalized(camera.up.value_or(Vec3{0, 0, 1}));
-  if (projection_ == Projection::panorama) {
+  if (projection_ == CameraProjection::panorama) {
     // Upward is the pole; the target is in the middle column.
     above_ = upward;
     const Vec3 level = forward_ - dot(forward_, above_) * above_;
@@ -84,7 +84,7 @@ CameraRays::CameraRays(const Scene& scene, const Camera& camera, int width, int 
   right_ = normalized(cross(forward_, up));
   above_ = cross(right_, forward_);
   const double aspect = width_ / height_;
-  const bool is_parallel = projection_ == Projection::orthographic;
+  const bool is_parallel = projection_ == CameraProjection::orthographic;
   // Half the height: over the distance, or in meters.
   double half = 0;
   for (const Vec3& point : scene.points()) {
@@ -108,22 +108,22 @@ CameraRays::CameraRays(const Scene& scene, const Camera& camera, int width, int 
 CameraRays::Ray CameraRays::at(double column, double row) const {
   const double x = 2 * column / width_ - 1, y = 1 - 2 * row / height_;
   switch (projection_) {
-    case Projection::orthographic:
+    case CameraProjection::orthographic:
       return {eye_ + x * right_ + y * above_, forward_};
-    case Projection::panorama: {
+    case CameraProjection::panorama: {
       const double longitude = std::numbers::pi * x, latitude = std::numbers::pi / 2 * y;
       return {eye_,
               std::cos(latitude) * (std::cos(longitude) * forward_ + std::sin(longitude) * right_) +
                   std::sin(latitude) * above_};
     }
-    case Projection::perspective:
+    case CameraProjection::perspective:
       break;
   }
   return {eye_, forward_ + x * right_ + y * above_};
 }
 
 void check_eye(const std::shared_ptr<const Scene>& scene, const Camera& camera) {
-  if (camera.projection == Projection::orthographic) {
+  if (camera.projection == CameraProjection::orthographic) {
     return;
   }
   const Picker picker(scene);
