@@ -16,6 +16,7 @@
 #include "scene/build/division.h"
 #include "scene/build/patch_count.h"
 #include "session/measure_errors.h"
+#include "session/next_steps.h"
 #include "session/total_plan.h"
 #include "support/imperfect_scenes.h"
 #include "support/scenes.h"

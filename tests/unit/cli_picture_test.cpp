@@ -21,7 +21,8 @@ using ::testing::IsEmpty;
 
 /// A camera in the Cornell box, and few pixels.
 const Arguments view{"--eye", "0.278,0.27,-0.8", "--target", "0.278,0.27,0.3", "--size", "48x32"};
-const Arguments method{"-m", "64", "-q"};
+/// Whole faces: few patches.
+const Arguments method{"-m", "64", "-q", "--max-patch-area", "1"};
 
 Arguments picture_of(const std::string& scene) { return Arguments{"picture", scene} + view; }
 

@@ -134,7 +134,7 @@ std::shared_ptr<const Scene> divided_room() {
   Sketch sketch("divided room");
   const int gray = sketch.material(0.7, 0), lamp = sketch.material(0, 10);
   const auto all_gray = [&](double, double) { return gray; };
-  // What is under the wall is a row of patches of its own.
+  // The floor under the wall is a row of patches of its own.
   sketch.grid({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, 20, all_gray);
   sketch.grid({0, 1, 1}, {2, 0, 0}, {0, -1, 0}, 20, all_gray);
   sketch.grid({0, 0, 0}, {0, 0, 1}, {2, 0, 0}, 20, all_gray);

@@ -24,7 +24,7 @@ std::shared_ptr<const Solution> solved(const std::shared_ptr<const Scene>& scene
   return std::make_shared<const Solution>(solve(scene, options));
 }
 
-/// As linear filtering reads the map at a point of a patch.
+/// The value that linear filtering reads of the map at a point of a patch.
 double filtered(const SharpLightMap& map, PatchId patch, const Vec3& point) {
   const auto [x, y] = map.place(patch, point);
   const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);

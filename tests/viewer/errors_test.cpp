@@ -22,6 +22,7 @@
 #include "patches/error_page.h"
 #include "patches/patch_table.h"
 #include "session/measure_errors.h"
+#include "session/next_steps.h"
 #include "session/total_plan.h"
 #include "solved_window.h"
 #include "window/base/dock_layouts.h"
@@ -200,7 +201,7 @@ class ErrorsTest : public QObject {
     QCOMPARE(whole_of(snapshot.loaded), whole_of(before->loaded));
     QCOMPARE(snapshot.statistics.passes, step->passes);
     QVERIFY(!shown.window->views().settings.differ_from_effect());
-    // The errors were those of the solve before.
+    // The errors belonged to the solve before.
     QCOMPARE(shown.table().rowCount(), 0);
     QVERIFY(shown.measures());
     const auto after = shown.errors();

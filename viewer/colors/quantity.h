@@ -49,7 +49,7 @@ struct QuantityTraits {
   bool spans_decades = false;
   bool by_response = false;     ///< computed from a PatchResponse
   bool by_jumps = false;        ///< computed by find_jumps()
-  bool by_measurement = false;  ///< of MeasuredErrors
+  bool by_measurement = false;  ///< taken from MeasuredErrors
   bool by_eye = false;  ///< depends on the camera; where lobes take part by radiance_toward()
 };
 /// In the order of the enumeration.

@@ -76,7 +76,7 @@ struct SolverSnapshot {
   RefinementState refinement;       ///< if `refine` or `total` is set
   std::optional<TotalState> total;  ///< if the accuracy limits the sum of all errors
   std::shared_ptr<const MeasuredErrors>
-      measured_errors;  ///< of this solve, if it was made for a total error
+      measured_errors;  ///< errors of this solve, if it was made for a total error
   SolveProgress progress;
   /// The passes of all iterations so far. A pass that several iterations use (in the growing
   /// scheme, or from stored sums) counts in each.

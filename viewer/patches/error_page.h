@@ -70,8 +70,8 @@ class ErrorPage : public QObject {
   ColorChoice& colors_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   RunState state_ = RunState::empty;
-  std::string wanted_;  ///< scene to measure once it is solved; empty: none
-  int number_ = 0;      ///< of the newest job
+  std::string wanted_;  ///< scene to measure once it is solved; empty if none
+  int number_ = 0;      ///< number of the newest job
   TablePage page_;
   std::shared_ptr<const MeasuredErrors> shown_;
   QLabel* total_;

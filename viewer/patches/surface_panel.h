@@ -80,7 +80,7 @@ class SurfacePanel : public QWidget {
   QTabWidget* tabs_;
   TablePage groups_, materials_, exchanges_;
   ErrorPage* errors_;
-  QWidget* buttons_;  ///< of groups and materials
+  QWidget* buttons_;  ///< actions of groups and materials
   QAction *select_, *hide_, *isolate_, *emit_, *reflect_;
   bool watched_ = false;
   bool selects_ = false;   ///< while the panel itself changes the selection

@@ -21,7 +21,7 @@ class RefineControls : public QWidget {
   RefineChoice choice() const;
   void set_choice(const RefineChoice& choice);
   /// Sets what the solve allows.
-  /// @param available  whether patches may be divided: not those of a result file
+  /// @param available  whether patches may be divided: not where a result file is shown
   /// @param total  whether a total error takes the place of rounds; the number of patches limits it
   void set_available(bool available, bool total);
 

@@ -145,8 +145,8 @@ SceneOptions division(const SceneInput& input, const SceneDescription& descripti
   constexpr int few_faces = 1000, enough_patches = 2000;
   SceneOptions options = input.run.scene;
   std::int64_t patches = input.run.input.patches;
-  if (input.divides_few_faces && patches == 0 && options.max_patch_area == 0 &&
-      description.face_count() < few_faces) {
+  const bool is_asked = patches > 0 || options.max_patch_area > 0;
+  if (input.divides_few_faces && !is_asked && description.face_count() < few_faces) {
     patches = enough_patches;
   }
   if (input.run.refine.is_set() || input.run.total ||
@@ -162,7 +162,7 @@ SceneOptions division(const SceneInput& input, const SceneDescription& descripti
                               whole.patch_count(), patches));
   } else if (options.max_patch_area > 0) {
     const std::int64_t count = count_patches(whole, options.max_patch_area);
-    if (!is_quiet(*input.command)) {
+    if (is_asked && !is_quiet(*input.command)) {
       print_message(
           patches_text(count, options.max_patch_area, has_option(*input.command, "--memory")));
     }

@@ -25,7 +25,7 @@ class Checkpoint {
   /// @param file created when something is saved.
   /// @param scene, options of the solve.
   /// @param total whether it is a solve to a total error (RunOptions::total): `scene` and `options`
-  /// are those of the first stage, sessions are the stages.
+  /// belong to the first stage, sessions are the stages.
   Checkpoint(std::filesystem::path file, const Scene& scene, const SolveOptions& options,
              bool total = false);
   ~Checkpoint();

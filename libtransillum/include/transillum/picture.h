@@ -21,7 +21,7 @@ namespace TRANSILLUM_API transillum {
 
 /// How a camera maps directions to a picture.
 enum class CameraProjection {
-  perspective,   ///< as an eye sees
+  perspective,   ///< seen as by an eye
   orthographic,  ///< parallel rays
   panorama,      ///< all directions: longitude across, latitude upward (equirectangular)
 };
@@ -49,8 +49,8 @@ struct PictureOptions {
   int width = 1280;  ///< pixels, at least 1
   int height = 960;  ///< pixels, at least 1
   int samples = 4;   ///< points at which a pixel is sampled, at least 1
-  /// Rays from each sample that gather the reflected light. 0: it is interpolated between points of
-  /// the surfaces, which gather it by many rays.
+  /// Rays from each sample that gather the reflected light. 0 means that it is interpolated between
+  /// points of the surfaces, which gather it by many rays.
   int gather = 0;
   int threads = 0;  ///< 0 uses all cores; the result does not depend on it
 
@@ -115,7 +115,7 @@ class CameraRays {
 
  private:
   CameraProjection projection_;
-  Vec3 eye_, forward_, right_, above_;  ///< of the picture's half width and half height
+  Vec3 eye_, forward_, right_, above_;  ///< along the picture's half width and half height
   double width_, height_;
 };
 
@@ -142,7 +142,7 @@ class SharpLightMap {
 
   /// Options of a light map.
   struct Options {
-    /// Texels per meter, > 0; 0: 1,024 along the diagonal of the scene's bounding box.
+    /// Texels per meter, > 0; 0 means 1,024 along the diagonal of the scene's bounding box.
     double density = 0;
     int threads = 0;  ///< 0 uses all cores; the result does not depend on it
   };

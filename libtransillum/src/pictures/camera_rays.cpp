@@ -14,7 +14,7 @@ namespace transillum {
 namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
-/// Of a picture of the whole scene, from the middle upward.
+/// Largest angle from the middle of a picture of the whole scene upward.
 constexpr double largest_half_angle = 37.5 * radians_per_degree;
 /// Around a picture of the whole scene.
 constexpr double margin = 1.02;

@@ -78,7 +78,7 @@ Vec3 GatheredLight::start_of(const Vec3& x, const Vec3& normal) const {
   return embree_.inside(x) + lift * normal;
 }
 
-/// What a ray meets that Embree says hits a triangle.
+/// The meeting of a ray with a triangle that Embree has found.
 GatheredLight::Met GatheredLight::met_at(const Line& line, unsigned triangle,
                                          float distance) const {
   const PatchId hit = embree_.patch_of(triangle);
@@ -89,7 +89,7 @@ GatheredLight::Met GatheredLight::met_at(const Line& line, unsigned triangle,
           (1 / embree_.scale()) * (line.start + static_cast<double>(distance) * line.direction)};
 }
 
-/// What a ray brings that meets `met`, without the exitance of lamps.
+/// The light of a ray that meets `met`, without the exitance of lamps.
 Rgb GatheredLight::brought(const Met& met, const Vec3& direction) const {
   if (met.is_lit) {
     return light_.at_point(met.patch, met.point);
@@ -99,7 +99,7 @@ Rgb GatheredLight::brought(const Met& met, const Vec3& direction) const {
              : Rgb();
 }
 
-/// What up to 16 similar rays bring together.
+/// The sum of the light of up to 16 similar rays.
 Rgb GatheredLight::brought(const Vec3& start, std::span<const Vec3> directions) const {
   alignas(64) std::array<int, packet> valid{};
   RTCRayHit16 rays{};

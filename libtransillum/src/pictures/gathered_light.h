@@ -33,7 +33,7 @@ class GatheredLight {
   GatheredLight(const Solution& solution, const HitLight& light, int rays,
                 const Cancellation& cancellation);
 
-  /// What a point receives.
+  /// The light that a point receives.
   struct Gathered {
     Rgb irradiance;  ///< W/m²
     Rgb noise;       ///< half the difference of what two halves of the rays give, W/m²

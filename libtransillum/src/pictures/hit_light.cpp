@@ -42,7 +42,7 @@ void for_points_of_triangle(const std::array<Vec3, 3>& corners, Visit visit) {
 
 struct HitLight::DirectLight {
   std::array<Rgb, term_count> coefficients;
-  Rgb low, high;                     ///< of the exact values
+  Rgb low, high;                     ///< limits of the exact values
   std::array<Rgb, 3> in_solution{};  ///< its mean and linear terms, which the solution has
 };
 

@@ -58,7 +58,7 @@ class HitLight {
   const LampLight& lamps_;
   std::vector<std::uint8_t> is_lamp_;
   std::vector<LinearBasis> bases_;
-  mutable std::vector<std::atomic<const DirectLight*>> direct_;  ///< by patch; null: unknown
+  mutable std::vector<std::atomic<const DirectLight*>> direct_;  ///< by patch; null means unknown
   mutable std::vector<std::atomic<const Slope*>> slopes_;        ///< likewise
 };
 

@@ -93,9 +93,10 @@ double size_of(const std::array<Vec3, 4>& corners) {
 
 /// A part of a quadrilateral, a square of its coordinates.
 struct InterpolatedLight::Cell {
-  std::array<Rgb, 4> light{};                          ///< at its corners
-  bool is_part = false;                                ///< of a divided cell
-  mutable std::atomic<const Cell*> children{nullptr};  ///< four, or one of the marks; null: unknown
+  std::array<Rgb, 4> light{};  ///< at its corners
+  bool is_part = false;        ///< whether it is of a divided cell
+  mutable std::atomic<const Cell*> children{
+      nullptr};  ///< four, or one of the marks; null means unknown
 
   static const Cell whole;    ///< mark: not divided, interpolated
   static const Cell unclear;  ///< mark: not divided, its points gather
@@ -115,7 +116,7 @@ const InterpolatedLight::Cell InterpolatedLight::Cell::unclear;
 struct InterpolatedLight::PatchCells {
   PatchId patch;
   std::vector<Quad> quads;
-  std::vector<std::atomic<const Cell*>> roots;  ///< by quad; null: unknown
+  std::vector<std::atomic<const Cell*>> roots;  ///< by quad; null means unknown
   mutable std::mutex mutex;
   mutable std::unordered_map<Place, GatheredLight::Gathered, PlaceHash> light;
 

@@ -48,7 +48,7 @@ class InterpolatedLight {
   const GatheredLight& gathered_;
   const LampLight& lamps_;
   double diagonal_;
-  mutable std::vector<std::atomic<const Rgb*>> light_;   ///< by PlanePoint; null: unknown
+  mutable std::vector<std::atomic<const Rgb*>> light_;   ///< by PlanePoint; null means unknown
   mutable std::vector<std::atomic<PatchCells*>> cells_;  ///< by patch
 };
 

@@ -67,7 +67,7 @@ LampLight::LampLight(std::shared_ptr<const Scene> scene, const Cancellation& can
 }
 
 LampLight::Views& LampLight::views_of(PatchId patch) const {
-  // Past more blockers than this, those of a single point are found faster.
+  // Past more blockers than this, finding the blockers of single points is faster.
   constexpr std::size_t most_blockers = 12;
   constexpr std::size_t most_patches = 256;
   ViewsByPatch& views = views_.local();

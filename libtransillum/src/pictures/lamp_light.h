@@ -30,7 +30,7 @@ class LampLight {
   Rgb at_point(PatchId patch, const Vec3& x) const;
 
  private:
-  /// What a patch sees of one lamp.
+  /// The view of one lamp from a patch.
   struct View {
     const LampPolygon* lamp;
     std::optional<PointView> shared;  ///< for all points; unset: blockers are found by point

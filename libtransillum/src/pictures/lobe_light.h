@@ -10,8 +10,8 @@
 
 namespace transillum {
 
-/// What the lobes of a glossy solve reflect toward a point, gathered by rays about the mirror
-/// direction.
+/// The light that the lobes of a glossy solve reflect toward a point, gathered by rays about the
+/// mirror direction.
 ///
 /// Threads: immutable once built.
 class LobeLight {

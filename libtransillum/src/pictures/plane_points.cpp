@@ -20,7 +20,7 @@ Vec3 middle_of_corners(const Scene& scene, std::span<const PointId> corners) {
 }  // namespace
 
 PlanePoints::PlanePoints(const Scene& scene) : step_(1e-4 * scene.bounds().diagonal()) {
-  constexpr double steps = 1 << 20;  // of a normal's components
+  constexpr double steps = 1 << 20;  // in a component of a normal
   const auto rounded = [](double x) { return std::lround(steps * x); };
   std::map<std::tuple<PointId, long, long, long>, std::int32_t> numbers;
   std::vector<Vec3> sums;

@@ -13,7 +13,7 @@ namespace transillum {
 /// A point of the scene as a corner of the patches of one plane that meet there.
 struct PlanePoint {
   Vec3 place;   ///< moved a little into these patches, so that it is on none of their borders, m
-  Vec3 normal;  ///< of these patches
+  Vec3 normal;  ///< normal of these patches
   std::vector<PatchId> patches;  ///< ascending
 };
 

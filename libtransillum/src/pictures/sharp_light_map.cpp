@@ -27,7 +27,7 @@ struct Chart {
   Vec3 origin, s, t;  ///< s and t: unit vectors along the rows and against the columns
   double low_s = HUGE_VAL, high_s = -HUGE_VAL, low_t = HUGE_VAL, high_t = -HUGE_VAL;  ///< m
   int columns = 1, rows = 1;  ///< without the border
-  int left = 0, top = 0;      ///< of the border
+  int left = 0, top = 0;      ///< corner of the border
   std::vector<PatchId> patches;
 
   std::array<double, 2> in_plane(const Vec3& x) const {
@@ -71,7 +71,7 @@ Vec3 nearest_in(const Polygon& polygon, const Vec3& normal, const Vec3& x) {
   return is_inside ? x : nearest;
 }
 
-/// The first patch of each patch's chart: of those of one material that share points of a plane.
+/// By patch, the first patch of its chart: patches of one material that share points of a plane.
 std::vector<PatchId> chart_of_patches(const Scene& scene, const PlanePoints& points) {
   std::vector<PatchId> first(scene.patches().size());
   std::iota(first.begin(), first.end(), 0);
@@ -203,16 +203,16 @@ std::vector<Texel> texels_of(const Scene& scene, const PlanePoints& points, cons
            static_cast<std::size_t>(column);
   };
   std::vector<Texel> texels(index(0, rows));
-  struct Part {
+  struct PolygonOfPatch {
     PatchId patch;
     Polygon polygon;
     std::array<int, 4> box;  ///< columns and rows that it meets, with a border
     Vec3 middle;
   };
-  std::vector<Part> parts;
+  std::vector<PolygonOfPatch> parts;
   for (const PatchId i : chart.patches) {
     for (std::size_t k = points.first_piece(i); k < points.end_piece(i); ++k) {
-      Part part{i, {}, {columns, 0, rows, 0}, {}};
+      PolygonOfPatch part{i, {}, {columns, 0, rows, 0}, {}};
       for (const PointId p : scene.corners(scene.pieces()[k])) {
         part.polygon.push_back(scene.point(p));
         const auto [x, y] = chart.texel_of(chart.in_plane(scene.point(p)));
@@ -229,7 +229,7 @@ std::vector<Texel> texels_of(const Scene& scene, const PlanePoints& points, cons
   }
   // Beyond the edge of a patch, up to the texel that filtering reads there.
   std::vector<double> distances(texels.size(), HUGE_VAL);
-  for (const Part& part : parts) {
+  for (const PolygonOfPatch& part : parts) {
     for (int row = std::max(part.box[2], 0); row <= std::min(part.box[3], rows - 1); ++row) {
       for (int column = std::max(part.box[0], 0); column <= std::min(part.box[1], columns - 1);
            ++column) {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <vector>
 
 #include "session/error_report.h"
 #include "transillum/cancellation.h"
@@ -33,9 +32,5 @@ using MeasurementObserver = std::function<void(Measurement, double fraction)>;
 ErrorReport measure_errors(const MeasuredSolve& solve, const Cancellation& cancellation = {},
                            const MeasurementObserver& observer = {},
                            std::int64_t most_patches = 2'000'000);
-
-/// The patches that a step divides, in ascending order; empty if it divides none.
-/// @param solve whose errors were measured
-std::vector<PatchId> divided_patches(const NextStep& step, const MeasuredSolve& solve);
 
 }  // namespace transillum

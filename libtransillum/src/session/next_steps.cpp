@@ -6,7 +6,6 @@
 
 #include "radiosity/error/surfaces.h"
 #include "scene/build/division.h"
-#include "session/measure_errors.h"
 #include "transillum/at.h"
 
 namespace transillum {

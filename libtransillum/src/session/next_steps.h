@@ -22,5 +22,8 @@ inline constexpr double left_shift = 1.0 / 4;
 /// The changes that make the worst surface of a report more accurate, by decreasing gain per
 /// second, with the times that the solve and its measurements took.
 std::vector<NextStep> next_steps(const ErrorReport& report, const MeasuredSolve& solve);
+/// The patches that a step divides, in ascending order; empty if it divides none.
+/// @param solve whose errors were measured
+std::vector<PatchId> divided_patches(const NextStep& step, const MeasuredSolve& solve);
 
 }  // namespace transillum

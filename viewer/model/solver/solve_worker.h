@@ -76,7 +76,7 @@ class SolveWorker {
   /// The state between two calls.
   RunState state() const;
 
-  /// Whether advance() pauses after the current pass; a measurement of errors begins anew then.
+  /// Whether advance() pauses after the current pass; a measurement of errors begins again then.
   void interrupt(bool interrupted = true);
   /// The least time between two snapshots, ms.
   void set_refresh_interval(int milliseconds) { refresh_interval_ = milliseconds; }
@@ -118,7 +118,7 @@ class SolveWorker {
   Cancellation cancellation_;        // cancels session_ or unstarted_
   bool failed_ = false;              // session_ cannot be continued
   std::optional<TotalPlan> total_;   // where session_ is a stage of it
-  std::shared_ptr<const MeasuredErrors> errors_;  // of session_; null if not known
+  std::shared_ptr<const MeasuredErrors> errors_;  // errors of session_; null if not known
   std::mutex measuring_mutex_;                    // guards measuring_
   Cancellation measuring_;                        // cancels a measurement of errors
   SolveHistory history_;                          // history of the present stage
