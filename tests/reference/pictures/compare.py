@@ -33,25 +33,33 @@ def read_pfm(path):
     return values.reshape(height, width, channels)[::-1].astype(float)
 
 
+def read_camera(name):
+    return json.loads((FOLDER / "cameras.json").read_text())[name]
+
+
 def read_reference(name):
     """Radiance, noise relative to it, mask: the arrays of make_references.py."""
+    name = read_camera(name).get("reference", name)
     with np.load(FOLDER / f"{name}.npz") as file:
 
-        def values(array, least, steps):
-            code = file[array].astype(float)
+        def values(code, least, steps):
             return np.where(code > 0, least * 2 ** ((code - 1) / steps), 0)
 
-        return values("radiance", file["least"], 512), values("noise", 1e-6, 6), file["mask"]
+        code = file["radiance"].cumsum(axis=1, dtype=float)
+        radiance = values(code, file["least"], file["steps"])
+        return radiance, values(file["noise"].astype(float), 1e-6, 6), file["mask"]
 
 
 def make_picture(program, path, name, options):
-    camera = json.loads((FOLDER / "cameras.json").read_text())[name]
+    camera = read_camera(name)
     numbers = {key: ",".join(map(str, camera[key])) for key in ("eye", "target", "up")}
     width, height = camera.get("size", [256, 256])
-    command = [program, "picture", camera["scene"], "--eye", numbers["eye"]]
+    scene = str(FOLDER / camera["scene"]) if "." in camera["scene"] else camera["scene"]
+    command = [program, "picture", scene, "--eye", numbers["eye"]]
     command += ["--target", numbers["target"], "--camera-up", numbers["up"]]
     command += ["--fov", str(camera["fov"]), "--size", f"{width}x{height}"]
-    command += camera.get("options", []) + options + ["--out", path]
+    command += ["--sky", str(camera["sky"])] if "sky" in camera else []
+    command += options + ["--out", path]
     print(*command)
     subprocess.run(command, check=True)
 

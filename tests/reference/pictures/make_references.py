@@ -9,8 +9,9 @@ from the program: a result of the scene with few directions has their corners, E
 samples, each with a seed of its own, collect in FOLDER, so a second call adds to them.
 
 NAME.npz has arrays of one row per line of pixels, the upper first:
-  radiance  per channel 1 + 512 log2(radiance / least), rounded, W/(m2 sr); 0: none
-  least     least radiance that is not 0
+  radiance  per channel c = 1 + steps log2(radiance / least), rounded, W/(m2 sr); c = 0: none.
+            Differences of c from pixel to pixel of a row
+  least, steps
   noise     1 + 6 log2(noise / 1e-6), rounded, of a pixel's standard error relative to its radiance,
             both as lengths of vectors of the three channels; 0: below 1e-6
   mask      1: meets a lamp; 2: this pixel and all within 2 pixels of it show one face; 4: meets a
@@ -29,17 +30,20 @@ import time
 import numpy as np
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-STEPS = 512  # of a radiance between 1 and 2: errors below 0.07 %
 FINE = 8  # samples along a side of a pixel that tell which faces it shows
 
 
-def read_faces(program, scene, work):
+def scene_name(camera):
+    """A built-in scene, or the path of a file in this folder."""
+    return str(FOLDER / camera["scene"]) if "." in camera["scene"] else camera["scene"]
+
+
+def read_faces(program, scene, work, sky=0):
     """Triangles of a scene: corners (n,3,3), E and rho (n,3), number of the face (n)."""
     path = work / "faces.ply"
-    subprocess.run(
-        [program, "solve", scene, "-m", "1", "--iterations", "1", "--out", path],
-        check=True, stdout=subprocess.DEVNULL,
-    )  # fmt: skip
+    command = [program, "solve", scene, "-m", "1", "--iterations", "1", "--out", path]
+    command += ["--sky", str(sky)] if sky else []
+    subprocess.run(command, check=True, capture_output=True)
     lines = iter(path.read_text().splitlines())
     counts, columns = {}, {"vertex": [], "face": []}
     for line in lines:
@@ -226,7 +230,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         work = arguments.work or pathlib.Path(folder)
         work.mkdir(parents=True, exist_ok=True)
-        faces = read_faces(arguments.program, camera["scene"], pathlib.Path(folder))
+        faces = read_faces(arguments.program, scene_name(camera), pathlib.Path(folder),
+                           camera.get("sky", 0))  # fmt: skip
         scene, shown = make_scene(
             mi, faces, camera, camera.get("depth", -1), arguments.samples, arguments.sampler,
             pathlib.Path(folder),
@@ -255,10 +260,12 @@ def write(name, batches, samples, mask):
     noise = np.divide(error, length, out=np.zeros_like(error), where=length > 0)
     seen = ((mask & 5) == 0) & (length > 0)
     least = mean[mean > 0].min()
+    steps = 2.0 ** np.ceil(np.log2(2 / np.median(noise[seen]))).clip(0, 10)  # a tenth of the noise
     np.savez_compressed(
         FOLDER / f"{name}.npz",
-        radiance=logarithmic(mean, least, STEPS).astype(np.uint16),
+        radiance=np.diff(logarithmic(mean, least, steps), axis=1, prepend=0).astype(np.int16),
         least=least,
+        steps=steps,
         noise=logarithmic(noise, 1e-6, 6).astype(np.uint8),
         mask=mask,
         samples=len(batches) * samples,
