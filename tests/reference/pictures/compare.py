@@ -5,9 +5,9 @@
 
 NAME is a key of cameras.json. With --program, FILE.pfm is first made by `transillum picture` with
 the camera of NAME and the other options. Pixels that meet lamps, back sides, or no light are
-omitted. Errors are relative, by pixel: lengths of vectors of the three channels. They are printed
-net of the noise of the reference: the squares are subtracted, or, of the largest error, four
-standard errors.
+omitted, and those below the fraction `darkest` of the brightest, where cameras.json has it. Errors
+are relative, by pixel: lengths of vectors of the three channels. They are printed net of the noise
+of the reference: the squares are subtracted, or, of the largest error, four standard errors.
 """
 
 import argparse
@@ -45,7 +45,7 @@ def read_reference(name):
         def values(code, least, steps):
             return np.where(code > 0, least * 2 ** ((code - 1) / steps), 0)
 
-        code = file["radiance"].cumsum(axis=1, dtype=float)
+        code = file["radiance"].cumsum(axis=1, dtype=np.uint16).astype(float)
         radiance = values(code, file["least"], file["steps"])
         return radiance, values(file["noise"].astype(float), 1e-6, 6), file["mask"]
 
@@ -107,16 +107,17 @@ def main():
     picture = read_pfm(arguments.file)
     if picture.shape != reference.shape or not np.isfinite(picture).all():
         sys.exit(f"{arguments.file}: not {reference.shape} finite numbers, but {picture.shape}")
-    report(picture, reference, noise, mask)
+    report(picture, reference, noise, mask, read_camera(arguments.name).get("darkest", 0))
     if arguments.difference:
         omitted = (mask & 5) != 0
         write_png(arguments.difference, difference_picture(picture, reference, omitted))
 
 
-def report(picture, reference, noise, mask):
+def report(picture, reference, noise, mask, darkest):
     length = np.linalg.norm(reference, axis=-1)
-    seen = ((mask & 5) == 0) & (length > 0)
-    black = ((mask & 5) == 0) & (length == 0)
+    counted = (mask & 5) == 0
+    seen = counted & (length > darkest * length[counted].max())
+    black = counted & (length == 0)
     error = np.zeros_like(length)
     error[seen] = np.linalg.norm(picture - reference, axis=-1)[seen] / length[seen]
 

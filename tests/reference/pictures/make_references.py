@@ -10,7 +10,7 @@ samples, each with a seed of its own, collect in FOLDER, so a second call adds t
 
 NAME.npz has arrays of one row per line of pixels, the upper first:
   radiance  per channel c = 1 + steps log2(radiance / least), rounded, W/(m2 sr); c = 0: none.
-            Differences of c from pixel to pixel of a row
+            Differences of c from pixel to pixel of a row, modulo 2^16
   least, steps
   noise     1 + 6 log2(noise / 1e-6), rounded, of a pixel's standard error relative to its radiance,
             both as lengths of vectors of the three channels; 0: below 1e-6
@@ -259,11 +259,13 @@ def write(name, batches, samples, mask):
     length = np.linalg.norm(mean, axis=-1)
     noise = np.divide(error, length, out=np.zeros_like(error), where=length > 0)
     seen = ((mask & 5) == 0) & (length > 0)
-    least = mean[mean > 0].min()
-    steps = 2.0 ** np.ceil(np.log2(2 / np.median(noise[seen]))).clip(0, 10)  # a tenth of the noise
+    steps = 2.0 ** np.ceil(np.log2(2 / np.median(noise[seen]))).clip(0, 11)  # a tenth of the noise
+    least = max(mean[mean > 0].min(), mean.max() * 2 ** (-65000 / steps))
     np.savez_compressed(
         FOLDER / f"{name}.npz",
-        radiance=np.diff(logarithmic(mean, least, steps), axis=1, prepend=0).astype(np.int16),
+        radiance=np.diff(
+            logarithmic(mean, least, steps).astype(np.uint16), axis=1, prepend=np.uint16(0)
+        ),
         least=least,
         steps=steps,
         noise=logarithmic(noise, 1e-6, 6).astype(np.uint8),
