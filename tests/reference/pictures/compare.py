@@ -96,7 +96,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("file")
     parser.add_argument("name")
-    parser.add_argument("--difference", metavar="FILE.png", help="red: brighter, blue: darker; white: 0")
+    parser.add_argument("--difference", metavar="FILE.png", help="red: brighter, blue: darker")
     parser.add_argument("--program", help="makes FILE first, with the options that follow")
     arguments, options = parser.parse_known_args()
     if arguments.program:

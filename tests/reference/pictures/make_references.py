@@ -3,10 +3,10 @@
 
   make_references.py NAME --program build/release/bin/transillum [--minutes 10] [--work FOLDER]
 
-NAME is a key of cameras.json. Needs `pip install mitsuba numpy`, and LLVM for its variant
-llvm_ad_rgb (the environment's DRJIT_LIBLLVM_PATH names it), else scalar_rgb is used. The faces come
-from the program: a result of the scene with few directions has their corners, E and rho. Batches of
-samples, each with a seed of its own, collect in FOLDER, so a second call adds to them.
+NAME is a key of cameras.json. Needs `pip install mitsuba numpy`, and LLVM (DRJIT_LIBLLVM_PATH names
+its library); the variant is llvm_ad_rgb, else scalar_rgb. The faces come from the program: a result
+of the scene has their corners, E and rho, and is made with one pass. Lobes do not reflect. Batches
+of samples, each with a seed of its own, collect in FOLDER, so a second call adds to them.
 
 NAME.npz has arrays of one row per line of pixels, the upper first:
   radiance  per channel c = 1 + steps log2(radiance / least), rounded, W/(m2 sr); c = 0: none.
@@ -153,7 +153,10 @@ def make_scene(mi, faces, camera, depth, samples, sampler, work):
             "id": name,
             "filename": str(path),
             "face_normals": True,
-            "bsdf": {"type": "diffuse", "reflectance": {"type": "rgb", "value": list(material[3:])}},
+            "bsdf": {
+                "type": "diffuse",
+                "reflectance": {"type": "rgb", "value": list(material[3:])},
+            },
         }
         if material[:3].max() > 0:
             shape["emitter"] = {
@@ -166,11 +169,9 @@ def make_scene(mi, faces, camera, depth, samples, sampler, work):
 
 def make_mask(mi, scene, shown, width, height):
     """Which pixels show lamps, one face with all around them, back sides: see the file's text."""
-    x, y = np.meshgrid((np.arange(width * FINE) + 0.5) / FINE, (np.arange(height * FINE) + 0.5) / FINE)
-    position = mi.Point2f(
-        mi.Float((x / width).ravel().astype(np.float32)),
-        mi.Float((y / height).ravel().astype(np.float32)),
-    )
+    x, y = (((np.arange(n * FINE) + 0.5) / (n * FINE)).astype(np.float32) for n in (width, height))
+    x, y = np.meshgrid(x, y)
+    position = mi.Point2f(mi.Float(x.ravel()), mi.Float(y.ravel()))
     ray, _ = scene.sensors()[0].sample_ray(0, 0.5, position, mi.Point2f(0.5, 0.5))
     hit = scene.ray_intersect(ray)
     valid, triangle = np.array(hit.is_valid()), np.array(hit.prim_index)
@@ -189,9 +190,9 @@ def make_mask(mi, scene, shown, width, height):
     high = face.reshape(tiles).max(axis=(1, 3))
     for axis in (0, 1):
         low, high = over_neighbors(low, np.min, axis), over_neighbors(high, np.max, axis)
-    one = over_margin(lamp.reshape(fine)).reshape(tiles).any(axis=(1, 3))
+    lit = over_margin(lamp.reshape(fine)).reshape(tiles).any(axis=(1, 3))
     other = (~(valid & front)).reshape(tiles).any(axis=(1, 3))
-    return (one + 2 * ((low == high) & (low >= 0)) + 4 * other).astype(np.uint8)
+    return (lit + 2 * ((low == high) & (low >= 0)) + 4 * other).astype(np.uint8)
 
 
 def shape_ids(mi, shapes):
@@ -202,8 +203,8 @@ def shape_ids(mi, shapes):
 
 def over_neighbors(values, reduce, axis, reach=2):
     pad = [(reach, reach) if a == axis else (0, 0) for a in (0, 1)]
-    wide = np.lib.stride_tricks.sliding_window_view(np.pad(values, pad, "edge"), 2 * reach + 1, axis)
-    return reduce(wide, axis=-1)
+    wide = np.pad(values, pad, "edge")
+    return reduce(np.lib.stride_tricks.sliding_window_view(wide, 2 * reach + 1, axis), axis=-1)
 
 
 def over_margin(flags):
@@ -259,7 +260,8 @@ def write(name, batches, samples, mask):
     length = np.linalg.norm(mean, axis=-1)
     noise = np.divide(error, length, out=np.zeros_like(error), where=length > 0)
     seen = ((mask & 5) == 0) & (length > 0)
-    steps = 2.0 ** np.ceil(np.log2(2 / np.median(noise[seen]))).clip(0, 11)  # a tenth of the noise
+    # Rounding is a tenth of the noise.
+    steps = 2.0 ** np.ceil(np.log2(2 / np.median(noise[seen]))).clip(0, 11)
     least = max(mean[mean > 0].min(), mean.max() * 2 ** (-65000 / steps))
     np.savez_compressed(
         FOLDER / f"{name}.npz",
