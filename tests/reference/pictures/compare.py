@@ -136,9 +136,11 @@ def report(picture, reference, noise, mask, darkest):
               noise[seen] * weight / np.sqrt(np.mean(weight**2))))  # fmt: skip
     print("mean radiance             ", percent(picture[seen].sum() / reference[seen].sum() - 1))
     far = seen & ((mask & 2) != 0)
+    print("RMS, farther than 2 pixels from edges", net(error[far], noise[far]), "net of noise",
+          percent(np.sqrt(np.mean(noise[far] ** 2))))  # fmt: skip
     sure = np.where(far, error - 4 * noise, 0)
     row, column = np.unravel_index(sure.argmax(), sure.shape)
-    print(f"farther than 2 pixels from edges, net of 4 noise: at most {percent(sure.max())} at "
+    print(f"largest there, net of 4 noise: {percent(sure.max())} at "
           f"row {row}, column {column}; {(sure > 0.05).sum()} of {far.sum()} pixels above 5 %")
     means = np.linalg.norm(block_means(picture - reference, far), axis=(-1))
     means /= np.linalg.norm(block_means(reference, far), axis=-1)
