@@ -109,7 +109,7 @@ class SceneView : public QWidget {
   void set_sharp(const QImage& picture) { sharp_layer_->set_picture(picture); }
   const QImage& sharp() const { return sharp_layer_->picture(); }
   /// Draws the picture again.
-  void draw() { render(); }
+  void render();
   /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
   PatchId patch_at(const QPoint& position) const;
   /// The patch drawn at a point of canvas(), and its point there.
@@ -143,7 +143,6 @@ class SceneView : public QWidget {
   Vec3 vertical() const;
   void follow_camera();
   void place_callouts();
-  void render();
 
   const Focus& focus_;
   Selection& selection_;

@@ -13,8 +13,8 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr int rest_ms = 400;
-constexpr int label_margin = 10;
+constexpr int pause_ms = 400;  // from the last change on
+constexpr int label_distance = 10;
 
 }  // namespace
 
@@ -40,14 +40,14 @@ SharpView::SharpView(SceneView& view, QObject* parent)
                             QKeySequence(Qt::Key_S));
   action_->setCheckable(true);
   action_->setChecked(true);
-  connect(action_, &QAction::toggled, this, [this] {
+  connect(action_, &QAction::changed, this, [this] {
     follow();
-    view_.draw();
+    view_.render();
   });
   label_ = named("sharp_label", new Plate(view_.canvas()));
   rest_timer_ = new QTimer(this);
   rest_timer_->setSingleShot(true);
-  rest_timer_->setInterval(rest_ms);
+  rest_timer_->setInterval(pause_ms);
   connect(rest_timer_, &QTimer::timeout, this, &SharpView::start);
   connect(&view_, &SceneView::about_to_draw, this, &SharpView::follow);
 }
@@ -64,7 +64,7 @@ void SharpView::set_solving(bool solving) {
 /// Compares what the view shows with what was requested; called before each picture is drawn.
 void SharpView::follow() {
   std::optional<SharpSubject> now;
-  if (action_->isChecked()) {
+  if (action_->isEnabled() && action_->isChecked()) {
     now = view_.sharp_subject();
   }
   if (now == subject_) {
@@ -142,7 +142,7 @@ void SharpView::receive(const QImage& picture, const SharpProgress& progress) {
     finished_ = progress.finished;
     view_.set_sharp(picture);
     show_progress(progress);
-    view_.draw();
+    view_.render();
   }
   emit progressed(progress.fraction, progress.finished);
 }
@@ -151,7 +151,7 @@ void SharpView::show_progress(const SharpProgress& progress) {
   label_->setVisible(!progress.finished);
   label_->setText(tr("sharp %1/%2").arg(progress.samples).arg(SharpRenderer::samples));
   label_->adjustSize();
-  label_->move(label_margin, view_.canvas()->height() - label_->height() - label_margin);
+  label_->move(label_distance, view_.canvas()->height() - label_->height() - label_distance);
 }
 
 std::optional<QImage> SharpView::make(int scale, QWidget* window) {
@@ -168,14 +168,14 @@ std::optional<QImage> SharpView::make(int scale, QWidget* window) {
   SharpSubject subject = *subject_;
   subject.size *= scale;
   request(subject);
-  constexpr int steps = 1000;
-  QProgressDialog dialog(tr("Making the sharp picture…"), tr("Cancel"), 0, steps, window);
+  constexpr int whole = 1000;
+  QProgressDialog dialog(tr("Making the sharp picture…"), tr("Cancel"), 0, whole, window);
   dialog.setObjectName("sharp_dialog");
   dialog.setWindowModality(Qt::WindowModal);
   QEventLoop loop;
   const auto follow_progress =
       connect(this, &SharpView::progressed, &dialog, [&](double fraction, bool finished) {
-        dialog.setValue(qRound(0.999 * steps * fraction));
+        dialog.setValue(qRound(0.999 * whole * fraction));
         if (finished) {
           loop.quit();
         }

@@ -26,7 +26,7 @@ class SharpView : public QObject {
  public:
   explicit SharpView(SceneView& view, QObject* parent = nullptr);
 
-  /// Checked: sharp pictures are made.
+  /// Enabled and checked: sharp pictures are made.
   QAction* action() const { return action_; }
   /// While a solve runs or a scene is loaded, none is made.
   void set_solving(bool solving);

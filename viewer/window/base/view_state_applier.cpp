@@ -9,6 +9,7 @@
 #include "scene/color_controls.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "scene/sharp_view.h"
 #include "scene/show_menu.h"
 #include "solve/settings_panel.h"
 #include "state/step_events.h"
@@ -60,6 +61,7 @@ ViewStateApplier::ViewStateApplier(const WindowFrame& frame, DockLayouts& docks,
 
 void ViewStateApplier::show(const ViewState& state) {
   before_lesson_.reset();
+  frame_.page.sharp()->action()->setEnabled(true);
   apply(state);
 }
 
@@ -69,6 +71,8 @@ void ViewStateApplier::show_page(const ViewState& page) {
     frame_.state.breakpoints.set_list({});
     before_lesson_ = appearance();
     before_lesson_->options = settings_.options();
+    // Lessons are about patches, and what few directions do to them.
+    frame_.page.sharp()->action()->setEnabled(false);
   }
   apply(page);
 }
@@ -229,6 +233,7 @@ void ViewStateApplier::restore_appearance() {
   if (before_lesson_) {
     apply_appearance(*before_lesson_);
     frame_.page.color_controls()->set_direction(before_lesson_->direction_shown);
+    frame_.page.sharp()->action()->setEnabled(true);
     before_lesson_.reset();
   }
   frame_.state.colors.set_automatic_exposure(true);
