@@ -4,6 +4,7 @@
 #include <QVTKOpenGLNativeWidget.h>
 
 #include <QAbstractAnimation>
+#include <QAction>
 #include <QApplication>
 #include <QImage>
 #include <QMouseEvent>
@@ -21,6 +22,7 @@
 #include "registered.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "scene/sharp_view.h"
 #include "solve/settings_panel.h"
 #include "support/number_text.h"
 #include "widgets/banner.h"
@@ -138,9 +140,12 @@ inline void drag(QWidget& canvas, const QPoint& from, const QPoint& by, int step
   QTest::mouseRelease(&canvas, Qt::LeftButton, {}, from + by);
 }
 
-/// A window that remembers nothing, with the state that it shows, which outlives it.
+/// A window that remembers nothing, with the state that it shows, which outlives it. Sharp pictures
+/// are off, so that patches have their own colors.
 struct TestWindow : SharedState, MainWindow {
-  TestWindow() : MainWindow(static_cast<SharedState&>(*this), false) {}
+  TestWindow() : MainWindow(static_cast<SharedState&>(*this), false) {
+    views().page.sharp()->action()->setChecked(false);
+  }
 
   void set_options(const SolveOptions& solve, const SceneOptions& scene_options) {
     views().settings.set_options(solve, scene_options);

@@ -31,7 +31,7 @@ class GammaTable {
   std::array<std::uint8_t, steps + 1> shown_;
 };
 
-Color8 expose(const Rgb& radiosity, double factor, const GammaTable& gamma) {
+Rgb expose(const Rgb& radiosity, double factor) {
   // A patch that is too bright is scaled down, which keeps its hue. Linear functions may be below
   // 0.
   const auto exposed_channel = [factor](double b) { return std::max(factor * b, 0.0); };
@@ -39,10 +39,10 @@ Color8 expose(const Rgb& radiosity, double factor, const GammaTable& gamma) {
                     exposed_channel(radiosity.b)};
   const double largest = max_abs(exposed);
   if (!std::isfinite(largest)) {
-    return {255, 255, 255};
+    return {1, 1, 1};
   }
   const double scale = largest > 1 ? 1 / largest : 1;
-  const auto channel = [&](double x) { return gamma(std::clamp(scale * x, 0.0, 1.0)); };
+  const auto channel = [&](double x) { return std::clamp(scale * x, 0.0, 1.0); };
   return {channel(exposed.r), channel(exposed.g), channel(exposed.b)};
 }
 
@@ -85,8 +85,10 @@ void ColorScale::color(std::span<const Rgb> radiosity, std::vector<Color8>& colo
   if (mode == ColorMode::true_color) {
     const GammaTable table(gamma);
     const double factor = std::exp2(exposure);
-    std::transform(radiosity.begin(), radiosity.end(), colors.begin(),
-                   [&](const Rgb& b) { return expose(b, factor, table); });
+    std::transform(radiosity.begin(), radiosity.end(), colors.begin(), [&](const Rgb& b) -> Color8 {
+      const Rgb exposed = expose(b, factor);
+      return {table(exposed.r), table(exposed.g), table(exposed.b)};
+    });
   } else {
     std::transform(radiosity.begin(), radiosity.end(), colors.begin(), [&](const Rgb& b) {
       const double v = value(b);
@@ -95,6 +97,17 @@ void ColorScale::color(std::span<const Rgb> radiosity, std::vector<Color8>& colo
                                     : color_of(map, position(v));
     });
   }
+}
+
+Rgb ColorScale::exposed(const Rgb& radiosity) const {
+  return expose(radiosity, std::exp2(exposure));
+}
+
+Color8 ColorScale::shown(const Rgb& exposed) const {
+  const auto channel = [this](double x) {
+    return static_cast<std::uint8_t>(std::lround(255 * std::pow(x, 1 / gamma)));
+  };
+  return {channel(exposed.r), channel(exposed.g), channel(exposed.b)};
 }
 
 std::vector<double> ColorScale::ticks() const {

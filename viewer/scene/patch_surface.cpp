@@ -71,6 +71,10 @@ void PatchSurface::set_outlined(bool outlined) {
 
 bool PatchSurface::outlined() const { return actor_->GetProperty()->GetEdgeVisibility() != 0; }
 
+bool PatchSurface::draws_edges() const {
+  return outlined() || actor_->GetProperty()->GetRepresentation() == VTK_WIREFRAME;
+}
+
 void PatchSurface::set_line_width(double pixels) {
   actor_->GetProperty()->SetLineWidth(static_cast<float>(pixels));
 }

@@ -39,6 +39,8 @@ class PatchSurface {
   void color(const ColorChoice& colors, std::span<const Color8> patch_colors,
              const std::vector<bool>& dimmed);
   bool outlined() const;
+  /// Whether edges of patches are drawn, with the surfaces or in their place.
+  bool draws_edges() const;
   bool smooth() const { return smooth_; }
   std::vector<vtkActor*> actors() const { return {actor_, linear_->actor()}; }
 

@@ -9,6 +9,7 @@
 #include "colors/pointer_label.h"
 #include "scene/color_controls.h"
 #include "scene/scene_view.h"
+#include "scene/sharp_view.h"
 #include "scene/show_menu.h"
 #include "scene/welcome_page.h"
 #include "widgets/banner.h"
@@ -45,6 +46,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
           [this, show] { scene_view_->set_clip(show->clip()->choice()); });
   connect(show, &ShowMenu::smooth_toggled, scene_view_, &SceneView::set_smooth_shading);
   new KeptRunLabel(colors, scene_view_->canvas());
+  sharp_ = new SharpView(*scene_view_, this);
   const auto* pointer =
       new PointerLabel(colors, *scene_view_->canvas(), [this](const QPoint& position) {
         const auto hit = scene_view_->hit_at(position);

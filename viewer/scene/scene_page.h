@@ -17,6 +17,7 @@ namespace transillum::viewer {
 class Banner;
 class ColorControls;
 class SceneView;
+class SharpView;
 class WelcomePage;
 
 /// The center of the window: first the scenes to choose from, then the open scene with its colors.
@@ -41,6 +42,7 @@ class ScenePage : public QWidget {
   Banner* reading_bar() const { return reading_bar_; }
   ColorControls* color_controls() const { return color_controls_; }
   SceneView* scene_view() const { return scene_view_; }
+  SharpView* sharp() const { return sharp_; }
   QMenu* camera_menu() const { return camera_->menu(); }
   QAction* turntable_action() const { return camera_->turntable(); }
   HiddenPatches& hidden() { return hidden_; }
@@ -69,6 +71,7 @@ class ScenePage : public QWidget {
   QAction* scenes_;
   ColorControls* color_controls_;
   SceneView* scene_view_;
+  SharpView* sharp_;
 };
 
 }  // namespace transillum::viewer

@@ -10,8 +10,6 @@
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
-#include <vtkInteractorStyleTrackballCamera.h>
-#include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -24,10 +22,11 @@
 #include <QPainter>
 #include <QTimer>
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "scene/callout_layer.h"
+#include "scene/camera_style.h"
+#include "scene/shown_hit.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
 
@@ -37,28 +36,6 @@ namespace {
 
 // Antialiasing is slow without a GPU: it is off until no step has come for this long.
 constexpr int rest_ms = 150;
-
-// Turns off VTK's keys, which end the program ("e", "q") or change the picture ("w", "3").
-class CameraStyle : public vtkInteractorStyleTrackballCamera {
- public:
-  static CameraStyle* New() { VTK_STANDARD_NEW_BODY(CameraStyle); }
-  void OnChar() override {}
-  void Rotate() override {
-    if (!turn) {
-      vtkInteractorStyleTrackballCamera::Rotate();
-      return;
-    }
-    // A drag across the whole picture turns by 200 degrees, like VTK's trackball.
-    const int* now = Interactor->GetEventPosition();
-    const int* before = Interactor->GetLastEventPosition();
-    const int* size = Interactor->GetSize();
-    turn(-200.0 * (now[0] - before[0]) / std::max(size[0], 1),
-         -200.0 * (now[1] - before[1]) / std::max(size[1], 1));
-  }
-
-  /// Turns by azimuth and elevation, degrees; empty for a trackball.
-  std::function<void(double, double)> turn;
-};
 
 vtkSmartPointer<vtkActor> line_actor(vtkRenderer& renderer, const QColor& color) {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -95,6 +72,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   canvas_->interactor()->SetInteractorStyle(style);
 
   surface_ = std::make_unique<PatchSurface>(*renderer_, hidden_);
+  renderer_->AddViewProp(sharp_layer_);
   halo_ = line_actor(*renderer_, Qt::black);
   outline_ = line_actor(*renderer_, theme::selection);
   renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::follow_camera);
@@ -437,6 +415,9 @@ void SceneView::follow_camera() {
     eye_ = eye;
     emit eye_moved(eye);
   }
+  if (!taking_picture_) {
+    emit about_to_draw();
+  }
   outline_->SetScale(1 - 5e-4);
 }
 
@@ -498,16 +479,49 @@ void SceneView::render() {
   }
 }
 
-QImage SceneView::picture(int scale) const {
+std::optional<SharpSubject> SceneView::sharp_subject() const {
+  const auto shown = colors_.shows_kept_run() ? colors_.run_a() : colors_.snapshot();
+  const bool by_eye = colors_.quantity() == Quantity::eye_radiance;
+  const bool of_light = by_eye || (colors_.quantity() == Quantity::radiosity && shown &&
+                                   shown->glossy == nullptr);  // else B is not what is seen
+  if (!snapshot_ || !of_light || colors_.scale().mode != ColorMode::true_color ||
+      colors_.values().empty() || shown->loaded->scene != loaded_->scene ||
+      !(shown->passes_done > 0 || shown->of_file) || stepping() || surface_->draws_edges()) {
+    return std::nullopt;
+  }
+  const int* size = window_->GetSize();
+  SharpSubject subject{.loaded = loaded_,
+                       .snapshot = shown,
+                       .by_eye = by_eye,
+                       .scale = colors_.scale(),
+                       .view = view_point(),
+                       .size = {size[0], size[1]}};
+  if (hidden_.any()) {
+    subject.hidden = hidden_.flags();
+  }
+  if (clip_) {
+    subject.half = ShownHalf{vec3(clip_plane_->GetOrigin()), vec3(clip_plane_->GetNormal())};
+  }
+  return subject;
+}
+
+QImage SceneView::picture(int scale, const QImage& sharp) {
+  const QImage shown = sharp_layer_->picture();
+  taking_picture_ = true;
+  if (!sharp.isNull()) {
+    sharp_layer_->set_picture(sharp);
+  }
   vtkNew<vtkWindowToImageFilter> filter;
   filter->SetInput(window_);
   filter->SetScale(scale);
   filter->ReadFrontBufferOff();
   filter->SetInputBufferTypeToRGB();
   filter->Update();
-  if (scale > 1) {
+  sharp_layer_->set_picture(shown);
+  if (scale > 1 || !sharp.isNull()) {
     window_->Render();  // the filter leaves its last tile on the screen
   }
+  taking_picture_ = false;
   vtkImageData* pixels = filter->GetOutput();
   const int* size = pixels->GetDimensions();
   const auto* bytes = static_cast<const uchar*>(pixels->GetScalarPointer());
@@ -547,13 +561,8 @@ std::optional<PickedPoint> SceneView::hit_at(const QPoint& position) const {
   // Back sides are culled in the picture.
   Vec3 begin = world(0);
   const Vec3 direction = normalized(world(1) - begin);
-  const double past = 2e-5 * loaded_->scene->bounds().diagonal();  // beyond what was hit
-  auto hit = loaded_->picker->first_lit_hit(begin, direction);
-  while (hit && !in_picture(*hit)) {
-    begin = hit->point + past * direction;
-    hit = loaded_->picker->first_lit_hit(begin, direction);
-  }
-  return hit;
+  return first_shown_hit(*loaded_, begin, direction,
+                         [this](const PickedPoint& point) { return in_picture(point); });
 }
 
 bool SceneView::eventFilter(QObject* watched, QEvent* event) {

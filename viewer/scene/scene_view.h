@@ -25,6 +25,8 @@
 #include "scene/patch_surface.h"
 #include "scene/path_glyph.h"
 #include "scene/scene_overlays.h"
+#include "scene/sharp_layer.h"
+#include "scene/sharp_picture.h"
 #include "state/callout.h"
 #include "state/camera_views.h"
 #include "state/focus.h"
@@ -97,7 +99,17 @@ class SceneView : public QWidget {
   const FeatureEdges& feature_edges() const { return *feature_edges_; }
 
   /// The picture shown, with its callouts, with `scale` times as many pixels per side.
-  QImage picture(int scale) const;
+  /// @param sharp  the sharp picture in that size, to show in place of the surfaces; null for
+  /// sharp()
+  QImage picture(int scale, const QImage& sharp = {});
+  /// What a sharp picture of this view shows; none where the surfaces show something else than
+  /// light in true color.
+  std::optional<SharpSubject> sharp_subject() const;
+  /// Shows a sharp picture in the next picture, in place of the surfaces; null hides it.
+  void set_sharp(const QImage& picture) { sharp_layer_->set_picture(picture); }
+  const QImage& sharp() const { return sharp_layer_->picture(); }
+  /// Draws the picture again.
+  void render();
   /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
   PatchId patch_at(const QPoint& position) const;
   /// The patch drawn at a point of canvas(), and its point there.
@@ -105,8 +117,12 @@ class SceneView : public QWidget {
   QWidget* canvas() const;
   /// Whether the picture is final: no button is held, and no further step has come for a while.
   bool at_rest() const;
+  /// Whether the left button is held in the picture.
+  bool pressed() const { return pressed_; }
 
  signals:
+  /// The picture is about to be drawn; what is shown may have changed.
+  void about_to_draw();
   /// The camera is at another point than in the picture before; emitted while a picture is drawn.
   void eye_moved(const transillum::Vec3& eye);
 
@@ -127,7 +143,6 @@ class SceneView : public QWidget {
   Vec3 vertical() const;
   void follow_camera();
   void place_callouts();
-  void render();
 
   const Focus& focus_;
   Selection& selection_;
@@ -156,6 +171,8 @@ class SceneView : public QWidget {
   std::optional<ClipPlane> clip_;
   vtkNew<vtkPlane> clip_plane_;
   std::unique_ptr<PatchSurface> surface_;
+  vtkNew<SharpLayer> sharp_layer_;
+  bool taking_picture_ = false;  ///< picture() draws
   vtkSmartPointer<vtkActor> halo_, outline_;
   std::unique_ptr<FeatureEdges> feature_edges_;
   std::unique_ptr<DirectionGlyph> glyph_;

@@ -8,6 +8,7 @@
 #include <QTimer>
 
 #include "scene/scene_page.h"
+#include "scene/sharp_view.h"
 #include "support/checked_bytes.h"
 #include "window/base/dock_layouts.h"
 #include "window/base/notifier.h"
@@ -55,6 +56,7 @@ void LayoutMemory::restore() {
   QSettings settings;
   frame_.state.breakpoints.load(settings);
   frame_.page.turntable_action()->setChecked(settings.value("scene/turntable", false).toBool());
+  frame_.page.sharp()->action()->setChecked(settings.value("scene/sharp", true).toBool());
   files_.load(settings);
   const auto geometry = without_checksum(settings.value("window/geometry").toByteArray());
   if (geometry) {
@@ -82,6 +84,7 @@ void LayoutMemory::save() {
   frame_.state.breakpoints.save(settings);
   appearance_.save(settings);
   settings.setValue("scene/turntable", frame_.page.turntable_action()->isChecked());
+  settings.setValue("scene/sharp", frame_.page.sharp()->action()->isChecked());
   files_.save(settings);
 }
 

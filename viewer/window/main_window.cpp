@@ -32,6 +32,7 @@
 #include "scene/error_view.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "scene/sharp_view.h"
 #include "scene/show_menu.h"
 #include "solve/convergence_view.h"
 #include "solve/progress_line.h"
@@ -271,6 +272,9 @@ void MainWindow::connect_views() {
           &TimelineLanes::count_columns);
   connect(&state_.runner, &SolveRunner::load_progressed, progress_, &ProgressLine::show_loading);
   connect(&state_.runner, &SolveRunner::state_changed, progress_, &ProgressLine::show_state);
+  connect(&state_.runner, &SolveRunner::state_changed, page_->sharp(), [this](RunState run) {
+    page_->sharp()->set_solving(run == RunState::running || run == RunState::loading);
+  });
   projector_ =
       new ProjectorMode(frame(), docks_, *lesson_panel_, full_screen_, appearance_, *timeline_);
   connect(&appearance_, &AppearanceActions::changed, this, [this] {
@@ -397,6 +401,7 @@ void MainWindow::show_debugging_of_scene() {
 
 void MainWindow::connect_failures() {
   connect(&state_.runner, &SolveRunner::failed, notifier_, &Notifier::show_failure);
+  connect(page_->sharp(), &SharpView::failed, notifier_, &Notifier::show_failure);
   connect(inspection_, &InspectionPanels::failed, notifier_, &Notifier::show_failure);
   connect(error_view_, &ErrorView::failed, notifier_, &Notifier::show_failure);
   connect(lesson_panel_, &LessonPanel::failed, notifier_, &Notifier::show_failure);
@@ -468,6 +473,7 @@ void MainWindow::make_view_menu() {
   view->addMenu(page_->camera_menu());
   view->addAction(tr("Show or hide the direction"), page_->color_controls(),
                   &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
+  view->addAction(page_->sharp()->action());
   view->addAction(page_->color_controls()->show_menu()->next_clip_axis());
   QAction* stop = view->addAction(
       tr("Stop loading or searching, or clear the selection"), this,
@@ -527,8 +533,9 @@ bool MainWindow::settled() const {
   const bool idle =
       state_.runner.state() == RunState::paused || state_.runner.state() == RunState::finished;
   return idle && state_.scene.snapshot() && applier_->arrived() && !state_.relighting.busy() &&
-         !state_.colors.busy() && !inspection_->busy() && !compare_view_->busy() &&
-         (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
+         !state_.colors.busy() && page_->sharp()->settled() && !inspection_->busy() &&
+         !compare_view_->busy() && (map_dock_->isHidden() || map_view_->up_to_date()) &&
+         direction_view_->up_to_date();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

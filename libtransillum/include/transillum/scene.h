@@ -217,6 +217,10 @@ class Scene {
   /// @throws Canceled
   Scene(const SceneDescription& description, const SceneOptions& options = {},
         const Cancellation& cancellation = {});
+  /// The patches of another scene with other materials, whose values are not checked.
+  /// @param of_patch index into `materials` for each patch
+  Scene(const Scene& other, std::vector<Material> materials,
+        const std::vector<std::int32_t>& of_patch);
 
   /// SceneDescription::name.
   const std::string& name() const { return name_; }

@@ -10,6 +10,7 @@
 #include "scene/color_controls.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "scene/sharp_view.h"
 #include "scene/show_menu.h"
 #include "solve/settings_panel.h"
 #include "state/step_events.h"
@@ -61,6 +62,7 @@ ViewStateApplier::ViewStateApplier(const WindowFrame& frame, DockLayouts& docks,
 
 void ViewStateApplier::show(const ViewState& state) {
   before_lesson_.reset();
+  frame_.page.sharp()->action()->setEnabled(true);
   apply(state);
 }
 
@@ -70,6 +72,8 @@ void ViewStateApplier::show_page(const ViewState& page) {
     frame_.state.breakpoints.set_list({});
     before_lesson_ = appearance();
     before_lesson_->options = settings_.options();
+    // Lessons are about patches, and what few directions do to them.
+    frame_.page.sharp()->action()->setEnabled(false);
   }
   apply(page);
 }
@@ -230,6 +234,7 @@ void ViewStateApplier::restore_appearance() {
   if (before_lesson_) {
     apply_appearance(*before_lesson_);
     frame_.page.color_controls()->set_direction(before_lesson_->direction_shown);
+    frame_.page.sharp()->action()->setEnabled(true);
     before_lesson_.reset();
   }
   frame_.state.colors.set_automatic_exposure(true);

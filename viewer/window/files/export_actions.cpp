@@ -8,6 +8,7 @@
 #include <QMenu>
 #include <QSaveFile>
 #include <algorithm>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 
@@ -17,6 +18,7 @@
 #include "model/snapshot_values.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "scene/sharp_view.h"
 #include "solve/convergence_view.h"
 #include "state/callout.h"
 #include "state/camera_views.h"
@@ -142,8 +144,8 @@ void ExportActions::add(const char* name, const QString& text, const QString& ti
 
 void ExportActions::add_to(QMenu& menu) const { menu.addActions(actions_); }
 
-void ExportActions::write_scene(const QString& path, int scale) const {
-  write_png(path, frame_.page.scene_view()->picture(scale));
+void ExportActions::write_scene(const QString& path, int scale, const QImage& sharp) const {
+  write_png(path, frame_.page.scene_view()->picture(scale, sharp));
 }
 
 void ExportActions::write_result(const QString& path) {
@@ -284,9 +286,11 @@ void ExportActions::choose_scene() {
   const int scale =
       QInputDialog::getInt(&frame_.window, tr("Picture of the scene"),
                            tr("Scale (pixels per screen pixel):"), 2, 1, 8, 1, &go_on);
-  if (go_on) {
+  const auto sharp =
+      go_on ? frame_.page.sharp()->make(scale, &frame_.window) : std::optional<QImage>();
+  if (sharp) {
     write_chosen(tr("Picture of the scene"), tr("Pictures (*.png)"), name_with(".png"),
-                 [&](const QString& path) { write_scene(path, scale); });
+                 [&](const QString& path) { write_scene(path, scale, *sharp); });
   }
 }
 

@@ -32,7 +32,8 @@ class ExportActions : public QObject {
 
   void add_to(QMenu& menu) const;
   /// Writes the scene as it is drawn, with `scale` times as many pixels a side (1 … 8).
-  void write_scene(const QString& path, int scale) const;
+  /// @param sharp  SharpView::make(); null without one
+  void write_scene(const QString& path, int scale, const QImage& sharp = {}) const;
   /// Writes the result shown, in the formats of `transillum solve`: .vtp, .csv or .ply. A worker
   /// thread writes; a failure there is shown in the window.
   /// @throws InputError where it is clear at once that it cannot be written

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
@@ -41,6 +42,15 @@ Scene::Scene(const SceneDescription& description, const SceneOptions& options,
   report_ = std::move(builder.report);
   for (const PointId p : outline_corners_) {
     bounds_.add(point(p));
+  }
+}
+
+Scene::Scene(const Scene& other, std::vector<Material> materials,
+             const std::vector<std::int32_t>& of_patch)
+    : Scene(other) {
+  materials_ = std::move(materials);
+  for (PatchId i = 0; i < patch_count(); ++i) {
+    at(patches_, i).material = at(of_patch, i);
   }
 }
 

@@ -1,0 +1,309 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The sharp picture: when it is made and hidden, and that its pixels are the light of the solution.
+#include <QAction>
+#include <QLabel>
+#include <QTemporaryDir>
+#include <numbers>
+
+#include "model/snapshot_values.h"
+#include "scene/color_controls.h"
+#include "transillum/picture.h"
+#include "window/files/export_actions.h"
+#include "window_support.h"
+
+namespace transillum::viewer::sharp_test {
+
+using namespace test;
+
+namespace {
+
+/// A solved scene whose picture has only surfaces, with sharp pictures.
+struct SharpWindow {
+  std::unique_ptr<TestWindow> window;
+  SceneView* scene_view = nullptr;
+  SharpView* sharp = nullptr;
+  bool ready = false;
+
+  SharpWindow() {
+    const SolveOptions options{.directions = 128, .first_shot = {}};
+    window = make_window(options);
+    window->set_options(options, {.max_patch_area = 0.01});
+    window->resize(window->minimumSizeHint());
+    scene_view = window->findChild<SceneView*>();
+    sharp = window->views().page.sharp();
+    window->open("cornell-box");
+    ready = wait_for([this] { return window->runner.state() == RunState::finished; }) &&
+            comes_to_rest(*window);
+    window->views().page.color_controls()->set_outlines(false);
+    window->views().page.color_controls()->set_direction(false);
+  }
+  /// Waits until it has been made.
+  bool becomes_sharp() const {
+    sharp->action()->setChecked(true);
+    return ready &&
+           wait_for([this] { return !scene_view->sharp().isNull() && sharp->settled(); }) &&
+           comes_to_rest(*window);
+  }
+  SharpSubject subject() const { return *scene_view->sharp_subject(); }
+};
+
+/// The light of what is shown, for comparison.
+struct ShownLight {
+  SharpSubject subject;
+  std::shared_ptr<const Scene> scene;
+  SurfaceLight light;
+  CameraRays rays;
+
+  explicit ShownLight(const SharpSubject& shown)
+      : subject(shown),
+        scene(scene_of(*shown.snapshot)),
+        light(solution_of_scene()),
+        rays(*scene,
+             {.eye = shown.view.eye,
+              .target = shown.view.target,
+              .up = shown.view.up,
+              .field_of_view = shown.view.view_angle},
+             shown.size.width(), shown.size.height()) {}
+
+  static std::shared_ptr<const Scene> scene_of(const SolverSnapshot& snapshot) {
+    const auto& own = snapshot.loaded->scene;
+    return snapshot.materials ? std::make_shared<const Scene>(*own, snapshot.materials->materials,
+                                                              snapshot.materials->of_patch)
+                              : own;
+  }
+  std::shared_ptr<const Solution> solution_of_scene() const {
+    auto solution = std::make_shared<Solution>(solution_of(*subject.snapshot));
+    solution->scene = scene;
+    return solution;
+  }
+  /// Whether all of a pixel shows patches, none of which is too bright for its color.
+  bool is_plain(int column, int row) const {
+    for (int k = 0; k < SharpRenderer::samples; ++k) {
+      const auto [ray, salt] = sample_ray(rays, column, row, k);
+      const Rgb b = std::numbers::pi * light.radiance(ray.origin, ray.direction, salt);
+      if (!subject.loaded->picker->first_lit_hit(ray.origin, ray.direction) ||
+          std::exp2(subject.scale.exposure) * max_abs(b) > 1) {
+        return false;
+      }
+    }
+    return true;
+  }
+  QColor color(int column, int row) const {
+    const Rgb radiance = pixel_radiance(light, rays, {column, row, 0, SharpRenderer::samples});
+    const Color8 color = subject.scale.shown(subject.scale.exposed(std::numbers::pi * radiance));
+    return {color[0], color[1], color[2]};
+  }
+};
+
+int difference(const QColor& a, const QColor& b) {
+  return std::max({std::abs(a.red() - b.red()), std::abs(a.green() - b.green()),
+                   std::abs(a.blue() - b.blue())});
+}
+
+/// The number of pixels compared, of a grid, and of those that differ from the light.
+struct Compared {
+  int pixels = 0, different = 0;
+};
+Compared compare(const QImage& picture, const ShownLight& shown) {
+  Compared result;
+  for (int row = 3; row < picture.height(); row += 11) {
+    for (int column = 3; column < picture.width(); column += 11) {
+      if (shown.is_plain(column, row)) {
+        ++result.pixels;
+        constexpr int rounding = 1;
+        result.different +=
+            difference(picture.pixelColor(column, row), shown.color(column, row)) > rounding;
+      }
+    }
+  }
+  return result;
+}
+
+double brightness(const QImage& picture) {
+  double sum = 0;
+  for (int y = 0; y < picture.height(); y += 3) {
+    for (int x = 0; x < picture.width(); x += 3) {
+      sum += qGray(picture.pixel(x, y));
+    }
+  }
+  return sum / (picture.width() * picture.height() / 9.0);
+}
+
+}  // namespace
+
+class SharpTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_scene_at_rest_shows_the_light_of_every_pixel() {
+    const SharpWindow shown;
+    const QImage flat = shown.scene_view->picture(1);
+    QVERIFY(shown.becomes_sharp());
+    const QImage sharp = shown.scene_view->sharp();
+    QCOMPARE(sharp.size(), flat.size());
+    const Compared compared = compare(sharp, ShownLight(shown.subject()));
+    QVERIFY2(compared.pixels > 300, qPrintable(QString::number(compared.pixels)));
+    QCOMPARE(compared.different, 0);
+    // Every pixel is on the screen as it was made.
+    shown.scene_view->set_antialiased(false);
+    QCOMPARE(different_pixels(shown.scene_view->picture(1).convertToFormat(QImage::Format_RGB32),
+                              sharp.convertToFormat(QImage::Format_RGB32)),
+             0);
+    // Both pictures have the same exposure.
+    QVERIFY(std::abs(brightness(sharp) - brightness(flat)) < 0.05 * brightness(flat));
+    save_picture(*shown.window, "sharp");
+  }
+
+  void the_picture_is_the_same_for_any_number_of_threads() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    SharpSubject subject = shown.subject();
+    auto one_thread = std::make_shared<SolverSnapshot>(*subject.snapshot);
+    one_thread->options.threads = 1;
+    subject.snapshot = one_thread;
+    QImage picture;
+    int deliveries = 0;
+    SharpRenderer().render(subject, {}, [&](const QImage& image, const SharpProgress& progress) {
+      ++deliveries;
+      picture = progress.finished ? image.copy() : QImage();
+    });
+    QVERIFY(deliveries > 1);
+    QCOMPARE(picture, shown.scene_view->sharp());
+  }
+
+  void a_movement_hides_it_at_once() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    const QImage before = shown.scene_view->sharp();
+    drag(*shown.scene_view->canvas(), shown.scene_view->canvas()->rect().center(), {40, 10});
+    QVERIFY(shown.scene_view->sharp().isNull());
+    QVERIFY(!shown.sharp->settled());
+    QVERIFY(shown.becomes_sharp());
+    QVERIFY(shown.scene_view->sharp() != before);
+    QCOMPARE(compare(shown.scene_view->sharp(), ShownLight(shown.subject())).different, 0);
+  }
+
+  void a_lamp_made_in_the_window_lights_it() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    MaterialEdits& edits = shown.window->relighting.edits();
+    const PatchId lamp = shown.scene_view->patch_at(shown.scene_view->canvas()->rect().center());
+    QVERIFY(lamp != no_patch);
+    const Scene& scene = *shown.window->snapshot()->loaded->scene;
+    edits.set_exitance(MaterialEdits::target_of(scene, TargetKind::material, lamp), {0, 0, 40});
+    QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
+    QVERIFY(shown.scene_view->sharp().isNull());
+    QVERIFY(shown.becomes_sharp());
+    const QImage sharp = shown.scene_view->sharp();
+    const QColor middle = sharp.pixelColor(sharp.rect().center());
+    QVERIFY(middle.blue() > middle.red());
+    QCOMPARE(compare(sharp, ShownLight(shown.subject())).different, 0);
+  }
+
+  void it_is_switched_by_its_key() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    QTest::keyClick(shown.window.get(), Qt::Key_S);
+    QVERIFY(!shown.sharp->action()->isChecked());
+    QVERIFY(shown.scene_view->sharp().isNull());
+    QVERIFY(comes_to_rest(*shown.window));
+    QVERIFY(fraction_in_own_color(*shown.scene_view, shown.window->colors) > 0.95);
+    QTest::keyClick(shown.window.get(), Qt::Key_S);
+    QVERIFY(shown.becomes_sharp());
+  }
+
+  void other_quantities_and_edges_are_not_covered() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    ColorChoice& colors = shown.window->colors;
+    const auto none = [&] {
+      return shown.scene_view->sharp().isNull() && shown.sharp->settled() &&
+             shown.window->findChild<QLabel*>("sharp_label")->isHidden();
+    };
+    colors.set_quantity(Quantity::irradiance);
+    QVERIFY(none());
+    colors.set_quantity(Quantity::radiosity);
+    QVERIFY(shown.becomes_sharp());
+    colors.set_mode(ColorMode::luminance);
+    QVERIFY(none());
+    colors.set_mode(ColorMode::true_color);
+    shown.scene_view->set_outlines_shown(true);
+    QVERIFY(none());
+    shown.scene_view->set_outlines_shown(false);
+    shown.scene_view->set_wireframe(true);
+    QVERIFY(none());
+    shown.scene_view->set_wireframe(false);
+    colors.set_quantity(Quantity::eye_radiance);
+    QVERIFY(shown.becomes_sharp());
+  }
+
+  void the_selection_is_drawn_over_it() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    const QImage before = shown.scene_view->picture(1);
+    const QPoint middle = shown.scene_view->canvas()->rect().center();
+    shown.window->selection.select(shown.scene_view->patch_at(middle));
+    QVERIFY(!shown.scene_view->sharp().isNull());
+    QVERIFY(comes_to_rest(*shown.window));
+    QVERIFY(different_pixels(before, shown.scene_view->picture(1)) > 50);
+    shown.window->selection.select(no_patch);
+    QVERIFY(comes_to_rest(*shown.window));
+    QCOMPARE(shown.scene_view->picture(1), before);
+  }
+
+  void what_is_hidden_or_clipped_is_seen_through() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    const QPoint middle = shown.scene_view->canvas()->rect().center();
+    const QColor before = shown.scene_view->sharp().pixelColor(middle);
+    const PatchId front = shown.scene_view->patch_at(middle);
+    const PatchId hidden[] = {front};
+    shown.window->views().page.hidden().hide(hidden);
+    QVERIFY(shown.scene_view->sharp().isNull());
+    QVERIFY(shown.becomes_sharp());
+    QVERIFY(shown.scene_view->patch_at(middle) != front);
+    QVERIFY(difference(shown.scene_view->sharp().pixelColor(middle), before) > 3);
+    shown.window->views().page.hidden().show_all();
+    shown.scene_view->set_clip(ClipPlane{ClipPlane::Axis::x, 0.5, false});
+    QVERIFY(shown.becomes_sharp());
+    const QImage clipped = shown.scene_view->sharp();
+    int background = 0;
+    for (int y = 5; y < clipped.height(); y += 10) {
+      for (int x = 5; x < clipped.width(); x += 10) {
+        const bool is_empty = shown.scene_view->patch_at({x, y}) == no_patch;
+        background += is_empty && difference(clipped.pixelColor(x, y), theme::scene_background) > 1;
+      }
+    }
+    QVERIFY(background < 10);  // pixels at edges
+  }
+
+  void a_picture_that_is_saved_is_sharp_at_its_size() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    const auto large = shown.sharp->make(2, shown.window.get());
+    QVERIFY(large.has_value());
+    QCOMPARE(large->size(), 2 * shown.scene_view->sharp().size());
+    SharpSubject subject = shown.subject();
+    subject.size *= 2;
+    QCOMPARE(compare(*large, ShownLight(subject)).different, 0);
+    shown.scene_view->set_antialiased(false);
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("scene.png");
+    shown.window->findChild<ExportActions*>()->write_scene(path, 2, *large);
+    QCOMPARE(different_pixels(QImage(path).convertToFormat(QImage::Format_RGB32),
+                              large->convertToFormat(QImage::Format_RGB32)),
+             0);
+    QVERIFY(shown.scene_view->sharp().size() == shown.subject().size);
+    // Without a sharp picture, the surfaces are saved.
+    shown.sharp->action()->setChecked(false);
+    const auto none = shown.sharp->make(2, shown.window.get());
+    QVERIFY(none && none->isNull());
+  }
+};
+
+const test::Registered registered("sharp", test::run_as_viewer<SharpTest>);
+
+}  // namespace transillum::viewer::sharp_test
+
+#include "sharp_test.moc"

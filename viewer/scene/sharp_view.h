@@ -1,0 +1,74 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QImage>
+#include <QObject>
+#include <QTimer>
+#include <atomic>
+#include <optional>
+
+#include "scene/sharp_picture.h"
+#include "support/request_worker.h"
+#include "widgets/plate.h"
+
+class QAction;
+class QWidget;
+
+namespace transillum::viewer {
+
+class SceneView;
+
+/// Shows the sharp picture in the scene view while that rests, and hides it at once when anything
+/// in it changes.
+class SharpView : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit SharpView(SceneView& view, QObject* parent = nullptr);
+
+  /// Enabled and checked: sharp pictures are made.
+  QAction* action() const { return action_; }
+  /// While a solve runs or a scene is loaded, none is made.
+  void set_solving(bool solving);
+  /// Whether the picture of the scene is final: the sharp picture is finished, or none is made.
+  bool settled() const { return !wanted() || finished_; }
+  /// Makes the sharp picture with `scale` times as many pixels a side, behind a dialog.
+  /// @returns null where none is shown; nothing where the user canceled or it failed
+  std::optional<QImage> make(int scale, QWidget* window);
+
+ signals:
+  void failed(const QString& message);
+  /// The picture of the newest request has changed, or is finished.
+  void progressed(double fraction, bool finished);
+
+ private:
+  struct Task {
+    std::optional<SharpSubject> subject;  ///< none releases the light
+    quint64 number = 0;
+  };
+  bool wanted() const { return subject_ && !solving_; }
+  void follow();
+  void start();
+  void request(const SharpSubject& subject);
+  void stop();
+  void run(const Task& task, const Cancellation& cancellation);
+  void receive(const QImage& picture, const SharpProgress& progress);
+  void show_progress(const SharpProgress& progress);
+
+  SceneView& view_;
+  QAction* action_;
+  QTimer* rest_timer_;  ///< from the last change until the picture is begun
+  Plate* label_;
+  bool solving_ = false;
+  std::optional<SharpSubject> subject_;  ///< what is to be shown; none without a sharp picture
+  bool finished_ = false;                ///< its picture is shown at its final quality
+  bool begun_ = false;
+  QImage enlarged_;                   ///< the finished picture of make()
+  quint64 number_ = 0;                ///< of the newest request
+  bool enlarges_ = false;             ///< the newest request is of make()
+  std::atomic<bool> posted_ = false;  ///< a picture has not been received yet
+  SharpRenderer renderer_;            ///< used by the worker's thread only
+  RequestWorker<Task> worker_;
+};
+
+}  // namespace transillum::viewer
