@@ -294,8 +294,8 @@ class ErrorsTest : public QObject {
     QVERIFY(options.total);
     QVERIFY(!shown.window->findChild<QComboBox*>("refine_by")->isEnabled());
     const auto scene = shown.window->snapshot()->loaded->scene;
-    const TotalSolve expected = solve_to_total({.scene = scene, .options = options.solve},
-                                               {.total = 0.4, .patches = 5000});
+    const TotalSolve expected =
+        solve_to_total({.scene = scene, .options = options.solve}, {.total = 0.4, .patches = 5000});
     QVERIFY(expected.stages.size() > 1);
 
     // A pause, perhaps while errors are measured, changes no bit.
