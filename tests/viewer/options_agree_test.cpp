@@ -17,6 +17,7 @@
 #include "registered.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/solve_session.h"
 #include "window/command_line.h"
 
 namespace transillum::viewer::options_agree_test {

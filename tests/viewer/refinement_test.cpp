@@ -236,7 +236,7 @@ class RefinementTest : public QObject {
     const std::string mine = folder.filePath("mine.tck").toStdString();
     const QString left = folder.filePath("left.tck");
     SolveOptions plain = few;
-
+    plain.first_shot.reset();
     const RefineChoice choice = by(RefineBy::jump, 60);
     std::vector<Rgb> radiosity;
     {

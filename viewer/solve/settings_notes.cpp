@@ -1,10 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Solve settings": bases and lobes, and the notes on settings that they cannot be
-// combined with.
+// The panel "Solve settings": bases and lobes, the notes on settings that they cannot be
+// combined with, and rows that are hidden.
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
+#include <QLabel>
 #include <QSpinBox>
 #include <algorithm>
 
@@ -72,6 +73,22 @@ void SettingsPanel::set_scene_lobes(const Scene& scene) {
     }
   }
   show_glossy_state();
+}
+
+// A hidden row would leave its spacing.
+void SettingsPanel::show_row(QLabel* label, QWidget* field, bool shown) {
+  const bool in_form = form_->indexOf(field) >= 0;
+  if (shown && !in_form) {
+    int row = 0;
+    form_->getWidgetPosition(engine_, &row, nullptr);
+    form_->insertRow(row + 1, label, field);
+  } else if (!shown && in_form) {
+    const QFormLayout::TakeRowResult row = form_->takeRow(field);
+    delete row.labelItem;
+    delete row.fieldItem;
+  }
+  label->setVisible(shown);
+  field->setVisible(shown);
 }
 
 }  // namespace transillum::viewer

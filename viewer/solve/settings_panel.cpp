@@ -594,20 +594,4 @@ void SettingsPanel::show_state() {
   restart_->setFont(font);
 }
 
-// A hidden row would leave its spacing.
-void SettingsPanel::show_row(QLabel* label, QWidget* field, bool shown) {
-  const bool in_form = form_->indexOf(field) >= 0;
-  if (shown && !in_form) {
-    int row = 0;
-    form_->getWidgetPosition(engine_, &row, nullptr);
-    form_->insertRow(row + 1, label, field);
-  } else if (!shown && in_form) {
-    const QFormLayout::TakeRowResult row = form_->takeRow(field);
-    delete row.labelItem;
-    delete row.fieldItem;
-  }
-  label->setVisible(shown);
-  field->setVisible(shown);
-}
-
 }  // namespace transillum::viewer
