@@ -189,7 +189,7 @@ TEST(Checkpoint, AnAccuracyIsReachedByTheSameStages) {
 }
 
 /// A solve to a total error; where it is interrupted, it is continued from its file.
-/// @param events of each stage after which it is interrupted; 0: never
+/// @param events of each stage after which it is interrupted; 0 disables that
 TotalSolve total_solve(int events, const std::string& file) {
   SolveOptions options;
   options.goal.accuracy = 0.2;
