@@ -21,6 +21,7 @@ namespace transillum::glossy_first_shot_test {
 namespace {
 
 using testing::box_scene;
+using testing::box_with_weak_lobes;
 using testing::glossy_box;
 using testing::glossy_box_description;
 using testing::glossy_options;

@@ -20,6 +20,7 @@ namespace transillum::glossy_replicas_test {
 namespace {
 
 using testing::box_scene;
+using testing::box_with_weak_lobes;
 using testing::ggx;
 using testing::glossy_box;
 using testing::glossy_options;

@@ -29,6 +29,7 @@ namespace {
 using test::refusal;
 using testing::box_in_cube;
 using testing::box_scene;
+using testing::box_with_weak_lobes;
 using testing::ggx;
 using testing::glossy_box;
 using testing::glossy_box_description;

@@ -336,7 +336,7 @@ TEST(NightlySurfaceAccuracy, ClaimsHoldTogether) {
       {load_scene("boards"), {0.02}}};
   Claims all;
   for (const auto& [scene, accuracies] : cases) {
-    const std::vector<Rgb> truth = truth_by_passes(scene, 8192);
+    const std::vector<Rgb> truth = truth_by_passes(scene, 32768);
     EXPECT_LE(error_of_worst(*scene, truth, truth_by_pairs(scene)), 0.25 * accuracies.back())
         << scene->name();
     for (const double accuracy : accuracies) {

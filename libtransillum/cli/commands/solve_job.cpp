@@ -319,7 +319,11 @@ Solution solve_by_total(const SolveJob& job, std::optional<Checkpoint>& checkpoi
   bool resumes = make_checkpoint(*job.scene, job, checkpoint);
   if (resumes) {
     std::istringstream state(checkpoint->total_plan(job.cancellation));
-    plan.restore(state, state.str().size(), job.cancellation);
+    try {
+      plan.restore(state, state.str().size(), job.cancellation);
+    } catch (const std::runtime_error& error) {
+      throw InputError(fmt::format("{}: {}", job.checkpoint.file, error.what()));
+    }
   }
   Saver saver(job, checkpoint);
   const std::vector<TotalStage>& stages = plan.outcome().stages;
@@ -340,7 +344,7 @@ Solution solve_by_total(const SolveJob& job, std::optional<Checkpoint>& checkpoi
     }
   } catch (const Canceled&) {
     if (!plan.has_result()) {
-      throw;
+      throw NothingToSave("no stage was measured: there is no result yet");
     }
     plan.cancel();
   }

@@ -24,8 +24,8 @@ class Checkpoint {
  public:
   /// @param file created when something is saved.
   /// @param scene, options of the solve.
-  /// @param total whether it is a solve to a total error (RunOptions::total): `scene` and `options`
-  /// belong to the first stage, sessions are the stages.
+  /// @param total whether it is a solve to a total error (RunOptions::total): the first stage has
+  /// `scene`, and `options` have the total as accuracy; each session is a stage.
   Checkpoint(std::filesystem::path file, const Scene& scene, const SolveOptions& options,
              bool total = false);
   ~Checkpoint();

@@ -38,14 +38,14 @@ ErrorEstimate estimate_error(const Scene& scene, const ErrorSurfaces& surfaces,
 void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces& surfaces,
                   const std::vector<Rgb>& b, const std::vector<Rgb>& bias);
 
-/// Bound of what further iterations would change, W/m², one per patch: its reflectance times the most
-/// that any patch can receive. Empty without iterations.
+/// Bound of what further iterations would change, W/m², one per patch: its reflectance times the
+/// most that any patch can receive. Empty without iterations.
 /// @param b means of patches, W/m²
 std::vector<Rgb> bias_of_iteration(const Scene& scene, const ErrorSurfaces& surfaces,
                                    const SolveStatistics& statistics, const std::vector<Rgb>& b);
 
-/// Estimate of what B is off by because of the error of the first shot, W/m², one per unknown; empty
-/// if there is none or it is unknown.
+/// Estimate of what B is off by because of the error of the first shot, W/m², one per unknown;
+/// empty if there is none or it is unknown.
 std::vector<Rgb> bias_of_shot(const Scene& scene, const ErrorSurfaces& surfaces,
                               const DirectLight& shot);
 
