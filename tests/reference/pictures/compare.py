@@ -64,11 +64,9 @@ def make_picture(program, path, name, options):
     subprocess.run(command, check=True)
 
 
-def block_means(values, chosen, side=5):
-    """Means over all squares of `side` pixels whose middle is chosen: they show one face."""
-    windows = np.lib.stride_tricks.sliding_window_view(values, (side, side), axis=(0, 1))
-    inner = chosen[side // 2 : -(side // 2), side // 2 : -(side // 2)]
-    return windows.mean(axis=(-2, -1))[inner]
+def blocks(values, side=5):
+    """All squares of `side` pixels; the last two axes are those of a square."""
+    return np.lib.stride_tricks.sliding_window_view(values, (side, side), axis=(0, 1))
 
 
 def write_png(path, pixels):
@@ -142,11 +140,13 @@ def report(picture, reference, noise, mask, darkest):
     row, column = np.unravel_index(sure.argmax(), sure.shape)
     print(f"largest there, net of 4 noise: {percent(sure.max())} at "
           f"row {row}, column {column}; {(sure > 0.05).sum()} of {far.sum()} pixels above 5 %")
-    means = np.linalg.norm(block_means(picture - reference, far), axis=(-1))
-    means /= np.linalg.norm(block_means(reference, far), axis=-1)
-    if means.size:
-        print(f"means of 5 by 5 pixels there: at most {percent(means.max())}, "
-              f"RMS {percent(np.sqrt(np.mean(means**2)))}, noise included")  # fmt: skip
+    inner = blocks(far).all(axis=(-2, -1))
+    if inner.any():
+        middle = np.linalg.norm(blocks(reference).mean(axis=(-2, -1)), axis=-1)[inner]
+        means = np.linalg.norm(blocks(picture - reference).mean(axis=(-2, -1)), axis=-1)[inner]
+        square = blocks((noise * length) ** 2).mean(axis=(-2, -1))[inner] / 25
+        means = np.maximum(means - 4 * np.sqrt(square), 0) / middle
+        print(f"means of 5 by 5 such pixels, net of 4 noise: at most {percent(means.max())}")
     if black.any():
         print(f"without light in the reference: {black.sum()} pixels, "
               f"radiance at most {np.linalg.norm(picture[black], axis=-1).max():.3g}")  # fmt: skip
