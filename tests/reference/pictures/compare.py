@@ -4,10 +4,13 @@
   compare.py FILE.pfm NAME [--difference FILE.png] [--program transillum OPTIONS…]
 
 NAME is a key of cameras.json. With --program, FILE.pfm is first made by `transillum picture` with
-the camera of NAME and the other options. Pixels that meet lamps, back sides, or no light are
-omitted, and those below the fraction `darkest` of the brightest, where cameras.json has it. Errors
-are relative, by pixel: lengths of vectors of the three channels. They are printed net of the noise
-of the reference: the squares are subtracted, or, of the largest error, four standard errors.
+the camera of NAME and the other options. Direct light alone is what surfaces with a millionth of
+their reflectance show, times `scale`.
+
+Pixels that meet lamps, back sides, or no light are omitted, and those below the fraction `darkest`
+of the brightest, where cameras.json has it. Errors are relative, by pixel: lengths of vectors of
+the three channels. They are printed net of the noise of the reference: the squares are subtracted,
+or, of the largest errors, four standard errors.
 """
 
 import argparse
@@ -59,7 +62,7 @@ def make_picture(program, path, name, options):
     command += ["--target", numbers["target"], "--camera-up", numbers["up"]]
     command += ["--fov", str(camera["fov"]), "--size", f"{width}x{height}"]
     command += ["--sky", str(camera["sky"])] if "sky" in camera else []
-    command += options + ["--out", path]
+    command += camera.get("options", []) + options + ["--out", path]
     print(*command)
     subprocess.run(command, check=True)
 
@@ -105,7 +108,9 @@ def main():
     picture = read_pfm(arguments.file)
     if picture.shape != reference.shape or not np.isfinite(picture).all():
         sys.exit(f"{arguments.file}: not {reference.shape} finite numbers, but {picture.shape}")
-    report(picture, reference, noise, mask, read_camera(arguments.name).get("darkest", 0))
+    camera = read_camera(arguments.name)
+    picture *= camera.get("scale", 1)
+    report(picture, reference, noise, mask, camera.get("darkest", 0))
     if arguments.difference:
         omitted = (mask & 5) != 0
         write_png(arguments.difference, difference_picture(picture, reference, omitted))
