@@ -4,10 +4,13 @@
   compare.py FILE.pfm NAME [--difference FILE.png] [--program transillum OPTIONS…]
 
 NAME is a key of cameras.json. With --program, FILE.pfm is first made by `transillum picture` with
-the camera of NAME and the other options. Pixels that meet lamps, back sides, or no light are
-omitted, and those below the fraction `darkest` of the brightest, where cameras.json has it. Errors
-are relative, by pixel: lengths of vectors of the three channels. They are printed net of the noise
-of the reference: the squares are subtracted, or, of the largest error, four standard errors.
+the camera of NAME and the other options. Direct light alone is what surfaces with a millionth of
+their reflectance show, times `scale`.
+
+Pixels that meet lamps, back sides, or no light are omitted, and those below the fraction `darkest`
+of the brightest, where cameras.json has it. Errors are relative, by pixel: lengths of vectors of
+the three channels. They are printed net of the noise of the reference: the squares are subtracted,
+or, of the largest errors, four standard errors.
 """
 
 import argparse
@@ -59,16 +62,14 @@ def make_picture(program, path, name, options):
     command += ["--target", numbers["target"], "--camera-up", numbers["up"]]
     command += ["--fov", str(camera["fov"]), "--size", f"{width}x{height}"]
     command += ["--sky", str(camera["sky"])] if "sky" in camera else []
-    command += options + ["--out", path]
+    command += camera.get("options", []) + options + ["--out", path]
     print(*command)
     subprocess.run(command, check=True)
 
 
-def block_means(values, chosen, side=5):
-    """Means over all squares of `side` pixels whose middle is chosen: they show one face."""
-    windows = np.lib.stride_tricks.sliding_window_view(values, (side, side), axis=(0, 1))
-    inner = chosen[side // 2 : -(side // 2), side // 2 : -(side // 2)]
-    return windows.mean(axis=(-2, -1))[inner]
+def blocks(values, side=5):
+    """All squares of `side` pixels; the last two axes are those of a square."""
+    return np.lib.stride_tricks.sliding_window_view(values, (side, side), axis=(0, 1))
 
 
 def write_png(path, pixels):
@@ -107,7 +108,9 @@ def main():
     picture = read_pfm(arguments.file)
     if picture.shape != reference.shape or not np.isfinite(picture).all():
         sys.exit(f"{arguments.file}: not {reference.shape} finite numbers, but {picture.shape}")
-    report(picture, reference, noise, mask, read_camera(arguments.name).get("darkest", 0))
+    camera = read_camera(arguments.name)
+    picture *= camera.get("scale", 1)
+    report(picture, reference, noise, mask, camera.get("darkest", 0))
     if arguments.difference:
         omitted = (mask & 5) != 0
         write_png(arguments.difference, difference_picture(picture, reference, omitted))
@@ -142,11 +145,13 @@ def report(picture, reference, noise, mask, darkest):
     row, column = np.unravel_index(sure.argmax(), sure.shape)
     print(f"largest there, net of 4 noise: {percent(sure.max())} at "
           f"row {row}, column {column}; {(sure > 0.05).sum()} of {far.sum()} pixels above 5 %")
-    means = np.linalg.norm(block_means(picture - reference, far), axis=(-1))
-    means /= np.linalg.norm(block_means(reference, far), axis=-1)
-    if means.size:
-        print(f"means of 5 by 5 pixels there: at most {percent(means.max())}, "
-              f"RMS {percent(np.sqrt(np.mean(means**2)))}, noise included")  # fmt: skip
+    inner = blocks(far).all(axis=(-2, -1))
+    if inner.any():
+        middle = np.linalg.norm(blocks(reference).mean(axis=(-2, -1)), axis=-1)[inner]
+        means = np.linalg.norm(blocks(picture - reference).mean(axis=(-2, -1)), axis=-1)[inner]
+        square = blocks((noise * length) ** 2).mean(axis=(-2, -1))[inner] / 25
+        means = np.maximum(means - 4 * np.sqrt(square), 0) / middle
+        print(f"means of 5 by 5 such pixels, net of 4 noise: at most {percent(means.max())}")
     if black.any():
         print(f"without light in the reference: {black.sum()} pixels, "
               f"radiance at most {np.linalg.norm(picture[black], axis=-1).max():.3g}")  # fmt: skip
