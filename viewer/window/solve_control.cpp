@@ -11,6 +11,7 @@
 #include "scene/build/patch_count.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "session/next_steps.h"
 #include "solve/round_panel.h"
 #include "solve/settings_panel.h"
 #include "solve/solve_actions.h"
