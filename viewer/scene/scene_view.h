@@ -102,7 +102,7 @@ class SceneView : public QWidget {
   /// @param sharp  the sharp picture in that size, to show in place of the surfaces; null for
   /// sharp()
   QImage picture(int scale, const QImage& sharp = {});
-  /// What a sharp picture of this view shows; none where the surfaces show something else than
+  /// The subject of a sharp picture of this view; none where the surfaces show something else than
   /// light in true color.
   std::optional<SharpSubject> sharp_subject() const;
   /// Shows a sharp picture in the next picture, in place of the surfaces; null hides it.

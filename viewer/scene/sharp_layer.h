@@ -19,9 +19,9 @@ class SharpLayer : public vtkProp {
   static SharpLayer* New();
   vtkTypeMacro(SharpLayer, vtkProp)
 
-  /// @param picture  as large as the renderer's picture, RGBA; pixels without alpha are omitted.
-  /// Null hides it.
-  void set_picture(const QImage& picture);
+      /// @param picture  as large as the renderer's picture, RGBA; pixels without alpha are
+      /// omitted. Null hides it.
+      void set_picture(const QImage& picture);
   const QImage& picture() const { return picture_; }
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;

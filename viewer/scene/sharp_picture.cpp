@@ -17,7 +17,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr PatchId unknown = -2;  ///< of a pixel: not visited; neither a patch nor no_patch
+constexpr PatchId unknown = -2;  ///< the pixel is not visited; neither a patch nor no_patch
 constexpr std::chrono::milliseconds delivery_pause{100};
 
 /// Pixels whose columns and rows are multiples of `step` get the samples up to `end`.
@@ -176,9 +176,10 @@ class Pixels {
   QImage image_;
   std::uint8_t* bytes_;
   Rgb background_;
-  std::vector<PatchId> patches_;            ///< seen in the middle of each pixel
-  std::vector<std::array<float, 3>> sums_;  ///< of exposed light, over the samples of each pixel
-  std::vector<bool> filled_;                ///< whether a cell of pixels is done, for filled_step_
+  std::vector<PatchId> patches_;  ///< seen in the middle of each pixel
+  std::vector<std::array<float, 3>>
+      sums_;                  ///< sums of exposed light, over the samples of each pixel
+  std::vector<bool> filled_;  ///< whether a cell of pixels is done, for filled_step_
   int filled_step_ = 0;
 };
 
@@ -219,7 +220,7 @@ void SharpRenderer::render(const SharpSubject& subject, const Cancellation& canc
   auto delivered = std::chrono::steady_clock::now();
   double done = 0;
   for (const Pass& pass : passes) {
-    // Those of a smaller step are 3/4 new.
+    // Three quarters of the pixels of a smaller step are new.
     const double share = pass.first > 0 ? 1 : (pass.step == 8 ? 1 : 0.75) / (pass.step * pass.step);
     visit_pixels(
         {size.width(), size.height(), pass.step}, snapshot.options.threads, cancellation,

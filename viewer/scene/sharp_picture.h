@@ -27,7 +27,7 @@ struct ShownHalf {
   friend bool operator==(const ShownHalf&, const ShownHalf&) = default;
 };
 
-/// What a sharp picture shows, and how.
+/// The subject of a sharp picture, and how it is shown.
 struct SharpSubject {
   std::shared_ptr<const LoadedScene> loaded;  ///< for its picker
   std::shared_ptr<const SolverSnapshot> snapshot;
@@ -48,7 +48,7 @@ struct SharpSubject {
 /// How far a sharp picture is.
 struct SharpProgress {
   int samples = 0;      ///< samples that every pixel has
-  double fraction = 0;  ///< of the work that is done
+  double fraction = 0;  ///< part of the work that is done
   bool finished = false;
 };
 

@@ -38,7 +38,7 @@ class SharpView : public QObject {
 
  signals:
   void failed(const QString& message);
-  /// The picture of the newest request has changed, or is finished.
+  /// The picture number of the newest request has changed, or is finished.
   void progressed(double fraction, bool finished);
 
  private:
@@ -60,11 +60,11 @@ class SharpView : public QObject {
   QTimer* rest_timer_;  ///< from the last change until the picture is begun
   Plate* label_;
   bool solving_ = false;
-  std::optional<SharpSubject> subject_;  ///< what is to be shown; none without a sharp picture
+  std::optional<SharpSubject> subject_;  ///< the subject to be shown; none without a sharp picture
   bool finished_ = false;                ///< its picture is shown at its final quality
   bool begun_ = false;
   QImage enlarged_;                   ///< the finished picture of make()
-  quint64 number_ = 0;                ///< of the newest request
+  quint64 number_ = 0;                ///< number of the newest request
   bool enlarges_ = false;             ///< the newest request is of make()
   std::atomic<bool> posted_ = false;  ///< a picture has not been received yet
   SharpRenderer renderer_;            ///< used by the worker's thread only

@@ -18,7 +18,7 @@ struct Tile {
   int left, top;
 };
 
-std::vector<Tile> tiles_of(const PixelGrid& grid) {
+std::vector<Tile> tiles_of(const PixelSteps& grid) {
   const int side = tile_pixels * grid.step;
   std::vector<Tile> tiles;
   for (int top = 0; top < grid.height; top += side) {
@@ -37,7 +37,7 @@ std::vector<Tile> tiles_of(const PixelGrid& grid) {
 
 }  // namespace
 
-void visit_pixels(const PixelGrid& grid, int threads, const Cancellation& cancellation,
+void visit_pixels(const PixelSteps& grid, int threads, const Cancellation& cancellation,
                   const std::function<void(int column, int row)>& visit,
                   const std::function<void(double)>& progress) {
   const std::vector<Tile> tiles = tiles_of(grid);

@@ -8,8 +8,8 @@
 namespace transillum {
 
 /// Pixels of a picture: columns and rows that are multiples of `step`.
-struct PixelGrid {
-  int width = 0, height = 0;  ///< of the picture, at least 1
+struct PixelSteps {
+  int width = 0, height = 0;  ///< size of the picture, at least 1
   int step = 1;               ///< at least 1
 };
 
@@ -21,7 +21,7 @@ struct PixelGrid {
 /// @param progress if set, called between batches of tiles, when no pixel is being visited, with
 /// the fraction done, in [0,1], on this thread.
 /// @throws Canceled, and what `visit` or `progress` throws
-void visit_pixels(const PixelGrid& grid, int threads, const Cancellation& cancellation,
+void visit_pixels(const PixelSteps& grid, int threads, const Cancellation& cancellation,
                   const std::function<void(int column, int row)>& visit,
                   const std::function<void(double)>& progress = {});
 

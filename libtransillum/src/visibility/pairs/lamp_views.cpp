@@ -54,8 +54,10 @@ std::optional<PointView> ExchangeFinder::view_of(const LampPolygon& lamp, PatchI
     const FacingPolygons facing(open.corners, open.front, lamp.outline, lamp.front,
                                 tolerance_ + open.bend + lamp.bend);
     if (!facing.empty()) {
-      collect_blockers(facing, {at(first_sides_, i), at(first_sides_, lamp.patches.front()), {open.bend, lamp.bend}}, nullptr,
-                       blockers);
+      collect_blockers(
+          facing,
+          {at(first_sides_, i), at(first_sides_, lamp.patches.front()), {open.bend, lamp.bend}},
+          nullptr, blockers);
       is_seen = is_seen || !is_any_hiding(facing, blockers);
       all.insert(all.end(), blockers.begin(), blockers.end());
     }
@@ -73,7 +75,8 @@ std::optional<PointView> ExchangeFinder::view_from(const Vec3& x, const LampPoly
     return std::nullopt;
   }
   Numbers blockers;
-  collect_blockers(x, lamp.outline, {lamp.outline, lamp.front, lamp.bend}, lamp.patches.front(), blockers);
+  collect_blockers(x, lamp.outline, {lamp.outline, lamp.front, lamp.bend}, lamp.patches.front(),
+                   blockers);
   return PointView(lamp.outline, polygons_of(blockers));
 }
 
