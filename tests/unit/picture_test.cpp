@@ -194,19 +194,27 @@ TEST(Picture, HasTheSameBitsForAnyNumberOfThreads) {
     // A point's value does not depend on what was asked for before.
     const SurfaceLight light(solution, gather);
     const CameraRays rays(*solution->scene, camera, options.width, options.height);
-    EXPECT_EQ(pixel_radiance(light, rays, {33, 21, 0, 2}), one.radiance[21 * 40 + 33]);
+    EXPECT_EQ(pixel_radiance(light, rays, 33, 21, 2), one.radiance[21 * 40 + 33]);
   }
 }
 
-TEST(Picture, SamplesOfAPixelAreSpreadEvenly) {
+TEST(Picture, SamplesOfAPixelAreSpreadEvenlyAboutItsMiddle) {
   const int count = 64;
   std::vector<int> cells(16, 0);
   for (int k = 0; k < count; ++k) {
-    const auto [x, y] = sample_place(k);
+    const auto [x, y] = sample_place(k, count);
     ++cells[static_cast<std::size_t>(4 * std::floor(4 * y) + std::floor(4 * x))];
   }
-  EXPECT_THAT(cells, ::testing::Each(::testing::AllOf(::testing::Ge(2), ::testing::Le(6))));
-  EXPECT_EQ(sample_place(0), (std::pair{0.5, 0.5}));
+  EXPECT_THAT(cells, ::testing::Each(4));
+  for (const int samples : {1, 2, 4, 16, 64}) {
+    double x = 0, y = 0;
+    for (int k = 0; k < samples; ++k) {
+      x += sample_place(k, samples).first / samples;
+      y += sample_place(k, samples).second / samples;
+    }
+    EXPECT_NEAR(x, 0.5, 1e-12) << samples;
+    EXPECT_NEAR(y, 0.5, 1e-12) << samples;
+  }
 }
 
 TEST(CameraRays, OfEachProjectionPointWhereTheyShould) {

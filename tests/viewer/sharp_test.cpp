@@ -80,7 +80,7 @@ struct ShownLight {
   /// Whether all of a pixel shows patches, none of which is too bright for its color.
   bool is_plain(int column, int row) const {
     for (int k = 0; k < SharpRenderer::samples; ++k) {
-      const auto [ray, salt] = sample_ray(rays, column, row, k);
+      const auto [ray, salt] = sample_ray(rays, {column, row, k, SharpRenderer::samples});
       const Rgb b = std::numbers::pi * light.radiance(ray.origin, ray.direction, salt);
       if (!subject.loaded->picker->first_lit_hit(ray.origin, ray.direction) ||
           std::exp2(subject.scale.exposure) * max_abs(b) > 1) {
@@ -90,7 +90,7 @@ struct ShownLight {
     return true;
   }
   QColor color(int column, int row) const {
-    const Rgb radiance = pixel_radiance(light, rays, {column, row, 0, SharpRenderer::samples});
+    const Rgb radiance = pixel_radiance(light, rays, column, row, SharpRenderer::samples);
     const Color8 color = subject.scale.shown(subject.scale.exposed(std::numbers::pi * radiance));
     return {color[0], color[1], color[2]};
   }

@@ -60,7 +60,7 @@ class Pixels {
     }
     auto& sum = sums_[place];
     for (int k = pass.first; k < pass.end; ++k) {
-      auto [ray, salt] = sample_ray(rays_, column, row, k);
+      auto [ray, salt] = sample_ray(rays_, {column, row, k, SharpRenderer::samples});
       const PatchId patch = seen(ray);
       Rgb color = background_;
       if (patch != no_patch) {

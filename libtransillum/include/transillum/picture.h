@@ -119,24 +119,23 @@ class CameraRays {
   double width_, height_;
 };
 
-/// The ray of one sample of a pixel; `salt` is the one of its radiance.
+/// One of the samples of a pixel.
+struct PixelSample {
+  int column = 0;  ///< from the left, 0 first
+  int row = 0;     ///< from the top, 0 first
+  int number = 0;  ///< below `count`
+  int count = 1;   ///< number of samples of the pixel
+};
+/// The ray of a sample; `salt` is the one of its radiance.
 struct SampleRay {
   CameraRays::Ray ray;
   std::uint64_t salt;
 };
-/// Samples 0 to N - 1 of a pixel are spread evenly, for any N; the first is in the middle.
-/// @param column, row from the left and from the top, 0 first
-SampleRay sample_ray(const CameraRays& rays, int column, int row, int sample);
-
-/// Some of the samples of a pixel.
-struct PixelSamples {
-  int column = 0;  ///< from the left, 0 first
-  int row = 0;     ///< from the top
-  int first = 0;   ///< first sample
-  int end = 1;     ///< one past the last
-};
-/// The mean radiance of samples of a pixel, W/(m² sr).
-Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, const PixelSamples& pixel);
+/// All samples of a pixel are spread evenly about its middle.
+SampleRay sample_ray(const CameraRays& rays, const PixelSample& sample);
+/// The mean radiance of `count` samples of a pixel, W/(m² sr).
+Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, int column, int row,
+                   int count);
 
 /// The radiosity of a result on grids of points of its surfaces, as one picture: a light map.
 ///

@@ -11,21 +11,22 @@
 
 namespace transillum {
 
-SampleRay sample_ray(const CameraRays& rays, int column, int row, int sample) {
-  const auto [x, y] = sample_place(sample);
+SampleRay sample_ray(const CameraRays& rays, const PixelSample& sample) {
+  const auto [x, y] = sample_place(sample.number, sample.count);
   const std::uint64_t place =
-      (static_cast<std::uint64_t>(row) << 32) + static_cast<std::uint64_t>(column);
-  return {rays.at(column + x, row + y),
-          mixed(place) + golden_step * static_cast<std::uint64_t>(sample + 1)};
+      (static_cast<std::uint64_t>(sample.row) << 32) + static_cast<std::uint64_t>(sample.column);
+  return {rays.at(sample.column + x, sample.row + y),
+          mixed(place) + golden_step * static_cast<std::uint64_t>(sample.number + 1)};
 }
 
-Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, const PixelSamples& pixel) {
+Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, int column, int row,
+                   int count) {
   Rgb sum;
-  for (int k = pixel.first; k < pixel.end; ++k) {
-    const auto [ray, salt] = sample_ray(rays, pixel.column, pixel.row, k);
+  for (int k = 0; k < count; ++k) {
+    const auto [ray, salt] = sample_ray(rays, {column, row, k, count});
     sum += light.radiance(ray.origin, ray.direction, salt);
   }
-  return 1.0 / (pixel.end - pixel.first) * sum;
+  return 1.0 / count * sum;
 }
 
 Picture make_picture(std::shared_ptr<const Solution> solution, const Camera& camera,
@@ -41,7 +42,7 @@ Picture make_picture(std::shared_ptr<const Solution> solution, const Camera& cam
   const auto visit = [&](int column, int row) {
     at(picture.radiance, static_cast<std::size_t>(row) * static_cast<std::size_t>(options.width) +
                              static_cast<std::size_t>(column)) =
-        pixel_radiance(light, rays, {column, row, 0, options.samples});
+        pixel_radiance(light, rays, column, row, options.samples);
   };
   visit_pixels({options.width, options.height}, options.threads, cancellation, visit, progress);
   return picture;

@@ -28,9 +28,13 @@ inline double unit_fraction(std::uint64_t bits) {
 /// Powers of the plastic number's inverse: their multiples fill the square evenly.
 inline constexpr double plastic_step = 0.7548776662466927, plastic_square = 0.5698402909980532;
 
-/// Sample k of a pixel, in [0,1)²: the first is in the middle, and any number is spread evenly.
-inline std::pair<double, double> sample_place(int k) {
-  return {fraction(0.5 + plastic_step * k), fraction(0.5 + plastic_square * k)};
+/// The place of sample k of `count` in a pixel, in [0,1)²: Hammersley's points, with their mean in
+/// the middle; the first is near it.
+inline std::pair<double, double> sample_place(int k, int count) {
+  const int m = (k + count / 2) % count;
+  const double half = 0.5 / count;
+  return {static_cast<double>(m) / count + half,
+          fraction(mirrored_bits(static_cast<std::uint32_t>(m)) + half)};
 }
 
 }  // namespace transillum
