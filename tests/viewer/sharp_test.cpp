@@ -204,6 +204,8 @@ class SharpTest : public QObject {
   void it_is_switched_by_its_key() {
     const SharpWindow shown;
     QVERIFY(shown.becomes_sharp());
+    shown.window->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(shown.window.get()));
     QTest::keyClick(shown.window.get(), Qt::Key_S);
     QVERIFY(!shown.sharp->action()->isChecked());
     QVERIFY(shown.scene_view->sharp().isNull());

@@ -57,6 +57,7 @@ ErrorPage::ErrorPage(ColorChoice& colors, QTabWidget& tabs)
             show_errors();
           }) {
   page_.view->sortByColumn(total_column, Qt::DescendingOrder);
+  page_.view->setMinimumHeight(36);  // for small screens: the foot needs its height
   widget()->layout()->addWidget(make_foot());
   show_errors();
 }
@@ -84,7 +85,7 @@ QWidget* ErrorPage::make_foot() {
   row->addWidget(total_, 1);
   row->addStretch();
   row->addWidget(save_);
-  auto* layout = make_column(foot, {10, 6, 8, 6}, 6);
+  auto* layout = make_column(foot, {10, 3, 8, 3}, 3);
   layout->addWidget(step_);
   layout->addLayout(row);
   connect(measure_, &QPushButton::clicked, this, &ErrorPage::start_or_cancel);
