@@ -84,7 +84,7 @@ class Pixels {
     pixel[3] = 255;
   }
 
-  /// Interpolates between pixels of a pass that see the same plane.
+  /// Interpolates between pixels of a pass that see one plane.
   void fill(int step) {
     const std::size_t across = static_cast<std::size_t>((width_ - 1) / step);
     const std::size_t down = static_cast<std::size_t>((height_ - 1) / step);
@@ -121,13 +121,17 @@ class Pixels {
     return hit ? hit->patch : no_patch;
   }
 
-  bool same_plane(PatchId a, PatchId b) const {
+  /// Whether light may be interpolated between two patches: of one plane, and equal materials.
+  bool is_continuous(PatchId a, PatchId b) const {
     if (a == b || a == no_patch || b == no_patch) {
       return a == b;
     }
     const Scene& scene = *subject_.loaded->scene;
     const Patch &first = scene.patch(a), &second = scene.patch(b);
-    return dot(first.normal, second.normal) > 1 - 1e-9 &&
+    const Material& one = material_of(*subject_.snapshot, a);
+    const Material& other = material_of(*subject_.snapshot, b);
+    return one.exitance == other.exitance && one.reflectance == other.reflectance &&
+           dot(first.normal, second.normal) > 1 - 1e-9 &&
            std::abs(dot(first.normal, second.center - first.center)) <
                1e-6 * scene.bounds().diagonal();
   }
@@ -143,13 +147,13 @@ class Pixels {
       }
     }
     for (const std::size_t corner : corners) {
-      if (!same_plane(patches_[corners[0]], patches_[corner])) {
+      if (!is_continuous(patches_[corners[0]], patches_[corner])) {
         return true;
       }
     }
     if (step > 2) {  // something small may be between the corners
       CameraRays::Ray ray = rays_.at(column + 0.5 * (step + 1), row + 0.5 * (step + 1));
-      if (!same_plane(patches_[corners[0]], seen(ray))) {
+      if (!is_continuous(patches_[corners[0]], seen(ray))) {
         return true;
       }
     }
@@ -234,14 +238,14 @@ void SharpRenderer::render(const SharpSubject& subject, const Cancellation& canc
           if (pass.step > 1) {
             pixels.fill(pass.step);
           }
-          deliver(pixels.image(), {pass.first, (done + fraction * share) / samples, false});
+          deliver(pixels.image(), {(done + fraction * share) / samples, false});
         });
     if (pass.step > 1) {
       pixels.fill(pass.step);
     }
     done += share;
   }
-  deliver(pixels.image(), {samples, 1, true});
+  deliver(pixels.image(), {1, true});
 }
 
 }  // namespace transillum::viewer

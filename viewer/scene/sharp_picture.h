@@ -47,7 +47,6 @@ struct SharpSubject {
 
 /// How far a sharp picture is.
 struct SharpProgress {
-  int samples = 0;      ///< samples that every pixel has
   double fraction = 0;  ///< part of the work that is done
   bool finished = false;
 };

@@ -149,7 +149,7 @@ void SharpView::receive(const QImage& picture, const SharpProgress& progress) {
 
 void SharpView::show_progress(const SharpProgress& progress) {
   label_->setVisible(!progress.finished);
-  label_->setText(tr("sharp %1/%2").arg(progress.samples).arg(SharpRenderer::samples));
+  label_->setText(tr("sharp %1 %").arg(qRound(100 * progress.fraction)));
   label_->adjustSize();
   label_->move(label_distance, view_.canvas()->height() - label_->height() - label_distance);
 }

@@ -12,14 +12,17 @@
 namespace transillum {
 namespace {
 
-constexpr int tile_pixels = 16;  ///< visited ones, along a side
+constexpr int tile_side = 32;  ///< pixels
 
 struct Tile {
   int left, top;
 };
 
+/// A multiple of the step, so that tiles begin with a visited pixel.
+int side_of(const PixelSteps& grid) { return std::max(tile_side / grid.step, 1) * grid.step; }
+
 std::vector<Tile> tiles_of(const PixelSteps& grid) {
-  const int side = tile_pixels * grid.step;
+  const int side = side_of(grid);
   std::vector<Tile> tiles;
   for (int top = 0; top < grid.height; top += side) {
     for (int left = 0; left < grid.width; left += side) {
@@ -41,7 +44,7 @@ void visit_pixels(const PixelSteps& grid, int threads, const Cancellation& cance
                   const std::function<void(int column, int row)>& visit,
                   const std::function<void(double)>& progress) {
   const std::vector<Tile> tiles = tiles_of(grid);
-  const int side = tile_pixels * grid.step;
+  const int side = side_of(grid);
   const int count = thread_count(threads);
   WorkerThreads workers(count);
   const std::size_t batch = 8 * static_cast<std::size_t>(count);
