@@ -43,8 +43,10 @@ struct Camera {
 struct PictureOptions {
   /// Largest width and height, pixels.
   static constexpr int largest_size = 32768;
-  /// Largest number of samples a pixel, and of rays a sample.
-  static constexpr int most_samples = 4096, most_rays = 65536;
+  /// Largest number of samples a pixel.
+  static constexpr int most_samples = 4096;
+  /// Largest number of rays a sample.
+  static constexpr int most_rays = 65536;
 
   int width = 1280;  ///< pixels, at least 1
   int height = 960;  ///< pixels, at least 1
@@ -107,8 +109,10 @@ class CameraRays {
   /// its range.
   CameraRays(const Scene& scene, const Camera& camera, int width, int height);
 
+  /// A half-line.
   struct Ray {
-    Vec3 origin, direction;
+    Vec3 origin;     ///< start, m
+    Vec3 direction;  ///< any length but 0
   };
   /// @param column, row position in pixels from the upper left corner of the picture
   Ray at(double column, double row) const;
@@ -126,10 +130,10 @@ struct PixelSample {
   int number = 0;  ///< below `count`
   int count = 1;   ///< number of samples of the pixel
 };
-/// The ray of a sample; `salt` is the one of its radiance.
+/// The ray of a sample.
 struct SampleRay {
-  CameraRays::Ray ray;
-  std::uint64_t salt;
+  CameraRays::Ray ray;  ///< the ray
+  std::uint64_t salt;   ///< for SurfaceLight::radiance()
 };
 /// All samples of a pixel are spread evenly about its middle.
 SampleRay sample_ray(const CameraRays& rays, const PixelSample& sample);
