@@ -62,11 +62,7 @@ TangentFrame::TangentFrame(const Vec3& normal)
 
 GatheredLight::GatheredLight(const Solution& solution, const HitLight& light, int rays,
                              const Cancellation& cancellation)
-    : solution_(solution),
-      scene_(*solution.scene),
-      light_(light),
-      embree_(scene_, cancellation),
-      rays_(rays) {
+    : solution_(solution), scene_(*solution.scene), light_(light), embree_(scene_, cancellation) {
   for (std::size_t k = 0; k < table_count; ++k) {
     const auto number = static_cast<double>(k);
     tables_.push_back(cosine_directions(rays, fraction(plastic_step * number),

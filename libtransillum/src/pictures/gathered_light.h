@@ -67,7 +67,6 @@ class GatheredLight {
   const Scene& scene_;
   const HitLight& light_;
   EmbreeScene embree_;
-  int rays_;
   /// Directions about +z, by the cosine, in two sets each.
   std::vector<std::array<std::vector<Vec3>, 2>> tables_;
 };
