@@ -120,7 +120,8 @@ ScenePtr many_groups() {
   rooms.box("", white, {0, 0, 0}, {8, 8, 3}, true);
   rooms.face("lamp", lamp, {{3, 3, 2.95}, {3, 5, 2.95}, {5, 5, 2.95}, {5, 3, 2.95}});
   for (int k = 0; k < 16; ++k) {
-    const double x = 0.4 + 1.9 * (k % 4), y = 0.4 + 1.9 * (k / 4);
+    const int column = k % 4, row = k / 4;
+    const double x = 0.4 + 1.9 * column, y = 0.4 + 1.9 * row;
     rooms.box(fmt::format("box {}", k), rooms.material(0.1 + 0.05 * k), {x, y, 0.01},
               {x + 0.5 + 0.03 * k, y + 1, 0.4 + 0.14 * k}, false);
   }

@@ -461,14 +461,15 @@ void expect_invariance(const RandomScene& random, const Transformed& changed,
       const std::string& engine = after.engine_name(k);
       const Transfers transfers = after.run(k, omega);
       expect_possible_areas(after, transfers, engine, random.closed, context);
+      const std::string engine_in_context = fmt::format("{}, {}", engine, context);
       found.push_back(after.by_face(transfers));
       expect_same("reciprocity", found.back(), from_other_side(after.by_face(after.run(k, -omega))),
-                  areas, after.rounding_of_parts_in_original_units(), engine + ", " + context);
+                  areas, after.rounding_of_parts_in_original_units(), engine_in_context);
       expect_same("agreement", found.front(), found.back(), areas,
-                  after.rounding_of_parts_in_original_units(), engine + ", " + context);
+                  after.rounding_of_parts_in_original_units(), engine_in_context);
       if (same && !has_coincident_faces(random) && k < before.engine_count()) {
         expect_same("invariance", found.back(), before.by_face(before.run(k, omega)), areas,
-                    rounding, engine + ", " + context);
+                    rounding, engine_in_context);
       }
     }
   }

@@ -171,8 +171,9 @@ double error_below_a_rectangle(Basis basis, double max_patch_area) {
     const LinearBasis functions = linear_basis(*scene, i);
     constexpr int points = 20;
     for (int k = 0; k < points * points; ++k) {
-      const double x = box.low.x + (box.high.x - box.low.x) * (k % points + 0.5) / points;
-      const double y = box.low.y + (box.high.y - box.low.y) * (k / points + 0.5) / points;
+      const int column = k % points, row = k / points;
+      const double x = box.low.x + (box.high.x - box.low.x) * (column + 0.5) / points;
+      const double y = box.low.y + (box.high.y - box.low.y) * (row + 0.5) / points;
       const double expected = 0.5 * point_to_rectangle(x, y, 0.8, 0.2, 0.8, 0.3, 0.9);
       double b = at(solution.radiosity, i).r;
       if (basis == Basis::linear) {

@@ -7,7 +7,7 @@ namespace transillum::testing {
 
 /// A cancellation that has taken place.
 inline Cancellation canceled() {
-  const Cancellation cancellation;
+  Cancellation cancellation;
   cancellation.cancel();
   return cancellation;
 }

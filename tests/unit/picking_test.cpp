@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include "support/canceled.h"
 #include "support/scenes.h"
-#include "visibility/embree/picking.h"
 
 namespace transillum::picking_test {
 namespace {

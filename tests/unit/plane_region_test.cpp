@@ -133,7 +133,8 @@ TEST(PlaneRegion, DoesNotDependOnTheOrder) {
   std::uniform_real_distribution<double> noise(-1e-15, 1e-15);
   std::vector<Polygon> grid;
   for (int k = 0; k < 25; ++k) {
-    grid.push_back(rectangle(0.1 * (k % 5), 0.1 * (k / 5), 0.1, 0.1));
+    const int column = k % 5, row = k / 5;
+    grid.push_back(rectangle(0.1 * column, 0.1 * row, 0.1, 0.1));
     for (PlaneRegion::Point& p : grid.back().corners) {
       p.u += noise(random), p.v += noise(random);
     }

@@ -154,7 +154,7 @@ TEST(PointSensors, BadFilesAreRefused) {
     return read_sensors(path);
   };
   const auto refused = [&](const std::string& text) {
-    const std::string sentence = refusal([&] { read(text); });
+    std::string sentence = refusal([&] { read(text); });
     EXPECT_THAT(sentence, StartsWith(path));
     return sentence;
   };

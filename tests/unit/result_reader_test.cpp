@@ -107,7 +107,7 @@ class ResultReader : public ::testing::Test {
     write_text(path_, text.replace(at, from.size(), to));
   }
   void expect_refused(const std::string& what) const {
-    const std::string sentence = refusal([&] { read_result(path_); });
+    std::string sentence = refusal([&] { read_result(path_); });
     EXPECT_THAT(sentence, StartsWith(path_ + ": "));
     EXPECT_THAT(sentence, HasSubstr(what));
     EXPECT_EQ(sentence.find('\n'), std::string::npos);

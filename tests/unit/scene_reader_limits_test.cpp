@@ -1,5 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Time and memory of the OBJ and MTL readers are linear in their files, however these are written.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,8 +61,8 @@ TEST(ReaderLimits, ContinuedLinesTakeLinearTime) {
   const test::TemporaryFolder folder;
   for (const char* const line : {"\\\n", " \\\r\n"}) {
     const std::string joined = repeated(line, 1'000'000);
-    const SceneDescription d =
-        describe_scene(folder.write("s.obj", square + "f 1 2 \\\n" + joined + "3 4\n" + joined));
+    const SceneDescription d = describe_scene(
+        folder.write("s.obj", fmt::format("{}f 1 2 \\\n{}3 4\n{}", square, joined, joined)));
     EXPECT_THAT(d.outline(0), ElementsAre(0, 1, 2, 3));
     EXPECT_THAT(d.face_line, ElementsAre(5));
   }

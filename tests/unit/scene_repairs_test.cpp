@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later. Imperfect material
 // files: missing, misspelt or invalid values are replaced, with a warning that gives the place, the
 // value and the number of faces.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -90,7 +91,8 @@ TEST_F(SceneRepairs, SimilarNamesAreSuggested) {
 TEST_F(SceneRepairs, OneMissingOfSeveralMaterialFilesIsToldAndTheOthersRead) {
   for (const std::string line :
        {"mtllib gone.mtl s.mtl\n", "mtllib s.mtl gone.mtl\n", "mtllib my gone.mtl s.mtl\n"}) {
-    const SceneDescription d = read(line + square + "usemtl m\n" + face, "newmtl m\nKd .7 .7 .7\n");
+    const SceneDescription d =
+        read(fmt::format("{}{}usemtl m\n{}", line, square, face), "newmtl m\nKd .7 .7 .7\n");
     EXPECT_EQ(reflectance(d), (Rgb{.7, .7, .7})) << line;
     EXPECT_THAT(d.notes, ElementsAre(HasSubstr("gone.mtl` not found"))) << line;
   }
@@ -105,7 +107,7 @@ TEST_F(SceneRepairs, MaterialFilesAreFoundByQuotesCaseAndForeignPaths) {
         "C:\\scenes\\my walls.mtl", "..\\my walls.mtl", "/home/x/scenes/my walls.mtl",
         "\"C:\\a b\\MY WALLS.mtl\"", "sub\\other.MTL my walls.mtl",
         "\"D:\\x\\sub\\Other.mtl\" \"my walls.mtl\""}) {
-    const SceneDescription d = read("mtllib " + name + "\n" + square + "usemtl m\n" + face);
+    const SceneDescription d = read(fmt::format("mtllib {}\n{}usemtl m\n{}", name, square, face));
     EXPECT_EQ(reflectance(d), (Rgb{.7, .7, .7})) << name;
     EXPECT_THAT(d.notes, IsEmpty()) << name;
   }
@@ -142,8 +144,7 @@ TEST_F(SceneRepairs, NamelessMaterialsGetTheDefault) {
 TEST_F(SceneRepairs, ThousandsOfWarningsAreCounted) {
   std::string obj = square, mtl;
   for (int k = 0; k < 5000; ++k) {
-    obj += "mtllib gone" + std::to_string(k) + ".mtl\nusemtl u" + std::to_string(k) + "\n" + face +
-           "usemtl w" + std::to_string(k) + "\n" + face;
+    obj += fmt::format("mtllib gone{0}.mtl\nusemtl u{0}\n{1}usemtl w{0}\n{1}", k, face);
     mtl += "newmtl w" + std::to_string(k) + "\nKd 1 1 1\n";
   }
   const SceneDescription d = read("mtllib s.mtl\n" + obj, mtl);

@@ -14,7 +14,7 @@ namespace transillum::viewer {
 
 /// A picture over all that the renderer has drawn before it. It changes no depth: what is drawn
 /// after it is in front of it, or hidden by the surfaces that it covers.
-class SharpLayer : public vtkProp {
+class SharpLayer final : public vtkProp {
  public:
   static SharpLayer* New();
   vtkTypeMacro(SharpLayer, vtkProp)

@@ -263,7 +263,7 @@ void BreakpointPanel::show_state() {
 }
 
 QString BreakpointPanel::text_of_row(int row) const {
-  const QString text = text_of(at(breakpoints_.list(), row));
+  QString text = text_of(at(breakpoints_.list(), row));
   if (!hits_ || !at(breakpoints_.list(), row).enabled) {
     return text;
   }

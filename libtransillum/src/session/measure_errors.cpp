@@ -185,7 +185,7 @@ std::vector<PatchId> Measuring::patches_to_divide(std::int64_t most_patches) {
   const auto count = static_cast<double>(scene_.patch_count());
   double fraction = std::min(1.0, (static_cast<double>(most_patches) - count) / (3 * count));
   const int unknowns = solve_.options.basis == Basis::linear ? 3 : 1;
-  for (; fraction >= least_fraction; fraction /= 2) {
+  while (fraction >= least_fraction) {
     try {
       check_memory(scene_.name(), static_cast<std::int64_t>(count * (1 + 3 * fraction)),
                    solve_.options.replicas, unknowns);
@@ -194,6 +194,7 @@ std::vector<PatchId> Measuring::patches_to_divide(std::int64_t most_patches) {
       if (fraction < 2 * least_fraction) {
         throw;
       }
+      fraction /= 2;
     }
   }
   if (fraction < least_fraction) {

@@ -297,7 +297,7 @@ void FileActions::choose_lobes(const QString& spec, SolveOptions& solve) {
 QString FileActions::save_unasked() {
   const QString folder = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
   QDir().mkpath(folder);
-  const QString path = folder + QStringLiteral("/unsaved-session.json");
+  QString path = folder + QStringLiteral("/unsaved-session.json");
   save_session(path);
   remember(path);
   return path;

@@ -27,11 +27,13 @@ class ProductMatrix : public Eigen::EigenBase<ProductMatrix> {
   using Scalar = double;
   using RealScalar = double;
   using StorageIndex = int;
+  // NOLINTBEGIN(readability-identifier-naming): Eigen asks for these names
   enum {
     ColsAtCompileTime = Eigen::Dynamic,
     MaxColsAtCompileTime = Eigen::Dynamic,
     IsRowMajor = 0
   };
+  // NOLINTEND(readability-identifier-naming)
   using Function = std::function<void(const double*, double*)>;
 
   ProductMatrix(const Function& product, Eigen::Index size) : product_(product), size_(size) {}
@@ -60,9 +62,8 @@ struct generic_product_impl<ProductMatrix, Right, SparseShape, DenseShape, GemvP
   template <class Destination>
   static void scaleAndAddTo(Destination& destination, const ProductMatrix& matrix,
                             const Right& right, const Scalar& alpha) {
-    const VectorXd x = right;
-    VectorXd y(x.size());
-    matrix.apply(x.data(), y.data());
+    VectorXd y(right.size());
+    matrix.apply(right.data(), y.data());
     destination += alpha * y;
   }
 };
