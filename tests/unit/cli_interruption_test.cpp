@@ -34,7 +34,7 @@ class CliInterruption : public ::testing::Test {
       before_.emplace_back(signal, ::signal(signal, SIG_DFL));
     }
   }
-  ~CliInterruption() override {
+  void TearDown() override {
     for (const auto& [signal, disposition] : before_) {
       ::signal(signal, disposition);
     }

@@ -369,7 +369,8 @@ class BreakpointsTest : public QObject {
       areas[{t.receiver, t.source}] = t.area;
     }
     int exchanges = 0;
-    for (double x = -1; x < 1; x += 0.0437) {
+    for (int k = 0; k < 46; ++k) {
+      const double x = -1 + 0.0437 * k;
       for (const StepEvent& event : events_at_point(d.history(), {x, 0.31 * x})) {
         if (event.kind != StepEvent::Kind::exchange) {
           QCOMPARE(event.pair_area, 0.0);

@@ -144,7 +144,7 @@ class CommandTextTest : public QObject {
         map_after(focus.map()->record(),
                   focus.position().step - (step >= 0 && phase == static_cast<int>(Phase::before)));
     QCOMPARE(polygons.size(), static_cast<int>(shown.polygons.size()));
-    QVERIFY(step < 0 || polygons.size() > 0);
+    QVERIFY(step < 0 || !polygons.isEmpty());
     for (int k = 0; k < polygons.size(); ++k) {
       const QJsonObject polygon = polygons[k].toObject();
       const VisibilityMap::Polygon& expected = shown.polygons[static_cast<std::size_t>(k)];

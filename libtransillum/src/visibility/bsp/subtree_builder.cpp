@@ -98,12 +98,11 @@ bool SubtreeBuilder::use_clean_planes(SubtreeTask& task) {
     }
   }
   const bool even = most_even && 4 * most_even->smaller_side >= n;
-  if (2 * one_sided >= n || (!even && 8 * one_sided >= n)) {
+  const bool many_one_sided = 2 * one_sided >= n || (!even && 8 * one_sided >= n);
+  if (many_one_sided || (!most_even && one_sided > 0)) {
     add_chain(task, planes);
   } else if (most_even) {
     split_by(task, plane_of(task.set, most_even->polygon), most_even->polygon);
-  } else if (one_sided > 0) {
-    add_chain(task, planes);
   } else {
     return false;
   }

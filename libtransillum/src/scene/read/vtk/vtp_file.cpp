@@ -26,9 +26,11 @@ namespace {
 
 #if XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION < 9
 // The names that Expat 2.9 has for these.
+// NOLINTBEGIN(readability-identifier-naming)
 constexpr auto* XML_GetCurrentLineNumber64 = XML_GetCurrentLineNumber;
 constexpr auto* XML_GetCurrentByteIndex64 = XML_GetCurrentByteIndex;
 constexpr auto* XML_GetCurrentByteCount64 = XML_GetCurrentByteCount;
+// NOLINTEND(readability-identifier-naming)
 #endif
 
 constexpr std::size_t max_arrays = 256, max_string_bytes = 16 << 20;
