@@ -207,7 +207,7 @@ void MainWindow::make_docks() {
   constexpr auto bottom = Qt::BottomDockWidgetArea;
   docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_, {{teach, left, 700}});
   docks_.add(tr("Notes"), "notes_dock", notes_, {{teach, left, 700, true}});
-  docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 495}});
+  docks_.add(tr("Solve settings"), "settings_dock", settings_, {{inspect, left, 495}});
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 305}});
   docks_.add(tr("Summary"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
   inspection_->add_materials_to(docks_);
@@ -337,7 +337,7 @@ void MainWindow::connect_scene() {
     settings_->set_options(settings_->solve_options(), state_.scene.options());
     settings_->set_scene_up(initial_view(*loaded->scene, 1).up);
     settings_->show_escape({});
-    settings_->set_scene_lobes(*loaded->scene);
+    settings_->set_scene(*loaded->scene);
     show_debugging_of_scene();
     page_->show_scene();
     show_patches(loaded);
@@ -352,8 +352,7 @@ void MainWindow::connect_scene() {
     }
   });
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
-    settings_->set_in_effect(snapshot->options, state_.scene.options(), snapshot->refine,
-                             snapshot->total.has_value());
+    settings_->set_in_effect(snapshot, state_.scene.options());
     settings_->show_escape(escape_of(*snapshot));
     study_->set_solve(snapshot->options);
     state_.colors.fit(snapshot);
