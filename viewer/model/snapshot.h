@@ -107,6 +107,9 @@ struct SolverSnapshot {
   std::shared_ptr<const PatchMaterials> materials;
   /// The values come from loaded->stored; nothing has been solved yet.
   bool of_file = false;
+  /// The light is of a draft, or of the last finished stage; `progress` is of the solve that will
+  /// replace it.
+  bool of_draft = false;
   bool form_factors_fit = true;  ///< false: the memory limit was exceeded
   /// B(n), one per patch, for each iteration n that has begun; null if the memory limit was
   /// exceeded.

@@ -585,6 +585,12 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
         }
       }
       render();
+    } else if (event->type() == QEvent::MouseButtonRelease) {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      const int moved = (mouse->pos() - press_position_).manhattanLength();
+      if (mouse->button() == Qt::RightButton && moved < QApplication::startDragDistance()) {
+        emit menu_requested(mouse->pos());
+      }
     } else if (event->type() == QEvent::Resize && loaded_ && view_point() == initial_view_point_) {
       reset_view();  // the user has not changed it: fit it to the new size
     }

@@ -121,6 +121,8 @@ class SceneView : public QWidget {
   bool pressed() const { return pressed_; }
 
  signals:
+  /// The right button was clicked at a point of canvas().
+  void menu_requested(const QPoint& position);
   /// The picture is about to be drawn; what is shown may have changed.
   void about_to_draw();
   /// The camera is at another point than in the picture before; emitted while a picture is drawn.

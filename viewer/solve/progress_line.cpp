@@ -215,7 +215,9 @@ void ProgressLine::show_solve() {
   } else if (progress.iteration == 0 && progress.direction == 0 && (running || rounds.empty())) {
     phase_->setText(running ? round + tr("Starting") : tr("Ready: run, or process one direction"));
   } else {
-    phase_->setText(running ? round + at : tr("Paused: %1").arg(round + at));
+    phase_->setText(!running              ? tr("Paused: %1").arg(round + at)
+                    : snapshot_->of_draft ? tr("Draft shown. %1").arg(at)
+                                          : round + at);
   }
 
   const bool timed = running && progress.passes_per_second > 0;

@@ -68,7 +68,9 @@
 #include "window/inspection_panels.h"
 #include "window/layout_memory.h"
 #include "window/menus/command_actions.h"
+#include "window/menus/context_menus.h"
 #include "window/menus/help_pages.h"
+#include "window/menus/palette_actions.h"
 #include "window/menus/projector_mode.h"
 #include "window/scene_bars.h"
 #include "window/solve_control.h"
@@ -104,6 +106,9 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
   connect_failures();
   make_docks();
   make_menus();
+  // To step and to teach, every direction is seen.
+  connect(&docks_, &DockLayouts::switched, &state_.runner,
+          [this] { state_.runner.set_drafts(docks_.current() == Layout::inspect); });
   docks_.arrange(Layout::inspect);
   resize(usual_size);  // a screenshot has the same size on every screen
   if (remember_) {
@@ -439,11 +444,13 @@ void MainWindow::make_menus() {
   make_view_menu();
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
+  help->addAction((new PaletteActions(frame(), docks_))->action());
   QAction* keys = help->addAction(tr("Keys and mouse"), this, [this] { show_keys(*this); });
   keys->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
   help->addAction(tr("All settings"), this, [this] { show_settings(*this); });
   help->addAction(tr("About transillum"), this, [this] { show_about(this); });
   make_tool_bar();
+  new ContextMenus(frame(), docks_);
 }
 
 void MainWindow::make_file_menu() {

@@ -71,6 +71,9 @@ class SolveRunner : public SolveMessages {
 
   /// From now on, snapshots include the form factors if they fit into the memory limit.
   void include_form_factors();
+  /// Whether a solve to its end shows whole pictures only: first of a draft of few directions, then
+  /// of finished stages. Goals of single directions and iterations show every state.
+  void set_drafts(bool drafts) { worker_.set_drafts(drafts); }
   /// The least time between two snapshots, ms.
   void set_refresh_interval(int milliseconds) { worker_.set_refresh_interval(milliseconds); }
 
