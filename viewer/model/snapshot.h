@@ -36,6 +36,7 @@ struct LoadedScene {
   std::shared_ptr<const Solution>
       stored;               ///< solution of the result file that was opened; else null
   std::string file;         ///< path of the result file
+  std::size_t divided_faces = 0;  ///< number of faces, where they were divided unasked
   double seconds_load = 0;  ///< wall-clock time of reading
   double seconds_bsp = 0;   ///< wall-clock time of building the tree
   /// The scene before patches were divided in rounds; null if none were divided.

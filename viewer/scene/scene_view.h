@@ -90,6 +90,8 @@ class SceneView : public QWidget {
   /// How a drag rotates: as a trackball, or as a turntable, about the vertical of the scene, which
   /// stays upright.
   void set_turntable(bool turntable);
+  /// Sets the vertical of the scene, and goes to the initial view with it.
+  void set_vertical(const Vec3& up);
   /// Clips the picture by a plane; shows all of it if no plane is given.
   void set_clip(const std::optional<ClipPlane>& clip);
   bool turntable() const { return turntable_; }
@@ -142,7 +144,7 @@ class SceneView : public QWidget {
   void leave_out_hidden();
   bool in_picture(const PickedPoint& point) const;
   void show_edges();
-  Vec3 vertical() const;
+  Vec3 vertical_ = {0, 1, 0};
   void follow_camera();
   void place_callouts();
 

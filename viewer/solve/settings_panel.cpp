@@ -28,6 +28,7 @@
 #include "solve/refine_controls.h"
 #include "solve/round_panel.h"
 #include "solve/setting_tips.h"
+#include "state/camera_views.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
 #include "widgets/engine_text.h"
@@ -54,13 +55,6 @@ constexpr int most_patches = 50'000'000;
 // The slider's position is the square root of the sky's fraction of this.
 constexpr int sky_steps = 200;
 constexpr double sky_of_slider = 100;  // W/m²
-
-struct Axis {
-  const char* name;
-  Vec3 direction;
-};
-constexpr Axis axes[] = {{"+z", {0, 0, 1}},  {"+y", {0, 1, 0}},  {"+x", {1, 0, 0}},
-                         {"−z", {0, 0, -1}}, {"−y", {0, -1, 0}}, {"−x", {-1, 0, 0}}};
 
 bool same(const SceneOptions& a, const SceneOptions& b) {
   return a.two_sided == b.two_sided && a.max_patch_area == b.max_patch_area;
@@ -244,10 +238,15 @@ void SettingsPanel::add_sky() {
          "CIE overcast: three times as bright at the zenith as at the horizon, nothing from "
          "below"));
   sky_up_ = named("sky_up", new QComboBox, tr("The direction of the zenith"));
-  for (const Axis& axis : axes) {
+  for (const Axis& axis : axes()) {
     sky_up_->addItem(QString::fromUtf8(axis.name));
   }
   sky_up_->addItem(QString());  // another direction, of a session or a command line
+  connect(sky_up_, qOverload<int>(&QComboBox::activated), this, [this](int index) {
+    if (index < static_cast<int>(axes().size())) {
+      emit zenith_chosen(axes()[static_cast<std::size_t>(index)].direction);
+    }
+  });
   auto* rows = new SettingRows;
   rows->add(tr("Sky, W/m²"), exitance, tip);
   rows->add(tr("Sky model"), sky_model_, sky_model_->toolTip());
@@ -340,8 +339,8 @@ Sky SettingsPanel::sky() const {
   const int axis = sky_up_->currentIndex();
   if (sky.model == SkyModel::uniform) {
     sky.up = Sky().up;  // not read
-  } else if (axis >= 0 && axis < static_cast<int>(std::size(axes))) {
-    sky.up = axes[axis].direction;
+  } else if (axis >= 0 && axis < static_cast<int>(axes().size())) {
+    sky.up = axes()[static_cast<std::size_t>(axis)].direction;
   }
   return sky;
 }
@@ -357,22 +356,17 @@ void SettingsPanel::set_sky(const Sky& sky) {
 }
 
 void SettingsPanel::choose_up(const Vec3& up) {
-  int index = 0;
-  while (index < static_cast<int>(std::size(axes)) && !(axes[index].direction == up)) {
-    ++index;
-  }
-  if (index == static_cast<int>(std::size(axes))) {
+  const auto found = std::find_if(axes().begin(), axes().end(),
+                                  [&up](const Axis& axis) { return axis.direction == up; });
+  const int index = static_cast<int>(found - axes().begin());
+  if (found == axes().end()) {
     sky_up_->setItemText(index, vector_text(up));
     base_.sky.up = up;
   }
   sky_up_->setCurrentIndex(index);
 }
 
-void SettingsPanel::set_scene_up(const Vec3& up) {
-  if (!sky().is_set()) {
-    choose_up(up);
-  }
-}
+void SettingsPanel::set_scene_up(const Vec3& up) { choose_up(up); }
 
 RefineChoice SettingsPanel::refinement() const {
   RefineChoice refine = refine_->choice();

@@ -60,7 +60,7 @@ class SettingsPanel : public QWidget {
   bool may_have_sky() const;
   /// Unfolds the sky, and scrolls to its exitance, to be entered.
   void ask_for_sky();
-  /// Sets the vertical of a new scene: the zenith that is proposed for a sky that needs one.
+  /// Sets the vertical of the scene, which is the zenith of a sky.
   void set_scene_up(const Vec3& up);
   /// Sets the open scene, whose patches and lobes the panel tells.
   void set_scene(const Scene& scene);
@@ -76,6 +76,8 @@ class SettingsPanel : public QWidget {
 
  signals:
   void restart_clicked();
+  /// The user has chosen the zenith of the sky.
+  void zenith_chosen(const transillum::Vec3& up);
   /// The options differ from the options of the open scene, and show_forecast() is to be called; or
   /// set_patch_area() where patches_wanted() is not 0.
   void forecast_wanted(const transillum::SceneOptions& options);

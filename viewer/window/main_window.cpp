@@ -41,7 +41,6 @@
 #include "solve/solve_actions.h"
 #include "solve/solve_summary.h"
 #include "solve/study_dialog.h"
-#include "state/camera_views.h"
 #include "stepping/algorithm_view.h"
 #include "stepping/breakpoint_panel.h"
 #include "stepping/event_filter_row.h"
@@ -74,6 +73,7 @@
 #include "window/menus/projector_mode.h"
 #include "window/scene_bars.h"
 #include "window/solve_control.h"
+#include "window/vertical_control.h"
 
 namespace transillum::viewer {
 
@@ -174,6 +174,7 @@ void MainWindow::make_whole_window_actions() {
   solve_actions_ = new SolveActions(this);
   applier_ = new ViewStateApplier(frame, docks_, *map_view_, *algorithm_, *settings_);
   auto* control = new SolveControl(frame, *settings_, *solve_actions_, *applier_);
+  vertical_ = new VerticalControl(frame, *settings_);
   session_ = new WindowSession(frame, docks_, *notes_, *applier_);
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
   memory_ = new LayoutMemory(frame, docks_, appearance_, *files_);
@@ -198,7 +199,8 @@ void MainWindow::make_whole_window_actions() {
   });
   connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
   connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
-  connect(page_, &ScenePage::built_in_clicked, files_, &FileActions::open_built_in);
+  connect(page_, &ScenePage::built_in_clicked, files_,
+          [this](const QString& name) { files_->open_scene(name); });
   state_.breakpoints.set_undo_stack(&state_.undo);
   state_.watches.set_undo_stack(&state_.undo);
   page_->bookmarks().set_undo_stack(&state_.undo);
@@ -340,7 +342,7 @@ void MainWindow::connect_scene() {
     settings_->set_scene_fixed(loaded->stored != nullptr);
     // How faces become patches belongs to the scene.
     settings_->set_options(settings_->solve_options(), state_.scene.options());
-    settings_->set_scene_up(initial_view(*loaded->scene, 1).up);
+    vertical_->show_scene(*loaded);
     settings_->show_escape({});
     settings_->set_scene(*loaded->scene);
     show_debugging_of_scene();

@@ -178,7 +178,8 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
 void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellation) {
   post_state(RunState::loading);
   try {
-    SolveWorker::Prepared prepared = worker_.load(request.spec, request.options, cancellation);
+    SolveWorker::Prepared prepared =
+        worker_.load(request.spec, request.options, request.first_look, cancellation);
     {
       const std::lock_guard lock(mutex_);
       cancellation.throw_if_canceled();

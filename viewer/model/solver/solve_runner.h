@@ -30,7 +30,8 @@ class SolveRunner : public SolveMessages {
   struct OpenRequest {
     std::string spec;  ///< file or built-in
     RunOptions options;
-    Goal then;  ///< goal once the scene is open
+    Goal then;                ///< goal once the scene is open
+    bool first_look = false;  ///< as for loaded_scene()
   };
 
   explicit SolveRunner(QObject* parent = nullptr);

@@ -15,11 +15,11 @@
 
 namespace transillum::viewer {
 
-SolveWorker::Prepared SolveWorker::load(const std::string& spec, const RunOptions& options,
-                                        const Cancellation& cancellation) {
+SolveWorker::Prepared SolveWorker::load(const std::string& spec, RunOptions options,
+                                        bool first_look, const Cancellation& cancellation) {
   options.solve.validate();
-  return prepare(loaded_scene(spec, options, report_, cancellation), choice_of(options),
-                 cancellation);
+  const auto loaded = loaded_scene(spec, options, first_look, report_, cancellation);
+  return prepare(loaded, choice_of(options), cancellation);
 }
 
 SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& start,

@@ -57,8 +57,9 @@ class SolveWorker {
 
   /// Loads a scene and prepares its solve; the open scene stays.
   /// @param spec file or built-in
+  /// @param first_look  as for loaded_scene()
   /// @throws InputError, Canceled
-  Prepared load(const std::string& spec, const RunOptions& options,
+  Prepared load(const std::string& spec, RunOptions options, bool first_look,
                 const Cancellation& cancellation);
   /// Replaces the open scene.
   void open(Prepared prepared);

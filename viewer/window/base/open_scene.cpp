@@ -20,12 +20,13 @@ OpenScene::OpenScene(SolveRunner& runner, Relighting& relighting)
   connect(&relighting_, &Relighting::changed, this, &OpenScene::show_again);
 }
 
-void OpenScene::open(const std::string& spec, const RunOptions& options, Goal goal) {
+void OpenScene::open(const std::string& spec, const RunOptions& options, Goal goal,
+                     bool first_look) {
   opening_ = true;
   emit opening();
   requested_spec_ = spec;
   requested_input_ = options.input;
-  runner_.open({requested_spec_, options, goal});
+  runner_.open({requested_spec_, options, goal, first_look});
 }
 
 bool OpenScene::is_open(const std::string& spec, const RunOptions& options) const {

@@ -319,7 +319,7 @@ void ExportActions::choose_result() {
 void ExportActions::choose_colors() {
   const auto snapshot = frame_.state.scene.snapshot();
   ColorExportDialog dialog(snapshot, frame_.page.scene_view()->view_point(),
-                           initial_view(*snapshot->loaded->scene, 1).up, &frame_.window);
+                           frame_.state.vertical.up(), &frame_.window);
   if (dialog.exec() == QDialog::Accepted) {
     const QString ending = dialog.ending();
     write_chosen(tr("Export for Blender or the web"), tr("Colors (*%1)").arg(ending),
