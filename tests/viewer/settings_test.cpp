@@ -197,6 +197,45 @@ class SettingsTest : public QObject {
     solved.window->findChild<QSpinBox*>("directions")->setValue(1 << 24);
     QVERIFY2(cost->text().contains(" h "), qPrintable(cost->text()));
   }
+
+  void undo_brings_the_solve_before_back() {
+    const SolvedWindow solved("cornell-box", {.directions = 8});
+    TestWindow& window = *solved.window;
+    const auto finished = [&window] {
+      return wait_for([&] {
+        return window.runner.state() == RunState::finished && window.snapshot() &&
+               window.snapshot()->progress.finished && window.settled();
+      });
+    };
+    window.runner.run();
+    QVERIFY(finished());
+    const auto before = window.snapshot();
+    for (const bool divides : {false, true}) {
+      window.findChild<QSpinBox*>("directions")->setValue(16);
+      if (divides) {
+        window.findChild<QLineEdit*>("max_patch_area")->setText("0.05");
+      }
+      window.findChild<QPushButton*>("restart")->click();
+      QVERIFY(wait_for([&] { return window.snapshot()->options.directions == 16; }));
+      QVERIFY(finished());
+      QVERIFY(window.snapshot()->radiosity != before->radiosity);
+      auto* undo = window.findChild<QAction*>("undo");
+      QVERIFY2(undo->isEnabled() && undo->text().contains("solving again"),
+               qPrintable(undo->text()));
+      undo->trigger();
+      QVERIFY(wait_for([&] {
+        const auto now = window.snapshot();
+        return now && now->of_file && now->radiosity == before->radiosity && window.settled();
+      }));
+      QVERIFY(window.views().settings.solve_options() == before->options);
+      QVERIFY(!window.views().settings.differ_from_effect());
+      QVERIFY(!undo->isEnabled());
+      // The same solve can be made again, with its form factors.
+      window.findChild<QAction*>("run")->trigger();
+      QVERIFY(finished());
+      QVERIFY(window.snapshot()->radiosity == before->radiosity);
+    }
+  }
 };
 
 const test::Registered registered("settings", test::run_as_viewer<SettingsTest>);

@@ -49,7 +49,8 @@ QStringList texts_of(const KeptRun& run) {
   return {run.name,
           by_directions ? QString::number(options.directions) : none,
           by_directions ? QString::fromStdString(name_of(options.used_sampling())) : none,
-          snapshot.of_file ? KeptRunPanel::tr("a file") : engine_label(options.engine),
+          snapshot.of_file && !snapshot.loaded->description ? KeptRunPanel::tr("a file")
+                                                            : engine_label(options.engine),
           QString::number(snapshot.progress.iteration),
           QLocale::c().toString(run.kept, QStringLiteral("HH:mm:ss"))};
 }

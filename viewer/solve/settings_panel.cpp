@@ -238,13 +238,13 @@ void SettingsPanel::add_sky() {
          "CIE overcast: three times as bright at the zenith as at the horizon, nothing from "
          "below"));
   sky_up_ = named("sky_up", new QComboBox, tr("The direction of the zenith"));
-  for (const Axis& axis : axes()) {
+  for (const NamedAxis& axis : named_axes()) {
     sky_up_->addItem(QString::fromUtf8(axis.name));
   }
   sky_up_->addItem(QString());  // another direction, of a session or a command line
   connect(sky_up_, qOverload<int>(&QComboBox::activated), this, [this](int index) {
-    if (index < static_cast<int>(axes().size())) {
-      emit zenith_chosen(axes()[static_cast<std::size_t>(index)].direction);
+    if (index < static_cast<int>(named_axes().size())) {
+      emit zenith_chosen(named_axes()[static_cast<std::size_t>(index)].direction);
     }
   });
   auto* rows = new SettingRows;
@@ -339,8 +339,8 @@ Sky SettingsPanel::sky() const {
   const int axis = sky_up_->currentIndex();
   if (sky.model == SkyModel::uniform) {
     sky.up = Sky().up;  // not read
-  } else if (axis >= 0 && axis < static_cast<int>(axes().size())) {
-    sky.up = axes()[static_cast<std::size_t>(axis)].direction;
+  } else if (axis >= 0 && axis < static_cast<int>(named_axes().size())) {
+    sky.up = named_axes()[static_cast<std::size_t>(axis)].direction;
   }
   return sky;
 }
@@ -356,10 +356,10 @@ void SettingsPanel::set_sky(const Sky& sky) {
 }
 
 void SettingsPanel::choose_up(const Vec3& up) {
-  const auto found = std::find_if(axes().begin(), axes().end(),
-                                  [&up](const Axis& axis) { return axis.direction == up; });
-  const int index = static_cast<int>(found - axes().begin());
-  if (found == axes().end()) {
+  const auto found = std::find_if(named_axes().begin(), named_axes().end(),
+                                  [&up](const NamedAxis& axis) { return axis.direction == up; });
+  const int index = static_cast<int>(found - named_axes().begin());
+  if (found == named_axes().end()) {
     sky_up_->setItemText(index, vector_text(up));
     base_.sky.up = up;
   }

@@ -34,8 +34,8 @@ constexpr Pose poses[] = {
 // In most OBJ files, y is up.
 constexpr Pose file_pose{"", {0.5, 0.45, 0.75}, {0, 1, 0}, 1};
 
-constexpr Axis all_axes[] = {{"+z", {0, 0, 1}},  {"+y", {0, 1, 0}},  {"+x", {1, 0, 0}},
-                             {"−z", {0, 0, -1}}, {"−y", {0, -1, 0}}, {"−x", {-1, 0, 0}}};
+constexpr NamedAxis all_named_axes[] = {{"+z", {0, 0, 1}},  {"+y", {0, 1, 0}},  {"+x", {1, 0, 0}},
+                                        {"−z", {0, 0, -1}}, {"−y", {0, -1, 0}}, {"−x", {-1, 0, 0}}};
 
 /// The direction that the front of a scene faces: if z is up, the front view is along +y, as in a
 /// plan; if y is up, along -z, as on a screen.
@@ -60,7 +60,7 @@ const Pose& pose_of(const Scene& scene) {
 
 }  // namespace
 
-std::span<const Axis> axes() { return all_axes; }
+std::span<const NamedAxis> named_axes() { return all_named_axes; }
 
 ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up, double view_angle,
                       double aspect) {

@@ -23,12 +23,12 @@ struct ViewPoint {
 };
 
 /// A direction along a coordinate axis.
-struct Axis {
+struct NamedAxis {
   const char* name;  ///< such as "+z"
   Vec3 direction;
 };
 /// All six.
-std::span<const Axis> axes();
+std::span<const NamedAxis> named_axes();
 
 /// The view of a scene after it is opened. Back faces are not drawn, so a closed room is viewed
 /// from outside, through its nearest wall.

@@ -339,7 +339,7 @@ void MainWindow::connect_scene() {
   connect(&state_.scene, &OpenScene::opening, notifier_, &Notifier::dismiss);
   connect(&state_.scene, &OpenScene::opening, lesson_panel_, &LessonPanel::leave_scene);
   connect(&state_.scene, &OpenScene::scene_loaded, this, [this](const Loaded& loaded) {
-    settings_->set_scene_fixed(loaded->stored != nullptr);
+    settings_->set_scene_fixed(!loaded->description);
     // How faces become patches belongs to the scene.
     settings_->set_options(settings_->solve_options(), state_.scene.options());
     vertical_->show_scene(*loaded);

@@ -18,6 +18,7 @@
 #include "window/base/notifier.h"
 #include "window/base/open_scene.h"
 #include "window/base/view_state_applier.h"
+#include "window/solve_undo.h"
 
 namespace transillum::viewer {
 
@@ -30,6 +31,7 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
       settings_(settings),
       actions_(actions),
       applier_(applier),
+      undo_(*new SolveUndo(frame)),
       forecast_(*this, PatchForecast(),
                 [this](const PatchForecast::Request& request,
                        const std::shared_ptr<const PatchForecast::Answer>& answer, const QString&) {
@@ -115,6 +117,7 @@ void SolveControl::solve_again() {
   }
   if (settings_.patches_wanted() == 0 &&
       frame_.state.scene.is_open(frame_.state.scene.spec(), options)) {
+    undo_.remember();
     frame_.state.runner.restart(SolveWorker::choice_of(options), {Goal::Kind::finished});
   } else if (frame_.state.scene.loaded()->description) {
     awaits_forecast_ = true;
@@ -134,7 +137,10 @@ RunOptions SolveControl::wanted_options() const {
   return options;
 }
 
-void SolveControl::open_again() { applier_.open_again(wanted_options()); }
+void SolveControl::open_again() {
+  undo_.remember();
+  applier_.open_again(wanted_options());
+}
 
 void SolveControl::request_forecast(const SceneOptions& options) {
   forecast_.request({whole_of(frame_.state.scene.loaded()), options, settings_.patches_wanted()});

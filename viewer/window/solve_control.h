@@ -12,6 +12,7 @@
 namespace transillum::viewer {
 
 class SolveActions;
+class SolveUndo;
 class ViewStateApplier;
 
 /// Connects the actions and settings of a solve with the runner: run, pause, step, start over, and
@@ -58,6 +59,7 @@ class SolveControl : public QObject {
   SettingsPanel& settings_;
   SolveActions& actions_;
   ViewStateApplier& applier_;
+  SolveUndo& undo_;
   bool awaits_forecast_ = false;  ///< to open the scene again
   NewestResult<PatchForecast::Request, PatchForecast::Answer> forecast_;
 };

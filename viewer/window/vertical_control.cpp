@@ -33,7 +33,7 @@ void VerticalControl::make_menu() {
   choices_ = new QActionGroup(this);
   QMenu* menu = frame_.page.camera_menu()->addMenu(tr("Vertical"));
   menu->setToolTip(tr("The direction that is up, for the camera, the sky and exported files"));
-  for (const Axis& axis : axes()) {
+  for (const NamedAxis& axis : named_axes()) {
     QAction* action = menu->addAction(tr("Vertical %1").arg(QString::fromUtf8(axis.name)));
     action->setObjectName(QStringLiteral("vertical_%1").arg(QString::fromUtf8(axis.name)));
     action->setCheckable(true);
@@ -72,7 +72,7 @@ void VerticalControl::follow() {
   const Vertical& vertical = frame_.state.vertical;
   std::size_t number = 0;
   for (QAction* action : choices_->actions()) {
-    action->setChecked(axes()[number++].direction == vertical.up());
+    action->setChecked(named_axes()[number++].direction == vertical.up());
   }
   settings_.set_scene_up(vertical.up());
   frame_.page.scene_view()->set_vertical(vertical.up());

@@ -179,7 +179,10 @@ void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellat
   post_state(RunState::loading);
   try {
     SolveWorker::Prepared prepared =
-        worker_.load(request.spec, request.options, request.first_look, cancellation);
+        request.earlier
+            ? worker_.prepare(request.earlier, SolveWorker::choice_of(request.options),
+                              cancellation)
+            : worker_.load(request.spec, request.options, request.first_look, cancellation);
     {
       const std::lock_guard lock(mutex_);
       cancellation.throw_if_canceled();

@@ -32,6 +32,8 @@ class SolveRunner : public SolveMessages {
     RunOptions options;
     Goal then;                ///< goal once the scene is open
     bool first_look = false;  ///< as for loaded_scene()
+    /// A scene with the light of an earlier solve, which is shown instead of reading `spec`.
+    std::shared_ptr<const LoadedScene> earlier = nullptr;
   };
 
   explicit SolveRunner(QObject* parent = nullptr);

@@ -24,7 +24,7 @@ SolveWorker::Prepared SolveWorker::load(const std::string& spec, RunOptions opti
 
 SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& start,
                                            Choice choice, const Cancellation& cancellation) {
-  if (start->stored) {
+  if (start->stored && !start->description) {
     choice.refine = {};
     choice.total = false;
   }

@@ -61,6 +61,10 @@ class SolveWorker {
   /// @throws InputError, Canceled
   Prepared load(const std::string& spec, RunOptions options, bool first_look,
                 const Cancellation& cancellation);
+  /// Prepares a solve of a scene that was loaded before.
+  /// @throws InputError, Canceled
+  Prepared prepare(const std::shared_ptr<const LoadedScene>& start, Choice choice,
+                   const Cancellation& cancellation);
   /// Replaces the open scene.
   void open(Prepared prepared);
   /// Replaces the solve of the open scene by a new one, whose session is canceled already.
@@ -89,8 +93,6 @@ class SolveWorker {
   CheckpointKeeper& checkpoints() { return checkpoints_; }
 
  private:
-  Prepared prepare(const std::shared_ptr<const LoadedScene>& start, Choice choice,
-                   const Cancellation& cancellation);
   void replace_session(Prepared prepared);
   void prepare_stage();
   void begin_with_draft();
