@@ -15,6 +15,7 @@
 #include "state/camera_views.h"
 #include "widgets/banner.h"
 #include "window/base/open_scene.h"
+#include "window/files/first_look.h"
 
 namespace transillum::viewer {
 
@@ -59,8 +60,7 @@ std::optional<Vec3> VerticalControl::known_of(const LoadedScene& loaded) {
   if (sky.is_set() && sky.model != SkyModel::uniform) {
     return sky.up;
   }
-  const bool is_file = loaded.stored || !loaded.description->files.empty();
-  if (!is_file) {
+  if (is_built_in(loaded.scene->name())) {  // also in a result file
     return initial_view(*loaded.scene, 1).up;
   }
   const QString ending = QFileInfo(QString::fromStdString(loaded.scene->name())).suffix().toLower();

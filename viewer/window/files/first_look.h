@@ -9,6 +9,9 @@
 
 namespace transillum::viewer {
 
+/// Whether a name with its parameters is the name of a built-in scene.
+bool is_built_in(const std::string& spec);
+
 /// Whether a scene is divided, if its faces are few: a file, and the built-in scenes that are about
 /// light. The others are about few faces, whose light is known or that are to be counted.
 /// @param spec a built-in scene with its parameters, or a file

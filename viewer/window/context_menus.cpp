@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "window/menus/context_menus.h"
+#include "window/context_menus.h"
 
 #include <QAbstractItemView>
 #include <QClipboard>
@@ -8,7 +8,6 @@
 #include <QMenu>
 
 #include "model/material_edits.h"
-#include "patches/material_panel.h"
 #include "patches/patch_table.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
