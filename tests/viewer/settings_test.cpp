@@ -198,6 +198,35 @@ class SettingsTest : public QObject {
     QVERIFY2(cost->text().contains(" h "), qPrintable(cost->text()));
   }
 
+  // At the size of a projector, with all sections open, in both themes.
+  void the_button_is_always_seen_and_no_text_is_cut() {
+    const SolvedWindow solved("gallery", {.directions = 16});
+    QVERIFY(solved.ready);
+    TestWindow& window = *solved.window;
+    auto* panel = window.findChild<SettingsPanel*>();
+    auto* restart = window.findChild<QPushButton*>("restart");
+    window.resize(1280, 720);
+    for (auto* header : panel->findChildren<FoldHeader*>()) {
+      header->setChecked(true);
+    }
+    window.findChild<QComboBox*>("engine")->setCurrentText("Painter's algorithm");
+    window.findChild<QPushButton*>("normal")->click();
+    for (const bool dark : {false, true}) {
+      theme::apply(*qApp, {.dark = dark});
+      handle_posted();
+      QVERIFY(restart->isVisible());
+      QVERIFY(window.rect().contains(QRect(restart->mapTo(&window, QPoint()), restart->size())));
+      for (const auto* label : panel->findChildren<QLabel*>()) {
+        if (label->isVisibleTo(panel) && !label->wordWrap()) {
+          QVERIFY2(label->width() >= label->sizeHint().width(), qPrintable(label->text()));
+        }
+      }
+      save_picture(window, dark ? "settings-dark" : "settings-light");
+      save_picture(*panel, dark ? "settings-panel-dark" : "settings-panel-light");
+    }
+    theme::apply(*qApp);
+  }
+
   void undo_brings_the_solve_before_back() {
     const SolvedWindow solved("cornell-box", {.directions = 8});
     TestWindow& window = *solved.window;

@@ -23,7 +23,7 @@ VerticalControl::VerticalControl(const WindowFrame& frame, SettingsPanel& settin
     : QObject(&frame.window), frame_(frame), settings_(settings) {
   make_menu();
   Vertical& vertical = frame_.state.vertical;
-  QPushButton* turn = frame_.page.vertical_bar()->add_button("turn_upright", tr("Turn upright"));
+  QPushButton* turn = frame_.page.vertical_bar()->add_button("turn_upright", tr("Take +y instead"));
   turn->setToolTip(tr("Take +y for the vertical, as in most files"));
   connect(turn, &QPushButton::clicked, &vertical, [&vertical] { vertical.choose({0, 1, 0}); });
   connect(&settings_, &SettingsPanel::zenith_chosen, &vertical, &Vertical::choose);

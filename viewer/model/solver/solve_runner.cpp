@@ -152,8 +152,9 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
   } else if (restart_request_) {
     solve_cancellation_ = Cancellation();
     choice_ = *std::exchange(restart_request_, std::nullopt);
+    const bool runs_on = goal_.kind == Goal::Kind::finished;
     run_unlocked(lock, *this, [&, run = choice_, cancellation = solve_cancellation_] {
-      worker_.start(run, cancellation);
+      worker_.start(run, cancellation, runs_on);
     });
     if (!worker_.has_started() && !open_request_ && !restart_request_) {
       goal_ = {};

@@ -64,7 +64,7 @@ void SolveWorker::open(Prepared prepared) {
   post_snapshot();
 }
 
-void SolveWorker::start(Choice choice, const Cancellation& cancellation) {
+void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool runs_on) {
   if (!loaded_) {
     return;
   }
@@ -82,7 +82,9 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation) {
   }
   take_patches(prepared.loaded);
   replace_session(std::move(prepared));
-  post_snapshot();
+  if (!runs_on || !drafts_) {
+    post_snapshot();
+  }
 }
 
 void SolveWorker::replace_session(Prepared prepared) {

@@ -69,7 +69,8 @@ class SolveWorker {
   void open(Prepared prepared);
   /// Replaces the solve of the open scene by a new one, whose session is canceled already.
   /// @throws InputError, Canceled: advance() then tries again; the old picture stays.
-  void start(Choice choice, const Cancellation& cancellation);
+  /// @param runs_on  it is advanced to its end next: with drafts, the old picture stays until then
+  void start(Choice choice, const Cancellation& cancellation, bool runs_on = false);
   /// Whether the last start() has succeeded.
   bool has_started() const { return !unstarted_; }
   /// Solves for other materials, from the present light, where lobes take part.
