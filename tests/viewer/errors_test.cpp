@@ -289,11 +289,11 @@ class ErrorsTest : public QObject {
     const Shown shown;
     shown.window->findChild<QLineEdit*>("accuracy")->setText("40");
     auto* of = shown.window->findChild<QComboBox*>("accuracy_of");
-    of->setCurrentText("% in all");
+    of->setCurrentText("all errors together");
     shown.window->findChild<QSpinBox*>("refine_patches")->setValue(5000);
     const RunOptions options = shown.window->views().settings.options();
     QVERIFY(options.total);
-    QVERIFY(!shown.window->findChild<QComboBox*>("refine_by")->isEnabled());
+    QVERIFY(shown.window->findChild<QComboBox*>("refine_by")->parentWidget()->isHidden());
     const auto scene = shown.window->snapshot()->loaded->scene;
     TotalPlan plan({.scene = scene, .options = options.solve}, {.total = 0.4, .patches = 5000});
     while (!plan.finished()) {

@@ -193,7 +193,7 @@ class PicturesTest : public QObject {
       SolveOptions options;
       options.directions = name == "sphere-flake" ? 128 : 1024;
       SceneOptions refined;
-      if (soft_patches(scene.name) > 0) {  // like the first look, with less noise
+      if (has_first_look(scene.name)) {  // like the first look, with less noise
         options.basis = Basis::linear;
         options.directions = 4096;
         refined.max_patch_area = max_patch_area_for(*load_scene(scene.name), 3000);

@@ -429,13 +429,17 @@ class RefinementTest : public QObject {
     SettingsPanel panel;
     QVERIFY(!panel.refinement().is_set());
     auto* until = panel.findChild<QLineEdit*>("refine_until");
+    panel.findChild<QAbstractButton*>("refine_section")->setChecked(true);
     QVERIFY(!until->isVisibleTo(&panel));
     panel.set_options(RunOptions{few, {}, {}, by(RefineBy::error, 345, 1.0 / 3)});
     QVERIFY(until->isVisibleTo(&panel));
     QVERIFY(panel.refinement() == by(RefineBy::error, 345, 1.0 / 3));
     until->setText("5");
     QVERIFY(panel.refinement() == by(RefineBy::error, 345, 0.05));
-    panel.set_in_effect(few, {}, by(RefineBy::error, 345, 0.05));
+    auto snapshot = std::make_shared<SolverSnapshot>();
+    snapshot->options = few;
+    snapshot->refine = by(RefineBy::error, 345, 0.05);
+    panel.set_in_effect(snapshot, {});
     QVERIFY(!panel.differ_from_effect());
     panel.findChild<QSpinBox*>("refine_patches")->setValue(346);
     QVERIFY(panel.differ_from_effect());

@@ -60,7 +60,7 @@ class ResultTest : public QObject {
     const auto window = make_window(16);
     window->files().open(path_);
     QVERIFY(settles(*window));
-    QVERIFY(!window->findChild<QCheckBox*>("two_sided")->isEnabled());
+    QVERIFY(window->findChild<QCheckBox*>("two_sided")->isHidden());
     QVERIFY(window->views().settings.options().scene.two_sided);
     window->findChild<QAction*>("run")->trigger();
     QVERIFY(wait_for([&] { return window->runner.state() == RunState::finished; }));

@@ -212,7 +212,7 @@ class SceneFilesTest : public QObject {
     };
     const QColor middle = picture.pixelColor(picture.rect().center());
     QVERIFY(std::abs(middle.red() - byte(b.r)) <= 1 && std::abs(middle.blue() - byte(b.b)) <= 1);
-    dialog.findChild<QComboBox*>("color_up")->setCurrentIndex(1);
+    dialog.findChild<QComboBox*>("color_up")->setCurrentText("+z");
     QVERIFY((*dialog.display().up == Vec3{0, 0, 1}));
     auto* light_map = dialog.findChild<QCheckBox*>("color_light_map");
     QVERIFY(light_map->isEnabled() && !dialog.display().light_map);

@@ -98,6 +98,40 @@ class SolveRunnerTest : public QObject {
     QVERIFY(std::abs(power / area / (5 * 10.0 / 94) - 1) < 0.01);
   }
 
+  // Until the solve is finished, the light is whole; afterwards it is what it is without a draft.
+  void a_draft_comes_before_a_long_solve() {
+    SolveOptions options;
+    options.goal.accuracy = 0.01;
+    const auto solved = [&options](Watched& watched) {
+      watched.runner.open({"cornell-box", {options, {false, 0.02}}, {Goal::Kind::finished}});
+      return watched.reaches(RunState::finished) ? watched.snapshot->radiosity : std::vector<Rgb>();
+    };
+    Watched plain;
+    const std::vector<Rgb> expected = solved(plain);
+    QVERIFY(!expected.empty());
+    const auto error = [&expected](const SolverSnapshot& snapshot) {
+      double errors = 0, sum = 0;
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        errors += std::pow(max_abs(snapshot.radiosity[i] - expected[i]), 2);
+        sum += std::pow(max_abs(expected[i]), 2);
+      }
+      return std::sqrt(errors / sum);
+    };
+    Watched watched;
+    watched.runner.set_drafts(true);
+    double worst = 0;
+    int drafts = 0;
+    QObject::connect(&watched.runner, &SolveRunner::snapshot_ready, &watched.runner,
+                     [&](const std::shared_ptr<const SolverSnapshot>& snapshot) {
+                       drafts += snapshot->of_draft ? 1 : 0;
+                       const bool before = drafts == 0 && snapshot->passes_done == 0;
+                       worst = before ? worst : std::max(worst, error(*snapshot));
+                     });
+    QVERIFY(solved(watched) == expected);
+    QVERIFY(drafts > 0 && !watched.snapshot->of_draft);
+    QVERIFY2(worst < 0.05, qPrintable(QString::number(worst)));
+  }
+
   // A killed program leaves its checkpoint. The next one continues from there.
   void goes_on_with_the_checkpoint_of_another_program() {
     const QTemporaryDir folder;

@@ -141,10 +141,11 @@ inline void drag(QWidget& canvas, const QPoint& from, const QPoint& by, int step
 }
 
 /// A window that remembers nothing, with the state that it shows, which outlives it. Sharp pictures
-/// are off, so that patches have their own colors.
+/// are off, so that patches have their own colors, and faces are not divided unasked.
 struct TestWindow : SharedState, MainWindow {
   TestWindow() : MainWindow(static_cast<SharedState&>(*this), false) {
     views().page.sharp()->action()->setChecked(false);
+    files().set_divides(false);
   }
 
   void set_options(const SolveOptions& solve, const SceneOptions& scene_options) {

@@ -15,6 +15,9 @@ namespace transillum::viewer {
 namespace {
 
 QString text_on_file(const LoadedScene& loaded) {
+  if (loaded.description) {
+    return ColorNote::tr("The solve before. Run (F5) makes it again, with its form factors.");
+  }
   const QString name = QFileInfo(QString::fromStdString(loaded.file)).fileName();
   return loaded.stored->complete
              ? ColorNote::tr("Values from the file %1. Run (F5) solves its scene from the start.")

@@ -36,6 +36,7 @@ struct LoadedScene {
   std::shared_ptr<const Solution>
       stored;               ///< solution of the result file that was opened; else null
   std::string file;         ///< path of the result file
+  std::size_t divided_faces = 0;  ///< number of faces, where they were divided unasked
   double seconds_load = 0;  ///< wall-clock time of reading
   double seconds_bsp = 0;   ///< wall-clock time of building the tree
   /// The scene before patches were divided in rounds; null if none were divided.
@@ -107,6 +108,9 @@ struct SolverSnapshot {
   std::shared_ptr<const PatchMaterials> materials;
   /// The values come from loaded->stored; nothing has been solved yet.
   bool of_file = false;
+  /// The light is of a draft, or of the last finished stage; `progress` is of the solve that will
+  /// replace it.
+  bool of_draft = false;
   bool form_factors_fit = true;  ///< false: the memory limit was exceeded
   /// B(n), one per patch, for each iteration n that has begun; null if the memory limit was
   /// exceeded.

@@ -8,7 +8,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLocale>
-#include <QShortcut>
 #include <QSignalBlocker>
 #include <QStandardItemModel>
 #include <QTableWidget>
@@ -50,7 +49,8 @@ QStringList texts_of(const KeptRun& run) {
   return {run.name,
           by_directions ? QString::number(options.directions) : none,
           by_directions ? QString::fromStdString(name_of(options.used_sampling())) : none,
-          snapshot.of_file ? KeptRunPanel::tr("a file") : engine_label(options.engine),
+          snapshot.of_file && !snapshot.loaded->description ? KeptRunPanel::tr("a file")
+                                                            : engine_label(options.engine),
           QString::number(snapshot.progress.iteration),
           QLocale::c().toString(run.kept, QStringLiteral("HH:mm:ss"))};
 }
@@ -130,9 +130,20 @@ void KeptRunPanel::make_table() {
   connect(table_, &QTableWidget::itemChanged, this,
           [this](const QTableWidgetItem* item) { rename(*item); });
   connect(table_, &QTableWidget::itemSelectionChanged, this, &KeptRunPanel::show_hint);
-  auto* delete_key = new QShortcut(QKeySequence::Delete, table_);
-  delete_key->setContext(Qt::WidgetShortcut);
-  connect(delete_key, &QShortcut::activated, this, &KeptRunPanel::remove_current);
+  table_->setContextMenuPolicy(Qt::ActionsContextMenu);
+  const auto add = [this](const char* name, const QString& text, const QKeySequence& key) {
+    QAction* action = make_action(table_, name, text, {}, key);
+    action->setShortcutContext(Qt::WidgetShortcut);
+    table_->addAction(action);
+    return action;
+  };
+  connect(add("rename_run", tr("Rename"), Qt::Key_F2), &QAction::triggered, this, [this] {
+    if (table_->currentRow() >= 0) {
+      table_->editItem(table_->item(table_->currentRow(), name_column));
+    }
+  });
+  connect(add("remove_kept_run", tr("Remove"), QKeySequence::Delete), &QAction::triggered, this,
+          &KeptRunPanel::remove_current);
 }
 
 QLayout* KeptRunPanel::make_buttons(QAction& keep, QAction& difference) {

@@ -26,6 +26,8 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   light_bar_ = named("light_bar", new Banner);
   orientation_bar_ = named("orientation_bar", new Banner);
   reading_bar_ = named("reading_bar", new Banner);
+  vertical_bar_ = named("vertical_bar", new Banner);
+  division_bar_ = named("division_bar", new Banner);
   color_controls_ = new ColorControls(colors);
   scene_view_ = named("scene_view", new SceneView(focus, selection, colors, hidden_));
   welcome_ = new WelcomePage;
@@ -80,6 +82,8 @@ QWidget* ScenePage::make_scene(Selection& selection, ColorChoice& colors) {
   view_and_bar->addWidget(bar);
   auto* scene_layout = make_column(scene, {}, 0);
   scene_layout->addWidget(reading_bar_);
+  scene_layout->addWidget(vertical_bar_);
+  scene_layout->addWidget(division_bar_);
   scene_layout->addWidget(light_bar_);
   scene_layout->addWidget(orientation_bar_);
   scene_layout->addWidget(color_controls_);

@@ -38,6 +38,10 @@ class ScenePage : public QWidget {
   /// The bars below banner(): they show what the window offers for the open scene.
   Banner* light_bar() const { return light_bar_; }
   Banner* orientation_bar() const { return orientation_bar_; }
+  /// The bar that says that faces were divided unasked.
+  Banner* division_bar() const { return division_bar_; }
+  /// The bar that says which vertical was guessed.
+  Banner* vertical_bar() const { return vertical_bar_; }
   /// The bar that says how the file of the open scene was read, if that was remembered.
   Banner* reading_bar() const { return reading_bar_; }
   ColorControls* color_controls() const { return color_controls_; }
@@ -65,7 +69,8 @@ class ScenePage : public QWidget {
   CameraBookmarks bookmarks_;
   HiddenPatches hidden_;
   CameraMenu* camera_;
-  Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_, *reading_bar_;
+  Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_, *reading_bar_,
+      *vertical_bar_, *division_bar_;
   QStackedWidget* pages_;
   WelcomePage* welcome_;
   QAction* scenes_;

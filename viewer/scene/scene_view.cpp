@@ -243,7 +243,7 @@ void SceneView::reset_view() {
   if (!loaded_) {
     return;
   }
-  const ViewPoint view = initial_view(*loaded_->scene, aspect());
+  const ViewPoint view = initial_view(*loaded_->scene, aspect(), vertical_);
   focus_point_ = view.target;
   radius_ = view.radius;
   set_camera(view);
@@ -269,7 +269,7 @@ void SceneView::fit_selected() {
 
 void SceneView::view_from_side(Side side) {
   if (loaded_) {
-    set_camera(standard_view(*loaded_->scene, side, aspect()));
+    set_camera(standard_view(*loaded_->scene, side, aspect(), vertical_));
   }
 }
 
@@ -285,11 +285,16 @@ void SceneView::set_view_point(const ViewPoint& view) {
   }
 }
 
-Vec3 SceneView::vertical() const { return initial_view(*loaded_->scene, 1).up; }
+void SceneView::set_vertical(const Vec3& up) {
+  if (!(vertical_ == up)) {
+    vertical_ = up;
+    reset_view();
+  }
+}
 
 void SceneView::turn(double azimuth, double elevation) {
   if (loaded_) {
-    set_camera(turned(view_point(), vertical(), azimuth, elevation));
+    set_camera(turned(view_point(), vertical_, azimuth, elevation));
   }
 }
 
@@ -585,6 +590,12 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
         }
       }
       render();
+    } else if (event->type() == QEvent::MouseButtonRelease) {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      const int moved = (mouse->pos() - press_position_).manhattanLength();
+      if (mouse->button() == Qt::RightButton && moved < QApplication::startDragDistance()) {
+        emit menu_requested(mouse->pos());
+      }
     } else if (event->type() == QEvent::Resize && loaded_ && view_point() == initial_view_point_) {
       reset_view();  // the user has not changed it: fit it to the new size
     }

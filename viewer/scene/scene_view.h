@@ -90,6 +90,8 @@ class SceneView : public QWidget {
   /// How a drag rotates: as a trackball, or as a turntable, about the vertical of the scene, which
   /// stays upright.
   void set_turntable(bool turntable);
+  /// Sets the vertical of the scene, and goes to the initial view with it.
+  void set_vertical(const Vec3& up);
   /// Clips the picture by a plane; shows all of it if no plane is given.
   void set_clip(const std::optional<ClipPlane>& clip);
   bool turntable() const { return turntable_; }
@@ -121,6 +123,8 @@ class SceneView : public QWidget {
   bool pressed() const { return pressed_; }
 
  signals:
+  /// The right button was clicked at a point of canvas().
+  void menu_requested(const QPoint& position);
   /// The picture is about to be drawn; what is shown may have changed.
   void about_to_draw();
   /// The camera is at another point than in the picture before; emitted while a picture is drawn.
@@ -140,7 +144,7 @@ class SceneView : public QWidget {
   void leave_out_hidden();
   bool in_picture(const PickedPoint& point) const;
   void show_edges();
-  Vec3 vertical() const;
+  Vec3 vertical_ = {0, 1, 0};
   void follow_camera();
   void place_callouts();
 

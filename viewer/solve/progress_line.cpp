@@ -209,13 +209,16 @@ void ProgressLine::show_solve() {
                         .arg(iterations_text(progress.iteration),
                              QString::number(snapshot_->statistics.seconds_total, 'f', 1)));
   } else if (snapshot_->of_file) {
-    phase_->setText(tr("From the file: %1 of %2 passes each")
+    phase_->setText((snapshot_->loaded->description ? tr("The solve before: %1 of %2 passes each")
+                                                    : tr("From the file: %1 of %2 passes each"))
                         .arg(iterations_text(snapshot_->statistics.iterations),
                              count_text(snapshot_->statistics.passes)));
   } else if (progress.iteration == 0 && progress.direction == 0 && (running || rounds.empty())) {
     phase_->setText(running ? round + tr("Starting") : tr("Ready: run, or process one direction"));
   } else {
-    phase_->setText(running ? round + at : tr("Paused: %1").arg(round + at));
+    phase_->setText(!running              ? tr("Paused: %1").arg(round + at)
+                    : snapshot_->of_draft ? tr("Draft shown. %1").arg(at)
+                                          : round + at);
   }
 
   const bool timed = running && progress.passes_per_second > 0;

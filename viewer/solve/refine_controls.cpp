@@ -3,12 +3,14 @@
 
 #include <QComboBox>
 #include <QDoubleValidator>
-#include <QFormLayout>
 #include <QLineEdit>
 #include <QLocale>
 #include <QSpinBox>
 
+#include "solve/setting_tips.h"
+#include "support/number_text.h"
 #include "widgets/build.h"
+#include "widgets/setting_rows.h"
 
 namespace transillum::viewer {
 
@@ -17,8 +19,7 @@ namespace {
 constexpr int usual_patches = 600;  // until a number is entered
 
 QString percent_text(double fraction) {
-  return fraction > 0 ? QString::number(100 * fraction, 'g', QLocale::FloatingPointShortest)
-                      : QString();
+  return fraction > 0 ? exact_digits(100 * fraction) : QString();
 }
 
 }  // namespace
@@ -43,17 +44,11 @@ RefineControls::RefineControls(QWidget* parent) : QWidget(parent) {
   until_->setPlaceholderText(tr("No limit"));
   until_->setToolTip(
       tr("The rounds end when the RMS jump or the L2 error,\nin percent of B, is this small"));
-  limits_ = new QWidget;
-  auto* limits = new QFormLayout(limits_);
-  limits->setContentsMargins(0, 2, 0, 0);
-  limits->setHorizontalSpacing(6);
-  limits->setVerticalSpacing(4);
-  limits->addRow(tr("Patches"), patches_);
-  limits->addRow(tr("Until, %"), until_);
-  until_label_ = limits->labelForField(until_);
-  auto* layout = make_column(this, {}, 2);
-  layout->addWidget(by_);
-  layout->addWidget(limits_);
+  auto* rows = new SettingRows;
+  rows->add(tr("Refine by"), by_, by_->toolTip());
+  rows->add(tr("Most patches"), patches_, patches_->toolTip());
+  rows->add(tr("Until, %"), until_, until_->toolTip());
+  make_column(this, {}, 0)->addWidget(rows);
   show_limits();
   connect(by_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     show_limits();
@@ -86,14 +81,23 @@ void RefineControls::set_choice(const RefineChoice& choice) {
 void RefineControls::set_available(bool available, bool total) {
   available_ = available;
   total_ = total;
-  by_->setEnabled(available && !total);
   show_limits();
 }
 
+QString RefineControls::state() const {
+  if (total_) {
+    return tr("by all errors, %1 patches").arg(count_text(patches_->value()));
+  }
+  return by_->currentIndex() == 0
+             ? tr("off")
+             : tr("%1, %2 patches").arg(by_->currentText(), count_text(patches_->value()));
+}
+
 void RefineControls::show_limits() {
-  limits_->setVisible(available_ && (total_ || by_->currentIndex() > 0));
-  until_->setVisible(!total_);
-  until_label_->setVisible(!total_);
+  const bool rounds = available_ && !total_ && by_->currentIndex() > 0;
+  SettingRows::show_row(by_, !total_);
+  SettingRows::show_row(patches_, rounds || (available_ && total_));
+  SettingRows::show_row(until_, rounds);
 }
 
 }  // namespace transillum::viewer

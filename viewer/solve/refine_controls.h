@@ -24,6 +24,8 @@ class RefineControls : public QWidget {
   /// @param available  whether patches may be divided: not where a result file is shown
   /// @param total  whether a total error takes the place of rounds; the number of patches limits it
   void set_available(bool available, bool total);
+  /// The choice in some words.
+  QString state() const;
 
  signals:
   void changed();
@@ -36,8 +38,6 @@ class RefineControls : public QWidget {
   QComboBox* by_;      ///< none, then the values of RefineBy
   QSpinBox* patches_;
   QLineEdit* until_;  ///< percent; empty without a limit
-  QWidget* until_label_ = nullptr;
-  QWidget* limits_;
 };
 
 }  // namespace transillum::viewer

@@ -1,14 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Solve settings": one control per option of the next solve. Names and tool tips come
-// from the library's list of settings.
+// The panel "Solve settings": quality, patches and the button on top, and the other options of the
+// next solve in sections below. Names and tool tips come from the library's list of settings.
 #include "solve/settings_panel.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QDoubleValidator>
-#include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QLocale>
@@ -24,209 +23,195 @@
 #include <set>
 #include <string>
 
-#include "model/run_options.h"
 #include "session/total_plan.h"
+#include "solve/quality_controls.h"
 #include "solve/refine_controls.h"
 #include "solve/round_panel.h"
+#include "solve/setting_tips.h"
+#include "state/camera_views.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
 #include "widgets/engine_text.h"
+#include "widgets/fold.h"
 #include "widgets/scrolling.h"
+#include "widgets/setting_rows.h"
 
 namespace transillum::viewer {
 
 namespace {
 
-/// The choices of an enumeration, in its order.
+/// A box with the choices of an enumeration, in its order.
 template <class Value>
-void add_choices(QComboBox& box) {
+QComboBox* choice_box(const QString& name, const QString& tip) {
+  auto* box = named(name, new QComboBox, tip);
   for (const std::string& label : choices_of<Value>().labels) {
-    box.addItem(QString::fromStdString(label));
+    box->addItem(QString::fromStdString(label));
   }
+  return box;
 }
 
-// The accuracy is about the sum of all errors: data of its entry, beside the values of AccuracyOf.
-constexpr int in_all = -1;
+constexpr int most_patches = 50'000'000;
 
 // The slider's position is the square root of the sky's fraction of this.
 constexpr int sky_steps = 200;
 constexpr double sky_of_slider = 100;  // W/m²
 
-struct Axis {
-  const char* name;
-  Vec3 direction;
-};
-constexpr Axis axes[] = {{"+z", {0, 0, 1}},  {"+y", {0, 1, 0}},  {"+x", {1, 0, 0}},
-                         {"−z", {0, 0, -1}}, {"−y", {0, -1, 0}}, {"−x", {-1, 0, 0}}};
-
 bool same(const SceneOptions& a, const SceneOptions& b) {
   return a.two_sided == b.two_sided && a.max_patch_area == b.max_patch_area;
 }
 
-// Rich text, so that Qt wraps long lines.
-QString tip(const char* setting) {
-  const QString sentence = capitalized(QString::fromStdString(option(setting).help));
-  return QStringLiteral("<span>%1</span>").arg(sentence.toHtmlEscaped());
+QDoubleValidator* number_validator(QObject* parent, double low, double high, int decimals) {
+  auto* validator = new QDoubleValidator(low, high, decimals, parent);
+  validator->setLocale(QLocale::c());
+  return validator;
 }
 
-// The shortest digits that read back bit for bit.
-QString exact_text(double value) {
-  return QString::number(value, 'g', QLocale::FloatingPointShortest);
+/// A field and a note below it, in one row.
+QWidget* with_note(QWidget* field, QLabel* note) {
+  auto* column = new QWidget;
+  auto* layout = make_column(column, {}, 2);
+  layout->addWidget(field);
+  layout->addWidget(note);
+  note->hide();
+  return column;
 }
 
 }  // namespace
 
 SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
-  auto* form = form_ = new QFormLayout;
-  form->setContentsMargins(0, 0, 0, 0);
-  form->setHorizontalSpacing(10);
-  form->setVerticalSpacing(6);
-  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  add_direction_rows(*form);
-  add_engine_rows(*form);
-  add_estimator_rows(*form);
-  add_stop_row(*form);
-  add_sky_rows(*form);
-  connect_solve_rows();
-  add_scene_rows(*form);
+  make_column(this, {12, 10, 0, 0}, 8);
+  add_top();
+  sections_ = new QWidget;
+  make_column(sections_, {0, 0, 12, 10}, 0);
+  add_method();
+  add_sky();
   refine_ = new RefineControls;
-  form->addRow(tr("Refine by"), refine_);
-  connect(refine_, &RefineControls::changed, this, &SettingsPanel::show_state);
-  restart_ = named("restart", new QPushButton(tr("Solve again")));
-  auto* layout = make_column(this, {12, 10, 12, 10}, 10);
-  layout->addLayout(form);
-  layout->addWidget(restart_);
+  add_section(refine_section_ = new Fold("refine_section", tr("Refine"), refine_));
+  add_limits();
   rounds_ = new RoundPanel;
-  layout->addWidget(rounds_);
-  layout->addStretch(1);
-  connect(restart_, &QPushButton::clicked, this, &SettingsPanel::restart_clicked);
+  sections_->layout()->addWidget(rounds_);
+  static_cast<QBoxLayout*>(sections_->layout())->addStretch(1);
+  layout()->addWidget(scrollable(sections_));
+  connect_changes();
+  made_ = true;
   set_options({}, {});
 }
 
-void SettingsPanel::add_direction_rows(QFormLayout& form) {
-  directions_ = named("directions", new QSpinBox, tip("directions"));
-  directions_->setRange(1, 1 << 24);
-  directions_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  directions_->setGroupSeparatorShown(false);
-  sampling_ = named("sampling", new QComboBox);
-  add_choices<Sampling>(*sampling_);
-  sampling_->setToolTip(tip("sampling"));
-  seed_ = named("seed", new QLineEdit, tip("seed"));
-  seed_->setValidator(
-      new QRegularExpressionValidator(QRegularExpression(QStringLiteral("[0-9]{1,20}")), seed_));
-  form.addRow(tr("Directions M"), directions_);
-  add_accuracy_row(form);
-  form.addRow(tr("Sampling"), sampling_);
-  form.addRow(tr("Seed"), seed_);
+void SettingsPanel::add_section(Fold* fold) { sections_->layout()->addWidget(fold); }
+
+void SettingsPanel::add_top() {
+  quality_ = new QualityControls;
+  patches_ = named("patches_wanted", new QSpinBox,
+                   tr("About how many patches the faces are divided into; the lowest value does "
+                      "not divide them"));
+  patches_->setRange(0, most_patches);
+  patches_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  patches_->setSpecialValueText(tr("faces as in the file"));
+  patches_->setPrefix(tr("about "));
+  patches_->setKeyboardTracking(false);
+  patches_row_ = new QWidget;
+  auto* patches = make_column(patches_row_, {}, 3);
+  auto* patches_label = new QLabel(tr("Patches"));
+  patches_label->setToolTip(patches_->toolTip());
+  patches_label->setBuddy(patches_);
+  patches->addWidget(patches_label);
+  patches->addWidget(patches_);
+  cost_ = named("patch_forecast", note_label(),
+                tr("Patches, time and memory of the next solve, without kept form factors; the "
+                   "time is known once passes of the same engine have been made"));
+  restart_ = named("restart", new QPushButton(tr("Solve")));
+  restart_->setProperty("primary", true);
+  auto* quality_label = new QLabel(tr("Quality"));
+  quality_label->setToolTip(
+      tr("How many directions light is computed along, by number or by the "
+         "error that is allowed"));
+  auto* top = make_column({0, 0, 12, 0}, 3);
+  top->addWidget(quality_label);
+  top->addWidget(quality_);
+  top->addSpacing(5);
+  top->addWidget(patches_row_);
+  top->addWidget(cost_);
+  top->addSpacing(5);
+  top->addWidget(restart_);
+  static_cast<QBoxLayout*>(layout())->addLayout(top);
 }
 
-void SettingsPanel::add_accuracy_row(QFormLayout& form) {
-  accuracy_ = named("accuracy", new QLineEdit);
-  auto* percent = new QDoubleValidator(0, 99, 6, accuracy_);
-  percent->setLocale(QLocale::c());
-  accuracy_->setValidator(percent);
-  accuracy_->setPlaceholderText(tr("None"));
-  accuracy_->setMinimumWidth(60);
-  accuracy_->setToolTip(tip("accuracy"));
-  accuracy_of_ = named("accuracy_of", new QComboBox);
-  for (const auto& [of, text] : {std::pair{AccuracyOf::surfaces, tr("% worst")},
-                                 {AccuracyOf::irradiance, tr("% irradiance")},
-                                 {AccuracyOf::rms, tr("% RMS")},
-                                 {AccuracyOf::max, tr("% largest")},
-                                 {AccuracyOf::patch, tr("% patch")},
-                                 {AccuracyOf::mean, tr("% mean")}}) {
-    accuracy_of_->addItem(text, static_cast<int>(of));
-  }
-  accuracy_of_->insertItem(1, tr("% in all"), in_all);
-  accuracy_of_->setItemData(1, tip("total"), Qt::ToolTipRole);
-  accuracy_of_->setToolTip(tip("accuracy-of"));
-  accuracy_of_->setMinimumWidth(60);
-  auto* row = make_row({}, 6);
-  row->addWidget(accuracy_, 1);
-  row->addWidget(accuracy_of_, 1);
-  form.addRow(tr("Accuracy"), row);
+void SettingsPanel::add_method() {
+  auto* rows = new SettingRows;
+  add_engine_rows(*rows);
+  add_estimator_rows(*rows);
+  add_direction_rows(*rows);
+  rows->add(tr("Accuracy of"), quality_->accuracy_of(), setting_tip("accuracy-of"));
+  two_sided_ = named("two_sided", new QCheckBox(tr("Two-sided faces")), setting_tip("two-sided"));
+  rows->add(two_sided_);
+  add_section(method_ = new Fold("method_section", tr("Method"), rows));
 }
 
-void SettingsPanel::add_engine_rows(QFormLayout& form) {
+void SettingsPanel::add_engine_rows(SettingRows& rows) {
   engine_ = named("engine", new QComboBox);
   add_engines(*engine_, false);
   resolution_ = named("resolution", new QSpinBox);
   resolution_->setRange(0, EngineOptions::largest_resolution);
   resolution_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   resolution_->setSuffix(tr(" px"));
-  order_ = named("painters_order", new QComboBox);
-  add_choices<PaintersOrder>(*order_);
-  order_->setToolTip(
+  order_ = choice_box<PaintersOrder>(
+      "painters_order",
       tr("Order of painting\nBSP tree: splits polygons that overlap cyclically, so an order always "
          "exists\nNewell's tests: do not split, and fail on cyclic overlap"));
-  form.addRow(tr("Engine"), engine_);
-  resolution_label_ = new QLabel(tr("Resolution"), this);
-  order_label_ = new QLabel(tr("Painter's order"), this);
-  for (QWidget* widget : {static_cast<QWidget*>(resolution_), static_cast<QWidget*>(order_)}) {
-    widget->setParent(this);
-  }
+  rows.add(tr("Engine"), engine_, setting_tip("engine"));
+  rows.add(tr("Resolution, px"), resolution_, setting_tip("resolution"));
+  rows.add(tr("Painter's order"), order_, order_->toolTip());
 }
 
-void SettingsPanel::add_estimator_rows(QFormLayout& form) {
-  pass_serves_ = named("pass_serves", new QComboBox, tip("one-way"));
+void SettingsPanel::add_direction_rows(SettingRows& rows) {
+  sampling_ = choice_box<Sampling>("sampling", setting_tip("sampling"));
+  seed_ = named("seed", new QLineEdit, setting_tip("seed"));
+  seed_->setValidator(
+      new QRegularExpressionValidator(QRegularExpression(QStringLiteral("[0-9]{1,20}")), seed_));
+  pass_serves_ = named("pass_serves", new QComboBox, setting_tip("one-way"));
   pass_serves_->addItems({tr("serves ω and −ω"), tr("serves ω only (paper)")});
-  normalize_ = new QComboBox;
-  add_choices<Normalization>(*normalize_);
-  normalize_->setToolTip(
-      tr("Rows: divide each row by the patch's quadrature of the cosine\n"
-         "Symmetric: scale rows and columns alike, which preserves reciprocity"));
-  scheme_ = new QComboBox;
-  add_choices<Scheme>(*scheme_);
-  scheme_->setToolTip(
-      tr("Fixed: the same directions in every iteration\n"
-         "Growing: twice as many directions in each iteration, up to M\n"
-         "Semi-iterative: M new directions in each iteration, and the mean over iterations\n"
-         "Conjugate gradients: one set of passes, then the linear system is solved"));
-  replicas_ = named("replicas", new QSpinBox, tip("replicas"));
+  replicas_ = named("replicas", new QSpinBox, setting_tip("replicas"));
   replicas_->setRange(1, 64);
   replicas_->setSpecialValueText(tr("None"));
-  basis_ = named("basis", new QComboBox);
-  add_choices<Basis>(*basis_);
-  basis_->setToolTip(tr(
-      "Constant: one value of B per patch\n"
-      "Linear: a linear function on each patch, with engines Fast, Local map and Exact numbers;\n"
-      "a pass takes about one and a half times as long, form factors take nine times the memory"));
+  rows.add(tr("Sampling"), sampling_, sampling_->toolTip());
+  rows.add(tr("Seed"), seed_, seed_->toolTip());
+  rows.add(tr("Each pass"), pass_serves_, pass_serves_->toolTip());
+  rows.add(tr("Replicas"), replicas_, replicas_->toolTip());
+}
+
+void SettingsPanel::add_estimator_rows(SettingRows& rows) {
+  normalize_ = choice_box<Normalization>(
+      "normalize", tr("Rows: divide each row by the patch's quadrature of the cosine\n"
+                      "Symmetric: scale rows and columns alike, which preserves reciprocity"));
+  scheme_ = choice_box<Scheme>(
+      "scheme", tr("Fixed: the same directions in every iteration\n"
+                   "Growing: twice as many directions in each iteration, up to M\n"
+                   "Semi-iterative: M new directions in each iteration, and the mean over "
+                   "iterations\n"
+                   "Conjugate gradients: one set of passes, then the linear system is solved"));
+  basis_ = choice_box<Basis>(
+      "basis",
+      tr("Constant: one value of B per patch\n"
+         "Linear: a linear function on each patch, with engines Fast, Local map and Exact "
+         "numbers;\n"
+         "a pass takes about one and a half times as long, form factors take nine times the "
+         "memory"));
   basis_note_ = named("basis_note", note_label());
-  basis_note_->hide();
-  auto* basis_column = make_column({}, 2);
-  basis_column->addWidget(basis_);
-  basis_column->addWidget(basis_note_);
-  form.addRow(tr("B on a patch"), basis_column);
-  add_glossy_row(form);
-  form.addRow(tr("Each pass"), pass_serves_);
-  form.addRow(tr("Normalize"), normalize_);
-  form.addRow(tr("Scheme"), scheme_);
-  form.addRow(tr("Replicas"), replicas_);
+  glossy_ = named("glossy", new QCheckBox(tr("Lobes reflect too")),
+                  tr("<span>Off: all surfaces are diffuse, and reflect ρ only. On: the lobes of "
+                     "materials (MTL: Ks with Ns or Pr; glTF: metal and roughness) reflect too, "
+                     "most of it about the mirror direction. Patches then keep light by direction, "
+                     "and look different from each point. M directions resolve exponents n up to "
+                     "about M/10; sharper lobes are coarse.</span>"));
+  glossy_note_ = named("glossy_note", note_label());
+  rows.add(tr("B on a patch"), with_note(basis_, basis_note_), basis_->toolTip());
+  glossy_column_ = with_note(glossy_, glossy_note_);
+  rows.add(tr("Glossy"), glossy_column_, glossy_->toolTip());
+  rows.add(tr("Normalize"), normalize_, normalize_->toolTip());
+  rows.add(tr("Scheme"), scheme_, scheme_->toolTip());
 }
 
-void SettingsPanel::add_stop_row(QFormLayout& form) {
-  stop_at_ = new QComboBox;
-  stop_at_->addItems({tr("Tolerance"), tr("Iterations")});
-  stop_at_->setMinimumWidth(60);
-  tolerance_ = new QLineEdit;
-  auto* positive = new QDoubleValidator(0, 1, 15, tolerance_);
-  positive->setLocale(QLocale::c());
-  tolerance_->setValidator(positive);
-  tolerance_->setMinimumWidth(60);
-  tolerance_->setToolTip(tip("tolerance"));
-  iterations_ = new QSpinBox;
-  iterations_->setRange(1, 1'000'000);
-  iterations_->setMinimumWidth(60);
-  stop_value_ = new QStackedWidget;
-  stop_value_->addWidget(tolerance_);
-  stop_value_->addWidget(iterations_);
-  auto* stop_row = make_row({}, 6);
-  stop_row->addWidget(stop_at_, 3);
-  stop_row->addWidget(stop_value_, 2);
-  form.addRow(tr("Stop at"), stop_row);
-}
-
-void SettingsPanel::add_sky_rows(QFormLayout& form) {
+void SettingsPanel::add_sky() {
   sky_slider_ = named("sky_slider", new QSlider(Qt::Horizontal));
   sky_slider_->setRange(0, sky_steps);
   sky_slider_->setMinimumWidth(60);
@@ -238,31 +223,35 @@ void SettingsPanel::add_sky_rows(QFormLayout& form) {
   sky_value_->setSpecialValueText(tr("None"));
   sky_value_->setKeyboardTracking(false);
   sky_value_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  auto* row = make_row({}, 6);
+  const QString tip =
+      tr("Irradiance of an unobstructed patch that faces the zenith; the sky lights "
+         "an open scene along directions without a patch. 0 switches the sky off");
+  sky_slider_->setToolTip(tip);
+  sky_value_->setToolTip(tip);
+  auto* exitance = new QWidget;
+  auto* row = make_row(exitance, {}, 6);
   row->addWidget(sky_slider_, 3);
   row->addWidget(sky_value_, 3);
-  auto* column = make_column({}, 2);
-  column->addLayout(row);
-  sky_note_ = named("sky_note", new QLabel);
-  sky_note_->setForegroundRole(QPalette::PlaceholderText);
-  sky_note_->hide();
-  column->addWidget(sky_note_);  // one line: the layout of a form does not count further lines
-  form.addRow(tr("Sky, W/m²"), column);
-  sky_model_ = named("sky_model", new QComboBox);
-  // In the order of SkyModel.
-  add_choices<SkyModel>(*sky_model_);
-  sky_model_->setToolTip(tr(
-      "Uniform: the same radiance from all directions, also from below\n"
-      "CIE overcast: three times as bright at the zenith as at the horizon, nothing from below"));
-  form.addRow(tr("Sky model"), sky_model_);
-  sky_up_ = named("sky_up", new QComboBox);
-  for (const Axis& axis : axes) {
+  sky_model_ = choice_box<SkyModel>(  // in the order of SkyModel
+      "sky_model",
+      tr("Uniform: the same radiance from all directions, also from below\n"
+         "CIE overcast: three times as bright at the zenith as at the horizon, nothing from "
+         "below"));
+  sky_up_ = named("sky_up", new QComboBox, tr("The direction of the zenith"));
+  for (const NamedAxis& axis : named_axes()) {
     sky_up_->addItem(QString::fromUtf8(axis.name));
   }
   sky_up_->addItem(QString());  // another direction, of a session or a command line
-  sky_up_->setToolTip(tr("The direction of the zenith"));
-  sky_up_label_ = new QLabel(tr("Zenith"));
-  form.addRow(sky_up_label_, sky_up_);
+  connect(sky_up_, qOverload<int>(&QComboBox::activated), this, [this](int index) {
+    if (index < static_cast<int>(named_axes().size())) {
+      emit zenith_chosen(named_axes()[static_cast<std::size_t>(index)].direction);
+    }
+  });
+  auto* rows = new SettingRows;
+  rows->add(tr("Sky, W/m²"), exitance, tip);
+  rows->add(tr("Sky model"), sky_model_, sky_model_->toolTip());
+  rows->add(tr("Zenith"), sky_up_, sky_up_->toolTip());
+  add_section(sky_section_ = new Fold("sky_section", tr("Sky"), rows));
   connect(sky_slider_, &QSlider::valueChanged, this, [this](int step) {
     const double fraction = 1.0 * step / sky_steps;
     sky_value_->setValue(sky_of_slider * fraction * fraction);
@@ -273,6 +262,68 @@ void SettingsPanel::add_sky_rows(QFormLayout& form) {
         static_cast<int>(std::lround(sky_steps * std::sqrt(std::min(1.0, value / sky_of_slider)))));
     show_state();
   });
+}
+
+void SettingsPanel::add_limits() {
+  stop_at_ = named("stop_at", new QComboBox,
+                   tr("Whether the iterations end by their effect or by their number"));
+  stop_at_->addItems({tr("Tolerance"), tr("Iterations")});
+  stop_at_->setMinimumWidth(60);
+  tolerance_ = named("tolerance", new QLineEdit, setting_tip("tolerance"));
+  tolerance_->setValidator(number_validator(tolerance_, 0, 1, 15));
+  tolerance_->setMinimumWidth(60);
+  iterations_ = named("iterations", new QSpinBox, setting_tip("iterations"));
+  iterations_->setRange(1, 1'000'000);
+  iterations_->setMinimumWidth(60);
+  stop_value_ = new QStackedWidget;
+  stop_value_->addWidget(tolerance_);
+  stop_value_->addWidget(iterations_);
+  stop_value_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  auto* stop = new QWidget;
+  auto* stop_row = make_row(stop, {}, 6);
+  stop_row->addWidget(stop_at_, 3);
+  stop_row->addWidget(stop_value_, 2);
+  max_patch_area_ = named("max_patch_area", new QLineEdit, setting_tip("max-patch-area"));
+  auto* area = new QDoubleValidator(max_patch_area_);
+  area->setBottom(0);
+  area->setLocale(QLocale::c());
+  max_patch_area_->setValidator(area);
+  max_patch_area_->setPlaceholderText(tr("Faces not divided"));
+  auto* rows = new SettingRows;
+  rows->add(tr("Stop at"), stop, stop_at_->toolTip());
+  rows->add(tr("Patch area, m²"), max_patch_area_, max_patch_area_->toolTip());
+  add_section(limits_ = new Fold("limits_section", tr("Limits"), rows));
+}
+
+void SettingsPanel::connect_changes() {
+  connect(restart_, &QPushButton::clicked, this, &SettingsPanel::restart_clicked);
+  connect(refine_, &RefineControls::changed, this, &SettingsPanel::show_state);
+  connect(quality_, &QualityControls::changed, this, &SettingsPanel::show_state);
+  connect(quality_, &QualityControls::draft_chosen, replicas_, [this] { replicas_->setValue(1); });
+  connect(glossy_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
+  for (QComboBox* box : {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, basis_,
+                         stop_at_, quality_->accuracy_of(), sky_model_, sky_up_}) {
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(8);
+    connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
+  }
+  connect(pass_serves_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
+    const bool two_way = index == 0;
+    if (sampling_->currentIndex() == static_cast<int>(default_sampling(!two_way))) {
+      sampling_->setCurrentIndex(static_cast<int>(default_sampling(two_way)));
+    }
+  });
+  for (QSpinBox* box : {resolution_, replicas_, iterations_}) {
+    connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
+  }
+  for (QLineEdit* line : {seed_, tolerance_}) {
+    connect(line, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
+  }
+  connect(patches_, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::want_patches);
+  for (const auto& show : {&SettingsPanel::want_forecast, &SettingsPanel::show_state}) {
+    connect(max_patch_area_, &QLineEdit::textChanged, this, show);
+    connect(two_sided_, &QCheckBox::toggled, this, show);
+  }
 }
 
 Sky SettingsPanel::sky() const {
@@ -288,8 +339,8 @@ Sky SettingsPanel::sky() const {
   const int axis = sky_up_->currentIndex();
   if (sky.model == SkyModel::uniform) {
     sky.up = Sky().up;  // not read
-  } else if (axis >= 0 && axis < static_cast<int>(std::size(axes))) {
-    sky.up = axes[axis].direction;
+  } else if (axis >= 0 && axis < static_cast<int>(named_axes().size())) {
+    sky.up = named_axes()[static_cast<std::size_t>(axis)].direction;
   }
   return sky;
 }
@@ -305,101 +356,17 @@ void SettingsPanel::set_sky(const Sky& sky) {
 }
 
 void SettingsPanel::choose_up(const Vec3& up) {
-  int index = 0;
-  while (index < static_cast<int>(std::size(axes)) && !(axes[index].direction == up)) {
-    ++index;
-  }
-  if (index == static_cast<int>(std::size(axes))) {
+  const auto found = std::find_if(named_axes().begin(), named_axes().end(),
+                                  [&up](const NamedAxis& axis) { return axis.direction == up; });
+  const int index = static_cast<int>(found - named_axes().begin());
+  if (found == named_axes().end()) {
     sky_up_->setItemText(index, vector_text(up));
     base_.sky.up = up;
   }
   sky_up_->setCurrentIndex(index);
 }
 
-void SettingsPanel::set_scene_up(const Vec3& up) {
-  if (!sky().is_set()) {
-    choose_up(up);
-  }
-}
-
-void SettingsPanel::show_escape(std::optional<double> fraction) {
-  constexpr double rounding = 1e-9;
-  closed_ = fraction && *fraction < rounding;
-  show_sky_state();
-}
-
-bool SettingsPanel::may_have_sky() const { return sky_value_->isEnabledTo(this); }
-
-void SettingsPanel::ask_for_sky() {
-  scroll_to(sky_value_);
-  sky_value_->setFocus();
-  sky_value_->selectAll();
-}
-
-void SettingsPanel::show_sky_state() {
-  const bool takes = takes_directions(engine_of(*engine_));
-  const QString note = !takes    ? tr("Not with this engine")
-                       : closed_ ? tr("The scene is closed")
-                                 : QString();
-  sky_note_->setText(note);
-  sky_note_->setVisible(!note.isEmpty());
-  const bool enabled = note.isEmpty();
-  for (QWidget* widget : {static_cast<QWidget*>(sky_slider_), static_cast<QWidget*>(sky_value_)}) {
-    widget->setEnabled(enabled);
-    widget->setToolTip(
-        tr("Irradiance of an unobstructed patch that faces the zenith; the sky lights "
-           "an open scene along directions without a patch. 0 switches the sky off"));
-  }
-  const bool any = enabled && sky_value_->value() > 0;
-  sky_model_->setEnabled(any);
-  sky_up_->setEnabled(any && sky_model_->currentIndex() != 0);
-  sky_up_label_->setEnabled(sky_up_->isEnabled());
-}
-
-void SettingsPanel::connect_solve_rows() {
-  connect(glossy_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
-  for (QComboBox* box : {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, basis_,
-                         stop_at_, accuracy_of_, sky_model_, sky_up_}) {
-    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    box->setMinimumContentsLength(8);
-    connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
-  }
-  connect(pass_serves_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
-    const bool two_way = index == 0;
-    if (sampling_->currentIndex() == static_cast<int>(default_sampling(!two_way))) {
-      sampling_->setCurrentIndex(static_cast<int>(default_sampling(two_way)));
-    }
-  });
-  for (QSpinBox* box : {directions_, resolution_, replicas_, iterations_}) {
-    connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
-  }
-  for (QLineEdit* line : {seed_, tolerance_, accuracy_}) {
-    connect(line, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
-  }
-}
-
-void SettingsPanel::add_scene_rows(QFormLayout& form) {
-  max_patch_area_ = named("max_patch_area", new QLineEdit);
-  auto* area = new QDoubleValidator(max_patch_area_);
-  area->setBottom(0);
-  area->setLocale(QLocale::c());
-  max_patch_area_->setValidator(area);
-  max_patch_area_->setPlaceholderText(tr("Faces not divided"));
-  max_patch_area_->setToolTip(tip("max-patch-area"));
-  two_sided_ = named("two_sided", new QCheckBox(tr("Two-sided faces")), tip("two-sided"));
-  auto* area_column = make_column({}, 2);
-  area_column->addWidget(max_patch_area_);
-  form.addRow(tr("Patch area, m²"), area_column);
-  forecast_ = named("patch_forecast", note_label(),
-                    tr("Number of patches for this area, and approximate memory for a solve"));
-  forecast_->hide();
-  area_column->addWidget(forecast_);
-  form.addRow(QString(), two_sided_);
-  for (const auto& show : {&SettingsPanel::show_state, &SettingsPanel::want_forecast}) {
-    connect(max_patch_area_, &QLineEdit::textChanged, this, show);
-    connect(two_sided_, &QCheckBox::toggled, this, show);
-  }
-}
+void SettingsPanel::set_scene_up(const Vec3& up) { choose_up(up); }
 
 RefineChoice SettingsPanel::refinement() const {
   RefineChoice refine = refine_->choice();
@@ -409,26 +376,13 @@ RefineChoice SettingsPanel::refinement() const {
   return refine;
 }
 
-bool SettingsPanel::total() const {
-  return !fixed_ && accuracy_of_->currentData().toInt() == in_all && goal().accuracy > 0;
-}
-
-AccuracyGoal SettingsPanel::goal() const {
-  AccuracyGoal goal = base_.goal;
-  if (accuracy_->text() != exact_text(100 * goal.accuracy)) {
-    goal.accuracy = QLocale::c().toDouble(accuracy_->text()) / 100;
-  }
-  const int of = accuracy_of_->currentData().toInt();
-  goal.of = of == in_all ? AccuracyOf::surfaces : static_cast<AccuracyOf>(of);
-  return goal;
-}
+bool SettingsPanel::total() const { return !fixed_ && quality_->total(); }
 
 SolveOptions SettingsPanel::solve_options() const {
   SolveOptions options = base_;
-  options.goal = goal();
+  quality_->write_to(options);
   options.basis = static_cast<Basis>(basis_->currentIndex());
   options.glossy = glossy_->isChecked();
-  options.directions = directions_->value();
   bool number = false;
   if (const qulonglong seed = seed_->text().toULongLong(&number); number) {
     options.seed = seed;
@@ -459,18 +413,7 @@ SceneOptions SettingsPanel::scene_options() const {
 
 void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& scene) {
   base_ = solve;
-  directions_->setValue(solve.directions);
-  accuracy_->setText(solve.goal.accuracy > 0 ? exact_text(100 * solve.goal.accuracy) : QString());
-  const auto item_of = [this](AccuracyOf of) {
-    return accuracy_of_->findData(static_cast<int>(of));
-  };
-  accuracy_of_->setItemText(item_of(AccuracyOf::patch), tr("% patch %1").arg(solve.goal.patch));
-  if (solve.goal.of == AccuracyOf::groups && item_of(AccuracyOf::groups) < 0) {
-    accuracy_of_->addItem(tr("% groups named"), static_cast<int>(AccuracyOf::groups));
-  }
-  if (!(accuracy_of_->currentData().toInt() == in_all && solve.goal.of == AccuracyOf::surfaces)) {
-    accuracy_of_->setCurrentIndex(item_of(solve.goal.of));
-  }
+  quality_->set_options(solve);
   seed_->setText(QString::number(solve.seed));
   choose_engine(*engine_, solve.engine);
   resolution_->setValue(solve.engine_options.resolution);
@@ -485,10 +428,12 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   replicas_->setValue(solve.replicas);
   stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
   iterations_->setValue(std::max(solve.iterations, 1));
-  tolerance_->setText(exact_text(solve.tolerance));
+  tolerance_->setText(exact_digits(solve.tolerance));
   set_sky(solve.sky);
   two_sided_->setChecked(scene.two_sided);
-  max_patch_area_->setText(scene.max_patch_area > 0 ? exact_text(scene.max_patch_area) : QString());
+  patches_wanted_ = 0;
+  max_patch_area_->setText(scene.max_patch_area > 0 ? exact_digits(scene.max_patch_area)
+                                                    : QString());
   show_state();
 }
 
@@ -498,19 +443,17 @@ void SettingsPanel::set_options(const RunOptions& options) {
     refine.patches = static_cast<int>(TotalGoal().patches);
   }
   refine_->set_choice(refine);
-  accuracy_of_->setCurrentIndex(options.total ? accuracy_of_->findData(in_all) : 0);
+  quality_->set_total(options.total);
   set_options(options.solve, options.scene);
 }
 
-void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions& scene,
-                                  const RefineChoice& refine, bool total) {
-  solve_in_effect_ = solve;
+void SettingsPanel::set_in_effect(const std::shared_ptr<const SolverSnapshot>& snapshot,
+                                  const SceneOptions& scene) {
+  in_effect_ = snapshot;
+  solve_in_effect_ = snapshot->options;
   scene_in_effect_ = scene;
-  refine_in_effect_ = refine;
-  total_in_effect_ = total;
-  if (same(scene_options(), scene)) {
-    forecast_->hide();
-  }
+  refine_in_effect_ = snapshot->refine;
+  total_in_effect_ = snapshot->total.has_value();
   show_state();
 }
 
@@ -519,7 +462,7 @@ bool SettingsPanel::differ_from_effect() const {
     return refine.patches > 0 ? refine.patches : TotalGoal().patches;
   };
   return !is_run_of(solve_in_effect_, solve_options()) || total() != total_in_effect_ ||
-         (total() && limit(refinement()) != limit(refine_in_effect_)) ||
+         (total() && limit(refinement()) != limit(refine_in_effect_)) || patches_wanted_ > 0 ||
          !same(scene_options(), scene_in_effect_) || !(refinement() == refine_in_effect_);
 }
 
@@ -530,68 +473,49 @@ void SettingsPanel::set_restart_enabled(bool enabled) {
 
 void SettingsPanel::set_scene_fixed(bool fixed) {
   fixed_ = fixed;
-  for (QWidget* widget :
-       {static_cast<QWidget*>(max_patch_area_), static_cast<QWidget*>(two_sided_)}) {
-    widget->setEnabled(!fixed);
+  show_state();
+}
+
+void SettingsPanel::want_patches(int patches) {
+  if (patches == 0) {
+    patches_wanted_ = 0;
+    max_patch_area_->clear();
+    show_state();
+    return;
   }
-  const QString why = tr("Given by the result file");
-  max_patch_area_->setToolTip(fixed ? why : tip("max-patch-area"));
-  two_sided_->setToolTip(fixed ? why : tip("two-sided"));
+  patches_wanted_ = patches;
+  if (enabled_) {
+    emit forecast_wanted(scene_options());
+  }
   show_state();
 }
 
 void SettingsPanel::want_forecast() {
-  forecast_->hide();
+  patches_wanted_ = 0;
+  forecast_.reset();
   if (enabled_ && !same(scene_options(), scene_in_effect_)) {
     emit forecast_wanted(scene_options());
   }
 }
 
-void SettingsPanel::show_forecast(const SceneOptions& options, const QString& text) {
-  if (same(options, scene_options())) {
-    forecast_->setText(text);
-    forecast_->setVisible(!text.isEmpty() && !same(options, scene_in_effect_));
+void SettingsPanel::show_forecast(const SceneOptions& options, std::int64_t patches) {
+  if (patches_wanted_ == 0 && same(options, scene_options())) {
+    forecast_ = patches;
+    show_state();
   }
 }
 
-void SettingsPanel::show_state() {
-  if (!restart_) {
-    return;  // the constructor has not made all controls yet
+void SettingsPanel::set_patch_area(std::int64_t wanted, double area, std::int64_t patches) {
+  if (wanted != patches_wanted_) {
+    return;
   }
-  const auto has_effect = [run = options()](const char* setting) {
-    return why_unused(setting, {run}).empty();
-  };
-  seed_->setEnabled(has_effect("seed"));
-  stop_value_->setCurrentIndex(stop_at_->currentIndex());
-  const bool chosen = goal().is_set();
-  for (QWidget* widget : {static_cast<QWidget*>(directions_), static_cast<QWidget*>(replicas_)}) {
-    widget->setEnabled(!chosen);
+  {
+    const QSignalBlocker quiet(max_patch_area_);
+    max_patch_area_->setText(area > 0 ? exact_digits(area) : QString());
   }
-  directions_->setToolTip(chosen ? tr("Chosen to reach the accuracy") : tip("directions"));
-  replicas_->setToolTip(chosen ? tr("Chosen to reach the accuracy") : tip("replicas"));
-  const Engine engine = engine_of(*engine_);
-  engine_->setToolTip(engine_sentence(engine));
-  show_sky_state();
-  show_basis_state();
-  refine_->set_available(!fixed_, total());
-  show_glossy_state();
-  show_row(order_label_, order_, has_effect("order"));
-  show_row(resolution_label_, resolution_, has_effect("resolution"));
-  const bool rays = traits_of(engine).error == EngineTraits::Error::statistical;
-  resolution_->setSpecialValueText(
-      rays ? tr("%1 rays per patch").arg(solve_in_effect_.engine_options.lines_per_patch)
-           : tr("Default: %1 px").arg(EngineOptions::default_resolution));
-  resolution_->setToolTip(
-      rays ? tr("Pixels along the longer side of the projected scene, one ray through each;\n"
-                "the smallest value sets a number of rays per patch instead")
-           : tr("Pixels along the longer side of the projected scene"));
-  const bool differs = enabled_ && differ_from_effect();
-  restart_->setEnabled(enabled_);
-  restart_->setText(differs ? tr("Solve again with these") : tr("Solve again"));
-  restart_->setDefault(differs);
-  QFont font = restart_->font();
-  font.setBold(differs);
-  restart_->setFont(font);
+  patches_wanted_ = 0;
+  forecast_ = patches;
+  show_state();
 }
 
 }  // namespace transillum::viewer

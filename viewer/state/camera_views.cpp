@@ -34,6 +34,23 @@ constexpr Pose poses[] = {
 // In most OBJ files, y is up.
 constexpr Pose file_pose{"", {0.5, 0.45, 0.75}, {0, 1, 0}, 1};
 
+constexpr NamedAxis all_named_axes[] = {{"+z", {0, 0, 1}},  {"+y", {0, 1, 0}},  {"+x", {1, 0, 0}},
+                                        {"−z", {0, 0, -1}}, {"−y", {0, -1, 0}}, {"−x", {-1, 0, 0}}};
+
+/// The direction that the front of a scene faces: if z is up, the front view is along +y, as in a
+/// plan; if y is up, along -z, as on a screen.
+Vec3 front_of(const Vec3& up) { return std::abs(up.z) > 0.5 ? Vec3{0, -1, 0} : Vec3{0, 0, 1}; }
+
+/// The pose of a file with another vertical.
+Pose upright_pose(const Vec3& up) {
+  Pose pose = file_pose;
+  const Vec3 front = normalized(front_of(up) - dot(front_of(up), up) * up);
+  pose.toward_eye = file_pose.toward_eye.x * cross(up, front) + file_pose.toward_eye.y * up +
+                    file_pose.toward_eye.z * front;
+  pose.up = up;
+  return pose;
+}
+
 const Pose& pose_of(const Scene& scene) {
   const std::string name = scene.name().substr(0, scene.name().find(':'));
   const auto* found = std::find_if(std::begin(poses), std::end(poses),
@@ -42,6 +59,8 @@ const Pose& pose_of(const Scene& scene) {
 }
 
 }  // namespace
+
+std::span<const NamedAxis> named_axes() { return all_named_axes; }
 
 ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up, double view_angle,
                       double aspect) {
@@ -69,8 +88,11 @@ ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up
   return view;
 }
 
-ViewPoint initial_view(const Scene& scene, double aspect) {
-  const Pose& pose = pose_of(scene);
+ViewPoint initial_view(const Scene& scene, double aspect, const std::optional<Vec3>& up) {
+  Pose pose = pose_of(scene);
+  if (up && !(*up == pose.up)) {
+    pose = upright_pose(*up);
+  }
   ViewPoint view = view_of_all(scene, pose.toward_eye, pose.up, pose.view_angle, aspect);
   if (pose.radius_fraction < 1) {
     // Fit a sphere around the region of interest.
@@ -93,11 +115,11 @@ Vec3 perpendicular_to(const Vec3& v) {
 
 }  // namespace
 
-ViewPoint standard_view(const Scene& scene, Side side, double aspect) {
-  const ViewPoint first = initial_view(scene, aspect);
+ViewPoint standard_view(const Scene& scene, Side side, double aspect,
+                        const std::optional<Vec3>& vertical) {
+  const ViewPoint first = initial_view(scene, aspect, vertical);
   const Vec3 up = first.up;
-  // If z is up, the front view is along +y, as in a plan; if y is up, along -z, as on a screen.
-  const Vec3 front = std::abs(up.z) > 0.5 ? Vec3{0, -1, 0} : Vec3{0, 0, 1};
+  const Vec3 front = normalized(front_of(up) - dot(front_of(up), up) * up);
   const Vec3 right = cross(up, front);
   switch (side) {
     case Side::back:

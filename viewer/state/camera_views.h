@@ -3,6 +3,8 @@
 
 #include <QObject>
 #include <QString>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "transillum/scene.h"
@@ -20,10 +22,19 @@ struct ViewPoint {
   friend bool operator==(const ViewPoint&, const ViewPoint&) = default;
 };
 
+/// A direction along a coordinate axis.
+struct NamedAxis {
+  const char* name;  ///< such as "+z"
+  Vec3 direction;
+};
+/// All six.
+std::span<const NamedAxis> named_axes();
+
 /// The view of a scene after it is opened. Back faces are not drawn, so a closed room is viewed
 /// from outside, through its nearest wall.
 /// @param aspect  width / height of the picture
-ViewPoint initial_view(const Scene& scene, double aspect);
+/// @param up  the vertical, unit; if it is not set, the vertical of the built-in scene, or +y
+ViewPoint initial_view(const Scene& scene, double aspect, const std::optional<Vec3>& up = {});
 
 /// A view of the whole scene, with the eye in the direction `toward_eye` from its center.
 /// @param view_angle  vertical, degrees
@@ -33,9 +44,10 @@ ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up
 /// Sides of a scene for standard views.
 enum class Side { front, back, left, right, top, bottom };
 
-/// A view of the whole scene from a side; `up` as in its initial view.
-/// @param aspect  width / height of the picture
-ViewPoint standard_view(const Scene& scene, Side side, double aspect);
+/// A view of the whole scene from a side.
+/// @param aspect, up  as of its initial view
+ViewPoint standard_view(const Scene& scene, Side side, double aspect,
+                        const std::optional<Vec3>& up = {});
 /// A view of the whole scene in the viewing direction of `from`.
 ViewPoint fitting_view(const Scene& scene, const ViewPoint& from, double aspect);
 /// A close view of one patch in the viewing direction of `from`, turned to the front of the patch

@@ -290,8 +290,20 @@ QString style_sheet() {
     QMainWindow::separator { background: %1; width: 4px; height: 4px; }
     QMainWindow::separator:hover { background: %4; }
     QToolTip { border: 1px solid %1; padding: 4px; }
+    QPushButton[segment="true"] { border: 1px solid %1; border-radius: 4px; padding: 5px 2px;
+      background: %6; }
+    QPushButton[segment="true"]:hover:enabled { background: %2; }
+    QPushButton[segment="true"]:focus { border-color: %4; }
+    QPushButton[segment="true"]:checked { border-color: %4; color: %4; font-weight: bold; }
+    QPushButton[primary="true"] { border: 1px solid %4; border-radius: 4px; padding: 7px;
+      background: %4; color: %5; }
+    QPushButton[primary="true"]:hover { border-color: %7; }
+    QPushButton[primary="true"]:focus { border-color: %7; }
+    QPushButton[primary="true"]:disabled { background: %3; border-color: %1; color: %8; }
   )")
-      .arg(rule.name(), hover.name(), title.name(), accent.name());
+      .arg(rule.name(), hover.name(), title.name(), accent.name(),
+           current.dark ? paper.name() : QStringLiteral("#ffffff"), paper.name(), ink.name(),
+           ink_dim.name());
 }
 
 }  // namespace

@@ -54,16 +54,20 @@ void choose_look(CommandLine& line, const CLI::App& app) {
       solve.directions = screenshot_directions;
     }
   }
-  const std::int64_t patches = soft_patches(line.scene);
-  if (patches > 0 && has_only(app, {"SCENE", "--screenshot", "--threads", "--memory"})) {
-    line.options.input.patches = patches;
-    solve.basis = Basis::linear;
+  line.first_look = has_only(app, {"SCENE", "--screenshot", "--threads", "--memory", "--up"});
+  if (line.first_look && has_first_look(line.scene)) {
     solve.directions = soft_directions;
   }
 }
 
 void finish(CommandLine& line, const cli::GivenOptions& given, const CLI::App& app) {
   line.options = given.run;
+  for (const char* choice : {"max-patch-area", "patches", "basis", "refine-by", "total", "paper"}) {
+    line.first_look = line.first_look && given.given.count(choice) == 0;
+  }
+  if (given.given.count("up") > 0) {
+    line.up = line.options.solve.sky.up;
+  }
   if (app.count("--screenshot") > 0) {
     choose_look(line, app);
   }

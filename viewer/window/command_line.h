@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 
 #include "model/run_options.h"
@@ -21,6 +22,8 @@ struct CommandLine {
   std::string scene;           ///< file or built-in; empty if none is given
   RunOptions options;          ///< options of the run
   bool reading_given = false;  ///< whether the options say how the scene is read
+  bool first_look = true;      ///< nothing says how faces become patches (first_look.h)
+  std::optional<Vec3> up;      ///< the vertical, if it is given
   std::string lesson;          ///< number of a built-in lesson, or a file; empty if none is given
   int page = 1;                ///< page of the lesson, from 1
   std::string screenshot;      ///< path of a PNG; empty if none is given

@@ -30,6 +30,7 @@
 #include "window/files/lesson_export.h"
 #include "window/files/screenshot.h"
 #include "window/main_window.h"
+#include "window/vertical_control.h"
 
 using namespace transillum::viewer;
 
@@ -161,10 +162,15 @@ void export_lesson(MainWindow& window, const std::string& path,
 /// @throws InputError where a session or a lesson cannot be read
 void open_arguments(MainWindow& window, const CommandLine& command_line) {
   const std::string scene = scene_of(command_line);
+  if (command_line.up) {
+    window.findChild<VerticalControl*>()->prefer(*command_line.up);
+  }
   if (!scene.empty()) {
+    window.files().set_divides(command_line.first_look);
     window.files().open(QString::fromStdString(scene), goal_of(command_line),
                         command_line.options.input, command_line.reading_given);
   }
+  window.files().set_divides(true);
   if (!command_line.lesson.empty()) {
     window.files().open_lesson(command_line.lesson, command_line.page);
   }

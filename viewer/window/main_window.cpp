@@ -41,7 +41,6 @@
 #include "solve/solve_actions.h"
 #include "solve/solve_summary.h"
 #include "solve/study_dialog.h"
-#include "state/camera_views.h"
 #include "stepping/algorithm_view.h"
 #include "stepping/breakpoint_panel.h"
 #include "stepping/event_filter_row.h"
@@ -59,6 +58,7 @@
 #include "widgets/theme.h"
 #include "window/base/notifier.h"
 #include "window/base/view_state_applier.h"
+#include "window/context_menus.h"
 #include "window/files/export_actions.h"
 #include "window/files/file_actions.h"
 #include "window/files/frame_recorder.h"
@@ -69,9 +69,11 @@
 #include "window/layout_memory.h"
 #include "window/menus/command_actions.h"
 #include "window/menus/help_pages.h"
+#include "window/menus/palette_actions.h"
 #include "window/menus/projector_mode.h"
 #include "window/scene_bars.h"
 #include "window/solve_control.h"
+#include "window/vertical_control.h"
 
 namespace transillum::viewer {
 
@@ -104,6 +106,9 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
   connect_failures();
   make_docks();
   make_menus();
+  // To step and to teach, every direction is seen.
+  connect(&docks_, &DockLayouts::switched, &state_.runner,
+          [this] { state_.runner.set_drafts(docks_.current() == Layout::inspect); });
   docks_.arrange(Layout::inspect);
   resize(usual_size);  // a screenshot has the same size on every screen
   if (remember_) {
@@ -169,6 +174,7 @@ void MainWindow::make_whole_window_actions() {
   solve_actions_ = new SolveActions(this);
   applier_ = new ViewStateApplier(frame, docks_, *map_view_, *algorithm_, *settings_);
   auto* control = new SolveControl(frame, *settings_, *solve_actions_, *applier_);
+  vertical_ = new VerticalControl(frame, *settings_);
   session_ = new WindowSession(frame, docks_, *notes_, *applier_);
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
   memory_ = new LayoutMemory(frame, docks_, appearance_, *files_);
@@ -193,7 +199,8 @@ void MainWindow::make_whole_window_actions() {
   });
   connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
   connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
-  connect(page_, &ScenePage::built_in_clicked, files_, &FileActions::open_built_in);
+  connect(page_, &ScenePage::built_in_clicked, files_,
+          [this](const QString& name) { files_->open_scene(name); });
   state_.breakpoints.set_undo_stack(&state_.undo);
   state_.watches.set_undo_stack(&state_.undo);
   page_->bookmarks().set_undo_stack(&state_.undo);
@@ -207,7 +214,7 @@ void MainWindow::make_docks() {
   constexpr auto bottom = Qt::BottomDockWidgetArea;
   docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_, {{teach, left, 700}});
   docks_.add(tr("Notes"), "notes_dock", notes_, {{teach, left, 700, true}});
-  docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 495}});
+  docks_.add(tr("Solve settings"), "settings_dock", settings_, {{inspect, left, 495}});
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 305}});
   docks_.add(tr("Summary"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
   inspection_->add_materials_to(docks_);
@@ -332,12 +339,12 @@ void MainWindow::connect_scene() {
   connect(&state_.scene, &OpenScene::opening, notifier_, &Notifier::dismiss);
   connect(&state_.scene, &OpenScene::opening, lesson_panel_, &LessonPanel::leave_scene);
   connect(&state_.scene, &OpenScene::scene_loaded, this, [this](const Loaded& loaded) {
-    settings_->set_scene_fixed(loaded->stored != nullptr);
+    settings_->set_scene_fixed(!loaded->description);
     // How faces become patches belongs to the scene.
     settings_->set_options(settings_->solve_options(), state_.scene.options());
-    settings_->set_scene_up(initial_view(*loaded->scene, 1).up);
+    vertical_->show_scene(*loaded);
     settings_->show_escape({});
-    settings_->set_scene_lobes(*loaded->scene);
+    settings_->set_scene(*loaded->scene);
     show_debugging_of_scene();
     page_->show_scene();
     show_patches(loaded);
@@ -352,8 +359,7 @@ void MainWindow::connect_scene() {
     }
   });
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
-    settings_->set_in_effect(snapshot->options, state_.scene.options(), snapshot->refine,
-                             snapshot->total.has_value());
+    settings_->set_in_effect(snapshot, state_.scene.options());
     settings_->show_escape(escape_of(*snapshot));
     study_->set_solve(snapshot->options);
     state_.colors.fit(snapshot);
@@ -440,11 +446,13 @@ void MainWindow::make_menus() {
   make_view_menu();
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
+  help->addAction((new PaletteActions(frame(), docks_))->action());
   QAction* keys = help->addAction(tr("Keys and mouse"), this, [this] { show_keys(*this); });
   keys->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
   help->addAction(tr("All settings"), this, [this] { show_settings(*this); });
   help->addAction(tr("About transillum"), this, [this] { show_about(this); });
   make_tool_bar();
+  new ContextMenus(frame(), docks_);
 }
 
 void MainWindow::make_file_menu() {

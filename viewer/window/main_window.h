@@ -37,6 +37,7 @@ class StepActions;
 class StepPanel;
 class StudyDialog;
 class TimelineBar;
+class VerticalControl;
 class ViewStateApplier;
 class WindowSession;
 
@@ -124,6 +125,7 @@ class MainWindow : public QMainWindow {
   StepActions* step_actions_;
   QAction* study_action_;
   ViewStateApplier* applier_;
+  VerticalControl* vertical_;
   WindowSession* session_;
   FileActions* files_;
   LayoutMemory* memory_;

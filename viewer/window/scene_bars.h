@@ -52,6 +52,9 @@ class LightOffer : public QObject {
 
   /// Says that nothing is solved without light, also if the user has closed the bar.
   void show_refusal();
+  /// Gives a target an exitance, and shows its sliders.
+  /// @param target  as in MaterialEdits
+  void make_emit(const std::string& target);
 
  private:
   void update();
@@ -59,8 +62,6 @@ class LightOffer : public QObject {
   void ask_for_sky();
   void fill_menu();
   void add_target(const QString& text, const std::string& target);
-  /// Gives a target an exitance, and shows its sliders.
-  void make_emit(const std::string& target);
 
   WindowFrame frame_;
   DockLayouts& docks_;

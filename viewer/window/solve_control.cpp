@@ -8,33 +8,21 @@
 #include <utility>
 
 #include "model/measured_errors.h"
-#include "scene/build/patch_count.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "session/next_steps.h"
 #include "solve/round_panel.h"
 #include "solve/settings_panel.h"
 #include "solve/solve_actions.h"
-#include "support/number_text.h"
+#include "solve/solve_cost.h"
 #include "window/base/notifier.h"
 #include "window/base/open_scene.h"
 #include "window/base/view_state_applier.h"
+#include "window/solve_undo.h"
 
 namespace transillum::viewer {
 
-namespace {
-
-QString forecast_text(std::int64_t patches) {
-  constexpr std::int64_t countless = std::int64_t{1} << 40;
-  if (patches > countless) {
-    return SolveControl::tr("more than 10¹² patches");
-  }
-  const double gigabytes = 1e-9 * static_cast<double>(expected_memory(patches));
-  return SolveControl::tr("%1 patches, about %2 GB of memory")
-      .arg(count_text(patches), QString::number(gigabytes, 'f', gigabytes < 10 ? 1 : 0));
-}
-
-}  // namespace
+namespace {}  // namespace
 
 SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, SolveActions& actions,
                            ViewStateApplier& applier)
@@ -43,11 +31,12 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
       settings_(settings),
       actions_(actions),
       applier_(applier),
+      undo_(*new SolveUndo(frame)),
       forecast_(*this, PatchForecast(),
                 [this](const PatchForecast::Request& request,
-                       std::shared_ptr<const std::int64_t> patches, const QString&) {
-                  if (patches) {
-                    show_forecast(request.options, *patches);
+                       const std::shared_ptr<const PatchForecast::Answer>& answer, const QString&) {
+                  if (answer) {
+                    show_forecast(request, *answer);
                   } else if (std::exchange(awaits_forecast_, false)) {
                     open_again();  // reading the scene will fail likewise, and say why
                   }
@@ -126,7 +115,9 @@ void SolveControl::solve_again() {
   if (options.refine.is_set() && !may_refine(options.refine.patches)) {
     return;
   }
-  if (frame_.state.scene.is_open(frame_.state.scene.spec(), options)) {
+  if (settings_.patches_wanted() == 0 &&
+      frame_.state.scene.is_open(frame_.state.scene.spec(), options)) {
+    undo_.remember();
     frame_.state.runner.restart(SolveWorker::choice_of(options), {Goal::Kind::finished});
   } else if (frame_.state.scene.loaded()->description) {
     awaits_forecast_ = true;
@@ -146,19 +137,28 @@ RunOptions SolveControl::wanted_options() const {
   return options;
 }
 
-void SolveControl::open_again() { applier_.open_again(wanted_options()); }
-
-void SolveControl::request_forecast(const SceneOptions& options) {
-  forecast_.request({whole_of(frame_.state.scene.loaded()), options});
+void SolveControl::open_again() {
+  undo_.remember();
+  applier_.open_again(wanted_options());
 }
 
-void SolveControl::show_forecast(const SceneOptions& options, std::int64_t patches) {
-  settings_.show_forecast(options, forecast_text(patches));
+void SolveControl::request_forecast(const SceneOptions& options) {
+  forecast_.request({whole_of(frame_.state.scene.loaded()), options, settings_.patches_wanted()});
+}
+
+void SolveControl::show_forecast(const PatchForecast::Request& request,
+                                 const PatchForecast::Answer& answer) {
+  if (request.patches > 0) {
+    settings_.set_patch_area(request.patches, answer.max_patch_area, answer.patches);
+  } else {
+    settings_.show_forecast(request.options, answer.patches);
+  }
   // The settings may have changed since.
   const SceneOptions wanted = settings_.scene_options();
-  const bool newest =
-      options.max_patch_area == wanted.max_patch_area && options.two_sided == wanted.two_sided;
-  if (newest && std::exchange(awaits_forecast_, false) && may_refine(patches)) {
+  const bool newest = settings_.patches_wanted() == 0 &&
+                      answer.max_patch_area == wanted.max_patch_area &&
+                      request.options.two_sided == wanted.two_sided;
+  if (newest && std::exchange(awaits_forecast_, false) && may_refine(answer.patches)) {
     open_again();
   }
 }
@@ -169,7 +169,8 @@ bool SolveControl::may_refine(std::int64_t patches) {
     return true;
   }
   QMessageBox box(QMessageBox::Question, tr("Very many patches"),
-                  tr("The scene would have %1. Divide it so finely?").arg(forecast_text(patches)),
+                  tr("The solve would be of %1. Divide the scene so finely?")
+                      .arg(cost_text(cost_of(nullptr, settings_.solve_options(), patches))),
                   QMessageBox::Cancel, &frame_.window);
   box.setObjectName("many_patches");
   const QPushButton* divide = box.addButton(tr("Divide"), QMessageBox::AcceptRole);

@@ -12,6 +12,7 @@
 namespace transillum::viewer {
 
 class SolveActions;
+class SolveUndo;
 class ViewStateApplier;
 
 /// Connects the actions and settings of a solve with the runner: run, pause, step, start over, and
@@ -46,7 +47,7 @@ class SolveControl : public QObject {
   bool may_solve_again() const;
   void solve_with_replicas();
   void request_forecast(const SceneOptions& options);
-  void show_forecast(const SceneOptions& options, std::int64_t patches);
+  void show_forecast(const PatchForecast::Request& request, const PatchForecast::Answer& answer);
   /// Asks about a scene of very many patches. @returns whether to make it
   bool may_refine(std::int64_t patches);
   RunOptions wanted_options() const;
@@ -58,8 +59,9 @@ class SolveControl : public QObject {
   SettingsPanel& settings_;
   SolveActions& actions_;
   ViewStateApplier& applier_;
+  SolveUndo& undo_;
   bool awaits_forecast_ = false;  ///< to open the scene again
-  NewestResult<PatchForecast::Request, std::int64_t> forecast_;
+  NewestResult<PatchForecast::Request, PatchForecast::Answer> forecast_;
 };
 
 }  // namespace transillum::viewer

@@ -142,12 +142,11 @@ std::string overlap_advice(const Scene& scene, const Cancellation& cancellation)
 /// division will make.
 SceneOptions division(const SceneInput& input, const SceneDescription& description,
                       const Cancellation& cancellation) {
-  constexpr int few_faces = 1000, enough_patches = 2000;
   SceneOptions options = input.run.scene;
   std::int64_t patches = input.run.input.patches;
   const bool is_asked = patches > 0 || options.max_patch_area > 0;
-  if (input.divides_few_faces && !is_asked && description.face_count() < few_faces) {
-    patches = enough_patches;
+  if (input.divides_few_faces && !is_asked) {
+    patches = usual_patches(description.face_count());
   }
   if (input.run.refine.is_set() || input.run.total ||
       (patches == 0 && options.max_patch_area == 0)) {

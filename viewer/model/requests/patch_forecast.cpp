@@ -22,10 +22,13 @@ std::shared_ptr<const Scene> PatchForecast::unrefined(const Request& request,
   return faces_;
 }
 
-std::int64_t PatchForecast::operator()(const Request& request, const Cancellation& cancellation) {
+PatchForecast::Answer PatchForecast::operator()(const Request& request,
+                                                const Cancellation& cancellation) {
   const auto faces = unrefined(request, cancellation);
-  const double area = request.options.max_patch_area;
-  return area > 0 ? count_patches(*faces, area) : faces->patch_count();
+  const double area = request.patches > 0
+                          ? max_patch_area_for(*faces, request.patches, cancellation)
+                          : request.options.max_patch_area;
+  return {area > 0 ? count_patches(*faces, area) : faces->patch_count(), area};
 }
 
 }  // namespace transillum::viewer

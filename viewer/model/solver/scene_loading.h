@@ -24,9 +24,12 @@ std::function<void(Preparation, double)> phase_reporter(LoadProgress progress);
 
 /// Reads a scene and builds its tree.
 /// @param spec file or built-in
+/// @param options  they get linear functions where faces are divided for a first look
+/// @param first_look  whether the faces of a scene of few are divided, unless `options` say
+/// otherwise
 /// @throws InputError, Canceled
-std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, const RunOptions& options,
-                                                const LoadProgress& progress,
+std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, RunOptions& options,
+                                                bool first_look, const LoadProgress& progress,
                                                 const Cancellation& cancellation);
 
 /// The scene of a session with its tree, which must be prepared.

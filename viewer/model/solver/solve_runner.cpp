@@ -152,8 +152,9 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
   } else if (restart_request_) {
     solve_cancellation_ = Cancellation();
     choice_ = *std::exchange(restart_request_, std::nullopt);
+    const bool runs_on = goal_.kind == Goal::Kind::finished;
     run_unlocked(lock, *this, [&, run = choice_, cancellation = solve_cancellation_] {
-      worker_.start(run, cancellation);
+      worker_.start(run, cancellation, runs_on);
     });
     if (!worker_.has_started() && !open_request_ && !restart_request_) {
       goal_ = {};
@@ -178,7 +179,11 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
 void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellation) {
   post_state(RunState::loading);
   try {
-    SolveWorker::Prepared prepared = worker_.load(request.spec, request.options, cancellation);
+    SolveWorker::Prepared prepared =
+        request.earlier
+            ? worker_.prepare(request.earlier, SolveWorker::choice_of(request.options),
+                              cancellation)
+            : worker_.load(request.spec, request.options, request.first_look, cancellation);
     {
       const std::lock_guard lock(mutex_);
       cancellation.throw_if_canceled();

@@ -30,7 +30,10 @@ class SolveRunner : public SolveMessages {
   struct OpenRequest {
     std::string spec;  ///< file or built-in
     RunOptions options;
-    Goal then;  ///< goal once the scene is open
+    Goal then;                ///< goal once the scene is open
+    bool first_look = false;  ///< as for loaded_scene()
+    /// A scene with the light of an earlier solve, which is shown instead of reading `spec`.
+    std::shared_ptr<const LoadedScene> earlier = nullptr;
   };
 
   explicit SolveRunner(QObject* parent = nullptr);
@@ -71,6 +74,9 @@ class SolveRunner : public SolveMessages {
 
   /// From now on, snapshots include the form factors if they fit into the memory limit.
   void include_form_factors();
+  /// Whether a solve to its end shows whole pictures only: first of a draft of few directions, then
+  /// of finished stages. Goals of single directions and iterations show every state.
+  void set_drafts(bool drafts) { worker_.set_drafts(drafts); }
   /// The least time between two snapshots, ms.
   void set_refresh_interval(int milliseconds) { worker_.set_refresh_interval(milliseconds); }
 

@@ -9,21 +9,22 @@
 #include <utility>
 
 #include "model/measured_errors.h"
+#include "model/solver/draft.h"
 #include "model/solver/session_snapshot.h"
 #include "scene/build/division.h"
 
 namespace transillum::viewer {
 
-SolveWorker::Prepared SolveWorker::load(const std::string& spec, const RunOptions& options,
-                                        const Cancellation& cancellation) {
+SolveWorker::Prepared SolveWorker::load(const std::string& spec, RunOptions options,
+                                        bool first_look, const Cancellation& cancellation) {
   options.solve.validate();
-  return prepare(loaded_scene(spec, options, report_, cancellation), choice_of(options),
-                 cancellation);
+  const auto loaded = loaded_scene(spec, options, first_look, report_, cancellation);
+  return prepare(loaded, choice_of(options), cancellation);
 }
 
 SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& start,
                                            Choice choice, const Cancellation& cancellation) {
-  if (start->stored) {
+  if (start->stored && !start->description) {
     choice.refine = {};
     choice.total = false;
   }
@@ -63,7 +64,7 @@ void SolveWorker::open(Prepared prepared) {
   post_snapshot();
 }
 
-void SolveWorker::start(Choice choice, const Cancellation& cancellation) {
+void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool runs_on) {
   if (!loaded_) {
     return;
   }
@@ -81,7 +82,9 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation) {
   }
   take_patches(prepared.loaded);
   replace_session(std::move(prepared));
-  post_snapshot();
+  if (!runs_on || !drafts_) {
+    post_snapshot();
+  }
 }
 
 void SolveWorker::replace_session(Prepared prepared) {
@@ -97,6 +100,7 @@ void SolveWorker::replace_session(Prepared prepared) {
   failed_ = false;
   form_factors_.clear();
   stage_result_ = nullptr;
+  whole_.reset();
 }
 
 void SolveWorker::relight(std::shared_ptr<const PatchMaterials> materials) {
@@ -144,7 +148,27 @@ void SolveWorker::advance(const Goal& goal) {
     return;
   }
   messages_.post_state(RunState::running);
+  if (goal.kind == Goal::Kind::finished) {
+    begin_with_draft();
+  }
   while (advance_stage(goal)) {
+  }
+}
+
+/// Posts a whole picture of few directions, where drafts are wanted and no pass has been made.
+void SolveWorker::begin_with_draft() {
+  if (!drafts_ || !is_ready() || loaded_->stored || session_->in_rounds() || total_ ||
+      session_->passes_done() > 0) {
+    return;
+  }
+  try {
+    whole_ = make_draft(
+        *session_, [this] { return !interrupted_; }, cancellation_);
+    if (whole_ && !interrupted_) {
+      post_snapshot();
+    }
+  } catch (...) {
+    whole_.reset();  // the solve itself meets the same problem, and tells it
   }
 }
 
@@ -327,6 +351,11 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   }
   snapshot->measured_errors = errors_;
   snapshot->materials = session.glossy() != nullptr ? materials_ : nullptr;
+  if (whole_ && session.progress().finished) {
+    whole_ = session.solution();
+  } else if (whole_ && drafts_ && !interrupted_) {
+    show_light_of(*whole_, *snapshot);
+  }
   history_.write_to(*snapshot);
   if (!snapshot->directions) {
     snapshot->directions = std::make_shared<const std::vector<Vec3>>(session.directions());

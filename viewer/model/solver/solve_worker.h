@@ -24,9 +24,9 @@ namespace transillum::viewer {
 /// The open scene and its solve. It advances the solve toward goals and makes snapshots at
 /// intervals.
 ///
-/// Threads: interrupt(), set_refresh_interval(), request_form_factors() and checkpoints() may be
-/// called by any thread; the others belong to one thread, and may throw exceptions, which their
-/// caller has to report.
+/// Threads: interrupt(), set_refresh_interval(), set_drafts(), request_form_factors() and
+/// checkpoints() may be called by any thread; the others belong to one thread, and may throw
+/// exceptions, which their caller has to report.
 class SolveWorker {
  public:
   /// The options of a run.
@@ -57,14 +57,20 @@ class SolveWorker {
 
   /// Loads a scene and prepares its solve; the open scene stays.
   /// @param spec file or built-in
+  /// @param first_look  as for loaded_scene()
   /// @throws InputError, Canceled
-  Prepared load(const std::string& spec, const RunOptions& options,
+  Prepared load(const std::string& spec, RunOptions options, bool first_look,
                 const Cancellation& cancellation);
+  /// Prepares a solve of a scene that was loaded before.
+  /// @throws InputError, Canceled
+  Prepared prepare(const std::shared_ptr<const LoadedScene>& start, Choice choice,
+                   const Cancellation& cancellation);
   /// Replaces the open scene.
   void open(Prepared prepared);
   /// Replaces the solve of the open scene by a new one, whose session is canceled already.
   /// @throws InputError, Canceled: advance() then tries again; the old picture stays.
-  void start(Choice choice, const Cancellation& cancellation);
+  /// @param runs_on  it is advanced to its end next: with drafts, the old picture stays until then
+  void start(Choice choice, const Cancellation& cancellation, bool runs_on = false);
   /// Whether the last start() has succeeded.
   bool has_started() const { return !unstarted_; }
   /// Solves for other materials, from the present light, where lobes take part.
@@ -80,16 +86,17 @@ class SolveWorker {
   void interrupt(bool interrupted = true);
   /// The least time between two snapshots, ms.
   void set_refresh_interval(int milliseconds) { refresh_interval_ = milliseconds; }
+  /// Whether a solve to its end shows whole pictures only: first of a draft of few directions.
+  void set_drafts(bool drafts) { drafts_ = drafts; }
   /// From now on, snapshots include the form factors if they fit into the memory limit.
   /// @returns whether they did not before
   bool request_form_factors() { return form_factors_.request(); }
   CheckpointKeeper& checkpoints() { return checkpoints_; }
 
  private:
-  Prepared prepare(const std::shared_ptr<const LoadedScene>& start, Choice choice,
-                   const Cancellation& cancellation);
   void replace_session(Prepared prepared);
   void prepare_stage();
+  void begin_with_draft();
   bool advance_stage(const Goal& goal);
   void end_stage_of_total();
   bool observe();
@@ -107,6 +114,7 @@ class SolveWorker {
   CheckpointKeeper checkpoints_;
   KeptFormFactors form_factors_;
   std::atomic<bool> interrupted_ = false;
+  std::atomic<bool> drafts_ = false;
   std::atomic<int> refresh_interval_ = 66;
 
   std::shared_ptr<const LoadedScene> loaded_;        // null if no scene is open
@@ -114,16 +122,19 @@ class SolveWorker {
                                                      // materials of the scene
   Choice choice_;                                    // options of session_
   std::optional<SolveSession> session_;
-  std::optional<Choice> unstarted_;  // to be started; session_ is canceled
-  Cancellation cancellation_;        // cancels session_ or unstarted_
-  bool failed_ = false;              // session_ cannot be continued
-  std::optional<TotalPlan> total_;   // where session_ is a stage of it
+  std::optional<Choice> unstarted_;               // to be started; session_ is canceled
+  Cancellation cancellation_;                     // cancels session_ or unstarted_
+  bool failed_ = false;                           // session_ cannot be continued
+  std::optional<TotalPlan> total_;                // where session_ is a stage of it
   std::shared_ptr<const MeasuredErrors> errors_;  // errors of session_; null if not known
   std::mutex measuring_mutex_;                    // guards measuring_
   Cancellation measuring_;                        // cancels a measurement of errors
   SolveHistory history_;                          // history of the present stage
   /// The end of the last stage, if the goal has a time limit.
   std::shared_ptr<const SolverSnapshot> stage_result_;
+
+  /// The newest whole light: of the draft, or of the last finished stage; nothing without a draft.
+  std::optional<Solution> whole_;
 
   bool patches_to_announce_ = false;  // the patches of loaded_
   QElapsedTimer since_patches_;

@@ -106,6 +106,7 @@ void DockLayouts::reset() {
 
 void DockLayouts::arrange(Layout layout) {
   current_ = layout;
+  emit switched();
   end_alone();
   for (const Dock& dock : docks_) {
     // In this order: a dock that has been removed does not come back from floating.

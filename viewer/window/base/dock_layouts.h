@@ -78,6 +78,8 @@ class DockLayouts : public QObject {
   void add_to(QMenu& menu);
 
  signals:
+  /// Another layout is in use.
+  void switched();
   /// The panel that show_alone() shows now has changed; it may be empty.
   void alone(const QString& panel);
 

@@ -20,17 +20,27 @@ OpenScene::OpenScene(SolveRunner& runner, Relighting& relighting)
   connect(&relighting_, &Relighting::changed, this, &OpenScene::show_again);
 }
 
-void OpenScene::open(const std::string& spec, const RunOptions& options, Goal goal) {
+void OpenScene::open(const std::string& spec, const RunOptions& options, Goal goal,
+                     bool first_look) {
   opening_ = true;
   emit opening();
   requested_spec_ = spec;
   requested_input_ = options.input;
-  runner_.open({requested_spec_, options, goal});
+  runner_.open({requested_spec_, options, goal, first_look});
+}
+
+void OpenScene::show_earlier(const std::shared_ptr<const LoadedScene>& loaded,
+                             const SolveOptions& options, const SceneInput& input) {
+  opening_ = true;
+  emit opening();
+  requested_spec_ = spec_;
+  requested_input_ = input;
+  runner_.open({.spec = spec_, .options = {.solve = options}, .then = {}, .earlier = loaded});
 }
 
 bool OpenScene::is_open(const std::string& spec, const RunOptions& options) const {
   return loaded_ && spec == spec_ &&
-         (loaded_->stored ||
+         ((loaded_->stored && !loaded_->description) ||
           RunOptions{{}, options.scene, options.input} == RunOptions{{}, options_, input_});
 }
 
@@ -87,8 +97,10 @@ void OpenScene::take_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   newest_ = std::move(snapshot);
   shown_ = relighting_.lit(newest_);
   emit snapshot_ready(shown_);
-  // A large scene is refreshed less often, so that the window stays responsive.
-  constexpr int shortest_ms = 66, longest_ms = 1500;
+  // A large scene is refreshed less often, so that the window stays responsive. While a draft
+  // stands, only the progress changes, and the solver gets the time of the pictures.
+  constexpr int longest_ms = 1500;
+  const int shortest_ms = newest_->of_draft ? 500 : 66;
   runner_.set_refresh_interval(
       std::clamp(static_cast<int>(4 * timer.elapsed()), shortest_ms, longest_ms));
   emit snapshot_shown();

@@ -28,7 +28,14 @@ class OpenScene : public QObject {
 
   /// Loads and solves a scene; the open scene stays until the new one is loaded.
   /// @param spec a file, or a built-in with its parameters
-  void open(const std::string& spec, const RunOptions& options, Goal goal = {Goal::Kind::finished});
+  /// @param first_look  whether the faces of a scene of few are divided, with linear functions,
+  /// unless the options say otherwise
+  void open(const std::string& spec, const RunOptions& options, Goal goal = {Goal::Kind::finished},
+            bool first_look = false);
+  /// Shows an earlier solve of the open scene again, as a result file is shown.
+  /// @param loaded  with the light
+  void show_earlier(const std::shared_ptr<const LoadedScene>& loaded, const SolveOptions& options,
+                    const SceneInput& input);
 
   /// The scene that open() was called with last.
   const std::string& requested_spec() const { return requested_spec_; }

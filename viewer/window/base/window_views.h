@@ -11,6 +11,7 @@
 #include "state/focus.h"
 #include "state/focus_feed.h"
 #include "state/selection.h"
+#include "state/vertical.h"
 #include "state/watches.h"
 #include "window/base/open_scene.h"
 
@@ -32,6 +33,7 @@ class WorkGuard;
 struct SharedState {
   QUndoStack undo;  ///< commands of everything that can be undone
   Selection selection;
+  Vertical vertical;
   ColorChoice colors{selection};
   SolveRunner runner;
   Relighting relighting{undo};

@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "state/camera_views.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
@@ -33,13 +34,6 @@ constexpr Format formats[] = {
     {".glb", QT_TRANSLATE_NOOP("ColorExportDialog", "glTF, one file (.glb)"), true},
     {".gltf", QT_TRANSLATE_NOOP("ColorExportDialog", "glTF, as text (.gltf)"), true},
     {".ply", QT_TRANSLATE_NOOP("ColorExportDialog", "PLY with colors of vertices (.ply)"), false}};
-
-struct Vertical {
-  const char* name;
-  Vec3 direction;
-};
-constexpr Vertical verticals[] = {{"+y", {0, 1, 0}},  {"+z", {0, 0, 1}},  {"+x", {1, 0, 0}},
-                                  {"−y", {0, -1, 0}}, {"−z", {0, 0, -1}}, {"−x", {-1, 0, 0}}};
 
 }  // namespace
 
@@ -105,9 +99,9 @@ void ColorExportDialog::make_fields(const Vec3& up) {
     format_->addItem(tr(format.text));
   }
   up_ = named("color_up", new QComboBox);
-  for (const Vertical& vertical : verticals) {
-    up_->addItem(QString::fromUtf8(vertical.name));
-    if (vertical.direction == up) {
+  for (const NamedAxis& axis : named_axes()) {
+    up_->addItem(QString::fromUtf8(axis.name));
+    if (axis.direction == up) {
       up_->setCurrentIndex(up_->count() - 1);
     }
   }
@@ -174,9 +168,9 @@ DisplayOptions ColorExportDialog::display() const {
     options.exposure = exposure_->value();
   }
   options.light_map = light_map_->isEnabled() && light_map_->isChecked();
-  const Vertical& vertical = verticals[up_->currentIndex()];
-  if (up_->isEnabled() && up_->currentIndex() > 0) {
-    options.up = vertical.direction;
+  const Vec3& up = named_axes()[static_cast<std::size_t>(up_->currentIndex())].direction;
+  if (up_->isEnabled() && !(up == Vec3{0, 1, 0})) {  // +y is up in glTF
+    options.up = up;
   }
   return options;
 }

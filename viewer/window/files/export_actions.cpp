@@ -2,7 +2,9 @@
 #include "window/files/export_actions.h"
 
 #include <QBuffer>
+#include <QClipboard>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QInputDialog>
 #include <QMainWindow>
 #include <QMenu>
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 
 #include "io/results/error_report_files.h"
@@ -70,6 +73,23 @@ SceneDescription description_of(const Scene& scene, const PatchMaterials& materi
   return description;
 }
 
+void put_chart_values(const SolverSnapshot& snapshot, std::ostream& out) {
+  out.precision(17);
+  out << "chart,x,change,quadrature_error\n";
+  const auto& steps = snapshot.statistics.iteration_records;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    out << "iteration," << k + 1 << ',' << steps[k].change << ",\n";
+  }
+  const auto& errors = snapshot.quadrature_errors;
+  for (std::size_t k = 0; k < snapshot.estimate_changes.size(); ++k) {
+    out << "direction," << k + 1 << ',' << snapshot.estimate_changes[k] << ',';
+    if (k < errors.size()) {
+      out << errors[k];
+    }
+    out << '\n';
+  }
+}
+
 }  // namespace
 
 void write_png(const QString& path, const QImage& image) {
@@ -113,6 +133,9 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
       &E::choose_charts);
   add("export_values", tr("Convergence values…"), tr("Write the data of the charts as CSV"),
       &E::choose_values);
+  copy_values_ = make_action(this, "copy_values", tr("Copy the values"),
+                             tr("Copy the data of the charts as CSV"));
+  connect(copy_values_, &QAction::triggered, this, &ExportActions::copy_chart_values);
   save_scene_ =
       make_action(this, "save_scene", tr("Save scene…"),
                   tr("Write the scene with its changed materials and turned faces as OBJ and MTL"));
@@ -240,22 +263,16 @@ void ExportActions::write_chart_values(const QString& path) const {
   if (!snapshot) {
     throw std::runtime_error("there is nothing to write yet");
   }
-  write_file_whole(path.toStdString(), [&](std::ostream& out) {
-    out.precision(17);
-    out << "chart,x,change,quadrature_error\n";
-    const auto& steps = snapshot->statistics.iteration_records;
-    for (std::size_t k = 0; k < steps.size(); ++k) {
-      out << "iteration," << k + 1 << ',' << steps[k].change << ",\n";
-    }
-    const auto& errors = snapshot->quadrature_errors;
-    for (std::size_t k = 0; k < snapshot->estimate_changes.size(); ++k) {
-      out << "direction," << k + 1 << ',' << snapshot->estimate_changes[k] << ',';
-      if (k < errors.size()) {
-        out << errors[k];
-      }
-      out << '\n';
-    }
-  });
+  write_file_whole(path.toStdString(),
+                   [&](std::ostream& out) { put_chart_values(*snapshot, out); });
+}
+
+void ExportActions::copy_chart_values() const {
+  if (const auto snapshot = frame_.state.scene.snapshot()) {
+    std::ostringstream text;
+    put_chart_values(*snapshot, text);
+    QGuiApplication::clipboard()->setText(QString::fromStdString(text.str()));
+  }
 }
 
 QString ExportActions::name_with(const char* ending) const {
@@ -302,7 +319,7 @@ void ExportActions::choose_result() {
 void ExportActions::choose_colors() {
   const auto snapshot = frame_.state.scene.snapshot();
   ColorExportDialog dialog(snapshot, frame_.page.scene_view()->view_point(),
-                           initial_view(*snapshot->loaded->scene, 1).up, &frame_.window);
+                           frame_.state.vertical.up(), &frame_.window);
   if (dialog.exec() == QDialog::Accepted) {
     const QString ending = dialog.ending();
     write_chosen(tr("Export for Blender or the web"), tr("Colors (*%1)").arg(ending),

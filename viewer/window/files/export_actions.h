@@ -64,6 +64,10 @@ class ExportActions : public QObject {
   void write_charts(const QString& path) const;
   /// Writes the data of the charts: chart,x,change,quadrature_error.
   void write_chart_values(const QString& path) const;
+  /// Copies the same to the clipboard.
+  void copy_chart_values() const;
+  /// For the menu of the charts.
+  QAction* copy_values_action() const { return copy_values_; }
 
  private:
   void add(const char* name, const QString& text, const QString& tip,
@@ -86,7 +90,7 @@ class ExportActions : public QObject {
   MapView& map_;
   ConvergenceView& charts_;
   QList<QAction*> actions_;
-  QAction *save_scene_, *export_colors_, *export_errors_;
+  QAction *save_scene_, *export_colors_, *export_errors_, *copy_values_;
 
   struct FileToWrite {
     QString path;

@@ -21,6 +21,7 @@
 #include "scene/scene_page.h"
 #include "solve/settings_panel.h"
 #include "support/failure_text.h"
+#include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "widgets/banner.h"
@@ -55,6 +56,7 @@ FileActions::FileActions(const WindowFrame& frame, DockLayouts& docks, SettingsP
       session_(session) {
   make_actions();
   make_reading_bar();
+  make_division_bar();
   recent_menu_ = new QMenu(tr("Open recent"), &frame_.window);
   settle_.setSingleShot(true);
   settle_.setInterval(settle_ms);
@@ -115,6 +117,12 @@ void FileActions::make_reading_bar() {
   });
 }
 
+void FileActions::make_division_bar() {
+  QPushButton* keep = frame_.page.division_bar()->add_button("keep_faces", tr("Keep my faces"));
+  keep->setToolTip(tr("One patch per face of the file, with one value of B on each"));
+  connect(keep, &QPushButton::clicked, this, &FileActions::keep_faces);
+}
+
 void FileActions::choose_reading() {
   ReadingDialog dialog(QString::fromStdString(frame_.state.scene.spec()),
                        frame_.state.scene.input(), &frame_.window);
@@ -156,6 +164,7 @@ void FileActions::on_scene_shown() {
     remember(spec);
   }
   show_reading();
+  show_first_look();
   watch_scene();
   save_session_->setEnabled(true);
   reload_->setEnabled(true);
@@ -216,26 +225,11 @@ void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& i
   }
 }
 
-void FileActions::open_built_in(const QString& name) {
-  if (!frame_.guard.may_lose(&frame_.window, tr("Open"))) {
-    return;
-  }
-  leave_scene(name);
-  SceneInput input;
-  if (name.toStdString() != frame_.state.scene.spec()) {
-    input.patches = soft_patches(name.toStdString());
-  }
-  if (input.patches > 0 && settings_.solve_options().basis == Basis::constant) {
-    basis_is_of_card_ = choose_basis(Basis::linear);
-  }
-  load_scene(name, {Goal::Kind::finished}, input, false);
-}
-
 /// Resets the options that were set for the open scene alone.
 /// @param next the scene that is opened instead
 void FileActions::leave_scene(const QString& next) {
   applier_.leave_lesson();
-  if (next.toStdString() != frame_.state.scene.spec() && std::exchange(basis_is_of_card_, false)) {
+  if (next.toStdString() != frame_.state.scene.spec() && std::exchange(basis_is_of_look_, false)) {
     choose_basis(Basis::constant);
   }
 }
@@ -261,7 +255,43 @@ void FileActions::load_scene(const QString& spec, Goal goal, const SceneInput& i
     options.scene = {};  // the options in the panel are of the open scene
     options.refine = {};
   }
-  frame_.state.scene.open(spec.toStdString(), options, goal);
+  const bool is_new = spec.toStdString() != frame_.state.scene.spec();
+  frame_.state.scene.open(spec.toStdString(), options, goal,
+                          divides_ && is_new && has_first_look(spec.toStdString()));
+}
+
+/// Says that faces were divided unasked, and takes over the functions on patches that go with it.
+void FileActions::show_first_look() {
+  const auto loaded = frame_.state.scene.loaded();
+  Banner& bar = *frame_.page.division_bar();
+  if (loaded->divided_faces == 0) {
+    bar.dismiss();
+    return;
+  }
+  if (settings_.solve_options().basis == Basis::constant) {
+    basis_is_of_look_ = choose_basis(Basis::linear);
+  }
+  if (loaded->description->files.empty()) {
+    bar.dismiss();
+    return;  // built-in scenes have no faces of the user's
+  }
+  const auto patches = static_cast<std::int64_t>(loaded->scene->patch_count());
+  bar.show_message(
+      Banner::Kind::offer,
+      tr("%1 faces are divided into %2 patches, with linear functions.")
+          .arg(count_text(static_cast<std::int64_t>(loaded->divided_faces)), count_text(patches)));
+}
+
+void FileActions::keep_faces() {
+  if (!frame_.guard.may_lose(&frame_.window, tr("Keep my faces"))) {
+    return;
+  }
+  basis_is_of_look_ = false;
+  choose_basis(Basis::constant);
+  RunOptions options = settings_.options();
+  options.scene.max_patch_area = 0;
+  options.input = frame_.state.scene.input();
+  applier_.open_again(options);
 }
 
 /// @returns whether the other settings allow it

@@ -50,10 +50,9 @@ class FileActions : public QObject {
   /// the other functions.
   void open_scene(const QString& spec, Goal goal = {Goal::Kind::finished},
                   const SceneInput& input = {}, bool as_given = false);
-  /// open_scene() for the card of a built-in scene: if the scene is not open yet, and its faces are
-  /// large, they are divided and get linear functions (first_look.h), where the other settings
-  /// allow these.
-  void open_built_in(const QString& name);
+  /// Sets whether scenes of few faces are divided when they are opened, with linear functions
+  /// (first_look.h), unless the settings have a limit of patches.
+  void set_divides(bool divides) { divides_ = divides; }
   /// Shows a page of a lesson.
   /// @param which a file, or the number of a built-in lesson, from 1
   /// @param page from 1
@@ -87,6 +86,10 @@ class FileActions : public QObject {
   void load_scene(const QString& spec, Goal goal, const SceneInput& input, bool as_given);
   void make_actions();
   void make_reading_bar();
+  void make_division_bar();
+  void show_first_look();
+  /// Reads the scene again, with one patch per face.
+  void keep_faces();
   /// Asks how the open scene's file is read, and reads it so.
   void choose_reading();
   void read_again(const SceneInput& input);
@@ -106,7 +109,8 @@ class FileActions : public QObject {
   WindowSession& session_;
   QAction *open_, *save_session_, *reload_, *watch_, *reading_;
   ReadingMemory reading_memory_;
-  bool basis_is_of_card_ = false;  ///< linear functions were set by open_built_in()
+  bool divides_ = true;            ///< set_divides()
+  bool basis_is_of_look_ = false;  ///< linear functions were set for the open scene alone
   QString recalled_;               ///< the file that is opened as it was read before; may be empty
   QMenu* recent_menu_;
   QStringList recent_;

@@ -170,6 +170,11 @@ void check_memory(const std::string& name, std::int64_t patches, int replicas, i
   }
 }
 
+std::int64_t usual_patches(std::size_t faces) {
+  constexpr std::size_t few_faces = 1000;
+  return faces < few_faces ? 2000 : 0;
+}
+
 double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
                           const Cancellation& cancellation) {
   if (patches < 1 || patches > PatchBuilder::max_patches) {

@@ -4,6 +4,7 @@
 // How many patches a limit of their area makes, and which limit makes about a given number: known
 // before the refined scene is made.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -34,6 +35,10 @@ std::uint64_t expected_memory(std::int64_t patches, int replicas = 1, int unknow
 /// @throws std::runtime_error that tells both; not where a Scene cannot have so many patches at all
 void check_memory(const std::string& name, std::int64_t patches, int replicas = 1,
                   int unknowns = 1);
+
+/// The number of patches into which pictures and windows divide a scene's faces where nothing else
+/// is asked for: 2000 for fewer than 1000 faces; else 0, which does not divide them.
+std::int64_t usual_patches(std::size_t faces);
 
 /// A limit for patch areas with which the scene has about `patches` patches (m²).
 ///

@@ -1,0 +1,274 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The panel of settings: what it keeps, shows and tells.
+#include <QComboBox>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <limits>
+
+#include "scene/build/patch_count.h"
+#include "solve/settings_panel.h"
+#include "solved_window.h"
+#include "widgets/engine_text.h"
+#include "widgets/fold.h"
+
+namespace transillum::viewer::settings_test {
+
+using namespace test;
+
+namespace {
+
+std::shared_ptr<const SolverSnapshot> in_effect(const SolveOptions& options) {
+  auto snapshot = std::make_shared<SolverSnapshot>();
+  snapshot->options = options;
+  return snapshot;
+}
+
+}  // namespace
+
+class SettingsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void keep_every_value() {
+    SettingsPanel panel;
+    SolveOptions solve;
+    solve.seed = std::numeric_limits<std::uint64_t>::max();
+    solve.tolerance = 0.1 + 0.2;
+    solve.iterations = 1'000'000;
+    panel.set_options(solve, {false, 1e-9});
+    QVERIFY(panel.solve_options() == solve);
+    QCOMPARE(panel.scene_options().max_patch_area, 1e-9);
+    QCOMPARE(panel.findChild<QLineEdit*>("max_patch_area")->text(), QString("1e-09"));
+    QCOMPARE(panel.findChild<QLineEdit*>("seed")->text(), QString("18446744073709551615"));
+    panel.findChild<QLineEdit*>("seed")->setText("7");
+    panel.findChild<QLineEdit*>("max_patch_area")->clear();
+    QCOMPARE(panel.solve_options().seed, std::uint64_t{7});
+    QCOMPARE(panel.scene_options().max_patch_area, 0.0);
+  }
+
+  // The accuracy chooses the directions and replicas; the ones in effect are no difference.
+  void ask_for_an_accuracy() {
+    SettingsPanel panel;
+    auto* directions = panel.findChild<QSpinBox*>("directions");
+    QVERIFY(directions->isVisibleTo(&panel));
+    panel.findChild<QLineEdit*>("accuracy")->setText("0.7");
+    const SolveOptions asked = panel.solve_options();
+    QCOMPARE(asked.goal.accuracy, 0.7 / 100);
+    QVERIFY(asked.first_shot == first_shot_where_it_pays);
+    QCOMPARE(asked.replicas, 1);
+    QVERIFY(!directions->isVisibleTo(&panel));
+    SolveOptions stage = asked;
+    stage.directions = 200;
+    stage.replicas = 4;
+    stage.tolerance = 1e-8;
+    panel.set_in_effect(in_effect(stage), {});
+    QVERIFY(!panel.differ_from_effect());
+    panel.findChild<QLineEdit*>("accuracy")->setText("0.5");
+    QVERIFY(panel.differ_from_effect());
+    panel.findChild<QLineEdit*>("accuracy")->clear();
+    QVERIFY(!panel.solve_options().goal.is_set());
+    QVERIFY(directions->isVisibleTo(&panel));
+  }
+
+  void quality_is_one_of_few_or_an_own_one() {
+    SettingsPanel panel;
+    const auto part = [&](const char* name) { return panel.findChild<QPushButton*>(name); };
+    const auto checked = [&] {
+      QStringList names;
+      for (const char* name : {"draft", "normal", "fine"}) {
+        names << (part(name)->isChecked() ? QStringList{name} : QStringList{});
+      }
+      return names.join(' ');
+    };
+    QCOMPARE(checked(), QString());  // 1024 directions
+    part("normal")->click();
+    QCOMPARE(panel.solve_options().goal.accuracy, 0.01);
+    QCOMPARE(checked(), QString("normal"));
+    part("normal")->click();  // stays
+    QCOMPARE(checked(), QString("normal"));
+    part("fine")->click();
+    QCOMPARE(panel.solve_options().goal.accuracy, 0.003);
+    QCOMPARE(checked(), QString("fine"));
+    SolveOptions replicas;
+    replicas.replicas = 4;
+    panel.set_options(replicas, {});
+    part("draft")->click();
+    QVERIFY(panel.solve_options() == SolveOptions{.directions = 64});
+    QCOMPARE(checked(), QString("draft"));
+    panel.findChild<QSpinBox*>("directions")->setValue(65);
+    QCOMPARE(checked(), QString());
+    panel.findChild<QLineEdit*>("accuracy")->setText("1");
+    QCOMPARE(checked(), QString("normal"));
+  }
+
+  void without_effect_are_not_shown() {
+    SettingsPanel panel;
+    panel.findChild<QAbstractButton*>("method_section")->setChecked(true);
+    const auto shown = [&](const char* name) {
+      return panel.findChild<QWidget*>(name)->isVisibleTo(&panel);
+    };
+    QVERIFY(!shown("seed") && !shown("resolution") && !shown("glossy") && !shown("accuracy_of"));
+    QVERIFY(shown("replicas") && shown("sampling") && shown("two_sided"));
+    panel.findChild<QComboBox*>("sampling")->setCurrentText("Random");
+    QVERIFY(shown("seed"));
+    panel.findChild<QPushButton*>("normal")->click();
+    QVERIFY(shown("accuracy_of") && !shown("replicas"));
+    panel.set_scene_fixed(true);
+    QVERIFY(!shown("two_sided") && !shown("patches_wanted") && !shown("refine_section"));
+    QCOMPARE(panel.findChild<FoldHeader*>("method_section")->state(), QString("Fast · Random"));
+  }
+
+  void follow_the_default_sampling() {
+    SettingsPanel panel;
+    auto* serves = panel.findChild<QComboBox*>("pass_serves");
+    auto* sampling = panel.findChild<QComboBox*>("sampling");
+    QVERIFY(panel.solve_options() == SolveOptions());
+    QCOMPARE(sampling->currentText(), QString("Antipodal"));
+    serves->setCurrentIndex(1);
+    QCOMPARE(sampling->currentText(), QString("Fibonacci"));
+    SolveOptions one_way;
+    one_way.two_way = false;
+    QVERIFY(panel.solve_options() == one_way);
+    serves->setCurrentIndex(0);
+    QCOMPARE(sampling->currentText(), QString("Antipodal"));
+    // The choice of the user stays.
+    sampling->setCurrentText(QStringLiteral("Halton"));
+    serves->setCurrentIndex(1);
+    QCOMPARE(sampling->currentText(), QString("Halton"));
+    // Options of a file stay too, whatever the combination.
+    SolveOptions given;
+    given.sampling = Sampling::fibonacci;
+    panel.set_options(given, {});
+    QVERIFY(panel.solve_options() == given);
+  }
+
+  void show_the_options_of_an_engine() {
+    SettingsPanel panel;
+    panel.findChild<QAbstractButton*>("method_section")->setChecked(true);
+    panel.show();
+    auto* engine = panel.findChild<QComboBox*>("engine");
+    auto* resolution = panel.findChild<QSpinBox*>("resolution");
+    auto* order = panel.findChild<QComboBox*>("painters_order");
+    const auto choose = [&](Engine chosen) {
+      choose_engine(*engine, chosen);
+      QCOMPARE(panel.solve_options().engine, chosen);
+      QVERIFY(!engine->toolTip().isEmpty());
+      QCOMPARE(resolution->isVisible(), traits_of(chosen).takes_resolution);
+      QCOMPARE(order->isVisible(), chosen == Engine::painter);
+    };
+    for (const std::string& name : names_of<Engine>()) {
+      if (takes_directions(from_name<Engine>(name))) {
+        choose(from_name<Engine>(name));
+      }
+    }
+    choose(Engine::painter);
+    QVERIFY(resolution->text().contains(QStringLiteral("512 px")));  // the default
+    resolution->setValue(256);
+    order->setCurrentIndex(1);
+    const SolveOptions options = panel.solve_options();
+    QCOMPARE(options.engine_options.resolution, 256);
+    QVERIFY(options.engine_options.order == PaintersOrder::newell);
+    SettingsPanel another;
+    another.set_options(options, {});
+    QVERIFY(another.solve_options() == options);
+  }
+
+  void divides_into_about_as_many_patches_as_asked_for() {
+    const SolvedWindow solved("cornell-box", {.directions = 8});
+    const Scene& faces = *solved.window->snapshot()->loaded->scene;
+    const double area = max_patch_area_for(faces, 300);
+    const std::int64_t count = count_patches(faces, area);
+    solved.window->findChild<QSpinBox*>("patches_wanted")->setValue(300);
+    // The button may be pressed before the patches are counted.
+    solved.window->findChild<QPushButton*>("restart")->click();
+    QVERIFY(wait_for([&] {
+      const auto snapshot = solved.window->snapshot();
+      return snapshot && static_cast<std::int64_t>(snapshot->radiosity.size()) == count;
+    }));
+    QCOMPARE(solved.window->views().settings.scene_options().max_patch_area, area);
+  }
+
+  void tells_the_cost_of_other_settings() {
+    const SolvedWindow solved("cornell-box", {.directions = 8});
+    QVERIFY(solved.ready);
+    const auto* cost = solved.window->findChild<QLabel*>("patch_forecast");
+    QVERIFY2(cost->text().contains("less than 1 s"), qPrintable(cost->text()));
+    solved.window->findChild<QSpinBox*>("directions")->setValue(1 << 24);
+    QVERIFY2(cost->text().contains(" h "), qPrintable(cost->text()));
+  }
+
+  // At the size of a projector, with all sections open, in both themes.
+  void the_button_is_always_seen_and_no_text_is_cut() {
+    const SolvedWindow solved("gallery", {.directions = 16});
+    QVERIFY(solved.ready);
+    TestWindow& window = *solved.window;
+    auto* panel = window.findChild<SettingsPanel*>();
+    auto* restart = window.findChild<QPushButton*>("restart");
+    window.resize(1280, 720);
+    for (auto* header : panel->findChildren<FoldHeader*>()) {
+      header->setChecked(true);
+    }
+    window.findChild<QComboBox*>("engine")->setCurrentText("Painter's algorithm");
+    window.findChild<QPushButton*>("normal")->click();
+    for (const bool dark : {false, true}) {
+      theme::apply(*qApp, {.dark = dark});
+      handle_posted();
+      QVERIFY(restart->isVisible());
+      QVERIFY(window.rect().contains(QRect(restart->mapTo(&window, QPoint()), restart->size())));
+      for (const auto* label : panel->findChildren<QLabel*>()) {
+        if (label->isVisibleTo(panel) && !label->wordWrap()) {
+          QVERIFY2(label->width() >= label->sizeHint().width(), qPrintable(label->text()));
+        }
+      }
+      save_picture(window, dark ? "settings-dark" : "settings-light");
+      save_picture(*panel, dark ? "settings-panel-dark" : "settings-panel-light");
+    }
+    theme::apply(*qApp);
+  }
+
+  void undo_brings_the_solve_before_back() {
+    const SolvedWindow solved("cornell-box", {.directions = 8});
+    TestWindow& window = *solved.window;
+    const auto finished = [&window] {
+      return wait_for([&] {
+        return window.runner.state() == RunState::finished && window.snapshot() &&
+               window.snapshot()->progress.finished && window.settled();
+      });
+    };
+    window.runner.run();
+    QVERIFY(finished());
+    const auto before = window.snapshot();
+    for (const bool divides : {false, true}) {
+      window.findChild<QSpinBox*>("directions")->setValue(16);
+      if (divides) {
+        window.findChild<QLineEdit*>("max_patch_area")->setText("0.05");
+      }
+      window.findChild<QPushButton*>("restart")->click();
+      QVERIFY(wait_for([&] { return window.snapshot()->options.directions == 16; }));
+      QVERIFY(finished());
+      QVERIFY(window.snapshot()->radiosity != before->radiosity);
+      auto* undo = window.findChild<QAction*>("undo");
+      QVERIFY2(undo->isEnabled() && undo->text().contains("solving again"),
+               qPrintable(undo->text()));
+      undo->trigger();
+      QVERIFY(wait_for([&] {
+        const auto now = window.snapshot();
+        return now && now->of_file && now->radiosity == before->radiosity && window.settled();
+      }));
+      QVERIFY(window.views().settings.solve_options() == before->options);
+      QVERIFY(!window.views().settings.differ_from_effect());
+      QVERIFY(!undo->isEnabled());
+      // The same solve can be made again, with its form factors.
+      window.findChild<QAction*>("run")->trigger();
+      QVERIFY(finished());
+      QVERIFY(window.snapshot()->radiosity == before->radiosity);
+    }
+  }
+};
+
+const test::Registered registered("settings", test::run_as_viewer<SettingsTest>);
+
+}  // namespace transillum::viewer::settings_test
+
+#include "settings_test.moc"

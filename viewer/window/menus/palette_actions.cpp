@@ -1,0 +1,147 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/menus/palette_actions.h"
+
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QPointer>
+#include <set>
+#include <string>
+
+#include "transillum/at.h"
+#include "widgets/build.h"
+#include "window/base/dock_layouts.h"
+#include "window/base/open_scene.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString without_marks(QString text) { return text.remove('&'); }
+
+QString keys_of(const QAction& action) {
+  QStringList keys;
+  for (const QKeySequence& key : action.shortcuts()) {
+    keys << key.toString(QKeySequence::NativeText);
+  }
+  return keys.join(QLatin1Char(' '));
+}
+
+/// Adds the actions of a menu and of the menus in it.
+/// @param taken  actions that the palette has already, or in another form
+void add_menu(QMenu& menu, const QString& place, std::set<const QAction*>& taken,
+              std::vector<PaletteEntry>& entries) {
+  emit menu.aboutToShow();  // some menus are filled then
+  for (QAction* action : menu.actions()) {
+    if (action->isSeparator() || action->text().isEmpty() || !taken.insert(action).second) {
+      continue;
+    }
+    if (action->menu()) {
+      add_menu(*action->menu(), place + QStringLiteral(" › ") + without_marks(action->text()),
+               taken, entries);
+      continue;
+    }
+    entries.push_back({without_marks(action->text()), place, keys_of(*action), action->isEnabled(),
+                       [action = QPointer<QAction>(action)] {
+                         if (action) {
+                           action->trigger();
+                         }
+                       }});
+  }
+}
+
+}  // namespace
+
+PaletteActions::PaletteActions(const WindowFrame& frame, DockLayouts& docks)
+    : QObject(&frame.window), frame_(frame), docks_(docks) {
+  action_ = make_key_action(this, "command_palette_action", tr("Find a command…"),
+                            tr("List everything that the window can do, narrowed by typing"),
+                            QKeySequence(QStringLiteral("Ctrl+K")));
+  connect(action_, &QAction::triggered, this, &PaletteActions::show);
+}
+
+void PaletteActions::show() {
+  auto* palette = new CommandPalette(
+      entries(), [this](const QString& query) { return patch_of(query); }, &frame_.window);
+  palette->show();
+}
+
+std::vector<PaletteEntry> PaletteActions::entries() {
+  std::vector<PaletteEntry> entries;
+  std::set<const QAction*> taken{action_};
+  // These actions show a panel or hide it; the palette always shows it.
+  for (const QDockWidget* dock : frame_.window.findChildren<QDockWidget*>()) {
+    taken.insert(dock->toggleViewAction());
+  }
+  for (const QAction* action : frame_.window.menuBar()->actions()) {
+    if (action->menu()) {
+      add_menu(*action->menu(), without_marks(action->text()), taken, entries);
+    }
+  }
+  add_panels(entries);
+  add_surfaces(entries);
+  return entries;
+}
+
+void PaletteActions::add_panels(std::vector<PaletteEntry>& entries) {
+  for (const std::string& panel : docks_.panels()) {
+    const auto* dock = frame_.window.findChild<QDockWidget*>(QString::fromStdString(panel) +
+                                                             QStringLiteral("_dock"));
+    entries.push_back({dock->windowTitle(), tr("Panel"), {}, true, [this, panel] {
+                         docks_.bring_to_front(panel);
+                       }});
+  }
+}
+
+void PaletteActions::add_surfaces(std::vector<PaletteEntry>& entries) {
+  const auto loaded = frame_.state.scene.loaded();
+  if (!loaded) {
+    return;
+  }
+  const auto add = [&](const QString& name, const QString& kind, auto belongs) {
+    entries.push_back({tr("Select %1").arg(name), kind, {}, true, [this, loaded, belongs] {
+                         if (loaded != frame_.state.scene.loaded()) {
+                           return;  // another scene has been opened since
+                         }
+                         std::vector<PatchId> patches;
+                         for (PatchId i = 0; i < loaded->scene->patch_count(); ++i) {
+                           if (belongs(loaded->scene->patch(i))) {
+                             patches.push_back(i);
+                           }
+                         }
+                         frame_.state.selection.select_all(std::move(patches));
+                       }});
+  };
+  constexpr std::size_t most_names = 2000;
+  std::int32_t index = 0;
+  for (const Material& material : loaded->scene->materials()) {
+    if (!material.name.empty() && entries.size() < most_names) {
+      add(QString::fromStdString(material.name), tr("Material"),
+          [index](const Patch& patch) { return patch.material == index; });
+    }
+    ++index;
+  }
+  index = 0;
+  for (const std::string& group : loaded->scene->groups()) {
+    if (entries.size() < most_names) {
+      add(QString::fromStdString(group), tr("Group"),
+          [index](const Patch& patch) { return patch.group == index; });
+    }
+    ++index;
+  }
+}
+
+std::vector<PaletteEntry> PaletteActions::patch_of(const QString& query) {
+  bool is_number = false;
+  const PatchId patch = query.section(QLatin1Char(' '), -1).toInt(&is_number);
+  const auto loaded = frame_.state.scene.loaded();
+  if (!is_number || !loaded || patch < 0 || patch >= loaded->scene->patch_count()) {
+    return {};
+  }
+  return {{tr("Select patch %1").arg(patch), tr("Patch"), {}, true, [this, patch] {
+             frame_.state.selection.select(patch);
+           }}};
+}
+
+}  // namespace transillum::viewer
