@@ -353,7 +353,7 @@ class AppearanceTest : public QObject {
       return window->findChild<QDockWidget*>(dock)->isVisible();
     };
     QTest::keyClick(window.get(), Qt::Key_1, Qt::ControlModifier);
-    QVERIFY(shown("lesson_dock") && shown("map_dock") && !shown("settings_dock"));
+    QVERIFY(shown("lesson_dock") && !shown("map_dock") && !shown("settings_dock"));
     QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
     QVERIFY(!shown("lesson_dock") && shown("settings_dock"));
     QTest::keyClick(window.get(), Qt::Key_3, Qt::ControlModifier);
@@ -365,21 +365,23 @@ class AppearanceTest : public QObject {
 
   void a_layout_is_as_the_user_left_it_until_it_is_reset() {
     const auto window = make_active_window();
-    auto* map = window->findChild<QDockWidget*>("map_dock");
-    map->close();
+    auto* patch = window->findChild<QDockWidget*>("inspector_dock");
+    window->views().docks.cover(false);
+    patch->close();
     QTest::keyClick(window.get(), Qt::Key_1, Qt::ControlModifier);
-    QVERIFY(map->isVisible());
+    QVERIFY(!patch->isVisible());
     QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
-    QVERIFY(!map->isVisible());
+    QVERIFY(!patch->isVisible());
     QTest::keyClick(window.get(), Qt::Key_0, Qt::ControlModifier);
-    QVERIFY(map->isVisible());
+    QVERIFY(patch->isVisible());
   }
 
   void all_layouts_are_remembered() {
     QSettings settings("transillum", "layouts");
     {
       const auto window = make_active_window();
-      window->findChild<QDockWidget*>("map_dock")->close();
+      window->views().docks.cover(false);
+      window->findChild<QDockWidget*>("inspector_dock")->close();
       QTest::keyClick(window.get(), Qt::Key_3, Qt::ControlModifier);
       window->views().docks.save(settings);
     }
@@ -387,7 +389,7 @@ class AppearanceTest : public QObject {
     QVERIFY(window->views().docks.load(settings));
     QVERIFY(window->findChild<QDockWidget*>("breakpoint_dock")->isVisible());
     QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
-    QVERIFY(!window->findChild<QDockWidget*>("map_dock")->isVisible());
+    QVERIFY(!window->findChild<QDockWidget*>("inspector_dock")->isVisible());
     QVERIFY(window->findChild<QDockWidget*>("settings_dock")->isVisible());
   }
 
@@ -399,6 +401,7 @@ class AppearanceTest : public QObject {
       panel->setFloating(true);
       QVERIFY(panel->isFloating() && panel->isVisible());
       QVERIFY(panel->windowFlags().testFlag(Qt::WindowMaximizeButtonHint));
+      QCOMPARE(panel->windowType(), Qt::Tool);  // it stays above the window
       window->findChild<QAction*>(layout)->trigger();
       QVERIFY2(!panel->isFloating(), layout);
     }

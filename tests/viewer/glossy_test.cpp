@@ -2,6 +2,7 @@
 //
 // Runs in which lobes take part, in the window: radiance toward the camera, lobes of a patch,
 // sliders of lobes, and the start and stop of such runs.
+#include <QAbstractButton>
 #include <QAction>
 #include <QCheckBox>
 #include <QDoubleSpinBox>
@@ -81,7 +82,7 @@ class GlossyTest : public QObject {
  private slots:
   void the_gallery_opens_glossy() {
     auto window = make_window(64);
-    window->findChild<QPushButton*>("built_in_gallery")->click();
+    window->findChild<QAbstractButton*>("built_in_gallery")->click();
     QVERIFY(wait_for([&] {
       return window->snapshot() && window->snapshot()->progress.finished && window->settled();
     }));

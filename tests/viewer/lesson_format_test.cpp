@@ -110,6 +110,15 @@ class LessonFormatTest : public QObject {
     QCOMPARE(l.pages[0].text, std::string("a\n\nb\n"));
   }
 
+  void a_lesson_says_how_many_minutes_it_takes() {
+    const std::string pages = R"("pages": [{"text": ""}]})";
+    QCOMPARE(lesson_from_text(R"({"title": "T", "minutes": 12, )" + pages, "a.json").minutes, 12);
+    QCOMPARE(lesson_from_text(R"({"title": "T", )" + pages, "a.json").minutes, 0);
+    for (const Lesson& built_in : built_in_lessons()) {
+      QVERIFY2(built_in.minutes >= 5 && built_in.minutes <= 30, built_in.title.c_str());
+    }
+  }
+
   void errors_name_file_page_and_key_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("expected");
@@ -131,6 +140,8 @@ class LessonFormatTest : public QObject {
     row("no object", "[]", "bad.json: must be an object");
     row("no title", R"({"pages": []})", "bad.json, title: is missing");
     row("no pages", R"({"title": "T"})", "bad.json, pages: ");
+    row("minutes", R"({"title": "T", "minutes": 0, "pages": [{"text": ""}]})",
+        "bad.json, minutes: ");
     row("empty pages", R"({"title": "T", "pages": []})", "bad.json, pages: ");
     row("unknown key", R"({"title": "T", "page": 3, "pages": [{"text": ""}]})", "\"page\"");
     row("page no object", lesson("3"), "bad.json, page 1: must be an object");

@@ -2,6 +2,7 @@
 //
 // Solves and results whose B is linear on patches, in the window: every pixel of the scene has the
 // color of B at its point, the plate and the inspector show B at a point and the coefficients.
+#include <QAbstractButton>
 #include <QAction>
 #include <QComboBox>
 #include <QLabel>
@@ -151,7 +152,7 @@ class LinearTest : public QObject {
   void cards_of_coarse_scenes_open_soft() {
     auto window = make_window(64);
     const auto open_card = [&](const char* name) {
-      window->findChild<QPushButton*>(QStringLiteral("built_in_%1").arg(name))->click();
+      window->findChild<QAbstractButton*>(QStringLiteral("built_in_%1").arg(name))->click();
       return wait_for([&] {
         return window->snapshot() && window->scene.spec() == name &&
                window->snapshot()->progress.finished && window->settled();

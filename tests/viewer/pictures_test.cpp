@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Renders the pictures of the manual and of the welcome page. If TRANSILLUM_PICTURES names a
+// Renders the pictures of the manual and of the first page. If TRANSILLUM_PICTURES names a
 // folder, they are written there (viewer/pictures/make); otherwise only a few are rendered and
 // checked not to be blank.
 #include <QComboBox>
@@ -57,6 +57,25 @@ struct PictureWindow : TestWindow {
 };
 
 QImage whole(TestWindow& window) { return window.grab().toImage(); }
+
+/// The picture of a lesson on the first page: the map of the page that enlarges it, or else the
+/// scene of the last page.
+void keep_card(TestWindow& window, LessonPanel& panel, int lesson) {
+  const auto& pages = at(panel.lessons(), lesson).pages;
+  const auto large = std::find_if(pages.begin(), pages.end(),
+                                  [](const Lesson::Page& page) { return page.large == "map"; });
+  const bool of_map = large != pages.end();
+  panel.show_page(lesson, static_cast<int>((of_map ? large : pages.end() - 1) - pages.begin()));
+  QVERIFY(settles(window));
+  const QImage picture = of_map ? window.findChild<MapView*>()->canvas()->grab().toImage()
+                                : window.views().page.scene_view()->picture(1);
+  constexpr QSize card(192, 120);
+  const QImage filling =
+      picture.scaled(card, Qt::KeepAspectRatioByExpanding, Qt::SmoothTransformation);
+  QRect middle(QPoint(), card);
+  middle.moveCenter(filling.rect().center());
+  keep(filling.copy(middle), QStringLiteral("card-%1.png").arg(lesson + 1), card);
+}
 
 }  // namespace
 
@@ -132,6 +151,7 @@ class PicturesTest : public QObject {
       panel->show_page(lesson, 0);
       QVERIFY(settles(window));
       keep(whole(window), QStringLiteral("lesson-%1.png").arg(lesson + 1), {960, 600});
+      keep_card(window, *panel, lesson);
     }
     // The Teach layout at a step with an exchange.
     panel->show_page(2, 1);

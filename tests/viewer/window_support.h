@@ -4,13 +4,20 @@
 #include <QVTKOpenGLNativeWidget.h>
 
 #include <QAbstractAnimation>
+#include <QAbstractButton>
+#include <QAbstractSpinBox>
 #include <QAction>
 #include <QApplication>
+#include <QComboBox>
 #include <QImage>
+#include <QLineEdit>
+#include <QMenuBar>
 #include <QMouseEvent>
 #include <QSet>
+#include <QSlider>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
+#include <QTabBar>
 #include <QTest>
 #include <QTimer>
 #include <algorithm>
@@ -151,8 +158,13 @@ struct TestWindow : SharedState, MainWindow {
   void set_options(const SolveOptions& solve, const SceneOptions& scene_options) {
     views().settings.set_options(solve, scene_options);
   }
-  /// Opens and solves a scene, with the options of the settings panel.
+  /// Opens and solves a scene, with the options of the settings panel. The map and the timeline,
+  /// which the layout in use may close, are shown with the first scene.
   void open(const QString& spec, Goal goal = {Goal::Kind::finished}) {
+    if (!scene.loaded()) {
+      views().docks.bring_to_front("timeline");
+      views().docks.bring_to_front("map");
+    }
     scene.open(spec.toStdString(), views().settings.options(), goal);
   }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return scene.snapshot(); }
@@ -197,6 +209,38 @@ inline std::unique_ptr<TestWindow> make_window(const SolveOptions& options) {
 /// A window with small settings, so that a test takes little time.
 inline std::unique_ptr<TestWindow> make_window(int directions = 32) {
   return make_window(SolveOptions{.directions = directions, .first_shot = {}});
+}
+
+/// What can be clicked or changed in a window as it is on the screen: buttons, fields, sliders,
+/// tabs and the titles of menus.
+inline QStringList controls_of(const QWidget& window) {
+  QStringList found;
+  for (const QWidget* part : window.findChildren<QWidget*>()) {
+    const bool on_screen = part->window() == &window && part->isVisible() && part->isEnabled() &&
+                           !part->visibleRegion().isEmpty();
+    if (!on_screen) {
+      continue;
+    }
+    const QWidget* around = part->parentWidget();
+    const bool of_field =
+        qobject_cast<const QComboBox*>(around) || qobject_cast<const QAbstractSpinBox*>(around);
+    if (const auto* bar = qobject_cast<const QTabBar*>(part)) {
+      for (int k = 0; k < bar->count(); ++k) {
+        found << "tab " + bar->tabText(k);
+      }
+    } else if (const auto* menus = qobject_cast<const QMenuBar*>(part)) {
+      for (const QAction* menu : menus->actions()) {
+        found << "menu " + menu->text();
+      }
+    } else if (const auto* button = qobject_cast<const QAbstractButton*>(part)) {
+      found << "button " + button->objectName() + ' ' + button->text();
+    } else if (qobject_cast<const QComboBox*>(part) ||
+               qobject_cast<const QAbstractSpinBox*>(part) || qobject_cast<const QSlider*>(part) ||
+               (qobject_cast<const QLineEdit*>(part) && !of_field)) {
+      found << "field " + part->objectName();
+    }
+  }
+  return found;
 }
 
 /// Saves a picture for inspection, in the folder named by TRANSILLUM_PICTURES, if it is set.

@@ -7,7 +7,6 @@
 #include <QLabel>
 #include <QMimeData>
 #include <QPushButton>
-#include <QSlider>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QToolButton>
@@ -18,7 +17,6 @@
 #include "lessons/lesson_panel.h"
 #include "scene/build/patch_count.h"
 #include "scene/color_controls.h"
-#include "scene/welcome_page.h"
 #include "solved_window.h"
 #include "window/base/view_state_applier.h"
 
@@ -62,33 +60,43 @@ class WindowTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void starts_with_the_list_of_scenes() {
+  void starts_with_the_first_page() {
     const auto window = make_window();
-    auto* button = window->findChild<QPushButton*>("built_in_furnace");
+    auto* button = window->findChild<QAbstractButton*>("built_in_furnace");
     QVERIFY(button && button->isVisible());
     QVERIFY(color_count(picture_of(window.get())) > 8);
+    QVERIFY(!window->scene.is_opening());  // nothing is solved yet
     QTest::mouseClick(button, Qt::LeftButton);
     QVERIFY(wait_for([&] { return window->snapshot() != nullptr; }));
     auto* scene_view = window->findChild<SceneView*>();
     QVERIFY(scene_view->isVisible());
-    // The list can be shown again, and left, without changing the scene.
-    auto* scenes = window->findChild<QAction*>("scenes");
-    scenes->trigger();
-    QVERIFY(button->isVisible() && !scene_view->isVisible());
+    // The page can be shown again, and left, without changing the scene.
+    auto* start = window->findChild<QAction*>("start");
+    start->trigger();
+    QVERIFY(button->isVisible() && !scene_view->isVisible() && start->isChecked());
+    for (const QDockWidget* dock : window->findChildren<QDockWidget*>()) {
+      QVERIFY2(!dock->isVisible(), qPrintable(dock->objectName()));
+    }
     QVERIFY(window->settled() || wait_for([&] { return window->settled(); }));
     QCOMPARE(window->scene.spec(), std::string("furnace"));
     QVERIFY(color_count(scene_view->picture(1)) > 2);
-    window->findChild<QPushButton*>("back_to_scene")->click();
-    QVERIFY(scene_view->isVisible());
-    // A lesson whose scene is open shows the scene instead of the list.
+    start->trigger();
+    QVERIFY(scene_view->isVisible() && !start->isChecked());
+    QVERIFY(window->findChild<QDockWidget*>("settings_dock")->isVisible());
+    // A lesson whose scene is open shows the scene instead of the page.
     window->files().open_lesson("1", 1);
     QVERIFY(wait_for([&] { return window->findChild<ViewStateApplier*>()->arrived(); }));
-    scenes->trigger();
+    start->trigger();
     QVERIFY(!scene_view->isVisible());
-    window->findChild<QPushButton*>("begin_lesson")->click();
+    window->findChild<QAbstractButton*>("lesson_1")->click();
     QVERIFY(wait_for([&] {
       return window->findChild<ViewStateApplier*>()->arrived() && scene_view->isVisible();
     }));
+    // Another scene is not shown beside the page of the lesson.
+    start->trigger();
+    button->click();
+    QVERIFY(wait_for([&] { return window->scene.spec() == "furnace"; }));
+    QVERIFY(wait_for([&] { return window->views().docks.current() == Layout::inspect; }));
   }
 
   void pictures_are_neither_blank_nor_uniform() {
@@ -316,46 +324,6 @@ class WindowTest : public QObject {
     QVERIFY2(too_large.isEmpty(), qPrintable(too_large.join("; ")));
   }
 
-  // The controls get their height late: they are hidden until a scene is shown.
-  void color_controls_get_their_height_in_windows_of_all_widths() {
-    for (const int width : {1120, 1232, 1344, 1392, 1424, 1440, 1520, 1600}) {
-      const auto window = make_window(8);
-      window->resize(width, 852);
-      QCoreApplication::processEvents();
-      window->open("furnace", {Goal::Kind::iteration});
-      window->colors.set_mode(width % 32 == 0 ? ColorMode::luminance : ColorMode::true_color);
-      QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
-      const auto* controls = window->findChild<ColorControls*>();
-      QVERIFY2(wait_for([&] { return controls->height() >= controls->sizeHint().height(); }, 2000),
-               qPrintable(QString("%1: %2, not %3")
-                              .arg(width)
-                              .arg(controls->height())
-                              .arg(controls->sizeHint().height())));
-    }
-  }
-
-  void color_controls_keep_their_arrangement_while_the_width_stays() {
-    const auto window = make_window();
-    ColorControls controls(window->colors);
-    auto* tool = new QToolButton;
-    tool->setText("Camera ");
-    controls.add_tool(tool);
-    controls.show();
-    const auto* slider = controls.findChild<QSlider*>("exposure_slider");
-    for (int width = controls.minimumWidth(); width < 900; width += 2) {
-      controls.resize(width, controls.sizeHint().height());
-      QCoreApplication::processEvents();
-      const bool hidden = slider->isHidden();
-      const int height = controls.sizeHint().height();
-      for (int k = 0; k < 3; ++k) {
-        QEvent again(QEvent::LayoutRequest);
-        QCoreApplication::sendEvent(&controls, &again);
-        const QByteArray at = QByteArray::number(width);
-        QVERIFY2(slider->isHidden() == hidden && controls.sizeHint().height() == height, at);
-      }
-    }
-  }
-
   void color_controls_do_not_overlap_in_a_narrow_view_data() {
     QTest::addColumn<bool>("projects");
     QTest::newRow("usual type") << false;
@@ -375,19 +343,18 @@ class WindowTest : public QObject {
     for (const ColorMode mode : {ColorMode::true_color, ColorMode::luminance}) {
       window->colors.set_mode(mode);
       QCoreApplication::processEvents();
-      QVERIFY2(controls.minimumWidth() <= 480,
-               qPrintable(QString::number(controls.minimumWidth())));
-      for (int width = controls.minimumWidth(); width < 900; width += 15) {
+      const int least = controls.minimumSizeHint().width();
+      QVERIFY2(least <= 480, qPrintable(QString::number(least)));
+      for (int width = least; width < 900; width += 15) {
         controls.resize(width, controls.sizeHint().height());
-        QCoreApplication::processEvents();
-        controls.resize(width, controls.sizeHint().height());  // more rows
         QCoreApplication::processEvents();
         std::vector<QRect> places;
         for (const QWidget* part : controls.findChildren<QWidget*>()) {
           const bool is_control = qobject_cast<const QComboBox*>(part) ||
                                   qobject_cast<const QAbstractSpinBox*>(part) ||
                                   qobject_cast<const QAbstractButton*>(part);
-          if (!is_control || !part->isVisible() || !controls.isAncestorOf(part->parentWidget())) {
+          // The controls of the color scale are in a menu.
+          if (!is_control || !part->isVisible() || part->window() != &controls) {
             continue;
           }
           const QRect place(part->mapTo(&controls, QPoint()), part->size());
@@ -407,42 +374,9 @@ class WindowTest : public QObject {
     }
   }
 
-  // The strip that holds the controls follows the number of their rows, also where the width
-  // changes while the page is hidden or a bar appears above.
-  void color_controls_get_the_height_of_their_rows() {
-    QWidget page;
-    auto* column = new QVBoxLayout(&page);
-    column->setContentsMargins(0, 0, 0, 0);
-    auto* strip = new QLabel("a bar");
-    column->addWidget(strip);
-    auto* outer = new QWidget;
-    auto* inner = new QVBoxLayout(outer);
-    const auto window = make_window();
-    auto* controls = new ColorControls(window->colors);
-    inner->addWidget(controls);
-    inner->addWidget(new QWidget, 1);
-    column->addWidget(outer, 1);
-    window->colors.set_mode(ColorMode::luminance);
-    page.resize(900, 400);
-    page.show();
-    std::size_t heights = 0;
-    int last = 0;
-    for (const int width : {900, 640, 900, 560, 620, 700, 500, 640, 660, 680, 560, 900, 480}) {
-      for (const bool hidden : {false, true}) {
-        outer->setVisible(!hidden);
-        strip->setVisible(!strip->isVisible());
-        page.resize(width, 400);
-        outer->show();
-        QTRY_COMPARE(controls->height(), controls->sizeHint().height());
-        heights += controls->height() != last ? 1 : 0;
-        last = controls->height();
-      }
-    }
-    QVERIFY(heights > 2);
-  }
-
   void a_panel_behind_others_does_no_work() {
     const auto window = make_window();
+    window->views().docks.cover(false);
     auto* dock = window->findChild<QDockWidget*>("received_dock");
     QVERIFY(!dock->isHidden());
     QVERIFY(!dock->widget()->isVisible());
@@ -488,15 +422,16 @@ class WindowTest : public QObject {
 
   void panels_can_be_closed_and_reopened() {
     const auto window = make_window();
-    auto* map = window->findChild<QDockWidget*>("map_dock");
-    map->close();
-    QVERIFY(!map->isVisible());
-    window->findChild<QAction*>("layout_inspect")->trigger();
-    QVERIFY(map->isVisible());
+    window->open("furnace");
+    auto* settings = window->findChild<QDockWidget*>("settings_dock");
+    settings->close();
+    QVERIFY(!settings->isVisible());
+    window->findChild<QAction*>("layout_reset")->trigger();
+    QVERIFY(settings->isVisible());
     window->findChild<QAction*>("layout_debug")->trigger();
-    QVERIFY(map->isVisible());
+    QVERIFY(window->findChild<QDockWidget*>("map_dock")->isVisible());
     QVERIFY(window->findChild<QDockWidget*>("algorithm_dock")->isVisible());
-    QVERIFY(!window->findChild<QDockWidget*>("settings_dock")->isVisible());
+    QVERIFY(!settings->isVisible());
   }
 };
 

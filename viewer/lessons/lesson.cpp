@@ -148,6 +148,7 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
   if (lesson.title.empty()) {
     object.fail_at("title", "is missing");
   }
+  object.read("minutes", lesson.minutes, 1, 600);
   const json* pages = object.find("pages");
   if (!pages || !pages->is_array() || pages->empty()) {
     object.fail_at("pages", "must be a list [ … ] of at least one page");

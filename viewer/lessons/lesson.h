@@ -29,6 +29,7 @@ struct Lesson {
   std::string file;  ///< the file that it was read from; a built-in lesson has a name without a
                      ///< folder
   bool built_in = false;
+  int minutes = 0;  ///< that a class takes; 0 if the file does not say
   std::vector<Page> pages;  ///< at least one
 };
 

@@ -97,7 +97,7 @@ void LessonPanel::make_page() {
   list_ = named("lesson_list", new ElidedComboBox);
   list_->setPlaceholderText(tr("Lessons"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  list_->installEventFilter(this);
+  qApp->installEventFilter(this);
   title_ = named("lesson_title", new QLabel);
   title_->setWordWrap(true);
   text_ = named("lesson_text", new PageText);
@@ -265,10 +265,13 @@ bool LessonPanel::eventFilter(QObject* watched, QEvent* event) {
   if (watched == text_ && event->type() == QEvent::Resize && theme::appearance().projector) {
     QTimer::singleShot(0, this, &LessonPanel::fit_text);
   }
-  if (watched == list_ && event->type() == QEvent::KeyPress) {
+  // The keys of a presenter turn pages, wherever the keyboard focus is, and do nothing else.
+  const auto* widget = qobject_cast<QWidget*>(watched);
+  if (event->type() == QEvent::KeyPress && lesson_ >= 0 && widget && widget->window() == window()) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     if (key == Qt::Key_PageUp || key == Qt::Key_PageDown) {
-      return true;  // these keys turn pages
+      (key == Qt::Key_PageUp ? previous_ : next_)->trigger();
+      return true;
     }
   }
   return QWidget::eventFilter(watched, event);
@@ -337,12 +340,13 @@ bool LessonPanel::scroll_on() {
 void LessonPanel::show_state() {
   list_->setCurrentIndex(lesson_);
   const bool any = lesson_ >= 0;
-  again_->setEnabled(any);
+  enable_if(*again_, any, tr("No lesson is open"));
   const bool first = any && page_ == 0, last = any && page_ + 1 == pages_of(lesson_);
-  previous_->setEnabled(any && (!first || lesson_ > 0));
+  enable_if(*previous_, any && (!first || lesson_ > 0),
+            any ? tr("This is the first page") : tr("No lesson is open"));
   previous_->setText(first && lesson_ > 0 ? tr("Previous lesson") : tr("Previous page"));
   const bool end = last && lesson_ + 1 == static_cast<int>(lessons_.size());
-  next_->setEnabled(!lessons_.empty() && !end);
+  enable_if(*next_, !lessons_.empty() && !end, tr("This is the last page of the last lesson"));
   next_->setText(end ? tr("No more pages") : last ? tr("Next lesson") : tr("Next page"));
   if (!any) {
     title_->setText(tr("Choose a lesson"));

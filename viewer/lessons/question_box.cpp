@@ -437,8 +437,11 @@ void QuestionBox::show_state() {
                    : solved_      ? tr("Ask again")
                                   : tr("Reveal the answer"));
   reveal_->setEnabled(asks);
-  count_->setEnabled(given && !solved_ && page_->question->kind != Question::Kind::area);
-  reset_->setEnabled(total_of(counts) > 0);
+  enable_if(*count_, given && !solved_ && page_->question->kind != Question::Kind::area,
+            solved_  ? tr("The answer is shown")
+            : given  ? tr("Areas are not counted")
+                     : tr("Give an answer first"));
+  reset_->setVisible(total_of(counts) > 0);
   if (!asks) {
     return;
   }

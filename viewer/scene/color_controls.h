@@ -8,17 +8,16 @@
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
-class QGridLayout;
-class QLabel;
 class QSlider;
 class QStackedWidget;
+class QToolButton;
 
 namespace transillum::viewer {
 
 class ShowMenu;
 
-/// The strip above the 3-D view: the quantity shown as color, its color scale, and the Show menu.
-/// One row, or two or three where it is narrow.
+/// The row above the 3-D view: the quantity shown as color, a menu of its color scale, and the Show
+/// menu.
 class ColorControls : public QWidget {
   Q_OBJECT
 
@@ -42,27 +41,20 @@ class ColorControls : public QWidget {
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
-  bool event(QEvent* event) override;
 
  private:
-  void make_quantity_row();
+  void make_quantity();
+  void make_scale_menu();
   QWidget* make_true_color_page();
   QWidget* make_map_page();
   void fill_quantities();
-  /// Chooses the number of rows by the width.
-  void arrange();
-  void ask_for_height();
   void show_choice();
 
   ColorChoice& colors_;
   QComboBox* quantity_;
+  QToolButton* scale_;  ///< its menu has the controls of the color scale
   QComboBox* mode_;
-  QGridLayout* grid_;
-  int rows_ = 0;
-  QWidget* quantity_row_;
   QStackedWidget* pages_;
-  QWidget* tools_;
-  QLabel* exposure_label_;
   QSlider* exposure_slider_;
   QDoubleSpinBox* exposure_;
   QCheckBox* automatic_;

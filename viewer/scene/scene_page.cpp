@@ -11,7 +11,7 @@
 #include "scene/scene_view.h"
 #include "scene/sharp_view.h"
 #include "scene/show_menu.h"
-#include "scene/welcome_page.h"
+#include "scene/start_page.h"
 #include "widgets/banner.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
@@ -28,12 +28,16 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   reading_bar_ = named("reading_bar", new Banner);
   vertical_bar_ = named("vertical_bar", new Banner);
   division_bar_ = named("division_bar", new Banner);
+  bars_ = new BannerStack;
+  for (Banner* bar : {loading_bar_, recovery_bar_, banner_}) {
+    bars_->add(bar);
+  }
+  for (Banner* bar : {light_bar_, orientation_bar_, division_bar_, vertical_bar_, reading_bar_}) {
+    bars_->add(bar, true);
+  }
   color_controls_ = new ColorControls(colors);
   scene_view_ = named("scene_view", new SceneView(focus, selection, colors, hidden_));
-  welcome_ = new WelcomePage;
-  connect(welcome_, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);
-  connect(welcome_, &WelcomePage::lesson_clicked, this, &ScenePage::lesson_clicked);
-  connect(welcome_, &WelcomePage::built_in_clicked, this, &ScenePage::built_in_clicked);
+  start_ = new StartPage;
   connect(scene_view_, &SceneView::eye_moved, &colors, &ColorChoice::set_eye);
   connect(color_controls_, &ColorControls::direction_toggled, scene_view_,
           &SceneView::set_direction_shown);
@@ -60,14 +64,13 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   color_controls_->add_tool(camera_);
 
   pages_ = new QStackedWidget;
-  pages_->addWidget(welcome_);
-  pages_->addWidget(make_scene(selection, colors));
-  make_scenes_action();
+  scene_ = make_scene(selection, colors);
+  pages_->addWidget(start_);
+  pages_->addWidget(scene_);
+  make_start_action();
 
   auto* layout = make_column(this, {}, 0);
-  layout->addWidget(recovery_bar_);
-  layout->addWidget(loading_bar_);
-  layout->addWidget(banner_);
+  layout->addWidget(bars_);
   layout->addWidget(pages_, 1);
 }
 
@@ -81,36 +84,41 @@ QWidget* ScenePage::make_scene(Selection& selection, ColorChoice& colors) {
   connect(bar, &ColorBar::patches_chosen, &selection, &Selection::select_all);
   view_and_bar->addWidget(bar);
   auto* scene_layout = make_column(scene, {}, 0);
-  scene_layout->addWidget(reading_bar_);
-  scene_layout->addWidget(vertical_bar_);
-  scene_layout->addWidget(division_bar_);
-  scene_layout->addWidget(light_bar_);
-  scene_layout->addWidget(orientation_bar_);
   scene_layout->addWidget(color_controls_);
   scene_layout->addWidget(note);
   scene_layout->addLayout(view_and_bar, 1);
   return scene;
 }
 
-void ScenePage::make_scenes_action() {
-  scenes_ = new QAction(theme::icon(theme::Icon::scene), tr("Scenes"), this);
-  scenes_->setObjectName("scenes");
-  scenes_->setCheckable(true);
-  scenes_->setChecked(true);
-  scenes_->setEnabled(false);  // until a scene is open
-  scenes_->setShortcut(QKeySequence(Qt::Key_W));
-  scenes_->setToolTip(tr("Show the built-in scenes and the lessons (W)"));
-  connect(scenes_, &QAction::toggled, this,
-          [this](bool chosen) { pages_->setCurrentIndex(chosen ? 0 : 1); });
-  connect(welcome_, &WelcomePage::back_clicked, this, &ScenePage::show_scene);
+void ScenePage::make_start_action() {
+  start_action_ = make_key_action(this, "start", tr("Start"),
+                                  tr("Show the scenes, the lessons and the recent files; the open "
+                                     "scene stays"),
+                                  Qt::Key_W);
+  start_action_->setCheckable(true);
+  start_action_->setChecked(true);
+  connect(start_action_, &QAction::triggered, this, [this] {
+    if (shows_start() && scene_view_->loaded()) {
+      show_scene();
+    } else {
+      show_start();
+    }
+  });
 }
 
-void ScenePage::set_loading(const QString& name) { welcome_->set_loading(name); }
+bool ScenePage::shows_start() const { return pages_->currentWidget() == start_; }
 
-void ScenePage::show_scene() {
-  scenes_->setEnabled(true);
-  welcome_->show_back_button();
-  scenes_->setChecked(false);
+void ScenePage::show_scene() { show_page(scene_); }
+
+void ScenePage::show_start() { show_page(start_); }
+
+void ScenePage::show_page(QWidget* page) {
+  start_action_->setChecked(page == start_);
+  if (pages_->currentWidget() != page) {
+    pages_->setCurrentWidget(page);
+    bars_->set_scene_shown(page == scene_);
+    emit start_shown(page == start_);
+  }
 }
 
 }  // namespace transillum::viewer

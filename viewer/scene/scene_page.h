@@ -15,12 +15,13 @@ class QStackedWidget;
 namespace transillum::viewer {
 
 class Banner;
+class BannerStack;
 class ColorControls;
 class SceneView;
 class SharpView;
-class WelcomePage;
+class StartPage;
 
-/// The center of the window: first the scenes to choose from, then the open scene with its colors.
+/// The center of the window: the first page, or the open scene with its colors.
 class ScenePage : public QWidget {
   Q_OBJECT
 
@@ -28,14 +29,13 @@ class ScenePage : public QWidget {
   ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors,
             QWidget* parent = nullptr);
 
+  // Bars, one of which is shown at a time.
   Banner* banner() const { return banner_; }
-  /// The topmost bar: it offers to resume a session.
+  /// The bar that offers to resume a session.
   Banner* recovery_bar() const { return recovery_bar_; }
-  /// The bar above banner(): it shows the scene that is being loaded.
+  /// The bar that shows the scene that is being loaded.
   Banner* loading_bar() const { return loading_bar_; }
-  /// Names the scene that is being loaded on the page where scenes are chosen; empty if none is.
-  void set_loading(const QString& name);
-  /// The bars below banner(): they show what the window offers for the open scene.
+  /// The bars that show what the window offers for the open scene.
   Banner* light_bar() const { return light_bar_; }
   Banner* orientation_bar() const { return orientation_bar_; }
   /// The bar that says that faces were divided unasked.
@@ -51,29 +51,33 @@ class ScenePage : public QWidget {
   QAction* turntable_action() const { return camera_->turntable(); }
   HiddenPatches& hidden() { return hidden_; }
   CameraBookmarks& bookmarks() { return bookmarks_; }
-  /// Shows the open scene in place of the scenes to choose from.
+  StartPage* start() const { return start_; }
   void show_scene();
-  /// Switches between the scenes to choose from and the open scene.
-  QAction* scenes_action() const { return scenes_; }
+  void show_start();
+  bool shows_start() const;
+  /// Shows the first page, or returns to the scene; checked while the first page is shown.
+  QAction* start_action() const { return start_action_; }
 
  signals:
-  void open_clicked();
-  void lesson_clicked();
-  void built_in_clicked(const QString& name);
   void replicas_requested();
+  /// The first page is shown, or the scene in its place.
+  void start_shown(bool shown);
 
  private:
   QWidget* make_scene(Selection& selection, ColorChoice& colors);
-  void make_scenes_action();
+  void make_start_action();
+  void show_page(QWidget* page);
 
   CameraBookmarks bookmarks_;
   HiddenPatches hidden_;
   CameraMenu* camera_;
   Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_, *reading_bar_,
       *vertical_bar_, *division_bar_;
+  BannerStack* bars_;
   QStackedWidget* pages_;
-  WelcomePage* welcome_;
-  QAction* scenes_;
+  StartPage* start_;
+  QWidget* scene_;
+  QAction* start_action_;
   ColorControls* color_controls_;
   SceneView* scene_view_;
   SharpView* sharp_;

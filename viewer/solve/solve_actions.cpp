@@ -40,8 +40,11 @@ SolveActions::SolveActions(QObject* parent) : QObject(parent) {
   show_state(RunState::empty, true);
 }
 
-void SolveActions::add_to(QWidget& bar) const {
-  bar.addActions({run_, pause_, one_direction_, one_iteration_, stop_});
+void SolveActions::add_to(QWidget& menu) const { menu.addActions(tools(true)); }
+
+QList<QAction*> SolveActions::tools(bool single) const {
+  return single ? QList<QAction*>{run_, pause_, one_direction_, one_iteration_, stop_}
+                : QList<QAction*>{run_, pause_, stop_};
 }
 
 void SolveActions::show_state(RunState state, bool at_start) {
@@ -49,11 +52,16 @@ void SolveActions::show_state(RunState state, bool at_start) {
   const bool running = state == RunState::running;
   const bool loading = state == RunState::loading;
   stop_->setText(loading ? tr("Stop loading") : tr("Start over"));
-  run_->setEnabled(paused);
-  pause_->setEnabled(running);
-  one_direction_->setEnabled(paused || running);
-  one_iteration_->setEnabled(paused || running);
-  stop_->setEnabled(loading || running || state == RunState::finished || (paused && !at_start));
+  const QString why = state == RunState::empty      ? tr("No scene is open")
+                      : loading                     ? tr("A scene is being loaded")
+                      : state == RunState::finished ? tr("The solve has converged")
+                                                    : tr("The solve is under way");
+  enable_if(*run_, paused, why);
+  enable_if(*pause_, running, paused ? tr("The solve is paused") : why);
+  enable_if(*one_direction_, paused || running, why);
+  enable_if(*one_iteration_, paused || running, why);
+  enable_if(*stop_, loading || running || state == RunState::finished || (paused && !at_start),
+            paused ? tr("The solve is at its first direction") : why);
 }
 
 }  // namespace transillum::viewer

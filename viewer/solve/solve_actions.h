@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QList>
 #include <QObject>
 
 #include "model/snapshot.h"
@@ -17,8 +18,9 @@ class SolveActions : public QObject {
  public:
   explicit SolveActions(QObject* parent = nullptr);
 
-  /// @param bar  a menu or a tool bar
-  void add_to(QWidget& bar) const;
+  void add_to(QWidget& menu) const;
+  /// The actions of a tool bar. @param single  also those for a single direction and iteration
+  QList<QAction*> tools(bool single) const;
   /// Enables the actions that apply.
   /// @param at_start no direction has been processed yet
   void show_state(RunState state, bool at_start);

@@ -123,12 +123,13 @@ void StepActions::iteration(StepOrder order) { focus_.iteration_by(sign(order));
 void StepActions::show_state() {
   const bool any = focus_.passes() > 0 && focus_.map();
   for (QAction* action : actions_) {
-    action->setEnabled(any);
+    enable_if(*action, any, tr("No direction is shown yet"));
   }
   const bool patch = any && selection_.patch() != no_patch;
-  next_event_->setEnabled(patch);
-  previous_event_->setEnabled(patch);
-  newest_->setEnabled(focus_.passes() > 0);
+  for (QAction* action : {next_event_, previous_event_}) {
+    enable_if(*action, patch, tr("No patch is selected"));
+  }
+  enable_if(*newest_, focus_.passes() > 0, tr("No scene is solved yet"));
   newest_->setChecked(focus_.following());
 }
 

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QToolButton>
+#include <utility>
 
 #include "transillum/at.h"
 #include "widgets/build.h"
@@ -38,6 +39,10 @@ Banner::Banner(QWidget* parent) : QFrame(parent) {
   layout_ = make_row(this, {12, 7, 8, 7}, 10);
   layout_->addWidget(icon_, 0, Qt::AlignVCenter);
   layout_->addWidget(text_, 1);
+  next_ = named("next_message", new QPushButton, tr("Show the next message"));
+  next_->hide();
+  layout_->addWidget(next_, 0, Qt::AlignVCenter);
+  connect(next_, &QPushButton::clicked, this, &Banner::next_clicked);
   layout_->addWidget(close, 0, Qt::AlignVCenter);
   connect(close, &QToolButton::clicked, this, [this] {
     dismiss();
@@ -48,7 +53,7 @@ Banner::Banner(QWidget* parent) : QFrame(parent) {
 
 QPushButton* Banner::add_button(const char* name, const QString& text) {
   auto* button = named(name, new QPushButton(text));
-  layout_->insertWidget(layout_->count() - 1, button, 0, Qt::AlignVCenter);
+  layout_->insertWidget(layout_->count() - 2, button, 0, Qt::AlignVCenter);
   return button;
 }
 
@@ -67,11 +72,69 @@ void Banner::show_message(Kind kind, const QString& text, const QString& details
                                "%3 QPushButton:disabled { color: #8b929b; }")
                     .arg(QLatin1String(style.background), QLatin1String(style.border),
                          QLatin1String("transillum--viewer--Banner")));
-  show();
+  // A bar that repeats its message stays where it is among the others.
+  if (!std::exchange(has_message_, true) || kind == Kind::error) {
+    show();
+    emit changed(kind == Kind::error);
+  }
 }
 
-void Banner::dismiss() { hide(); }
+void Banner::dismiss() {
+  hide();
+  if (std::exchange(has_message_, false)) {
+    emit changed(false);
+  }
+}
 
-QString Banner::text() const { return isHidden() ? QString() : text_->text(); }
+QString Banner::text() const { return has_message_ ? text_->text() : QString(); }
+
+void Banner::show_place(int place, int count) {
+  next_->setText(tr("%1 of %2 ›").arg(place).arg(count));
+  next_->setVisible(count > 1);
+}
+
+BannerStack::BannerStack(QWidget* parent) : QWidget(parent) { make_column(this, {}, 0); }
+
+void BannerStack::add(Banner* banner, bool of_scene) {
+  banners_ << banner;
+  if (of_scene) {
+    of_scene_ << banner;
+  }
+  layout()->addWidget(banner);
+  connect(banner, &Banner::changed, this, [this, banner](bool urgent) {
+    const bool before = !front_ || banners_.indexOf(banner) < banners_.indexOf(front_);
+    arrange(urgent || before ? banner : front_);
+  });
+  connect(banner, &Banner::next_clicked, this, [this] {
+    const QVector<Banner*> all = present();
+    arrange(all[(all.indexOf(front_) + 1) % all.size()]);
+  });
+}
+
+void BannerStack::set_scene_shown(bool shown) {
+  scene_shown_ = shown;
+  arrange(front_);
+}
+
+QVector<Banner*> BannerStack::present() const {
+  QVector<Banner*> present;
+  for (Banner* banner : banners_) {
+    if (banner->has_message_ && (scene_shown_ || !of_scene_.contains(banner))) {
+      present << banner;
+    }
+  }
+  return present;
+}
+
+void BannerStack::arrange(Banner* wanted) {
+  const QVector<Banner*> all = present();
+  front_ = all.contains(wanted) ? wanted : all.value(0);
+  for (Banner* banner : banners_) {
+    banner->setVisible(banner == front_);
+  }
+  if (front_) {
+    front_->show_place(all.indexOf(front_) + 1, all.size());
+  }
+}
 
 }  // namespace transillum::viewer

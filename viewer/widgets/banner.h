@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QFrame>
+#include <QVector>
 
 class QHBoxLayout;
 class QLabel;
@@ -24,17 +25,49 @@ class Banner : public QFrame {
   /// Replaces the shown message. `details` is the tool tip.
   void show_message(Kind kind, const QString& text, const QString& details = {});
   void dismiss();
-  /// The shown message; empty while the bar is hidden.
+  /// The present message, which another bar may hide; empty without one.
   QString text() const;
 
  signals:
   /// The user has closed it.
   void closed();
+  /// There is a message now, or none any more; `urgent` if it is an error.
+  void changed(bool urgent);
+  void next_clicked();
 
  private:
+  friend class BannerStack;
+  void show_place(int place, int count);
+
   QHBoxLayout* layout_;
   QLabel* icon_;
   QLabel* text_;
+  QPushButton* next_;  ///< "1 of 3"
+  bool has_message_ = false;
+};
+
+/// Several bars in the place of one: the bar in front says how many there are, and a button goes to
+/// the next.
+class BannerStack : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit BannerStack(QWidget* parent = nullptr);
+
+  /// Adds a bar. Of bars that get messages, the one added first comes to the front; an error always
+  /// does.
+  /// @param of_scene  whether the bar is about the open scene
+  void add(Banner* banner, bool of_scene = false);
+  /// Bars about the scene are shown only while it is.
+  void set_scene_shown(bool shown);
+
+ private:
+  void arrange(Banner* wanted);
+  QVector<Banner*> present() const;
+
+  QVector<Banner*> banners_, of_scene_;
+  Banner* front_ = nullptr;
+  bool scene_shown_ = false;
 };
 
 }  // namespace transillum::viewer

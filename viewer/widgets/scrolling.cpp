@@ -1,37 +1,31 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "widgets/scrolling.h"
 
+#include <QAbstractSpinBox>
+#include <QApplication>
+#include <QComboBox>
 #include <QEvent>
 #include <QPointer>
 #include <QScrollArea>
-#include <QStyle>
-#include <algorithm>
+#include <QSlider>
 
 namespace transillum::viewer {
 
 namespace {
 
-/// Its minimum width grows with the content, so that nothing is cut off at the right.
+/// Its width does not depend on the content: a panel whose values become longer must not move the
+/// scene beside it.
 class VerticalScrollArea : public QScrollArea {
  public:
   explicit VerticalScrollArea(QWidget* content) {
     setWidget(content);
     setWidgetResizable(true);
     setFrameShape(QFrame::NoFrame);
-    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    widen();
   }
 
   void keep_visible(QWidget* part) {
     kept_ = part;
     ensureWidgetVisible(part, 0, part->height());
-  }
-
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() == QEvent::LayoutRequest) {
-      widen();
-    }
-    return QScrollArea::eventFilter(watched, event);
   }
 
  protected:
@@ -51,15 +45,54 @@ class VerticalScrollArea : public QScrollArea {
   }
 
  private:
-  void widen() {
-    setMinimumWidth(std::max(widget()->minimumSizeHint().width(), widget()->minimumWidth()) +
-                    style()->pixelMetric(QStyle::PM_ScrollBarExtent));
-  }
-
   QPointer<QWidget> kept_;  ///< last argument of scroll_to()
 };
 
 }  // namespace
+
+namespace {
+
+class WheelGuard : public QObject {
+ public:
+  using QObject::QObject;
+
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    const bool concerned = event->type() == QEvent::Wheel || event->type() == QEvent::Polish;
+    auto* field = concerned ? changed_by_wheel(watched) : nullptr;
+    if (!field) {
+      return false;
+    }
+    if (event->type() == QEvent::Polish) {
+      if (field->focusPolicy() == Qt::WheelFocus) {
+        field->setFocusPolicy(Qt::StrongFocus);  // the wheel must not give it the focus
+      }
+      return false;
+    }
+    if (field->hasFocus()) {
+      return false;
+    }
+    event->ignore();  // Qt then sends it to the parent
+    return true;
+  }
+
+ private:
+  static QWidget* changed_by_wheel(QObject* object) {
+    const bool is_field = qobject_cast<QComboBox*>(object) ||
+                          qobject_cast<QAbstractSpinBox*>(object) || qobject_cast<QSlider*>(object);
+    return is_field ? static_cast<QWidget*>(object) : nullptr;
+  }
+};
+
+}  // namespace
+
+void guard_wheel(QApplication& application) {
+  const QString name = QStringLiteral("wheel_guard");
+  if (!application.findChild<QObject*>(name, Qt::FindDirectChildrenOnly)) {
+    auto* guard = new WheelGuard(&application);
+    guard->setObjectName(name);
+    application.installEventFilter(guard);
+  }
+}
 
 QWidget* scrollable(QWidget* content) { return new VerticalScrollArea(content); }
 

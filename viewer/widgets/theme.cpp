@@ -271,12 +271,18 @@ QPalette make_palette() {
   return palette;
 }
 
-QString style_sheet() {
+QString style_sheet(const QPalette& application_palette) {
   return QStringLiteral(R"(
     QToolBar { border: none; border-bottom: 1px solid %1; padding: 3px 6px; spacing: 4px; }
     QToolBar QToolButton { padding: 4px 9px 4px 6px; border-radius: 4px; }
     QToolBar QToolButton:hover:enabled { background: %2; }
     QToolBar QToolButton:pressed { background: %1; }
+    QToolBar QToolButton[workspace="true"] { padding: 5px 14px; font-weight: bold; }
+    QToolBar QToolButton[workspace="true"]:checked { background: %4; color: %5; }
+    QMainWindow > QTabBar::tab { background: %3; color: %6; padding: 5px 8px 4px 8px;
+      border: none; border-right: 1px solid %1; border-top: 3px solid %3; }
+    QMainWindow > QTabBar::tab:hover { background: %2; }
+    QMainWindow > QTabBar::tab:selected { background: %7; color: %8; border-top: 3px solid %4; }
     QStatusBar { border-top: 1px solid %1; }
     QStatusBar::item { border: none; }
     QDockWidget { font-weight: bold; }
@@ -291,19 +297,19 @@ QString style_sheet() {
     QMainWindow::separator:hover { background: %4; }
     QToolTip { border: 1px solid %1; padding: 4px; }
     QPushButton[segment="true"] { border: 1px solid %1; border-radius: 4px; padding: 5px 2px;
-      background: %6; }
+      background: %7; }
     QPushButton[segment="true"]:hover:enabled { background: %2; }
     QPushButton[segment="true"]:focus { border-color: %4; }
     QPushButton[segment="true"]:checked { border-color: %4; color: %4; font-weight: bold; }
     QPushButton[primary="true"] { border: 1px solid %4; border-radius: 4px; padding: 7px;
       background: %4; color: %5; }
-    QPushButton[primary="true"]:hover { border-color: %7; }
-    QPushButton[primary="true"]:focus { border-color: %7; }
-    QPushButton[primary="true"]:disabled { background: %3; border-color: %1; color: %8; }
+    QPushButton[primary="true"]:hover { border-color: %8; }
+    QPushButton[primary="true"]:focus { border-color: %8; }
+    QPushButton[primary="true"]:disabled { background: %3; border-color: %1; color: %6; }
   )")
       .arg(rule.name(), hover.name(), title.name(), accent.name(),
-           current.dark ? paper.name() : QStringLiteral("#ffffff"), paper.name(), ink.name(),
-           ink_dim.name());
+           application_palette.color(QPalette::HighlightedText).name(), ink_dim.name(),
+           paper.name(), ink.name());
 }
 
 }  // namespace
@@ -321,7 +327,8 @@ void apply(QApplication& application, const Appearance& appearance) {
   line_scale = appearance.projector ? projector_scale() : 1;
   set_colors(appearance);
   application.setStyle(new ScaledStyle);
-  application.setPalette(make_palette());
+  const QPalette palette = make_palette();
+  application.setPalette(palette);
   QFont font = application.font();
   const QFont preferred(QStringLiteral("DejaVu Sans"));
   if (QFontInfo(preferred).family() == preferred.family()) {
@@ -329,7 +336,7 @@ void apply(QApplication& application, const Appearance& appearance) {
   }
   font.setPixelSize(scaled(type_size));
   application.setFont(font);
-  application.setStyleSheet(style_sheet());
+  application.setStyleSheet(style_sheet(palette));
 }
 
 }  // namespace transillum::viewer::theme

@@ -129,7 +129,7 @@ struct Definitions {
     app.set_help_all_flag("--help-all", "show all options, by group");
     app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
     app.add_option("SCENE", line.scene,
-                   "a scene file or a built-in scene, solved at once (default: sphere-flake); or a "
+                   "a scene file or a built-in scene, solved at once; or a "
                    "result (.vtp), a session or a lesson (.json)");
     cli::add_sections(app, options,
                       {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches",

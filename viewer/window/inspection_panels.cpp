@@ -66,8 +66,7 @@ InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QW
 }
 
 void InspectionPanels::add_materials_to(DockLayouts& docks) {
-  material_dock_ = docks.add(tr("Materials"), "material_dock", scrollable(materials_),
-                             {{Layout::inspect, Qt::LeftDockWidgetArea, 345, true}});
+  material_dock_ = docks.add(tr("Materials"), "material_dock", scrollable(materials_));
   // The signal is also sent for tabs behind others, whose isVisible() is always true.
   connect(material_dock_, &QDockWidget::visibilityChanged, this, [this](bool visible) {
     if (visible) {
@@ -76,26 +75,22 @@ void InspectionPanels::add_materials_to(DockLayouts& docks) {
   });
 }
 
+void InspectionPanels::add_light_to(DockLayouts& docks, QWidget& received) {
+  const auto add = [&docks](const QString& title, const char* name, auto* panel) {
+    const QDockWidget* dock = docks.add(title, name, panel);
+    connect(dock, &QDockWidget::visibilityChanged, panel,
+            &std::remove_pointer_t<decltype(panel)>::set_watched);
+  };
+  add(tr("Light paths"), "paths_dock", paths_);
+  docks.add(tr("Received light"), "received_dock", &received);
+  add(tr("Surfaces"), "parts_dock", surfaces_);
+}
+
 void InspectionPanels::add_tables_to(DockLayouts& docks) {
-  table_dock_ = docks.add(tr("Patches"), "table_dock", tables_,
-                          {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
+  table_dock_ = docks.add(tr("Patches"), "table_dock", tables_);
   connect(table_dock_, &QDockWidget::visibilityChanged, tables_, &PatchTablePanel::set_watched);
-  const QDockWidget* surfaces = docks.add(tr("Surfaces"), "parts_dock", surfaces_,
-                                          {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
-  connect(surfaces, &QDockWidget::visibilityChanged, surfaces_, &SurfacePanel::set_watched);
-  const QDockWidget* paths = docks.add(tr("Light paths"), "paths_dock", paths_,
-                                       {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
-  connect(paths, &QDockWidget::visibilityChanged, paths_, &PathPanel::set_watched);
-}
-
-void InspectionPanels::add_runs_to(DockLayouts& docks) {
-  docks.add(tr("Kept runs"), "runs_dock", runs_,
-            {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
-}
-
-void InspectionPanels::add_warnings_to(DockLayouts& docks) {
-  docks.add(tr("Warnings"), "warnings_dock", warnings_,
-            {{Layout::inspect, Qt::RightDockWidgetArea, 400, true}});
+  docks.add(tr("Kept runs"), "runs_dock", runs_);
+  docks.add(tr("Warnings"), "warnings_dock", warnings_);
 }
 
 void InspectionPanels::add_to(QMenuBar& bar) {

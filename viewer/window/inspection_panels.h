@@ -38,9 +38,9 @@ class InspectionPanels : public QObject {
   InspectionPanels(SharedState& state, HiddenPatches& hidden, QWidget* window);
 
   void add_materials_to(DockLayouts& docks);
+  /// Adds what is about the light of the selected patch, and the panel `received` among it.
+  void add_light_to(DockLayouts& docks, QWidget& received);
   void add_tables_to(DockLayouts& docks);
-  void add_runs_to(DockLayouts& docks);
-  void add_warnings_to(DockLayouts& docks);
   /// Adds the menus Edit and Compare.
   void add_to(QMenuBar& bar);
 

@@ -17,6 +17,7 @@
 #include <string>
 #include <utility>
 
+#include "scene/scene_page.h"
 #include "solve/settings_panel.h"
 #include "support/failure_text.h"
 #include "support/number_text.h"
@@ -103,12 +104,6 @@ bool has_opengl() {
   std::_Exit(1);
 }
 
-/// The scene to open; without arguments, a scene that shows the progress of a solve well.
-std::string scene_of(const CommandLine& command_line) {
-  return command_line.scene.empty() && command_line.lesson.empty() ? "sphere-flake"
-                                                                   : command_line.scene;
-}
-
 std::optional<Goal> goal_of(const CommandLine& command_line) {
   if (command_line.after > 0) {
     return Goal{Goal::Kind::passes, command_line.after};
@@ -161,13 +156,13 @@ void export_lesson(MainWindow& window, const std::string& path,
 
 /// @throws InputError where a session or a lesson cannot be read
 void open_arguments(MainWindow& window, const CommandLine& command_line) {
-  const std::string scene = scene_of(command_line);
   if (command_line.up) {
     window.findChild<VerticalControl*>()->prefer(*command_line.up);
   }
-  if (!scene.empty()) {
+  if (!command_line.scene.empty()) {
+    window.views().page.show_scene();
     window.files().set_divides(command_line.first_look);
-    window.files().open(QString::fromStdString(scene), goal_of(command_line),
+    window.files().open(QString::fromStdString(command_line.scene), goal_of(command_line),
                         command_line.options.input, command_line.reading_given);
   }
   window.files().set_divides(true);

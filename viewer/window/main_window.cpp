@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/main_window.h"
 
+#include <QApplication>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QDragEnterEvent>
@@ -12,7 +13,7 @@
 #include <QStandardPaths>
 #include <QStatusBar>
 #include <QTimer>
-#include <QToolBar>
+#include <algorithm>
 #include <exception>
 #include <optional>
 
@@ -64,6 +65,7 @@
 #include "window/files/frame_recorder.h"
 #include "window/files/lesson_export.h"
 #include "window/files/recovery.h"
+#include "window/files/thumbnails.h"
 #include "window/files/window_session.h"
 #include "window/inspection_panels.h"
 #include "window/layout_memory.h"
@@ -73,7 +75,9 @@
 #include "window/menus/projector_mode.h"
 #include "window/scene_bars.h"
 #include "window/solve_control.h"
+#include "window/start_control.h"
 #include "window/vertical_control.h"
+#include "window/workspace_bar.h"
 
 namespace transillum::viewer {
 
@@ -98,6 +102,7 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
     : QMainWindow(parent), state_(state), remember_(remember) {
   setWindowTitle(tr("transillum"));
   setAcceptDrops(true);
+  guard_wheel(*qApp);
   make_views();
   // Views receive scenes and snapshots in the order in which they are connected here.
   connect_views();
@@ -115,6 +120,11 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
     memory_->restore();
     (new Recovery(frame(), *session_, Recovery::usual_folder()))->offer();
   }
+  const auto* thumbnails = remember_ ? new Thumbnails(frame(), Thumbnails::usual_folder(),
+                                                      [this] { return applier_->in_lesson(); })
+                                     : nullptr;
+  new StartControl(frame(), docks_, *files_, *lesson_panel_, full_screen_, thumbnails);
+  docks_.cover(page_->shows_start());
 }
 
 MainWindow::~MainWindow() = default;
@@ -197,10 +207,6 @@ void MainWindow::make_whole_window_actions() {
   lesson_panel_->set_guard([this] {
     return applier_->in_lesson() || work_guard_.may_lose(this, tr("Begin the lesson"));
   });
-  connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
-  connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
-  connect(page_, &ScenePage::built_in_clicked, files_,
-          [this](const QString& name) { files_->open_scene(name); });
   state_.breakpoints.set_undo_stack(&state_.undo);
   state_.watches.set_undo_stack(&state_.undo);
   page_->bookmarks().set_undo_stack(&state_.undo);
@@ -208,45 +214,39 @@ void MainWindow::make_whole_window_actions() {
 }
 
 void MainWindow::make_docks() {
-  constexpr auto teach = Layout::teach;
-  constexpr auto inspect = Layout::inspect, debug = Layout::debug;
-  constexpr auto left = Qt::LeftDockWidgetArea, right = Qt::RightDockWidgetArea;
-  constexpr auto bottom = Qt::BottomDockWidgetArea;
-  docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_, {{teach, left, 700}});
-  docks_.add(tr("Notes"), "notes_dock", notes_, {{teach, left, 700, true}});
-  docks_.add(tr("Solve settings"), "settings_dock", settings_, {{inspect, left, 495}});
-  docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 305}});
-  docks_.add(tr("Summary"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
+  docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_);
+  docks_.add(tr("Notes"), "notes_dock", notes_);
+  docks_.add(tr("Solve settings"), "settings_dock", settings_);
+  docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_));
+  docks_.add(tr("Summary"), "summary_dock", scrollable(summary_));
   inspection_->add_materials_to(docks_);
-  map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
-                         {{teach, right, 400}, {inspect, right, 450}, {debug, right, 480}});
-  docks_.add(tr("Error"), "error_dock", error_view_, {{teach, right, 400, true}});
-  docks_.add(tr("Lobes"), "lobe_dock", lobe_view_,
-             {{teach, right, 400, true}, {inspect, right, 450, true}});
+  map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_);
+  docks_.add(tr("Error"), "error_dock", error_view_);
+  docks_.add(tr("Lobes"), "lobe_dock", lobe_view_);
+  docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_));
+  inspection_->add_light_to(docks_, *received_view_);
   inspection_->add_tables_to(docks_);
-  docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_),
-             {{inspect, right, 450, true}, {debug, right, 480, true}});
-  inspection_->add_runs_to(docks_);
-  docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_),
-             {{teach, right, 420}, {debug, left, 560}});
-  docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
-  docks_.add(tr("Charts"), "convergence_dock", scrollable(convergence_view_),
-             {{teach, right, 420, true}, {inspect, right, 400}});
-  docks_.add(tr("Directions"), "direction_dock", direction_view_,
-             {{teach, right, 420, true}, {inspect, right, 400, true}});
-  docks_.add(tr("Events"), "event_dock", step_panel_,
-             {{teach, right, 420, true}, {debug, right, 260}});
-  docks_.add(tr("BSP tree"), "tree_dock", new TreeView(state_.focus, state_.selection),
-             {{teach, right, 420, true}, {debug, right, 260, true}});
-  docks_.add(tr("Received light"), "received_dock", received_view_,
-             {{inspect, right, 400, true}, {debug, right, 260, true}});
-  inspection_->add_warnings_to(docks_);
-  QDockWidget* timeline_dock =
-      docks_.add(tr("Timeline"), "timeline_dock", timeline_,
-                 {{teach, bottom, 132}, {inspect, bottom, 132}, {debug, bottom, 132}});
+  docks_.add(tr("Charts"), "convergence_dock", scrollable(convergence_view_));
+  docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_));
+  docks_.add(tr("Events"), "event_dock", step_panel_);
+  docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_);
+  docks_.add(tr("BSP tree"), "tree_dock", new TreeView(state_.focus, state_.selection));
+  docks_.add(tr("Directions"), "direction_dock", direction_view_);
+  QDockWidget* timeline_dock = docks_.add(tr("Timeline"), "timeline_dock", timeline_);
   timeline_dock->setTitleBarWidget(new QWidget);  // a title would take too much of a projector
-  connect(map_dock_, &QDockWidget::visibilityChanged, &state_.focus_feed,
-          [this] { state_.focus_feed.set_watched(!map_dock_->isHidden()); });
+  // Maps are recorded only while a panel shows them.
+  for (const char* name : {"map", "algorithm", "event", "tree", "compare", "timeline"}) {
+    auto* dock = findChild<QDockWidget*>(QStringLiteral("%1_dock").arg(name));
+    map_docks_ << dock;
+    // The docks outlive the members of the window.
+    connect(dock, &QDockWidget::visibilityChanged, &docks_, [this] { watch_maps(); });
+  }
+}
+
+void MainWindow::watch_maps() {
+  state_.focus_feed.set_watched(
+      std::any_of(map_docks_.begin(), map_docks_.end(),
+                  [](const QDockWidget* dock) { return !dock->isHidden(); }));
 }
 
 /// Connects views with one another, through the shared state.
@@ -451,14 +451,14 @@ void MainWindow::make_menus() {
   keys->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
   help->addAction(tr("All settings"), this, [this] { show_settings(*this); });
   help->addAction(tr("About transillum"), this, [this] { show_about(this); });
-  make_tool_bar();
+  addToolBar(
+      new WorkspaceBar(docks_, *page_->start_action(), *files_->open_action(), *solve_actions_));
   new ContextMenus(frame(), docks_);
 }
 
 void MainWindow::make_file_menu() {
   QMenu* file = menuBar()->addMenu(tr("&File"));
   fill_built_in_menu(*file->addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene")));
-  file->addAction(page_->scenes_action());
   files_->add_to(*file);
   file->addAction(exports_->save_scene_action());
   file->addAction(exports_->color_action());
@@ -472,6 +472,7 @@ void MainWindow::make_file_menu() {
 
 void MainWindow::make_view_menu() {
   QMenu* view = menuBar()->addMenu(tr("&View"));
+  view->addAction(page_->start_action());
   docks_.add_to(*view);
   view->addSeparator();
   appearance_.add_to(*view);
@@ -484,31 +485,20 @@ void MainWindow::make_view_menu() {
   view->addAction(page_->sharp()->action());
   view->addAction(page_->color_controls()->show_menu()->next_clip_axis());
   QAction* stop = view->addAction(
-      tr("Stop loading or searching, or clear the selection"), this,
+      tr("Stop loading or searching, leave the full screen, or clear the selection"), this,
       [this] {
         if (state_.runner.state() == RunState::loading) {
           state_.runner.stop();
         } else if (state_.focus.seeking()) {
           state_.focus.stop();
+        } else if (full_screen_.action()->isChecked()) {
+          full_screen_.action()->trigger();
         } else {
           state_.selection.select(no_patch);
         }
       },
       QKeySequence(Qt::Key_Escape));
   stop->setObjectName("clear_selection");
-}
-
-void MainWindow::make_tool_bar() {
-  auto* bar = named("tool_bar", new QToolBar(tr("Tools")));
-  bar->setMovable(false);
-  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  bar->addAction(page_->scenes_action());
-  bar->addAction(files_->open_action());
-  bar->addSeparator();
-  solve_actions_->add_to(*bar);
-  bar->addSeparator();
-  bar->addAction(study_action_);
-  addToolBar(bar);
 }
 
 void MainWindow::fill_built_in_menu(QMenu& menu) {

@@ -75,6 +75,7 @@ class MainWindow : public QMainWindow {
   void make_views();
   void make_whole_window_actions();
   void make_docks();
+  void watch_maps();
   void connect_views();
   void connect_scene();
   void show_debugging_of_scene();
@@ -84,7 +85,6 @@ class MainWindow : public QMainWindow {
   void make_menus();
   void make_file_menu();
   void make_view_menu();
-  void make_tool_bar();
   void fill_built_in_menu(QMenu& menu);
   /// Asks about long work and unsaved notes. @returns whether the window may close
   bool may_close();
@@ -120,6 +120,7 @@ class MainWindow : public QMainWindow {
   InspectionPanels* inspection_;
   StudyDialog* study_;
   QDockWidget* map_dock_;
+  QList<QDockWidget*> map_docks_;  ///< panels that show maps
 
   SolveActions* solve_actions_;
   StepActions* step_actions_;

@@ -14,6 +14,7 @@
 #include "patches/material_panel.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "scene/start_page.h"
 #include "solve/settings_panel.h"
 #include "support/number_text.h"
 #include "transillum/orientation.h"
@@ -57,7 +58,7 @@ void LoadingNotice::show_state(RunState state) {
   }
   delay_.stop();
   frame_.page.loading_bar()->dismiss();
-  frame_.page.set_loading({});
+  frame_.page.start()->set_loading({});
   // Otherwise the new scene has set it.
   if (!title_before_.isEmpty() && frame_.window.windowTitle() == loading_title_) {
     frame_.window.setWindowTitle(title_before_);
@@ -72,7 +73,7 @@ void LoadingNotice::show() {
     title_before_ = frame_.window.windowTitle();
     loading_title_ = tr("Loading %1 – transillum").arg(name);
     frame_.window.setWindowTitle(loading_title_);
-    frame_.page.set_loading(name);
+    frame_.page.start()->set_loading(name);
   }
   const QString text =
       share_ < 0 ? phase_

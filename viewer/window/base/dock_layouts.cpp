@@ -4,6 +4,7 @@
 #include <QChildEvent>
 #include <QDockWidget>
 #include <QMenu>
+#include <QResizeEvent>
 #include <QSettings>
 #include <QTabBar>
 #include <QTimer>
@@ -22,24 +23,26 @@ namespace {
 
 // Raise this number when docks are added, removed or renamed: older saved layouts then become
 // invalid.
-constexpr int layout_version = 11;
+constexpr int layout_version = 12;
+
+// More tabs would hide each other's names.
+constexpr int most_tabs = 4;
+
+// The map takes this fraction of the window's width in the layout to step.
+constexpr double map_fraction = 0.735;
 
 struct Widths {
   int left, right;
 };
 Widths usual_widths_of(Layout layout) {
-  switch (layout) {
-    case Layout::teach:
-      return {400, 480};
-    case Layout::debug:
-      return {350, 470};
-    default:
-      return {290, 464};
-  }
+  return layout == Layout::teach ? Widths{400, 480} : Widths{290, 360};
 }
 
 // A larger font needs wider sides, but the scene must keep enough width.
 Widths widths_of(Layout layout, int window_width) {
+  if (layout == Layout::debug) {
+    return {static_cast<int>(map_fraction * window_width), 0};
+  }
   constexpr double most_fraction = 0.64;
   const Widths usual = usual_widths_of(layout);
   const double sum = usual.left + usual.right;
@@ -52,43 +55,103 @@ Widths widths_of(Layout layout, int window_width) {
 DockLayouts::DockLayouts(QMainWindow& window) : QObject(&window), window_(window) {
   window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
                          QMainWindow::AllowTabbedDocks);
+  window_.setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
+  window_.setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
   window_.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   window_.setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   window_.installEventFilter(this);
+  panel_menu_ = named("panels", new QMenu(tr("Panels"), &window_));
+  make_actions();
 }
 
-QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* content,
-                              std::vector<Place> places) {
+void DockLayouts::make_actions() {
+  const auto add = [this](Layout layout, const char* name, const QString& text, const char* key,
+                          const QString& tip) {
+    QAction* action = at(actions_, layout) = make_key_action(
+        this, QString::fromLatin1(name), text, tip, QKeySequence(QString::fromLatin1(key)));
+    action->setCheckable(true);
+    connect(action, &QAction::triggered, this, [this, layout] {
+      choose(layout);
+      show_state();
+      emit chosen(layout);
+    });
+  };
+  add(Layout::teach, "layout_teach", tr("Teach"), "Ctrl+1",
+      tr("Lessons with questions, on a screen or a projector"));
+  add(Layout::inspect, "layout_inspect", tr("Inspect"), "Ctrl+2",
+      tr("What lights a patch, and how large is the error?"));
+  add(Layout::debug, "layout_debug", tr("Step"), "Ctrl+3",
+      tr("One direction, polygon by polygon, forward and back"));
+}
+
+void DockLayouts::show_state() {
+  for (int k = 0; k < layout_count; ++k) {
+    at(actions_, k)->setChecked(!covered_ && static_cast<Layout>(k) == current_);
+  }
+}
+
+QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* content) {
   auto* dock = named(name, new QDockWidget(title, &window_));
   dock->setWidget(content);
+  // Otherwise a column would become wider when its content does, and the scene would move.
+  constexpr int least_width = 200;
+  content->setMinimumWidth(least_width);
   // Qt moves a tab behind others off screen but reports it as visible: its content would continue
   // to work, and would not be notified when it comes to the front. Without the next lines, a dock
   // with hidden content gets no space, nor do its neighbors.
   QSizePolicy policy = content->sizePolicy();
   policy.setRetainSizeWhenHidden(true);
   content->setSizePolicy(policy);
-  connect(dock, &QDockWidget::visibilityChanged, content,
-          [dock, content](bool visible) { content->setVisible(visible || dock->isHidden()); });
-  // A floating panel becomes a window like others, which can be maximized.
+  connect(dock, &QDockWidget::visibilityChanged, this, [this, dock, content](bool visible) {
+    content->setVisible(visible || dock->isHidden());
+    if (visible) {
+      fronts_.erase(std::remove(fronts_.begin(), fronts_.end(), dock), fronts_.end());
+      fronts_.push_back(dock);
+    }
+  });
+  connect(dock->toggleViewAction(), &QAction::triggered, this, [this, dock](bool shown) {
+    if (shown) {
+      dock->raise();
+      follow_type();
+      limit_tabs(dock);
+    }
+  });
+  // A floating panel stays above the window, and can be maximized.
   connect(dock, &QDockWidget::topLevelChanged, dock, [dock](bool floating) {
     if (floating) {
-      dock->setWindowFlags(Qt::Window | Qt::CustomizeWindowHint | Qt::WindowTitleHint |
+      dock->setWindowFlags(Qt::Tool | Qt::CustomizeWindowHint | Qt::WindowTitleHint |
                            Qt::WindowSystemMenuHint | Qt::WindowMinMaxButtonsHint |
                            Qt::WindowCloseButtonHint);
       dock->show();
     }
   });
   dock->installEventFilter(this);
-  docks_.push_back({dock, std::move(places)});
+  panel_menu_->addAction(dock->toggleViewAction());
+  docks_.push_back({dock, dock->objectName().remove(QStringLiteral("_dock")).toStdString()});
   return dock;
+}
+
+const DockLayouts::Dock* DockLayouts::find(const std::string& panel) const {
+  const auto found = std::find_if(docks_.begin(), docks_.end(),
+                                  [&](const Dock& dock) { return dock.panel == panel; });
+  return found == docks_.end() ? nullptr : &*found;
+}
+
+const DockPlace* DockLayouts::place_of(const Dock& dock) const {
+  for (const DockPlace& place : dock_places_of(dock.panel)) {
+    if (place.layout == current_) {
+      return &place;
+    }
+  }
+  return nullptr;
 }
 
 void DockLayouts::choose(Layout layout) {
   if (held_) {
     return;
   }
+  uncover();
   if (layout == current_) {
-    reset();
     return;
   }
   at(kept_, current_) = plain_state();
@@ -100,11 +163,13 @@ void DockLayouts::choose(Layout layout) {
 
 void DockLayouts::reset() {
   if (!held_) {
+    uncover();
     arrange(current_);
   }
 }
 
 void DockLayouts::arrange(Layout layout) {
+  uncover();
   current_ = layout;
   emit switched();
   end_alone();
@@ -113,14 +178,15 @@ void DockLayouts::arrange(Layout layout) {
     dock.widget->setFloating(false);
     window_.removeDockWidget(dock.widget);
   }
-  QList<QDockWidget*> shown;
-  QList<int> heights;
+  stacks_.clear();
   for (const Dock& dock : docks_) {
-    place(dock, layout, shown, heights);
+    dock.widget->hide();
+    if (const DockPlace* place = place_of(dock)) {
+      this->place(dock, *place);
+    }
   }
-  place_others(shown);
-  window_.resizeDocks(shown, heights, Qt::Vertical);
-  follow_type();
+  place_others();
+  arrange_sizes();
   enlarged_ = false;
   // Qt may leave an empty tab bar.
   QTimer::singleShot(0, this, [this] {
@@ -130,43 +196,54 @@ void DockLayouts::arrange(Layout layout) {
       }
     }
   });
+  show_state();
+  emit switched();
 }
 
-// Docks without a place in this layout open as tabs, on the side of their place in another layout:
-// beside the other docks, they would make the window higher than small screens.
-void DockLayouts::place_others(const QList<QDockWidget*>& shown) {
-  for (const Dock& dock : docks_) {
-    if (!dock.widget->isHidden() || dock.places.empty()) {
-      continue;
-    }
-    const auto beside = std::find_if(shown.rbegin(), shown.rend(), [&](QDockWidget* other) {
-      return window_.dockWidgetArea(other) == dock.places.front().area;
-    });
-    window_.addDockWidget(dock.places.front().area, dock.widget);
-    if (beside != shown.rend()) {
-      window_.tabifyDockWidget(*beside, dock.widget);
-    }
-    dock.widget->hide();
+void DockLayouts::place(const Dock& dock, const DockPlace& place) {
+  window_.addDockWidget(place.area, dock.widget);
+  QDockWidget*& first = stacks_[{place.area, place.stack}];
+  if (first) {
+    window_.tabifyDockWidget(first, dock.widget);
+  } else {
+    first = dock.widget;
+  }
+  dock.widget->setVisible(place.opening != DockPlace::Opening::closed);
+  if (place.opening == DockPlace::Opening::behind) {
+    first->raise();
   }
 }
 
-/// @param shown, heights the docks in front in the layout so far, and their heights
-void DockLayouts::place(const Dock& dock, Layout layout, QList<QDockWidget*>& shown,
-                        QList<int>& heights) {
-  dock.widget->hide();
-  for (const Place& place : dock.places) {
-    if (place.layout != layout) {
-      continue;
+// Docks without a place in this layout open as tabs: beside the other docks, they would make the
+// window higher than small screens.
+void DockLayouts::place_others() {
+  const Qt::DockWidgetArea area =
+      current_ == Layout::debug ? Qt::TopDockWidgetArea : Qt::RightDockWidgetArea;
+  const int stack = current_ == Layout::debug ? 1 : 2;
+  for (const Dock& dock : docks_) {
+    if (!place_of(dock)) {
+      place(dock, {current_, area, stack, 0});
     }
-    window_.addDockWidget(place.area, dock.widget);
-    dock.widget->show();
-    if (place.behind) {
-      window_.tabifyDockWidget(shown.back(), dock.widget);
-      shown.back()->raise();
-      continue;
-    }
-    shown << dock.widget;
-    heights << place.height;
+  }
+}
+
+void DockLayouts::limit_tabs(QDockWidget* shown) {
+  QList<QDockWidget*> tabs = window_.tabifiedDockWidgets(shown);
+  tabs.erase(std::remove_if(tabs.begin(), tabs.end(),
+                            [](const QDockWidget* tab) { return tab->isHidden(); }),
+             tabs.end());
+  const auto age = [this](QDockWidget* tab) {
+    return std::find(fronts_.begin(), fronts_.end(), tab) - fronts_.begin();
+  };
+  // A tab that was never in front is the first to go.
+  const auto order = [&](QDockWidget* tab) {
+    return age(tab) == std::ssize(fronts_) ? -1 : age(tab);
+  };
+  while (tabs.size() >= most_tabs) {
+    const auto oldest = std::min_element(tabs.begin(), tabs.end(),
+                                         [&](auto* a, auto* b) { return order(a) < order(b); });
+    (*oldest)->hide();
+    tabs.erase(oldest);
   }
 }
 
@@ -174,11 +251,10 @@ void DockLayouts::arrange_sizes() {
   QList<QDockWidget*> shown;
   QList<int> heights;
   for (const Dock& dock : docks_) {
-    for (const Place& place : dock.places) {
-      if (place.layout == current_ && !place.behind && !dock.widget->isHidden()) {
-        shown << dock.widget;
-        heights << place.height;
-      }
+    const DockPlace* place = place_of(dock);
+    if (place && !dock.widget->isHidden()) {
+      shown << dock.widget;
+      heights << place->height;
     }
   }
   window_.resizeDocks(shown, heights, Qt::Vertical);
@@ -188,48 +264,63 @@ void DockLayouts::arrange_sizes() {
 void DockLayouts::follow_type() {
   const Widths widths = widths_of(current_, window_.width());
   for (const Dock& dock : docks_) {
-    for (const Place& place : dock.places) {
-      if (place.layout != current_ || place.behind || dock.widget->isHidden()) {
-        continue;
-      }
-      if (place.area == Qt::LeftDockWidgetArea) {
-        window_.resizeDocks({dock.widget}, {widths.left}, Qt::Horizontal);
-      } else if (place.area == Qt::RightDockWidgetArea) {
-        window_.resizeDocks({dock.widget}, {widths.right}, Qt::Horizontal);
-      }
+    if (dock.widget->isHidden() || dock.widget->isFloating()) {
+      continue;
+    }
+    const Qt::DockWidgetArea area = window_.dockWidgetArea(dock.widget);
+    if (area == Qt::LeftDockWidgetArea) {
+      window_.resizeDocks({dock.widget}, {widths.left}, Qt::Horizontal);
+    } else if (area == Qt::RightDockWidgetArea) {
+      window_.resizeDocks({dock.widget}, {widths.right}, Qt::Horizontal);
     }
   }
   fit_bottom();
 }
 
+// Where the map takes a fraction of the window, it keeps that when the window changes.
+void DockLayouts::keep_fraction(int width_before) {
+  const Dock* map = find("map");
+  if (current_ == Layout::debug && map && !map->widget->isHidden() && !covered_ && !held_ &&
+      alone_.isEmpty()) {
+    const double fraction = 1.0 * map->widget->width() / width_before;
+    window_.resizeDocks({map->widget}, {static_cast<int>(fraction * window_.width())},
+                        Qt::Horizontal);
+  }
+}
+
 void DockLayouts::fit_bottom() {
   constexpr double fraction = 0.18, most_fraction = 0.24;
   for (const Dock& dock : docks_) {
-    for (const Place& place : dock.places) {
-      if (place.layout == current_ && place.area == Qt::BottomDockWidgetArea &&
-          !dock.widget->isHidden()) {
-        const double usual = std::min(theme::scale() * place.height, fraction * window_.height());
-        // In a low window, the panels above need the room more.
-        const double wanted = dock.widget->widget()->sizeHint().height();
-        const bool has_room = wanted < most_fraction * window_.height();
-        window_.resizeDocks({dock.widget},
-                            {static_cast<int>(has_room ? std::max(usual, wanted) : usual)},
-                            Qt::Vertical);
-      }
+    const DockPlace* place = place_of(dock);
+    if (!place || place->area != Qt::BottomDockWidgetArea || dock.widget->isHidden()) {
+      continue;
     }
+    const double usual = std::min(theme::scale() * place->height, fraction * window_.height());
+    // In a low window, the panels above need the room more.
+    const double wanted = dock.widget->widget()->sizeHint().height();
+    const bool has_room = wanted < most_fraction * window_.height();
+    window_.resizeDocks({dock.widget},
+                        {static_cast<int>(has_room ? std::max(usual, wanted) : usual)},
+                        Qt::Vertical);
   }
 }
 
 bool DockLayouts::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ChildPolished) {
-    // The window creates the tab bars of its docks; names must not be cut off.
+    // The window creates the tab bars of its docks; all tabs must be visible.
     auto* bar = qobject_cast<QTabBar*>(static_cast<QChildEvent*>(event)->child());
     if (bar) {
-      bar->setElideMode(Qt::ElideNone);
-      bar->setUsesScrollButtons(true);
+      bar->setElideMode(Qt::ElideRight);
+      bar->setUsesScrollButtons(false);
     }
   }
   const bool moves = event->type() == QEvent::Resize || event->type() == QEvent::Move;
+  if (watched == &window_ && event->type() == QEvent::Resize) {
+    const int before = static_cast<QResizeEvent*>(event)->oldSize().width();
+    if (before > 0 && before != window_.width()) {
+      keep_fraction(before);
+    }
+  }
   if (moves || event->type() == QEvent::LayoutRequest) {
     QTimer::singleShot(0, this, &DockLayouts::repaint_moved);
   }
@@ -252,11 +343,53 @@ void DockLayouts::hold(bool held) {
     held_state_ = state();
   }
   held_ = held;
+  if (!held_ && std::exchange(uncovers_later_, false)) {
+    window_.restoreState(covered_state_, layout_version);
+  }
+}
+
+void DockLayouts::cover(bool covered) {
+  if (!covered) {
+    uncover();
+    return;
+  }
+  if (covered_ || held_) {
+    return;
+  }
+  covered_state_ = plain_state();
+  end_alone();
+  covered_ = true;
+  for (const Dock& dock : docks_) {
+    if (!dock.widget->isFloating()) {
+      dock.widget->hide();
+    }
+  }
+  panel_menu_->setEnabled(false);
+  show_state();
+  emit switched();
+}
+
+void DockLayouts::uncover() {
+  if (!std::exchange(covered_, false)) {
+    return;
+  }
+  panel_menu_->setEnabled(true);
+  if (held_) {
+    uncovers_later_ = true;
+  } else {
+    window_.restoreState(covered_state_, layout_version);
+  }
+  show_state();
+  emit uncovered();
+  emit switched();
 }
 
 QByteArray DockLayouts::state() const { return held_ ? held_state_ : with_checksum(plain_state()); }
 
 QByteArray DockLayouts::plain_state() const {
+  if (covered_ || uncovers_later_) {
+    return covered_state_;
+  }
   return alone_.isEmpty() ? window_.saveState(layout_version) : before_alone_;
 }
 
@@ -295,44 +428,48 @@ bool DockLayouts::load(const QSettings& settings) {
 }
 
 void DockLayouts::add_to(QMenu& menu) {
-  for (const Dock& dock : docks_) {
-    menu.addAction(dock.widget->toggleViewAction());
+  for (QAction* action : actions_) {
+    menu.addAction(action);
   }
-  menu.addSeparator();
-  const auto add_layout = [&](Layout layout, const char* name, const QString& text,
-                              const char* key) {
-    QAction* action = menu.addAction(
-        text, this, [this, layout] { choose(layout); }, QKeySequence(QString::fromLatin1(key)));
-    action->setObjectName(QString::fromLatin1(name));
-  };
-  add_layout(Layout::teach, "layout_teach", tr("Lay out to teach"), "Ctrl+1");
-  add_layout(Layout::inspect, "layout_inspect", tr("Lay out to inspect a solve"), "Ctrl+2");
-  add_layout(Layout::debug, "layout_debug", tr("Lay out to debug a map"), "Ctrl+3");
   menu.addAction(tr("Reset the layout"), this, &DockLayouts::reset,
                  QKeySequence(QStringLiteral("Ctrl+0")))
       ->setObjectName("layout_reset");
+  menu.addMenu(panel_menu_);
 }
-
-namespace {
-
-std::string panel_name(const QDockWidget& dock) {
-  return dock.objectName().remove(QStringLiteral("_dock")).toStdString();
-}
-
-}  // namespace
 
 bool DockLayouts::bring_to_front(const std::string& panel) {
-  for (const Dock& dock : docks_) {
-    if (panel_name(*dock.widget) != panel) {
-      continue;
+  const Dock* dock = find(panel);
+  if (dock && !held_) {
+    uncover();
+    const bool hidden = dock->widget->isHidden();
+    dock->widget->show();
+    dock->widget->raise();
+    if (hidden) {
+      follow_type();
+      limit_tabs(dock->widget);
     }
-    if (!held_) {
-      dock.widget->show();
-      dock.widget->raise();
-    }
-    return true;
   }
-  return false;
+  return dock != nullptr;
+}
+
+void DockLayouts::show_for_page(const std::vector<std::string>& panels) {
+  if (held_) {
+    return;
+  }
+  uncover();
+  for (const Dock& dock : docks_) {
+    const bool named = std::find(panels.begin(), panels.end(), dock.panel) != panels.end();
+    if (current_ == Layout::teach && place_of(dock) && !named && dock.panel != "lesson") {
+      dock.widget->hide();
+    }
+  }
+  bring_to_front("lesson");
+  for (const std::string& panel : panels) {
+    bring_to_front(panel);
+  }
+  if (current_ == Layout::teach) {
+    arrange_sizes();
+  }
 }
 
 void DockLayouts::end_alone() {
@@ -352,12 +489,11 @@ void DockLayouts::show_alone(const std::string& panel) {
     end_alone();
     window_.restoreState(before_alone_, layout_version);
   }
-  const auto found = std::find_if(docks_.begin(), docks_.end(), [&](const Dock& dock) {
-    return panel_name(*dock.widget) == panel;
-  });
-  if (found == docks_.end()) {
+  const Dock* found = find(panel);
+  if (!found) {
     return;
   }
+  uncover();
   before_alone_ = window_.saveState(layout_version);
   alone_ = name;
   for (const Dock& dock : docks_) {
@@ -388,10 +524,7 @@ void DockLayouts::enlarge(const std::string& panel) {
   }
   enlarged_ = true;
   constexpr double wide = 0.42, high = 0.75, narrow = 0.16;
-  const auto found = std::find_if(docks_.begin(), docks_.end(), [&](const Dock& dock) {
-    return panel_name(*dock.widget) == panel;
-  });
-  if (found != docks_.end()) {
+  if (const Dock* found = find(panel)) {
     bring_to_front(panel);
     window_.resizeDocks({found->widget}, {static_cast<int>(wide * window_.width())},
                         Qt::Horizontal);
@@ -410,7 +543,7 @@ void DockLayouts::enlarge(const std::string& panel) {
 std::vector<std::string> DockLayouts::panels() const {
   std::vector<std::string> names;
   for (const Dock& dock : docks_) {
-    names.push_back(panel_name(*dock.widget));
+    names.push_back(dock.panel);
   }
   return names;
 }

@@ -8,11 +8,16 @@
 #include <QRect>
 #include <QString>
 #include <array>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "state/view_choices.h"
+#include "transillum/at.h"
+#include "window/base/dock_places.h"
 
+class QAction;
 class QDockWidget;
 class QMenu;
 class QSettings;
@@ -26,25 +31,18 @@ class DockLayouts : public QObject {
  public:
   explicit DockLayouts(QMainWindow& window);
 
-  /// The place of a dock in a layout: a side of the window, and the height in pixels.
-  struct Place {
-    Layout layout;
-    Qt::DockWidgetArea area;
-    int height;
-    bool behind = false;  ///< a tab behind the dock added before it
-  };
-  /// Docks on one side are stacked in the order in which they were added.
-  QDockWidget* add(const QString& title, const char* name, QWidget* content,
-                   std::vector<Place> places);
+  /// Adds a panel. Panels of one stack are tabs in the order in which they were added.
+  /// @param name of the dock; ends in "_dock". dock_places_of() has its places
+  QDockWidget* add(const QString& title, const char* name, QWidget* content);
   /// Switches to a layout as it is at first.
   void arrange(Layout layout);
-  /// Switches to a layout as the user left it; the layout in use is reset.
+  /// Switches to a layout as the user left it.
   void choose(Layout layout);
   /// Arranges the layout in use as it was at first.
   void reset();
   /// Sets the widths of the sides for the current font size.
   void follow_type();
-  /// Gives panels at the bottom the height that they ask for, if the window is high enough.
+  /// Gives the panel at the bottom the height that it asks for, if the window is high enough.
   void fit_bottom();
   /// The places and sizes of all docks, for restore(). While held, their places and sizes from
   /// before hold().
@@ -65,6 +63,12 @@ class DockLayouts : public QObject {
   /// @param panel the name of its dock without "_dock"
   /// @returns false where there is none
   bool bring_to_front(const std::string& panel);
+  /// Shows these panels; the others that have a place in the layout to teach are closed, except the
+  /// lesson. For a page of a lesson.
+  void show_for_page(const std::vector<std::string>& panels);
+  /// While the window shows its first page, all panels that do not float are hidden. Choosing a
+  /// layout and showing a panel end this.
+  void cover(bool covered);
   /// Gives a panel, or the `scene`, most of the window; restores the usual sizes if `panel` is
   /// empty.
   void enlarge(const std::string& panel);
@@ -74,12 +78,18 @@ class DockLayouts : public QObject {
   void show_alone(const std::string& panel);
   /// The names that bring_to_front() accepts.
   std::vector<std::string> panels() const;
-  /// Adds the actions that show and hide docks, and the layouts.
+  /// Adds the layouts, and a menu of all panels.
   void add_to(QMenu& menu);
+  /// Switches to a layout; checked while the layout is in use and not covered.
+  QAction* action(Layout layout) const { return at(actions_, layout); }
 
  signals:
-  /// Another layout is in use.
+  /// The user has chosen a layout, which may be in use already.
+  void chosen(transillum::viewer::Layout layout);
+  /// Another layout is in use, or it was covered or uncovered.
   void switched();
+  /// cover(false) was called, or another function has ended it.
+  void uncovered();
   /// The panel that show_alone() shows now has changed; it may be empty.
   void alone(const QString& panel);
 
@@ -98,15 +108,30 @@ class DockLayouts : public QObject {
 
   struct Dock {
     QDockWidget* widget;
-    std::vector<Place> places;
+    std::string panel;  ///< name of the dock without "_dock"
   };
-  void place_others(const QList<QDockWidget*>& shown);
-  void place(const Dock& dock, Layout layout, QList<QDockWidget*>& shown, QList<int>& heights);
+  void make_actions();
+  void show_state();
+  void uncover();
+  const Dock* find(const std::string& panel) const;
+  const DockPlace* place_of(const Dock& dock) const;
+  void place(const Dock& dock, const DockPlace& place);
+  void place_others();
+  /// Closes the panel of a stack that was in front before all others, where there are more tabs
+  /// than have room.
+  void limit_tabs(QDockWidget* shown);
+  void keep_fraction(int width_before);
 
   QMainWindow& window_;
   std::vector<Dock> docks_;
   std::array<QByteArray, layout_count> kept_;  ///< states of the layouts that are not in use
   Layout current_ = Layout::inspect;
+  std::array<QAction*, layout_count> actions_{};
+  std::map<std::pair<int, int>, QDockWidget*> stacks_;  ///< first dock of each side and stack
+  std::vector<QDockWidget*> fronts_;                    ///< the newest last
+  QMenu* panel_menu_;
+  bool covered_ = false, uncovers_later_ = false;
+  QByteArray covered_state_;
   bool held_ = false;
   QByteArray held_state_;
   bool enlarged_ = false;

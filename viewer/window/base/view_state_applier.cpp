@@ -64,18 +64,27 @@ void ViewStateApplier::show(const ViewState& state) {
   before_lesson_.reset();
   frame_.page.sharp()->action()->setEnabled(true);
   apply(state);
+  for (const std::string& panel : state.panels) {
+    docks_.bring_to_front(panel);
+  }
 }
 
 void ViewStateApplier::show_page(const ViewState& page) {
+  enter_lesson();
+  apply(page);
+  docks_.show_for_page(page.panels);
+}
+
+void ViewStateApplier::enter_lesson() {
   if (!before_lesson_) {
     frame_.state.breakpoints.set_scene({});
     frame_.state.breakpoints.set_list({});
     before_lesson_ = appearance();
     before_lesson_->options = settings_.options();
+    before_lesson_->layout = docks_.current();
     // Lessons are about patches, and what few directions do to them.
     frame_.page.sharp()->action()->setEnabled(false);
   }
-  apply(page);
 }
 
 void ViewStateApplier::set_option(const std::string& name, const std::string& value) {
@@ -89,8 +98,8 @@ void ViewStateApplier::set_option(const std::string& name, const std::string& va
   if (now.focus && now.focus->direction >= now.options.solve.directions) {
     now.focus.reset();
   }
-  now.panels.clear();
-  show_page(now);
+  enter_lesson();
+  apply(now);
 }
 
 void ViewStateApplier::leave_lesson() {
@@ -108,9 +117,6 @@ void ViewStateApplier::apply(const ViewState& state) {
   frame_.notifier.dismiss();
   if (requested_.layout && *requested_.layout != docks_.current()) {
     docks_.choose(*requested_.layout);
-  }
-  for (const std::string& panel : requested_.panels) {
-    docks_.bring_to_front(panel);
   }
   apply_appearance(requested_);
   start_run();
@@ -235,6 +241,11 @@ void ViewStateApplier::restore_appearance() {
     apply_appearance(*before_lesson_);
     frame_.page.color_controls()->set_direction(before_lesson_->direction_shown);
     frame_.page.sharp()->action()->setEnabled(true);
+    frame_.state.focus.set_phase(Phase::after);
+    if (docks_.current() == Layout::teach) {
+      // The page of the lesson is about another scene.
+      docks_.choose(before_lesson_->layout == Layout::debug ? Layout::debug : Layout::inspect);
+    }
     before_lesson_.reset();
   }
   frame_.state.colors.set_automatic_exposure(true);

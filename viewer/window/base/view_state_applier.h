@@ -54,6 +54,8 @@ class ViewStateApplier : public QObject {
   enum class Awaits { nothing, scene, run, rounds, iteration, direction };
 
   void apply(const ViewState& state);
+  /// Remembers what leave_lesson() restores.
+  void enter_lesson();
   /// Applies colors, overlays and labels.
   void apply_appearance(const ViewState& state);
   ViewState appearance() const;

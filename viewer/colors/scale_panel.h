@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <QToolButton>
+#include <QWidget>
 
 #include "colors/color_choice.h"
 
@@ -11,15 +11,15 @@ class QLineEdit;
 
 namespace transillum::viewer {
 
-/// A button that shows how the range of the color map is set; its menu sets range and map.
-class ScaleMenu : public QToolButton {
+/// Sets the color map and its range.
+class ScalePanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit ScaleMenu(ColorChoice& colors, QWidget* parent = nullptr);
+  explicit ScalePanel(ColorChoice& colors, QWidget* parent = nullptr);
 
  private:
-  QWidget* make_panel();
+  void make_controls();
   void show_choice();
   void apply_range();
 

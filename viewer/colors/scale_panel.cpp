@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The menu of the color map and its range.
-#include "colors/scale_menu.h"
+// The controls of the color map and its range.
+#include "colors/scale_panel.h"
 
 #include <QButtonGroup>
 #include <QComboBox>
@@ -9,10 +9,8 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMenu>
 #include <QRadioButton>
 #include <QSignalBlocker>
-#include <QWidgetAction>
 
 #include "widgets/build.h"
 
@@ -24,25 +22,18 @@ QString end_text(double value) { return QString::number(value, 'g', 5); }
 
 }  // namespace
 
-ScaleMenu::ScaleMenu(ColorChoice& colors, QWidget* parent) : QToolButton(parent), colors_(colors) {
+ScalePanel::ScalePanel(ColorChoice& colors, QWidget* parent) : QWidget(parent), colors_(colors) {
   setObjectName("scale");
-  setPopupMode(QToolButton::InstantPopup);
-  setToolTip(tr("Color map and its range"));
-  auto* menu = new QMenu(this);
-  auto* panel = new QWidgetAction(menu);
-  panel->setDefaultWidget(make_panel());
-  menu->addAction(panel);
-  setMenu(menu);
-  connect(&colors_, &ColorChoice::changed, this, &ScaleMenu::show_choice);
-  connect(&colors_, &ColorChoice::fitted, this, &ScaleMenu::show_choice);
+  make_controls();
+  connect(&colors_, &ColorChoice::changed, this, &ScalePanel::show_choice);
+  connect(&colors_, &ColorChoice::fitted, this, &ScalePanel::show_choice);
   show_choice();
 }
 
-QWidget* ScaleMenu::make_panel() {
+void ScalePanel::make_controls() {
   rules_ = new QButtonGroup(this);
-  auto* panel = new QWidget;
-  auto* grid = new QGridLayout(panel);
-  grid->setContentsMargins(14, 10, 14, 12);
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins({});
   map_ = named("color_map", new QComboBox);
   map_->addItems({"Viridis", "Cividis", "Inferno"});  // in the order of ColorMap
   grid->addWidget(new QLabel(tr("Map")), 0, 0);
@@ -67,7 +58,7 @@ QWidget* ScaleMenu::make_panel() {
     const int row = grid->rowCount();
     grid->addWidget(label, row, 0);
     grid->addWidget(edit, row, 1);
-    connect(edit, &QLineEdit::editingFinished, this, &ScaleMenu::apply_range);
+    connect(edit, &QLineEdit::editingFinished, this, &ScalePanel::apply_range);
     return edit;
   };
   low_ = add_end("range_low", tr("from"));
@@ -76,10 +67,9 @@ QWidget* ScaleMenu::make_panel() {
           [this](int index) { colors_.set_map(static_cast<ColorMap>(index)); });
   connect(rules_, &QButtonGroup::idClicked, this,
           [this](int rule) { colors_.set_range_rule(static_cast<RangeRule>(rule)); });
-  return panel;
 }
 
-void ScaleMenu::apply_range() {
+void ScalePanel::apply_range() {
   const ColorScale& scale = colors_.scale();
   // editingFinished is also emitted without a change.
   if (low_->text() == end_text(scale.low) && high_->text() == end_text(scale.high)) {
@@ -88,19 +78,8 @@ void ScaleMenu::apply_range() {
   colors_.set_range(low_->text().toDouble(), high_->text().toDouble());
 }
 
-void ScaleMenu::show_choice() {
+void ScalePanel::show_choice() {
   const ColorScale& scale = colors_.scale();
-  switch (colors_.range_rule()) {
-    case RangeRule::automatic:
-      setText(tr("Range: automatic "));
-      break;
-    case RangeRule::widening:
-      setText(tr("Range: locked "));
-      break;
-    case RangeRule::fixed:
-      setText(tr("Range: fixed "));
-      break;
-  }
   const QSignalBlocker quiet(map_);
   map_->setCurrentIndex(static_cast<int>(colors_.map()));
   map_->setEnabled(!traits_of(colors_.quantity()).is_signed);
