@@ -38,9 +38,11 @@ bool is_under_way(const SolverSnapshot& snapshot) {
 
 RoundsAhead rounds_ahead(PatchId patches, const RefineChoice& refine) {
   RoundsAhead ahead;
-  for (double now = patches; now < refine.patches; now *= 2) {
+  double now = patches;
+  while (now < refine.patches) {
     ++ahead.rounds;
     ahead.patches += now;
+    now *= 2;
   }
   ahead.patches += refine.patches;
   if (refine.by == RefineBy::error) {

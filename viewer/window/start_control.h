@@ -3,6 +3,7 @@
 
 #include <QObject>
 
+#include "state/view_choices.h"
 #include "window/base/window_views.h"
 
 namespace transillum::viewer {
