@@ -12,7 +12,7 @@ import sys
 
 UNIT_SIZE = 24
 # Sources that do not compile beside others of their folder.
-ALONE = re.compile(r"/options/|/mpi/|/map/|/examples/|boundary_cut_|power_table_test")
+ALONE = re.compile(r"/options/|/mpi/|/map/|/examples/|/fuzz/|boundary_cut_|power_table_test")
 
 
 def sources_of(file):

@@ -24,6 +24,7 @@ namespace {
 
 struct GridPoint {
   int x, y;
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const GridPoint&, const GridPoint&) = default;
 };
 using GridPolygon = std::vector<GridPoint>;

@@ -78,7 +78,8 @@ std::array<double, 2> by_points(const Scene& scene, PatchId i, const std::vector
   const Vec3 u = scene.point(outline[1]) - corner, v = scene.point(outline[3]) - corner;
   std::array<double, 2> sum{};
   for (int k = 0; k < points * points; ++k) {
-    const Vec3 x = corner + (k % points + 0.5) / points * u + (k / points + 0.5) / points * v;
+    const int column = k % points, row = k / points;
+    const Vec3 x = corner + (column + 0.5) / points * u + (row + 0.5) / points * v;
     double h = 0;
     for (const PatchId j : sources) {
       h += scene.exitance(j).g * exchange.from_point(x, scene.patch(i).normal, j);

@@ -217,7 +217,8 @@ TEST(CliSolve, TwoSidedFacesGiveTwoPatchesEach) {
   const auto rows = numbers(read_file(folder / "a.csv"));
   ASSERT_EQ(rows.size() % 2, 0U);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_EQ(rows[i][0], static_cast<double>(i / 2));
+    const std::size_t face = i / 2;
+    EXPECT_EQ(rows[i][0], static_cast<double>(face));
     EXPECT_EQ(rows[i][1], static_cast<double>(i));
   }
 }

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int largest_number = 1 << 30;
+constexpr int largest_value = 1 << 30;
 constexpr int most_reference_passes = 1 << 16;
 
 // Which keys a value has besides "figure" and "with".
@@ -99,7 +99,7 @@ std::vector<PatchId> patches_from(JsonObject& object, const char* key) {
   const bool numbers = list->is_array() && !list->empty() &&
                        std::all_of(list->begin(), list->end(), [](const json& item) {
                          return item.is_number_integer() && item.get<double>() >= 0 &&
-                                item.get<double>() <= largest_number;
+                                item.get<double>() <= largest_value;
                        });
   if (!numbers) {
     object.fail_at(key, "must be a list of patches [0, …] or, except for \"above\", \"all\"");
@@ -109,7 +109,7 @@ std::vector<PatchId> patches_from(JsonObject& object, const char* key) {
 
 void read_direction(LessonValue& wanted, JsonObject& object, const ViewState& page) {
   int direction = page.focus ? page.focus->direction + 1 : 0;
-  object.read("direction", direction, 1, largest_number);
+  object.read("direction", direction, 1, largest_value);
   if (direction == 0) {
     object.fail_at("direction", "is missing, and the page has no focus");
   }
@@ -150,7 +150,7 @@ LessonValue lesson_value_from_json(const json& value, const std::string& where,
   wanted.kind = name.kind;
   wanted.solve = page.options.solve;
   if (name.keys & has_patch) {
-    object.read("patch", wanted.patch, 0, largest_number);
+    object.read("patch", wanted.patch, 0, largest_value);
   }
   if (name.keys & has_others) {
     const json* others = object.find("others");

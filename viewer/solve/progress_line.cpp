@@ -79,7 +79,7 @@ QString name_of(const LoadedScene& loaded) {
   const auto short_name = [](const std::string& path) {
     return QFileInfo(QString::fromStdString(path)).fileName();
   };
-  const QString scene = short_name(loaded.scene->name());
+  QString scene = short_name(loaded.scene->name());
   if (!loaded.stored || loaded.scene->name() == loaded.file) {
     return scene;
   }

@@ -163,7 +163,7 @@ void SettingsPanel::show_glossy_state() {
 }
 
 QString SettingsPanel::note_on_lobes() const {
-  const QString obstacle = QString::fromStdString(conflict_of("glossy", options()));
+  QString obstacle = QString::fromStdString(conflict_of("glossy", options()));
   if (!obstacle.isEmpty()) {
     return obstacle;
   }
