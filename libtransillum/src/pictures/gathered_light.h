@@ -7,19 +7,10 @@
 #include <vector>
 
 #include "pictures/hit_light.h"
-#include "transillum/cancellation.h"
+#include "pictures/surface_rays.h"
 #include "transillum/solution.h"
-#include "visibility/embree/embree_scene.h"
 
 namespace transillum {
-
-/// Two vectors that make a right-handed frame with a unit normal.
-struct TangentFrame {
-  explicit TangentFrame(const Vec3& normal);
-  Vec3 turned(const Vec3& local) const { return local.x * u + local.y * v + local.z * w; }
-
-  Vec3 u, v, w;
-};
 
 /// The light of a solution that rays from points of its surfaces meet: B of what they hit, without
 /// the exitance of lamps, and the sky.
@@ -27,11 +18,10 @@ struct TangentFrame {
 /// Threads: immutable once built.
 class GatheredLight {
  public:
-  /// Keeps references to both.
+  /// Keeps references to all but the last.
   /// @param rays to gather by, from each point.
-  /// @throws Canceled
-  GatheredLight(const Solution& solution, const HitLight& light, int rays,
-                const Cancellation& cancellation);
+  GatheredLight(const Solution& solution, const EmbreeScene& embree, const HitLight& light,
+                int rays);
 
   /// The light that a point receives.
   struct Gathered {
@@ -58,7 +48,6 @@ class GatheredLight {
     bool is_lit = false;
     Vec3 point;  ///< m
   };
-  Vec3 start_of(const Vec3& x, const Vec3& normal) const;
   Met met_at(const Line& line, unsigned triangle, float distance) const;
   Rgb brought(const Met& met, const Vec3& direction) const;
   Rgb brought(const Vec3& start, std::span<const Vec3> directions) const;
@@ -66,7 +55,7 @@ class GatheredLight {
   const Solution& solution_;
   const Scene& scene_;
   const HitLight& light_;
-  EmbreeScene embree_;
+  const EmbreeScene& embree_;
   /// Directions about +z, by the cosine, in two sets each.
   std::vector<std::array<std::vector<Vec3>, 2>> tables_;
 };

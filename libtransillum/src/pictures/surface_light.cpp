@@ -28,6 +28,7 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
   std::shared_ptr<const Solution> solution;
   const Scene& scene;
   bool is_interpolated;
+  EmbreeScene embree;
   PlanePoints points;
   LampLight lamps;
   HitLight hits;
@@ -40,10 +41,11 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
       : solution(std::move(shown)),
         scene(*solution->scene),
         is_interpolated(gather == 0),
+        embree(scene, cancellation),
         points(scene),
         lamps(solution->scene, cancellation),
-        hits(*solution, points, lamps),
-        gathered(*solution, hits, gather > 0 ? gather : interpolated_rays(scene), cancellation),
+        hits(*solution, embree, points, lamps),
+        gathered(*solution, embree, hits, gather > 0 ? gather : interpolated_rays(scene)),
         interpolated(scene, points, gathered, lamps),
         picker(solution->scene, cancellation) {
     if (solution->glossy) {
