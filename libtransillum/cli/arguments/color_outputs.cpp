@@ -8,7 +8,7 @@
 #include "cli/arguments/option_values.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
-#include "transillum/picture_files.h"
+#include "transillum/files.h"
 
 namespace transillum::cli {
 namespace {

@@ -18,10 +18,10 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/reports/summaries.h"
+#include "scene/read/scene_cameras.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"
-#include "transillum/scene_cameras.h"
 
 namespace transillum::cli {
 namespace {
@@ -137,6 +137,8 @@ void check_options(const PictureCall& call) {
   }
   refuse_unless(!call.picture.false_colors, command, "--tone", "not used with --false-color");
   refuse_unless(call.picture.false_colors, command, "--lux", "used only with --false-color");
+  refuse_unless(std::all_of(files.begin(), files.end(), is_screen_picture), command, "--lux",
+                "not used with .exr and .pfm files, which have radiance");
 }
 
 /// Refuses options of a solve, which a result has behind it.
@@ -285,7 +287,9 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& 
       [&picture](const std::string& text) { picture.tone = from_name<ToneCurve>(text); });
   command.add_flag("--false-color", picture.false_colors,
                    "B by a color map in a .png file, with a scale in W/m2 beside the picture");
-  command.add_flag("--lux", picture.lux, "the scale of --false-color in lux, at 683 lm/W");
+  command.add_flag(
+      "--lux", picture.lux,
+      "--false-color shows illuminance in lux, 683 lm/W of irradiance H, instead of B");
   command
       .add_option("-o,--out", picture.files,
                   "picture: .png for a screen, or .exr, .pfm with radiance in W/(m2 sr); may be "

@@ -81,10 +81,12 @@ Rgb GatheredLight::brought(const Vec3& start, std::span<const Vec3> directions) 
 }
 
 GatheredLight::Gathered GatheredLight::at_point(const Vec3& x, const Vec3& normal,
-                                                std::uint64_t variant) const {
-  const std::uint64_t bits = mixed(variant + golden_step);
-  const auto& table = tables_[variant == 0 ? 0 : bits % table_count];
-  const double angle = variant == 0 ? 0 : 2 * std::numbers::pi * unit_fraction(bits);
+                                                std::uint64_t salt) const {
+  // Samples of a pixel have different tables, which together fill the hemisphere evenly.
+  const auto [pixel, number] = split(salt);
+  const std::uint64_t bits = mixed(pixel + golden_step * (number / table_count + 1));
+  const auto& table = tables_[salt == 0 ? 0 : (bits + number) % table_count];
+  const double angle = salt == 0 ? 0 : 2 * std::numbers::pi * unit_fraction(bits);
   const TangentFrame about(normal);
   TangentFrame frame = about;
   frame.u = std::cos(angle) * about.u + std::sin(angle) * about.v;
@@ -109,13 +111,14 @@ GatheredLight::Gathered GatheredLight::at_point(const Vec3& x, const Vec3& norma
   return {0.5 * (means[0] + means[1]), 0.5 * (means[0] - means[1])};
 }
 
-Rgb GatheredLight::arriving(const Vec3& x, const Vec3& normal, const Vec3& direction) const {
+GatheredLight::Arriving GatheredLight::arriving(const Vec3& x, const Vec3& normal,
+                                                const Vec3& direction) const {
   const Vec3 start = start_of_rays(embree_, x, normal);
   RTCRayHit ray = make_ray(start, direction);
   embree_.first_hit(ray, false);
   const Met met = has_hit(ray) ? met_at({start, direction}, ray.hit.primID, ray.ray.tfar) : Met();
-  const Rgb light = brought(met, direction);
-  return met.is_lit ? light + light_.exitance(met.patch) : light;
+  const bool is_lamp = met.is_lit && max_abs(light_.exitance(met.patch)) > 0;
+  return {brought(met, direction), is_lamp ? met.patch : no_patch, met.point};
 }
 
 }  // namespace transillum

@@ -30,12 +30,17 @@ class GatheredLight {
   };
   /// @param x on a surface, m
   /// @param normal unit
-  /// @param variant one of many sequences of rays; any number
-  Gathered at_point(const Vec3& x, const Vec3& normal, std::uint64_t variant) const;
+  /// @param salt names one of many sequences of rays (`Salt`)
+  Gathered at_point(const Vec3& x, const Vec3& normal, std::uint64_t salt) const;
 
-  /// pi times the radiance that arrives at x against `direction`, lamps included, W/m².
+  /// What arrives along a ray.
+  struct Arriving {
+    Rgb light;     ///< pi times its radiance without the exitance of a lamp, W/m²
+    PatchId lamp;  ///< the lamp that is met, or no_patch
+    Vec3 place;    ///< where a surface is met, m
+  };
   /// @param direction unit
-  Rgb arriving(const Vec3& x, const Vec3& normal, const Vec3& direction) const;
+  Arriving arriving(const Vec3& x, const Vec3& normal, const Vec3& direction) const;
 
  private:
   static constexpr std::size_t packet = 16;  ///< rays at a time
