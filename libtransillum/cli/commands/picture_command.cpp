@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,16 +35,6 @@ struct PictureCall {
 
   const SolveOptions& solve() const { return scene.run.solve; }
 };
-
-double parse_positive(const std::string& option, const std::string& text, double below) {
-  const double value = parse_number(option, text);
-  if (!(value > 0 && value < below)) {
-    throw InputError(std::isinf(below)
-                         ? fmt::format("{}: \"{}\" is not greater than 0", option, text)
-                         : fmt::format("{}: \"{}\" is not between 0 and {}", option, text, below));
-  }
-  return value;
-}
 
 void parse_size(const std::string& text, PictureOptions& options) {
   const std::size_t cross = text.find('x');
@@ -241,11 +230,10 @@ void add_camera_options(CLI::App& command, const std::shared_ptr<PictureCall>& c
       .add_flag("--orthographic", call->orthographic,
                 "parallel rays, from the plane through the eye")
       ->excludes(panorama);
-  add_parsed_option(command, "--height", "H",
-                    "height that an orthographic picture shows, in m (default: the whole scene)",
-                    [call](const std::string& text) {
-                      call->height = parse_positive("--height", text, HUGE_VAL);
-                    });
+  add_parsed_option(
+      command, "--height", "H",
+      "height that an orthographic picture shows, in m (default: the whole scene)",
+      [call](const std::string& text) { call->height = parse_positive("--height", text); });
 }
 
 void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& call) {
@@ -277,7 +265,7 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& 
                     [&picture](const std::string& text) {
                       picture.exposure.reset();
                       if (text != "auto") {
-                        picture.exposure = parse_positive("--exposure", text, HUGE_VAL);
+                        picture.exposure = parse_positive("--exposure", text);
                       }
                     });
   add_parsed_option(

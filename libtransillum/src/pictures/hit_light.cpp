@@ -56,12 +56,11 @@ void for_parts_of_triangle(const std::array<Vec3, 3>& corners, int parts, Visit 
 
 /// Calls visit(corners) for triangles that a patch consists of.
 template <class Visit>
-void for_triangles(const Scene& scene, const PlanePoints& points, PatchId patch, Visit visit) {
+void for_triangles(const PlanePoints& points, PatchId patch, Visit visit) {
   for (std::size_t k = points.first_piece(patch); k < points.end_piece(patch); ++k) {
-    const auto corners = scene.corners(scene.pieces()[k]);
+    const Corners corners = points.outline(k);
     for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
-      visit(std::array{scene.point(corners[0]), scene.point(corners[c]),
-                       scene.point(corners[c + 1])});
+      visit(std::array{corners[0], corners[c], corners[c + 1]});
     }
   }
 }
@@ -164,7 +163,7 @@ bool HitLight::is_open(PatchId patch, const Vec3& x) const {
 bool HitLight::is_partly_open(PatchId patch) const {
   constexpr int parts = 4;
   bool any_open = false, any_covered = false;
-  for_triangles(scene_, points_, patch, [&](const std::array<Vec3, 3>& triangle) {
+  for_triangles(points_, patch, [&](const std::array<Vec3, 3>& triangle) {
     for_parts_of_triangle(triangle, parts, [&](const Vec3& x, double) {
       (is_open(patch, x) ? any_open : any_covered) = true;
     });
@@ -187,7 +186,7 @@ std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(PatchId patch) co
       middle = middle + weight * x;
     }
   };
-  for_triangles(scene_, points_, patch, [&](const std::array<Vec3, 3>& triangle) {
+  for_triangles(points_, patch, [&](const std::array<Vec3, 3>& triangle) {
     constexpr int parts = 12;
     is_partial ? for_parts_of_triangle(triangle, parts, add)
                : for_points_of_triangle(triangle, add);
