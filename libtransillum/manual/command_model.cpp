@@ -12,7 +12,7 @@
 #include "options/option_table.h"
 #include "radiosity/analysis/power_table.h"
 #include "transillum/engine.h"
-#include "transillum/picture_files.h"
+#include "transillum/files.h"
 #include "transillum/study.h"
 #include "visibility/pixels/pixel_map.h"
 

@@ -15,7 +15,7 @@
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 #include "transillum/at.h"
-#include "transillum/form_factor_files.h"
+#include "transillum/files.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/relight.h"

@@ -25,6 +25,37 @@ def room(**options):
     return transillum.load("cornell-box", patches=150, **options)
 
 
+class Pictures(unittest.TestCase):
+    def test_a_furnace_is_two_everywhere(self):
+        solution = transillum.solve(transillum.load("furnace"), directions=64)
+        center = solution.scene.center.mean(axis=0)
+        pixels = transillum.picture(solution, center, center + (0, 1, 0), size=(6, 4), samples=1)
+        self.assertEqual((pixels.shape, pixels.dtype), ((4, 6, 3), np.float32))
+        np.testing.assert_allclose(pixels, 2 / np.pi, rtol=1e-3)
+
+    def test_a_picture_has_the_bits_of_the_program(self):
+        solution = transillum.solve(room(), directions=64)
+        eye, target = (0.278, 0.273, 0.05), (0.278, 0.2, 0.5)
+        pixels = transillum.picture(solution, eye, target, up=(0, 1, 0), size=(8, 6), fov=60)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "p.pfm")
+            command = "picture cornell-box --patches 150 -m 64 --eye 0.278,0.273,0.05 "
+            command += "--target 0.278,0.2,0.5 --camera-up 0,1,0 --size 8x6 --fov 60 -q --out"
+            subprocess.run([os.environ["TRANSILLUM_PROGRAM"], *command.split(), path], check=True)
+            with open(path, "rb") as file:
+                data = file.read()
+        np.testing.assert_array_equal(
+            pixels[::-1].ravel(), np.frombuffer(data[-4 * pixels.size :], dtype="<f4")
+        )
+
+    def test_wrong_values_are_named(self):
+        solution = transillum.solve(room(), directions=8)
+        with self.assertRaisesRegex(transillum.InputError, "eye: expected three numbers"):
+            transillum.picture(solution, (1, 2))
+        with self.assertRaisesRegex(transillum.InputError, "width in pixels is 0"):
+            transillum.picture(solution, (0.278, 0.273, 0.05), size=(0, 4))
+
+
 class Scenes(unittest.TestCase):
     def test_arrays_of_a_cube(self):
         cube = transillum.Scene(CORNERS, CUBE, reflectance=[0.1, 0.2, 0.3], exitance=2)

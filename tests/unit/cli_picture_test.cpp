@@ -171,6 +171,8 @@ TEST(CliPicture, BadCallsAreRefused) {
           {{"--tone", "aces"}, "--tone: used only with a .png file"},
           {{"--false-color"}, "--false-color: used only with a .png file"},
           {{"--lux"}, "--lux: used only with --false-color"},
+          {{"--false-color", "--lux", "-o", folder / "p.png"},
+           "--lux: not used with .exr and .pfm files"},
           {{"--height", "2"}, "--height: used only with an orthographic picture"},
           {{"--panorama", "--fov", "50"}, "--fov: not used with a panorama"},
           {{"--panorama", "--orthographic"}, "excludes"},

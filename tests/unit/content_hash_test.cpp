@@ -11,7 +11,6 @@
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 #include "transillum/files.h"
-#include "transillum/form_factor_files.h"
 
 namespace transillum {
 namespace content_hash_test {

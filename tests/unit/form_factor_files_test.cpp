@@ -2,7 +2,6 @@
 //
 // Form factors in files: written files are read back, matrices of other programs are read, and
 // damaged or foreign files are refused in one line; drop_small_form_factors(); `solve --factors`.
-#include "transillum/form_factor_files.h"
 
 #include <gmock/gmock.h>
 

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "gltf_test_file.h"
+#include "scene/read/scene_cameras.h"
 #include "support/temporary_folder.h"
 #include "transillum/errors.h"
-#include "transillum/scene_cameras.h"
 
 namespace transillum::gltf_cameras_test {
 namespace {

@@ -2,7 +2,7 @@
 //
 // Files of pictures are read back: PNG by libpng, OpenEXR by its library, PFM byte by byte. Tone
 // curves and scales of false colors have known values.
-#include "transillum/picture_files.h"
+#include "transillum/files.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -23,6 +23,7 @@
 #include "io/srgb.h"
 #include "support/temporary_folder.h"
 #include "transillum/errors.h"
+#include "transillum/picture.h"
 
 namespace transillum::picture_files_test {
 namespace {

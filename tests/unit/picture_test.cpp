@@ -12,6 +12,7 @@
 
 #include "pictures/sequences.h"
 #include "support/canceled.h"
+#include "support/glossy_scenes.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
@@ -176,6 +177,116 @@ TEST(Picture, UnderAUniformSkyAFlatGroundReflectsAll) {
   EXPECT_NEAR(ground.r, 1.2, 1e-12);
   EXPECT_NEAR(ground.b, 0.4, 1e-12);
   EXPECT_NEAR(light.radiance({0, 0, 1}, {0.1, 0.2, 1}).g, 2 / std::numbers::pi, 1e-12);
+  EXPECT_NEAR(light.irradiance({0.3, 0.6, 1}, {0, 0, -1}).r, 3, 1e-12);
+  EXPECT_EQ(light.irradiance({0, 0, 1}, {0.1, 0.2, 1}), Rgb());
+}
+
+/// A box on a ground of divisions² patches, under a uniform sky.
+std::shared_ptr<const Scene> box_on_ground(int divisions) {
+  Sketch sketch("box on ground");
+  const int gray = sketch.material(0.6, 0);
+  sketch.grid({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, divisions, [&](double, double) { return gray; });
+  sketch.box({1, 1, 0}, {2, 2, 1}, false, gray);
+  return sketch.scene();
+}
+
+TEST(Picture, TheFootOfABoxHasTheLightOfTheGroundBesideIt) {
+  SolveOptions options;
+  options.directions = 1024;
+  options.sky.exitance = {1, 1, 1};
+  const auto light_on = [&](int divisions) {
+    return SurfaceLight(std::make_shared<const Solution>(solve(box_on_ground(divisions), options)));
+  };
+  // The box covers whole patches of 60, parts of some of 10: of those at its corners a ninth.
+  const SurfaceLight cut = light_on(60), uncut = light_on(10);
+  const auto side = [](int divisions) {
+    const auto scene = box_on_ground(divisions);
+    for (PatchId i = 0; i < scene->patch_count(); ++i) {
+      if (scene->patch(i).normal.x < -0.5) {
+        return i;
+      }
+    }
+    return no_patch;
+  };
+  for (const double height : {0.01, 0.03, 0.1, 0.3}) {
+    for (const double y : {1.1, 1.5, 1.83}) {
+      const Vec3 x{1, y, height};
+      const double expected = cut.radiosity(side(60), x).r;
+      EXPECT_NEAR(uncut.radiosity(side(10), x).r, expected, 0.02 * expected) << y << ' ' << height;
+    }
+  }
+}
+
+/// Radiance along a ray, mean over the samples of a pixel.
+double seen(const SurfaceLight& light, const Vec3& from, const Vec3& along, std::uint64_t pixel,
+            std::uint32_t samples) {
+  double sum = 0;
+  for (std::uint32_t k = 0; k < samples; ++k) {
+    sum += light.radiance(from, along, joined({pixel, k})).r / samples;
+  }
+  return sum;
+}
+
+TEST(Picture, InAGlossyFurnaceEveryPointSendsTwo) {
+  for (const Lobe& lobe : {phong(0.3, 3), phong(0.3, 300), ggx(0.3, 0.8), ggx(0.3, 0.2)}) {
+    Sketch sketch("glossy furnace");
+    sketch.box({0, 0, 0}, {1, 1, 1}, true, sketch.material(0.2, 1));
+    SceneDescription description = sketch.description();
+    description.materials[0].lobe = lobe;
+    SolveOptions options;
+    options.directions = 128;
+    options.glossy = true;
+    const SurfaceLight light(std::make_shared<const Solution>(
+        solve(std::make_shared<const Scene>(description), options)));
+    for (const Vec3& along : {Vec3{0.1, 0.2, -1}, Vec3{1, 0.3, -0.2}, Vec3{0.4, 1, 0.3}}) {
+      EXPECT_NEAR(std::numbers::pi * seen(light, {0.5, 0.45, 0.4}, along, 7, 16), 2, 0.02);
+    }
+  }
+}
+
+TEST(Picture, LampsInLobesHaveNoGrain) {
+  SceneDescription description = box_in_cube(4, 2).description();
+  for (Material& material : description.materials) {
+    material.lobe = max_abs(material.exitance) > 0 ? Lobe() : ggx(0.4, 0.5);
+  }
+  SolveOptions options;
+  options.directions = 256;
+  options.glossy = true;
+  const SurfaceLight light(
+      std::make_shared<const Solution>(solve(std::make_shared<const Scene>(description), options)));
+  const Vec3 from{0.1, 0.1, 0.9}, along{0.3, 0.7, -0.85};
+  const double expected = seen(light, from, along, 1, 1024);
+  double squares = 0;
+  constexpr int pixels = 64;
+  for (std::uint64_t pixel = 2; pixel < 2 + pixels; ++pixel) {
+    squares += std::pow(seen(light, from, along, pixel, 16) / expected - 1, 2) / pixels;
+  }
+  EXPECT_LT(std::sqrt(squares), 0.005);
+}
+
+TEST(Picture, LampsPastTheMostPowerfulAreGathered) {
+  Sketch sketch("many lamps");
+  const int black = sketch.material(0, 0);
+  std::vector<int> lamps;
+  for (int k = 0; k < 30; ++k) {
+    lamps.push_back(sketch.material(0, 1 + k));
+  }
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, black);
+  sketch.grid({0, 1, 1}, {1, 0, 0}, {0, -1, 0}, 30, [&](double s, double t) {
+    return lamps[static_cast<std::size_t>(7 * std::floor(30 * s) + std::floor(30 * t)) % 30];
+  });
+  const auto scene = sketch.scene();
+  const auto solution = solved(scene, 16);
+  const SurfaceLight light(solution, 16384);
+  EXPECT_EQ(light.gathered_lamps(), 900 - 512);
+  const std::vector<SurfacePoint> points{{0, {0.31, 0.4, 0}}, {0, {0.9, 0.1, 0}}};
+  const std::vector<Rgb> expected = direct_by_sensors(*scene, points);
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const Vec3& x = points[n].position;
+    const Rgb all = light.irradiance(x + Vec3{0, 0, 0.5}, {0, 0, -1});
+    EXPECT_NEAR(all.r, expected[n].r, 0.005 * expected[n].r);
+    EXPECT_LT(light.direct_irradiance(0, x).r, 0.95 * expected[n].r);
+  }
 }
 
 TEST(Picture, HasTheSameBitsForAnyNumberOfThreads) {

@@ -8,7 +8,7 @@
 #include "cli/arguments/option_values.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
-#include "transillum/picture_files.h"
+#include "transillum/files.h"
 
 namespace transillum::cli {
 namespace {
@@ -30,10 +30,7 @@ void add_color_outputs(CLI::App& command, ColorOutputs& colors) {
                     "is white (default: "
                     "98 % of the area that does not emit is below white)",
                     [&colors](const std::string& text) {
-                      colors.display.exposure = parse_number("--exposure", text);
-                      if (!(*colors.display.exposure > 0)) {
-                        throw InputError("--exposure: \"" + text + "\" is not greater than 0");
-                      }
+                      colors.display.exposure = parse_positive("--exposure", text);
                     });
   add_parsed_option(
       command, "--target", "X,Y,Z",
@@ -45,14 +42,10 @@ void add_color_outputs(CLI::App& command, ColorOutputs& colors) {
   command.add_flag("--sharp", colors.sharp,
                    "--light-map has exact direct light with its shadows, on grids of points of "
                    "whole faces");
-  add_parsed_option(command, "--texels", "N",
-                    "points of --sharp per meter (default: 1,024 along the diagonal of the scene)",
-                    [&colors](const std::string& text) {
-                      colors.texels = parse_number("--texels", text);
-                      if (!(colors.texels > 0)) {
-                        throw InputError("--texels: \"" + text + "\" is not greater than 0");
-                      }
-                    });
+  add_parsed_option(
+      command, "--texels", "N",
+      "points of --sharp per meter (default: 1,024 along the diagonal of the scene)",
+      [&colors](const std::string& text) { colors.texels = parse_positive("--texels", text); });
   command
       .add_option(
           "--series", colors.series,

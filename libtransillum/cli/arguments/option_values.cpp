@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "cli/arguments/option_values.h"
 
+#include <fmt/format.h>
+
 #include "options/option_table.h"
 #include "options/option_values.h"
 #include "transillum/engine.h"
@@ -34,6 +36,16 @@ std::optional<double> parse_first_shot(const std::string& option, const std::str
 
 double parse_number(const std::string& option, const std::string& text) {
   return named(option, [&] { return number_from_text(text); });
+}
+
+double parse_positive(const std::string& option, const std::string& text, double below) {
+  const double value = parse_number(option, text);
+  if (!(value > 0 && value < below)) {
+    throw InputError(std::isinf(below)
+                         ? fmt::format("{}: \"{}\" is not greater than 0", option, text)
+                         : fmt::format("{}: \"{}\" is not between 0 and {}", option, text, below));
+  }
+  return value;
 }
 
 Vec3 parse_point(const std::string& option, const std::string& text) {

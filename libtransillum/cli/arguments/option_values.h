@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,8 @@ std::int64_t parse_whole_number(const std::string& option, const std::string& te
 std::optional<double> parse_first_shot(const std::string& option, const std::string& text);
 /// A finite number.
 double parse_number(const std::string& option, const std::string& text);
+/// A number greater than 0 and less than `below`.
+double parse_positive(const std::string& option, const std::string& text, double below = HUGE_VAL);
 /// A point, three numbers.
 Vec3 parse_point(const std::string& option, const std::string& text);
 /// EngineOptions::resolution

@@ -13,7 +13,6 @@
 #include "io/results/error_report_files.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/picture_files.h"
 
 namespace transillum::cli {
 namespace {

@@ -16,7 +16,6 @@
 #include "radiosity/form_factors/small_form_factors.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/form_factor_files.h"
 #include "transillum/form_factor_solve.h"
 
 namespace transillum::cli {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,10 +17,10 @@
 #include "cli/messages.h"
 #include "cli/output_files.h"
 #include "cli/reports/summaries.h"
+#include "scene/read/scene_cameras.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"
-#include "transillum/scene_cameras.h"
 
 namespace transillum::cli {
 namespace {
@@ -36,16 +35,6 @@ struct PictureCall {
 
   const SolveOptions& solve() const { return scene.run.solve; }
 };
-
-double parse_positive(const std::string& option, const std::string& text, double below) {
-  const double value = parse_number(option, text);
-  if (!(value > 0 && value < below)) {
-    throw InputError(std::isinf(below)
-                         ? fmt::format("{}: \"{}\" is not greater than 0", option, text)
-                         : fmt::format("{}: \"{}\" is not between 0 and {}", option, text, below));
-  }
-  return value;
-}
 
 void parse_size(const std::string& text, PictureOptions& options) {
   const std::size_t cross = text.find('x');
@@ -137,6 +126,8 @@ void check_options(const PictureCall& call) {
   }
   refuse_unless(!call.picture.false_colors, command, "--tone", "not used with --false-color");
   refuse_unless(call.picture.false_colors, command, "--lux", "used only with --false-color");
+  refuse_unless(std::all_of(files.begin(), files.end(), is_screen_picture), command, "--lux",
+                "not used with .exr and .pfm files, which have radiance");
 }
 
 /// Refuses options of a solve, which a result has behind it.
@@ -239,11 +230,10 @@ void add_camera_options(CLI::App& command, const std::shared_ptr<PictureCall>& c
       .add_flag("--orthographic", call->orthographic,
                 "parallel rays, from the plane through the eye")
       ->excludes(panorama);
-  add_parsed_option(command, "--height", "H",
-                    "height that an orthographic picture shows, in m (default: the whole scene)",
-                    [call](const std::string& text) {
-                      call->height = parse_positive("--height", text, HUGE_VAL);
-                    });
+  add_parsed_option(
+      command, "--height", "H",
+      "height that an orthographic picture shows, in m (default: the whole scene)",
+      [call](const std::string& text) { call->height = parse_positive("--height", text); });
 }
 
 void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& call) {
@@ -275,7 +265,7 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& 
                     [&picture](const std::string& text) {
                       picture.exposure.reset();
                       if (text != "auto") {
-                        picture.exposure = parse_positive("--exposure", text, HUGE_VAL);
+                        picture.exposure = parse_positive("--exposure", text);
                       }
                     });
   add_parsed_option(
@@ -285,7 +275,9 @@ void add_picture_options(CLI::App& command, const std::shared_ptr<PictureCall>& 
       [&picture](const std::string& text) { picture.tone = from_name<ToneCurve>(text); });
   command.add_flag("--false-color", picture.false_colors,
                    "B by a color map in a .png file, with a scale in W/m2 beside the picture");
-  command.add_flag("--lux", picture.lux, "the scale of --false-color in lux, at 683 lm/W");
+  command.add_flag(
+      "--lux", picture.lux,
+      "--false-color shows illuminance in lux, 683 lm/W of irradiance H, instead of B");
   command
       .add_option("-o,--out", picture.files,
                   "picture: .png for a screen, or .exr, .pfm with radiance in W/(m2 sr); may be "

@@ -28,7 +28,6 @@
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"
-#include "transillum/picture_files.h"
 
 namespace transillum::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "io/results/error_report_files.h"
 #include "io/runs/shard_files.h"
 #include "transillum/errors.h"
-#include "transillum/form_factor_files.h"
+#include "transillum/files.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/solve_session.h"
 

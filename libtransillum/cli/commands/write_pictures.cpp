@@ -3,14 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 #include "base/memory_limit.h"
 #include "base/seconds_since.h"
 #include "cli/interruption.h"
 #include "cli/messages.h"
 #include "cli/output_files.h"
+#include "geometry/luminance.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -21,6 +26,19 @@ namespace {
 double memory_of(const PictureOptions& options) {
   constexpr double bytes_of_pixel = sizeof(Rgb) + 3 * sizeof(float);
   return bytes_of_pixel * options.width * options.height;
+}
+
+/// The luminance of H that the picture does not exceed in 98 % of the pixels that show a surface.
+double bright_irradiance(const Picture& picture) {
+  std::vector<double> values;
+  for (const Rgb& radiance : picture.radiance) {
+    if (const double value = std::numbers::pi * luminance(radiance); value > 0) {
+      values.push_back(value);
+    }
+  }
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(49 * values.size() / 50);
+  std::nth_element(values.begin(), place, values.end());
+  return values.empty() ? 1 : *place;
 }
 
 void write(const PictureRequest& request, const std::string& file, const Picture& picture,
@@ -57,8 +75,9 @@ void write_pictures(const PictureRequest& request, std::shared_ptr<const Solutio
     return;
   }
   const auto start = std::chrono::steady_clock::now();
-  const PictureOptions& options = request.options;
-  const double exposure = request.exposure.value_or(automatic_exposure(*solution));
+  PictureOptions options = request.options;
+  options.irradiance = request.lux;
+  const double of_result = automatic_exposure(*solution);
   Picture picture;
   display.begin("making the picture");
   try {
@@ -70,6 +89,8 @@ void write_pictures(const PictureRequest& request, std::shared_ptr<const Solutio
   } catch (const Canceled&) {
     throw NothingToSave("the picture is not finished: it is not written");
   }
+  const double exposure =
+      request.exposure.value_or(request.lux ? 1 / bright_irradiance(picture) : of_result);
   display.begin("writing the picture");
   std::vector<std::function<void()>> writers;
   for (const std::string& file : request.files) {
@@ -82,6 +103,10 @@ void write_pictures(const PictureRequest& request, std::shared_ptr<const Solutio
                               fmt::join(request.files, ", "), options.width, options.height,
                               options.samples, options.samples == 1 ? "" : "s",
                               seconds_since(start), exposure));
+    if (picture.gathered_lamps > 0) {
+      print_message(fmt::format("the light of the {} weakest emitting faces was gathered by rays",
+                                picture.gathered_lamps));
+    }
   }
 }
 

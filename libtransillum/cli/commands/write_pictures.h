@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cli/progress_display.h"
+#include "transillum/files.h"
 #include "transillum/picture.h"
-#include "transillum/picture_files.h"
 
 namespace transillum::cli {
 
@@ -20,7 +20,7 @@ struct PictureRequest {
   std::optional<double> exposure = std::nullopt;  ///< if unset, automatic_exposure()
   ToneCurve tone = ToneCurve::linear;
   bool false_colors = false;  ///< .png files have them
-  bool lux = false;           ///< the unit of their scale
+  bool lux = false;           ///< illuminance instead of B
   bool quiet = false;         ///< no line on standard error
 };
 

@@ -1,8 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Result files. Every writer of the library writes a temporary file in the same folder and renames
-// it: a file exists completely or not at all. Numbers read back bit for bit. Writers throw
-// std::runtime_error naming the file if it cannot be written. Columns: data/FILES.md.
+// Files of results, form factors and pictures. Every writer of the library writes a temporary file
+// in the same folder and renames it: a file exists completely or not at all. Numbers read back bit
+// for bit. Writers throw std::runtime_error naming the file if it cannot be written. Columns:
+// data/FILES.md.
 #pragma once
 
 #include <filesystem>
@@ -13,16 +14,21 @@
 #include <string>
 #include <vector>
 
+#include "transillum/cancellation.h"
+#include "transillum/choice.h"
 #include "transillum/directions.h"
 #include "transillum/export.h"
 #include "transillum/form_factors.h"
-#include "transillum/picture.h"
 #include "transillum/run_options.h"
 #include "transillum/scene.h"
 #include "transillum/solution.h"
 #include "transillum/transfers.h"
+#include "transillum/vec3.h"
 
 namespace TRANSILLUM_API transillum {
+
+struct Picture;
+class SharpLightMap;
 
 /// Writes `path` through a temporary file in the same folder. A symbolic link stays, and what it
 /// refers to is written, whether that exists or not. A device, and an open file of this process
@@ -132,5 +138,102 @@ void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>&
 /// @throws std::runtime_error if it cannot be written.
 void write_statistics(const std::filesystem::path& path, const RunOptions& options,
                       const Solution& solution);
+
+/// Form factors read from a file.
+struct StoredFormFactors {
+  std::string name;           ///< name of the file, for error messages
+  FormFactors form_factors;   ///< rows sorted by source, values > 0
+  std::vector<double> areas;  ///< areas of the patches, m²; empty if the file has none
+  std::string polygons;       ///< hash of the corners of all patches; empty: the file has none
+};
+
+/// Checks that `path` is writable and ends in .csv, .npz, .mtx or .vf, or has no ending, which
+/// means .csv.
+/// @throws InputError
+void check_form_factor_path(const std::filesystem::path& path);
+/// Writes form factors in the format given by the extension of `path`: .csv (i,j,F), .npz (a
+/// compressed sparse row matrix as scipy.sparse.load_npz() reads it), .mtx (Matrix Market), .vf
+/// (the text form of View3D: a dense matrix). All but .vf also have FormFactors::moments, if any.
+/// @param path the file.
+/// @param scene whose areas .npz, .mtx and .vf files hold, whose polygons' hash .npz and .mtx
+/// files, and whose reflectances .vf files.
+/// @param form_factors of `scene`.
+/// @throws InputError for another extension, where the matrix is too large for the format, or for
+/// moments in a .vf file
+/// @throws std::runtime_error if the file cannot be written.
+void write_form_factors(const std::filesystem::path& path, const Scene& scene,
+                        const FormFactors& form_factors);
+
+/// Whether `path` ends in .npz or .mtx.
+bool is_form_factor_file(const std::filesystem::path& path);
+/// Reads form factors from a .npz or .mtx file, by write_form_factors() or another program.
+/// @throws InputError naming the file and what is wrong with it
+/// @throws Canceled
+StoredFormFactors read_form_factors(const std::filesystem::path& path,
+                                    const Cancellation& cancellation = {});
+/// Checks that form factors belong to a scene: the number of patches; their areas, to 1e-9; in
+/// files without areas, that A_i F_ij and A_j F_ji differ by at most 10 % on average; the hash of
+/// the polygons, without which an object that has moved is not noticed.
+/// @throws InputError naming the file and the difference.
+void check_form_factors(const Scene& scene, const StoredFormFactors& stored);
+
+/// How exposed light becomes a color.
+enum class ToneCurve {
+  linear,  ///< proportional; what is brighter than white keeps its hue
+  aces,    ///< film curve of ACES, as fitted by K. Narkowicz (2016)
+  filmic,  ///< film curve of J. Hable (2010), white at 11.2 after an exposure of 2
+};
+/// @returns the texts of tone curves.
+template <>
+const Choices& choices_of<ToneCurve>();
+
+/// Colors of a picture on a screen.
+struct PictureLook {
+  /// Linear color per radiosity, m²/W, > 0: pi times the radiance, which is B of a diffuse surface,
+  /// times it is 1 where a linear picture becomes white.
+  double exposure = 1;
+  ToneCurve tone = ToneCurve::linear;  ///< from exposed light to linear color
+
+  /// @throws InputError naming the value and its range.
+  void validate() const;
+};
+/// The linear color in which a radiance is shown, each channel from 0 to 1.
+Rgb shown_color(const Rgb& radiance, const PictureLook& look);
+
+/// A scale of false colors for pi times the radiance, by its luminance (Rec. 709).
+struct FalseColors {
+  double highest = 1;  ///< upper end of the scale, W/m², > 0; the lower end is 0
+  /// The picture has PictureOptions::irradiance, and the scale says illuminance, lux, at 683 lm/W;
+  /// else it says B, W/m².
+  bool lux = false;
+
+  /// @throws InputError naming the value and its range.
+  void validate() const;
+};
+
+/// Whether `path` ends in .png, .exr or .pfm.
+bool is_picture_file(const std::filesystem::path& path);
+/// Whether `path` ends in .png: such a file has the colors of a PictureLook or FalseColors.
+bool is_screen_picture(const std::filesystem::path& path);
+/// Checks, before a long computation, that `path` is writable and ends in .png, .exr or .pfm.
+/// @throws InputError
+void check_picture_path(const std::filesystem::path& path);
+/// Writes a picture in the format given by the extension of `path`, completely or not at all.
+///
+/// - .png: 8 bits a channel, sRGB.
+/// - .exr: OpenEXR, channels R, G, B of 32-bit floating-point numbers: radiance, W/(m² sr).
+/// - .pfm: the same numbers as a portable float map, little-endian, rows from the bottom.
+/// @param path the file.
+/// @param picture the picture.
+/// @param look of .png files.
+/// @throws InputError as check_picture_path(), for a look out of range, or a picture without its
+/// pixels; std::runtime_error if the file cannot be written.
+void write_picture(const std::filesystem::path& path, const Picture& picture,
+                   const PictureLook& look = {});
+/// Writes a .png file of the picture in false colors, with a labeled scale on its right, which
+/// makes it wider.
+/// @throws InputError, std::runtime_error as write_picture()
+void write_false_colors(const std::filesystem::path& path, const Picture& picture,
+                        const FalseColors& colors);
 
 }  // namespace TRANSILLUM_API transillum

@@ -54,6 +54,9 @@ struct PictureOptions {
   /// Rays from each sample that gather the reflected light. 0 means that it is interpolated between
   /// points of the surfaces, which gather it by many rays.
   int gather = 0;
+  /// The picture shows the irradiance H of surfaces: a pixel is H / pi, the radiance that a white
+  /// diffuse surface would reflect; 0 where nothing is.
+  bool irradiance = false;
   int threads = 0;  ///< 0 uses all cores; the result does not depend on it
 
   /// @throws InputError naming the value and its range.
@@ -67,6 +70,9 @@ struct Picture {
   /// Radiance toward the camera, W/(m² sr), mean over each pixel; row by row from the top, from
   /// left to right.
   std::vector<Rgb> radiance;
+  /// Emitting faces whose light was gathered by rays, with their noise: the weakest, past the
+  /// number that can be treated exactly, and those without a ten-thousandth of all power.
+  int gathered_lamps = 0;
 };
 
 /// The light that points of a result's surfaces receive and send, computed when it is asked for;
@@ -96,6 +102,10 @@ class SurfaceLight {
   /// @param direction of any length but 0.
   /// @param salt makes the sequences of rays differ between samples of a pixel.
   Rgb radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt = 0) const;
+  /// Irradiance of what radiance() meets, W/m²; 0 where nothing is met.
+  Rgb irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt = 0) const;
+  /// Picture::gathered_lamps
+  int gathered_lamps() const;
 
  private:
   struct Impl;

@@ -26,7 +26,6 @@ namespace transillum {}
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
 #include "transillum/scene.h"
-#include "transillum/scene_cameras.h"
 
 // Solving: options, progress, solution.
 #include "transillum/accuracy_goal.h"
@@ -71,6 +70,4 @@ namespace transillum {}
 // Files: results, checkpoints, form factors, maps, pictures.
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
-#include "transillum/form_factor_files.h"
 #include "transillum/map_files.h"
-#include "transillum/picture_files.h"

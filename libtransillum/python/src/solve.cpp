@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <pybind11/stl.h>
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -234,6 +235,34 @@ py::object standard_error_of(const ErrorEstimate& error) {
   return error.replicas > 0 ? py::object(to_table<3>(error.standard_error)) : py::none();
 }
 
+/// The picture as an array (height, width, 3).
+py::array_t<float> picture(const Solution& solution, const py::handle& eye,
+                           const py::handle& target, const py::handle& up,
+                           const std::optional<double>& field_of_view,
+                           const std::array<int, 2>& size, int samples, int gather) {
+  Camera camera{to_vec3(eye, "eye"), solution.scene->bounds().center(), to_vec3(up, "up")};
+  if (!target.is_none()) {
+    camera.target = to_vec3(target, "target");
+  }
+  camera.field_of_view = field_of_view;
+  PictureOptions options;
+  options.width = size[0];
+  options.height = size[1];
+  options.samples = samples;
+  options.gather = gather;
+  const Picture made = run_cancelably([&](const Cancellation& cancellation) {
+    return make_picture(std::make_shared<const Solution>(solution), camera, options, cancellation);
+  });
+  py::array_t<float> array({size[1], size[0], 3});
+  float* next = array.mutable_data();
+  for (const Rgb& radiance : made.radiance) {
+    for (const double channel : {radiance.r, radiance.g, radiance.b}) {
+      *next++ = static_cast<float>(channel);
+    }
+  }
+  return array;
+}
+
 void bind_solution(py::module_& module) {
   py::class_<Solution>(module, "Solution")
       .def_property_readonly(
@@ -300,6 +329,7 @@ void bind_solve(py::module_& module) {
   bind_run(module);
   module.def("solve", &solve_scene);
   module.def("form_factors", &form_factors);
+  module.def("picture", &picture);
 }
 
 }  // namespace transillum::python

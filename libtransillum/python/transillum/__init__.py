@@ -14,7 +14,7 @@ from ._core import InputError, __version__
 from ._maps import Transfers, VisibilityMap, transfers, visibility_map
 from ._pyvista import from_pyvista, to_pyvista
 from ._scenes import Scene, TransillumWarning, built_in_scenes, load
-from ._solves import Run, Solution, form_factors, options, solve
+from ._solves import Run, Solution, form_factors, options, picture, solve
 
 __all__ = [
     "InputError",
@@ -30,6 +30,7 @@ __all__ = [
     "from_pyvista",
     "load",
     "options",
+    "picture",
     "solve",
     "to_pyvista",
     "transfers",

@@ -105,6 +105,34 @@ def form_factors(
     return _to_csr(_core.form_factors(scene._core, options, progress), len(scene))
 
 
+def picture(
+    solution: Solution,
+    eye: npt.ArrayLike,
+    target: Union[npt.ArrayLike, None] = None,
+    *,
+    up: npt.ArrayLike = (0, 0, 1),
+    fov: Union[float, None] = None,
+    size: tuple[int, int] = (1280, 960),
+    samples: int = 4,
+    gather: int = 0,
+) -> npt.NDArray[np.float32]:
+    """The mean radiance of each pixel, (height, width, 3), W/(m² sr), rows from the top: a
+    solution as an eye sees it, with sharp shadows.
+
+    eye, target: points, m; the target, in the middle, is the center of the scene by default.
+    up: the direction that is up in the picture.
+    fov: vertical angle of view, degrees; None: the whole scene, up to 75.
+    size: width and height.
+    samples: points at which each pixel is sampled.
+    gather: rays from each sample that gather the reflected light; 0: it is interpolated.
+    """
+    points = [
+        None if point is None else np.asarray(point, dtype=np.float64)
+        for point in (eye, target, up)
+    ]
+    return _core.picture(solution._core, *points, fov, size, samples, gather)
+
+
 class Run:
     """A solve that is advanced pass by pass.
 

@@ -17,61 +17,18 @@
 namespace transillum {
 namespace {
 
-/// Height above a surface at which rays start, in Embree's unit: a few roundings of a coordinate.
-constexpr double lift = 2e-6;
 constexpr std::size_t table_count = 64;
-
-/// The bits of two numbers below 2^8, alternating: near points get near numbers.
-std::uint32_t interleaved(std::uint32_t a, std::uint32_t b) {
-  std::uint32_t bits = 0;
-  for (unsigned k = 0; k < 8; ++k) {
-    bits |= ((a >> k) & 1U) << (2 * k) | ((b >> k) & 1U) << (2 * k + 1);
-  }
-  return bits;
-}
-
-/// Directions about +z, distributed by the cosine: two sets, each of which fills the hemisphere;
-/// those next to each other in a set are similar.
-std::array<std::vector<Vec3>, 2> cosine_directions(int count, double shift_u, double shift_v) {
-  std::array<std::vector<Vec3>, 2> sets;
-  for (int k = 0; k < count; ++k) {
-    const double square = fraction((k + 0.5) / count + shift_u);
-    const double turn = mirrored_bits(static_cast<std::uint32_t>(k / 2)) + plastic_step * (k % 2);
-    const double angle = 2 * std::numbers::pi * fraction(turn + shift_v);
-    const double radius = std::sqrt(square);
-    sets[static_cast<std::size_t>(k % 2)].push_back(
-        {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - square)});
-  }
-  const auto place = [](const Vec3& w) {
-    const auto step = [](double x) { return static_cast<std::uint32_t>(127.5 * (x + 1)); };
-    return interleaved(step(w.x), step(w.y));
-  };
-  for (std::vector<Vec3>& set : sets) {
-    std::stable_sort(set.begin(), set.end(),
-                     [&](const Vec3& a, const Vec3& b) { return place(a) < place(b); });
-  }
-  return sets;
-}
 
 }  // namespace
 
-TangentFrame::TangentFrame(const Vec3& normal)
-    : u(normalized(cross(std::abs(normal.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, normal))),
-      v(cross(normal, u)),
-      w(normal) {}
-
-GatheredLight::GatheredLight(const Solution& solution, const HitLight& light, int rays,
-                             const Cancellation& cancellation)
-    : solution_(solution), scene_(*solution.scene), light_(light), embree_(scene_, cancellation) {
+GatheredLight::GatheredLight(const Solution& solution, const EmbreeScene& embree,
+                             const HitLight& light, int rays)
+    : solution_(solution), scene_(*solution.scene), light_(light), embree_(embree) {
   for (std::size_t k = 0; k < table_count; ++k) {
     const auto number = static_cast<double>(k);
     tables_.push_back(cosine_directions(rays, fraction(plastic_step * number),
                                         fraction(plastic_square * number)));
   }
-}
-
-Vec3 GatheredLight::start_of(const Vec3& x, const Vec3& normal) const {
-  return embree_.inside(x) + lift * normal;
 }
 
 /// The meeting of a ray with a triangle that Embree has found.
@@ -124,15 +81,17 @@ Rgb GatheredLight::brought(const Vec3& start, std::span<const Vec3> directions) 
 }
 
 GatheredLight::Gathered GatheredLight::at_point(const Vec3& x, const Vec3& normal,
-                                                std::uint64_t variant) const {
-  const std::uint64_t bits = mixed(variant + golden_step);
-  const auto& table = tables_[variant == 0 ? 0 : bits % table_count];
-  const double angle = variant == 0 ? 0 : 2 * std::numbers::pi * unit_fraction(bits);
+                                                std::uint64_t salt) const {
+  // Samples of a pixel have different tables, which together fill the hemisphere evenly.
+  const auto [pixel, number] = split(salt);
+  const std::uint64_t bits = mixed(pixel + golden_step * (number / table_count + 1));
+  const auto& table = tables_[salt == 0 ? 0 : (bits + number) % table_count];
+  const double angle = salt == 0 ? 0 : 2 * std::numbers::pi * unit_fraction(bits);
   const TangentFrame about(normal);
   TangentFrame frame = about;
   frame.u = std::cos(angle) * about.u + std::sin(angle) * about.v;
   frame.v = cross(normal, frame.u);
-  const Vec3 start = start_of(x, normal);
+  const Vec3 start = start_of_rays(embree_, x, normal);
   std::array<Rgb, 2> means{};
   std::array<Vec3, packet> directions;
   for (std::size_t half = 0; half < 2; ++half) {
@@ -152,13 +111,14 @@ GatheredLight::Gathered GatheredLight::at_point(const Vec3& x, const Vec3& norma
   return {0.5 * (means[0] + means[1]), 0.5 * (means[0] - means[1])};
 }
 
-Rgb GatheredLight::arriving(const Vec3& x, const Vec3& normal, const Vec3& direction) const {
-  const Vec3 start = start_of(x, normal);
+GatheredLight::Arriving GatheredLight::arriving(const Vec3& x, const Vec3& normal,
+                                                const Vec3& direction) const {
+  const Vec3 start = start_of_rays(embree_, x, normal);
   RTCRayHit ray = make_ray(start, direction);
   embree_.first_hit(ray, false);
   const Met met = has_hit(ray) ? met_at({start, direction}, ray.hit.primID, ray.ray.tfar) : Met();
-  const Rgb light = brought(met, direction);
-  return met.is_lit ? light + light_.exitance(met.patch) : light;
+  const bool is_lamp = met.is_lit && max_abs(light_.exitance(met.patch)) > 0;
+  return {brought(met, direction), is_lamp ? met.patch : no_patch, met.point};
 }
 
 }  // namespace transillum

@@ -7,19 +7,10 @@
 #include <vector>
 
 #include "pictures/hit_light.h"
-#include "transillum/cancellation.h"
+#include "pictures/surface_rays.h"
 #include "transillum/solution.h"
-#include "visibility/embree/embree_scene.h"
 
 namespace transillum {
-
-/// Two vectors that make a right-handed frame with a unit normal.
-struct TangentFrame {
-  explicit TangentFrame(const Vec3& normal);
-  Vec3 turned(const Vec3& local) const { return local.x * u + local.y * v + local.z * w; }
-
-  Vec3 u, v, w;
-};
 
 /// The light of a solution that rays from points of its surfaces meet: B of what they hit, without
 /// the exitance of lamps, and the sky.
@@ -27,11 +18,10 @@ struct TangentFrame {
 /// Threads: immutable once built.
 class GatheredLight {
  public:
-  /// Keeps references to both.
+  /// Keeps references to all but the last.
   /// @param rays to gather by, from each point.
-  /// @throws Canceled
-  GatheredLight(const Solution& solution, const HitLight& light, int rays,
-                const Cancellation& cancellation);
+  GatheredLight(const Solution& solution, const EmbreeScene& embree, const HitLight& light,
+                int rays);
 
   /// The light that a point receives.
   struct Gathered {
@@ -40,12 +30,17 @@ class GatheredLight {
   };
   /// @param x on a surface, m
   /// @param normal unit
-  /// @param variant one of many sequences of rays; any number
-  Gathered at_point(const Vec3& x, const Vec3& normal, std::uint64_t variant) const;
+  /// @param salt names one of many sequences of rays (`Salt`)
+  Gathered at_point(const Vec3& x, const Vec3& normal, std::uint64_t salt) const;
 
-  /// pi times the radiance that arrives at x against `direction`, lamps included, W/m².
+  /// What arrives along a ray.
+  struct Arriving {
+    Rgb light;     ///< pi times its radiance without the exitance of a lamp, W/m²
+    PatchId lamp;  ///< the lamp that is met, or no_patch
+    Vec3 place;    ///< where a surface is met, m
+  };
   /// @param direction unit
-  Rgb arriving(const Vec3& x, const Vec3& normal, const Vec3& direction) const;
+  Arriving arriving(const Vec3& x, const Vec3& normal, const Vec3& direction) const;
 
  private:
   static constexpr std::size_t packet = 16;  ///< rays at a time
@@ -58,7 +53,6 @@ class GatheredLight {
     bool is_lit = false;
     Vec3 point;  ///< m
   };
-  Vec3 start_of(const Vec3& x, const Vec3& normal) const;
   Met met_at(const Line& line, unsigned triangle, float distance) const;
   Rgb brought(const Met& met, const Vec3& direction) const;
   Rgb brought(const Vec3& start, std::span<const Vec3> directions) const;
@@ -66,7 +60,7 @@ class GatheredLight {
   const Solution& solution_;
   const Scene& scene_;
   const HitLight& light_;
-  EmbreeScene embree_;
+  const EmbreeScene& embree_;
   /// Directions about +z, by the cosine, in two sets each.
   std::vector<std::array<std::vector<Vec3>, 2>> tables_;
 };

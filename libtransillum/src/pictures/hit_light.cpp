@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pictures/surface_rays.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
 
@@ -38,36 +39,113 @@ void for_points_of_triangle(const std::array<Vec3, 3>& corners, Visit visit) {
   }
 }
 
-}  // namespace
+/// Calls visit(point, weight) for the centers of parts² triangles of equal size.
+template <class Visit>
+void for_parts_of_triangle(const std::array<Vec3, 3>& corners, int parts, Visit visit) {
+  const Vec3 first = (corners[1] - corners[0]) / parts, second = (corners[2] - corners[0]) / parts;
+  const double weight = 0.5 * norm(cross(first, second));
+  for (int j = 0; j < parts; ++j) {
+    for (int k = 0; j + k < parts; ++k) {
+      visit(corners[0] + (j + 1.0 / 3) * first + (k + 1.0 / 3) * second, weight);
+      if (j + k + 1 < parts) {
+        visit(corners[0] + (j + 2.0 / 3) * first + (k + 2.0 / 3) * second, weight);
+      }
+    }
+  }
+}
 
-struct HitLight::DirectLight {
-  std::array<Rgb, term_count> coefficients;
-  Rgb low, high;                     ///< limits of the exact values
-  std::array<Rgb, 3> in_solution{};  ///< its mean and linear terms, which the solution has
+/// Calls visit(corners) for triangles that a patch consists of.
+template <class Visit>
+void for_triangles(const PlanePoints& points, PatchId patch, Visit visit) {
+  for (std::size_t k = points.first_piece(patch); k < points.end_piece(patch); ++k) {
+    const Corners corners = points.outline(k);
+    for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
+      visit(std::array{corners[0], corners[c], corners[c + 1]});
+    }
+  }
+}
+
+/// A quadratic function of the basis by least squares, and the moments of its values.
+struct Fit {
+  Eigen::Matrix<double, term_count, term_count> matrix =
+      Eigen::Matrix<double, term_count, term_count>::Zero();
+  Eigen::Matrix<double, term_count, 3> right = Eigen::Matrix<double, term_count, 3>::Zero();
+  Rgb low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high;     ///< limits of the values
+  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();  ///< of 1 and the basis
+  std::array<Rgb, 3> moments{};
+
+  void add(const std::array<double, 2>& place, double weight, const Rgb& light) {
+    const Terms terms = terms_at(place[0], place[1]);
+    matrix += weight * terms * terms.transpose();
+    right += weight * terms * Eigen::RowVector3d(light.r, light.g, light.b);
+    low = {std::min(low.r, light.r), std::min(low.g, light.g), std::min(low.b, light.b)};
+    high = {std::max(high.r, light.r), std::max(high.g, light.g), std::max(high.b, light.b)};
+  }
+  void add_moments(const std::array<double, 2>& place, double weight, const Rgb& light) {
+    const Eigen::Vector3d terms(1, place[0], place[1]);
+    gram += weight * terms * terms.transpose();
+    for (std::size_t k = 0; k < 3; ++k) {
+      moments[k] += weight * terms[static_cast<Eigen::Index>(k)] * light;
+    }
+  }
+  std::array<Rgb, term_count> coefficients() const {
+    auto regular = matrix;
+    regular.diagonal().array() += 1e-9 * gram(0, 0);
+    const Eigen::Matrix<double, term_count, 3> solved = regular.ldlt().solve(right);
+    std::array<Rgb, term_count> found;
+    for (int k = 0; k < term_count; ++k) {
+      at(found, k) = {solved(k, 0), solved(k, 1), solved(k, 2)};
+    }
+    return found;
+  }
 };
 
-HitLight::HitLight(const Solution& solution, const PlanePoints& points, const LampLight& lamps)
+/// The first `count` terms of a function of the basis on a part of a patch, from its moments there.
+std::array<Rgb, 3> terms_of(const Eigen::Matrix3d& gram, const std::array<Rgb, 3>& moments,
+                            int count) {
+  Eigen::Matrix3d right;
+  for (int k = 0; k < 3; ++k) {
+    const Rgb& moment = at(moments, k);
+    right.row(k) = Eigen::RowVector3d(moment.r, moment.g, moment.b);
+  }
+  const Eigen::MatrixXd solved =
+      gram.topLeftCorner(count, count).ldlt().solve(right.topRows(count));
+  std::array<Rgb, 3> terms{};
+  for (int k = 0; k < count; ++k) {
+    at(terms, k) = {solved(k, 0), solved(k, 1), solved(k, 2)};
+  }
+  return terms;
+}
+
+}  // namespace
+
+/// The light on the open part of a patch: all of it, or what no solid covers that stands on it.
+struct HitLight::PatchLight {
+  std::array<Rgb, term_count> lamps;     ///< coefficients of a quadratic function
+  Rgb low, high;                         ///< limits of its exact values
+  std::array<Rgb, 3> lamps_in_solution;  ///< its mean and linear terms, which the solution has
+  std::array<Rgb, 3> solution;           ///< B without the exitance of lamps: mean, linear terms
+  std::array<double, 2> center{};        ///< of the part, in the basis
+  Vec3 middle;                           ///< of the part, m
+};
+
+HitLight::HitLight(const Solution& solution, const EmbreeScene& embree, const PlanePoints& points,
+                   const LampLight& lamps)
     : solution_(solution),
       scene_(*solution.scene),
+      embree_(embree),
       points_(points),
       lamps_(lamps),
       is_lamp_(scene_.patches().size(), 0),
       bases_(linear_bases(scene_)),
-      direct_(scene_.patches().size()),
+      light_(scene_.patches().size()),
       slopes_(scene_.patches().size()) {
   for (const PatchId i : lamps.patches()) {
     at(is_lamp_, i) = 1;
   }
 }
 
-HitLight::~HitLight() {
-  for (const auto& direct : direct_) {
-    delete direct.load(std::memory_order_acquire);
-  }
-  for (const auto& slope : slopes_) {
-    delete slope.load(std::memory_order_acquire);
-  }
-}
+HitLight::~HitLight() = default;
 
 Rgb HitLight::exitance(PatchId patch) const {
   return at(is_lamp_, patch) != 0 ? scene_.exitance(patch) : Rgb();
@@ -78,90 +156,96 @@ Rgb HitLight::reflectance(PatchId patch) const {
   return solution_.glossy ? diffuse + used_lobe(scene_.material(patch)).reflectance : diffuse;
 }
 
-std::unique_ptr<const HitLight::DirectLight> HitLight::fitted(PatchId patch) const {
-  Eigen::Matrix<double, term_count, term_count> normal_matrix;
-  Eigen::Matrix<double, term_count, 3> right;
-  normal_matrix.setZero();
-  right.setZero();
-  Rgb low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high;
+bool HitLight::is_open(PatchId patch, const Vec3& x) const {
+  return !is_covered(embree_, x, scene_.patch(patch).normal, !solution_.sky.is_set());
+}
+
+bool HitLight::is_partly_open(PatchId patch) const {
+  constexpr int parts = 4;
+  bool any_open = false, any_covered = false;
+  for_triangles(points_, patch, [&](const std::array<Vec3, 3>& triangle) {
+    for_parts_of_triangle(triangle, parts, [&](const Vec3& x, double) {
+      (is_open(patch, x) ? any_open : any_covered) = true;
+    });
+  });
+  return any_open && any_covered;
+}
+
+/// What the solution has of a patch is its mean over all of it, the part included that is covered
+/// and dark. No ray meets that part, and the rest has all light.
+std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(PatchId patch) const {
+  const bool is_partial = is_partly_open(patch);
   const LinearBasis& basis = at(bases_, patch);
-  double area = 0;
-  std::array<Rgb, 3> moments{};
-  for (std::size_t k = points_.first_piece(patch); k < points_.end_piece(patch); ++k) {
-    const auto corners = scene_.corners(scene_.pieces()[k]);
-    const auto fit = [&](const Vec3& x, double weight) {
+  Fit fit;
+  Vec3 middle;
+  const auto add = [&](const Vec3& x, double weight) {
+    if (!is_partial || is_open(patch, x)) {
       const Rgb light = lamps_.at_point(patch, x);
-      const auto [a, b] = basis.at(x);
-      const Terms terms = terms_at(a, b);
-      normal_matrix += weight * terms * terms.transpose();
-      right += weight * terms * Eigen::RowVector3d(light.r, light.g, light.b);
-      low = {std::min(low.r, light.r), std::min(low.g, light.g), std::min(low.b, light.b)};
-      high = {std::max(high.r, light.r), std::max(high.g, light.g), std::max(high.b, light.b)};
-      return light;
-    };
-    for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
-      for_points_of_triangle(
-          {scene_.point(corners[0]), scene_.point(corners[c]), scene_.point(corners[c + 1])},
-          [&](const Vec3& x, double weight) {
-            const Rgb light = fit(x, weight);
-            const auto [a, b] = basis.at(x);
-            area += weight;
-            moments[0] += weight * light;
-            moments[1] += weight * a * light;
-            moments[2] += weight * b * light;
-          });
+      fit.add(basis.at(x), weight, light);
+      fit.add_moments(basis.at(x), weight, light);
+      middle = middle + weight * x;
     }
-    for (std::size_t c = 0; c < corners.size(); ++c) {
+  };
+  for_triangles(points_, patch, [&](const std::array<Vec3, 3>& triangle) {
+    constexpr int parts = 12;
+    is_partial ? for_parts_of_triangle(triangle, parts, add)
+               : for_points_of_triangle(triangle, add);
+  });
+  for (std::size_t k = points_.first_piece(patch); k < points_.end_piece(patch); ++k) {
+    for (std::size_t c = 0; c < scene_.corners(scene_.pieces()[k]).size(); ++c) {
       constexpr double part = 1.0 / 20;
-      fit(at(points_.points(), points_.of_corner(k, c)).place, part * scene_.patch(patch).area);
+      const Vec3& x = at(points_.points(), points_.of_corner(k, c)).place;
+      if (!is_partial || is_open(patch, x)) {
+        fit.add(basis.at(x), part * scene_.patch(patch).area, lamps_.at_point(patch, x));
+      }
     }
   }
-  auto direct = std::make_unique<DirectLight>();
-  normal_matrix.diagonal().array() += 1e-9 * area;
-  const Eigen::Matrix<double, term_count, 3> solved = normal_matrix.ldlt().solve(right);
-  for (int k = 0; k < term_count; ++k) {
-    at(direct->coefficients, k) = {solved(k, 0), solved(k, 1), solved(k, 2)};
+  auto light = std::make_unique<PatchLight>();
+  light->middle = basis.center;
+  light->lamps = fit.coefficients();
+  light->low = fit.low;
+  light->high = fit.high;
+  const bool is_linear = !solution_.linear_terms.empty();
+  light->solution[0] = at(solution_.radiosity, patch) - exitance(patch);
+  if (is_linear) {
+    const LinearTerm& terms = at(solution_.linear_terms, patch);
+    light->solution = {light->solution[0], terms.first, terms.second};
   }
-  direct->low = low;
-  direct->high = high;
-  for (std::size_t k = 0; k < (solution_.linear_terms.empty() ? 1 : 3); ++k) {
-    direct->in_solution[k] = 1 / area * moments[k];
+  if (!is_partial) {
+    for (std::size_t k = 0; k < (is_linear ? 3 : 1); ++k) {
+      light->lamps_in_solution[k] = 1 / fit.gram(0, 0) * fit.moments[k];
+    }
+    return light;
   }
-  return direct;
+  // A small or narrow part does not determine linear terms.
+  constexpr double least_determinant = 1e-3;
+  const double area = scene_.patch(patch).area;
+  const int count = is_linear && (fit.gram / area).determinant() > least_determinant ? 3 : 1;
+  light->lamps_in_solution = terms_of(fit.gram, fit.moments, count);
+  // Lamps that are gathered emit from all of the part.
+  const Rgb emitted = scene_.exitance(patch) - exitance(patch);
+  light->solution[0] = light->solution[0] - emitted;
+  light->solution = terms_of(fit.gram / area, light->solution, count);
+  light->solution[0] += emitted;
+  light->middle = 1 / fit.gram(0, 0) * middle;
+  light->center = {fit.gram(0, 1) / fit.gram(0, 0), fit.gram(0, 2) / fit.gram(0, 0)};
+  return light;
 }
 
-/// The value behind `place`, which `make` gives if it is unknown.
-template <class Value, class Make>
-const Value& HitLight::kept(std::atomic<const Value*>& place, Make make) const {
-  if (const Value* const known = place.load(std::memory_order_acquire)) {
-    return *known;
-  }
-  std::unique_ptr<const Value> made = make();
-  const Value* expected = nullptr;
-  if (place.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) {
-    return *made.release();
-  }
-  return *expected;
-}
-
-const HitLight::DirectLight& HitLight::direct_on(PatchId patch) const {
-  return kept(at(direct_, patch), [&] { return fitted(patch); });
-}
-
-const HitLight::Slope& HitLight::slope_on(PatchId patch) const {
-  return kept(at(slopes_, patch),
-              [&] { return std::make_unique<const Slope>(slope_by_neighbors(patch)); });
+const HitLight::PatchLight& HitLight::light_on(PatchId patch) const {
+  return at(light_, patch).get([&] { return light_of(patch); });
 }
 
 /// The mean irradiance of a patch by what is not a lamp.
 Rgb HitLight::rest_on(PatchId patch) const {
-  const Rgb light = at(solution_.radiosity, patch) - scene_.exitance(patch);
-  const Rgb reflected = reflectance(patch), direct = direct_on(patch).in_solution[0];
+  const PatchLight& light = light_on(patch);
+  const Rgb sent = light.solution[0] + exitance(patch) - scene_.exitance(patch);
+  const Rgb reflected = reflectance(patch), direct = light.lamps_in_solution[0];
   const auto rest = [](double b, double rho, double lamps) {
     return rho > 0 ? std::max(b / rho - lamps, 0.0) : 0;
   };
-  return {rest(light.r, reflected.r, direct.r), rest(light.g, reflected.g, direct.g),
-          rest(light.b, reflected.b, direct.b)};
+  return {rest(sent.r, reflected.r, direct.r), rest(sent.g, reflected.g, direct.g),
+          rest(sent.b, reflected.b, direct.b)};
 }
 
 /// By least squares from the patches of the same plane that touch it; limited to their difference
@@ -169,6 +253,7 @@ Rgb HitLight::rest_on(PatchId patch) const {
 HitLight::Slope HitLight::slope_by_neighbors(PatchId patch) const {
   const LinearBasis& basis = at(bases_, patch);
   const Rgb own = rest_on(patch);
+  const std::array<double, 2>& center = light_on(patch).center;
   Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, 2, 3> right = Eigen::Matrix<double, 2, 3>::Zero();
   Rgb low = own, high = own;
@@ -188,9 +273,9 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch) const {
     if (j == patch || max_abs(reflectance(j)) == 0) {
       continue;
     }
-    const auto [a, b] = basis.at(scene_.patch(j).center);
+    const auto [a, b] = basis.at(light_on(j).middle);
     const Rgb other = rest_on(j), change = other - own;
-    const Eigen::Vector2d apart(a, b);
+    const Eigen::Vector2d apart(a - center[0], b - center[1]);
     const double weight = 1 / apart.squaredNorm();
     matrix += weight * apart * apart.transpose();
     right += weight * apart * Eigen::RowVector3d(change.r, change.g, change.b);
@@ -214,22 +299,21 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch) const {
 
 Rgb HitLight::at_point(PatchId patch, const Vec3& x) const {
   const auto [a, b] = at(bases_, patch).at(x);
-  Rgb light = at(solution_.radiosity, patch) - exitance(patch);
-  const bool is_linear = !solution_.linear_terms.empty();
-  if (is_linear) {
-    const LinearTerm& term = at(solution_.linear_terms, patch);
-    light += a * term.first + b * term.second;
-  }
+  const PatchLight& on_patch = light_on(patch);
+  const auto& s = on_patch.solution;
+  Rgb light = s[0] + a * s[1] + b * s[2];
   const Rgb reflected = reflectance(patch);
   if (max_abs(reflected) > 0) {
-    const DirectLight& direct = direct_on(patch);
-    const auto& c = direct.coefficients;
+    const auto& c = on_patch.lamps;
+    const auto& known = on_patch.lamps_in_solution;
     const Rgb value = c[0] + a * (c[1] + b * c[3] + a * c[4]) + b * (c[2] + b * c[5]);
-    Rgb change = limited(value, direct.low, direct.high) - direct.in_solution[0] -
-                 a * direct.in_solution[1] - b * direct.in_solution[2];
-    if (!is_linear) {
-      const Slope& slope = slope_on(patch);
-      change += a * slope.first + b * slope.second;
+    Rgb change =
+        limited(value, on_patch.low, on_patch.high) - known[0] - a * known[1] - b * known[2];
+    if (solution_.linear_terms.empty()) {
+      const auto& [first, second] = at(slopes_, patch).get([&] {
+        return std::make_unique<const Slope>(slope_by_neighbors(patch));
+      });
+      change += (a - on_patch.center[0]) * first + (b - on_patch.center[1]) * second;
     }
     light += reflected * change;
   }

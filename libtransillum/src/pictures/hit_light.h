@@ -2,14 +2,15 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <memory>
 #include <vector>
 
+#include "base/kept.h"
 #include "pictures/lamp_light.h"
 #include "pictures/plane_points.h"
 #include "transillum/linear_basis.h"
 #include "transillum/solution.h"
+#include "visibility/embree/embree_scene.h"
 
 namespace transillum {
 
@@ -22,7 +23,8 @@ namespace transillum {
 class HitLight {
  public:
   /// Keeps references to all.
-  HitLight(const Solution& solution, const PlanePoints& points, const LampLight& lamps);
+  HitLight(const Solution& solution, const EmbreeScene& embree, const PlanePoints& points,
+           const LampLight& lamps);
   ~HitLight();
   HitLight(const HitLight&) = delete;
   HitLight& operator=(const HitLight&) = delete;
@@ -36,30 +38,29 @@ class HitLight {
   Rgb reflectance(PatchId patch) const;
 
  private:
-  /// The light of lamps on a patch as a quadratic function of the basis.
-  struct DirectLight;
+  struct PatchLight;
 
   /// How light that is not of lamps changes along the functions of the basis.
   struct Slope {
     Rgb first, second;
   };
 
-  template <class Value, class Make>
-  const Value& kept(std::atomic<const Value*>& place, Make make) const;
-  const DirectLight& direct_on(PatchId patch) const;
-  const Slope& slope_on(PatchId patch) const;
+  bool is_open(PatchId patch, const Vec3& x) const;
+  bool is_partly_open(PatchId patch) const;
+  const PatchLight& light_on(PatchId patch) const;
+  std::unique_ptr<const PatchLight> light_of(PatchId patch) const;
   Slope slope_by_neighbors(PatchId patch) const;
   Rgb rest_on(PatchId patch) const;
-  std::unique_ptr<const DirectLight> fitted(PatchId patch) const;
 
   const Solution& solution_;
   const Scene& scene_;
+  const EmbreeScene& embree_;
   const PlanePoints& points_;
   const LampLight& lamps_;
   std::vector<std::uint8_t> is_lamp_;
   std::vector<LinearBasis> bases_;
-  mutable std::vector<std::atomic<const DirectLight*>> direct_;  ///< by patch; null means unknown
-  mutable std::vector<std::atomic<const Slope*>> slopes_;        ///< likewise
+  std::vector<Kept<PatchLight>> light_;  ///< by patch
+  std::vector<Kept<Slope>> slopes_;      ///< by patch
 };
 
 }  // namespace transillum

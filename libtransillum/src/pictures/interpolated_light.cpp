@@ -95,36 +95,21 @@ double size_of(const std::array<Vec3, 4>& corners) {
 struct InterpolatedLight::Cell {
   std::array<Rgb, 4> light{};  ///< at its corners
   bool is_part = false;        ///< whether it is of a divided cell
-  mutable std::atomic<const Cell*> children{
-      nullptr};  ///< four, or one of the marks; null means unknown
-
-  static const Cell whole;    ///< mark: not divided, interpolated
-  static const Cell unclear;  ///< mark: not divided, its points gather
-  bool is_divided() const {
-    const Cell* const next = children.load(std::memory_order_acquire);
-    return next != nullptr && next != &whole && next != &unclear;
-  }
-  ~Cell() {
-    if (is_divided()) {
-      delete[] children.load(std::memory_order_acquire);
-    }
-  }
+  Kept<Division> division;
 };
-const InterpolatedLight::Cell InterpolatedLight::Cell::whole;
-const InterpolatedLight::Cell InterpolatedLight::Cell::unclear;
+
+/// What is known of a cell: it is interpolated, or divided, or its points gather.
+struct InterpolatedLight::Division {
+  std::unique_ptr<Cell[]> parts = nullptr;  ///< four
+  bool is_unclear = false;
+};
 
 struct InterpolatedLight::PatchCells {
   PatchId patch;
   std::vector<Quad> quads;
-  std::vector<std::atomic<const Cell*>> roots;  ///< by quad; null means unknown
+  std::vector<Kept<Cell>> roots;  ///< by quad
   mutable std::mutex mutex;
   mutable std::unordered_map<Place, GatheredLight::Gathered, PlaceHash> light;
-
-  ~PatchCells() {
-    for (const auto& root : roots) {
-      delete root.load(std::memory_order_acquire);
-    }
-  }
 };
 
 InterpolatedLight::InterpolatedLight(const Scene& scene, const PlanePoints& points,
@@ -137,63 +122,37 @@ InterpolatedLight::InterpolatedLight(const Scene& scene, const PlanePoints& poin
       light_(points.points().size()),
       cells_(scene.patches().size()) {}
 
-InterpolatedLight::~InterpolatedLight() {
-  for (auto& cells : cells_) {
-    delete cells.load(std::memory_order_acquire);
-  }
-  for (const auto& light : light_) {
-    delete light.load(std::memory_order_acquire);
-  }
-}
+InterpolatedLight::~InterpolatedLight() = default;
 
-const InterpolatedLight::PatchCells& InterpolatedLight::cells_of(PatchId patch) const {
-  std::atomic<PatchCells*>& place = at(cells_, patch);
-  if (const PatchCells* const known = place.load(std::memory_order_acquire)) {
-    return *known;
-  }
+std::unique_ptr<const InterpolatedLight::PatchCells> InterpolatedLight::cells_of(
+    PatchId patch) const {
   auto cells = std::make_unique<PatchCells>();
   cells->patch = patch;
   for (std::size_t k = points_.first_piece(patch); k < points_.end_piece(patch); ++k) {
-    const auto outline = scene_.corners(scene_.pieces()[k]);
-    const std::size_t count = outline.size();
-    const auto corner = [&](std::size_t c) { return scene_.point(outline[c % count]); };
-    const auto node = [&](std::size_t c) { return points_.of_corner(k, c % count); };
+    const Corners corners = points_.outline(k);
+    const std::size_t count = corners.size();
+    const auto node = [&](std::size_t c) { return points_.of_corner(k, c); };
     if (count == 4) {
       cells->quads.push_back(
-          {{corner(0), corner(1), corner(2), corner(3)}, {node(0), node(1), node(2), node(3)}});
+          {{corners[0], corners[1], corners[2], corners[3]}, {node(0), node(1), node(2), node(3)}});
       continue;
     }
-    Vec3 middle;
+    const Vec3 middle = middle_of(corners);
     for (std::size_t c = 0; c < count; ++c) {
-      middle = middle + (1.0 / static_cast<double>(count)) * corner(c);
-    }
-    for (std::size_t c = 0; c < count; ++c) {
-      cells->quads.push_back({{corner(c), 0.5 * (corner(c) + corner(c + 1)), middle,
-                               0.5 * (corner(c) + corner(c + count - 1))},
+      cells->quads.push_back({{corners[c], 0.5 * (corners[c] + corners[(c + 1) % count]), middle,
+                               0.5 * (corners[c] + corners[(c + count - 1) % count])},
                               {node(c), -1, -1, -1}});
     }
   }
-  cells->roots = std::vector<std::atomic<const Cell*>>(cells->quads.size());
-  PatchCells* expected = nullptr;
-  if (place.compare_exchange_strong(expected, cells.get(), std::memory_order_acq_rel)) {
-    return *cells.release();
-  }
-  return *expected;
+  cells->roots = std::vector<Kept<Cell>>(cells->quads.size());
+  return cells;
 }
 
 Rgb InterpolatedLight::light_of(std::int32_t n) const {
-  std::atomic<const Rgb*>& place = at(light_, n);
-  if (const Rgb* const known = place.load(std::memory_order_acquire)) {
-    return *known;
-  }
-  const PlanePoint& point = at(points_.points(), n);
-  auto light =
-      std::make_unique<const Rgb>(gathered_.at_point(point.place, point.normal, 0).irradiance);
-  const Rgb* expected = nullptr;
-  if (place.compare_exchange_strong(expected, light.get(), std::memory_order_acq_rel)) {
-    return *light.release();
-  }
-  return *expected;
+  return at(light_, n).get([&] {
+    const PlanePoint& point = at(points_.points(), n);
+    return std::make_unique<const Rgb>(gathered_.at_point(point.place, point.normal, 0).irradiance);
+  });
 }
 
 /// The light at a point of a patch that is no point of the scene.
@@ -220,77 +179,54 @@ GatheredLight::Gathered InterpolatedLight::light_inside(const PatchCells& cells,
   return cells.light.emplace(place, light).first->second;
 }
 
-const InterpolatedLight::Cell& InterpolatedLight::root_of(const PatchCells& cells,
-                                                          std::size_t q) const {
-  auto& place = const_cast<std::atomic<const Cell*>&>(cells.roots[q]);
-  if (const Cell* const known = place.load(std::memory_order_acquire)) {
-    return *known;
-  }
+std::unique_ptr<const InterpolatedLight::Cell> InterpolatedLight::root_of(const PatchCells& cells,
+                                                                          std::size_t q) const {
   auto root = std::make_unique<Cell>();
   const Quad& quad = cells.quads[q];
   for (std::size_t c = 0; c < 4; ++c) {
     root->light[c] = quad.node[c] >= 0 ? light_of(quad.node[c])
                                        : light_inside(cells, quad.corners[c]).irradiance;
   }
-  const Cell* expected = nullptr;
-  if (place.compare_exchange_strong(expected, root.get(), std::memory_order_acq_rel)) {
-    return *root.release();
-  }
-  return *expected;
+  return root;
 }
 
 /// Decides whether a cell is divided, and divides it.
-const InterpolatedLight::Cell* InterpolatedLight::children_of(const PatchCells& cells,
-                                                              const std::array<Vec3, 4>& corners,
-                                                              const Cell& cell) const {
-  if (const Cell* const known = cell.children.load(std::memory_order_acquire)) {
-    return known;
-  }
+std::unique_ptr<const InterpolatedLight::Division> InterpolatedLight::division_of(
+    const PatchCells& cells, const std::array<Vec3, 4>& corners, const Cell& cell) const {
   constexpr double largest = 1.0 / 12, smallest = 1.0 / 1500, tiny = 1.0 / 300;
   constexpr double least_tolerance = 0.004;
   const double size = size_of(corners) / diagonal_;
-  const Cell* next = &Cell::whole;
-  Rgb middle;
-  if (size > tiny || cell.is_part) {
-    const Vec3 center = blend(corners, 0.5, 0.5);
-    const auto [light, noise] = light_inside(cells, center);
-    middle = light;
-    const Rgb all = middle + lamps_.at_point(cells.patch, center);
-    const double unit = std::max(max_abs(all), std::numeric_limits<double>::min());
-    const double difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) / unit;
-    const double tolerance = std::max(least_tolerance, 2 * max_abs(noise) / unit);
-    if (size > largest || (difference > tolerance && size > smallest)) {
-      next = nullptr;
-    } else if (difference > 4 * tolerance) {
-      next = &Cell::unclear;
-    }
+  auto division = std::make_unique<Division>();
+  if (size <= tiny && !cell.is_part) {
+    return division;
   }
-  std::unique_ptr<Cell[]> made;
-  if (next == nullptr) {
-    made = std::make_unique<Cell[]>(4);
-    const auto edge = [&](double s, double t) {
-      return light_inside(cells, blend(corners, s, t)).irradiance;
-    };
-    const Rgb bottom = edge(0.5, 0), right = edge(1, 0.5), top = edge(0.5, 1), left = edge(0, 0.5);
-    made[0].light = {cell.light[0], bottom, middle, left};
-    made[1].light = {bottom, cell.light[1], right, middle};
-    made[2].light = {middle, right, cell.light[2], top};
-    made[3].light = {left, middle, top, cell.light[3]};
-    for (std::size_t k = 0; k < 4; ++k) {
-      made[k].is_part = true;
-    }
-    next = made.get();
+  const Vec3 center = blend(corners, 0.5, 0.5);
+  const auto [middle, noise] = light_inside(cells, center);
+  const Rgb all = middle + lamps_.at_point(cells.patch, center);
+  const double unit = std::max(max_abs(all), std::numeric_limits<double>::min());
+  const double difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) / unit;
+  const double tolerance = std::max(least_tolerance, 2 * max_abs(noise) / unit);
+  if (size <= largest && (difference <= tolerance || size <= smallest)) {
+    division->is_unclear = difference > 4 * tolerance;
+    return division;
   }
-  const Cell* expected = nullptr;
-  if (cell.children.compare_exchange_strong(expected, next, std::memory_order_acq_rel)) {
-    (void)made.release();
-    return next;
+  const auto edge = [&](double s, double t) {
+    return light_inside(cells, blend(corners, s, t)).irradiance;
+  };
+  const Rgb bottom = edge(0.5, 0), right = edge(1, 0.5), top = edge(0.5, 1), left = edge(0, 0.5);
+  division->parts = std::make_unique<Cell[]>(4);
+  division->parts[0].light = {cell.light[0], bottom, middle, left};
+  division->parts[1].light = {bottom, cell.light[1], right, middle};
+  division->parts[2].light = {middle, right, cell.light[2], top};
+  division->parts[3].light = {left, middle, top, cell.light[3]};
+  for (std::size_t k = 0; k < 4; ++k) {
+    division->parts[k].is_part = true;
   }
-  return expected;
+  return division;
 }
 
 Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x) const {
-  const PatchCells& cells = cells_of(patch);
+  const PatchCells& cells = at(cells_, patch).get([&] { return cells_of(patch); });
   const Vec3& normal = scene_.patch(patch).normal;
   std::size_t q = 0;
   if (cells.quads.size() > 1) {
@@ -304,17 +240,16 @@ Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x) const {
   }
   std::array<Vec3, 4> corners = cells.quads[q].corners;
   auto [s, t] = coordinates_in(corners, normal, x);
-  const Cell* cell = &root_of(cells, q);
+  const Cell* cell = &cells.roots[q].get([&] { return root_of(cells, q); });
   while (true) {
-    const Cell* const next = children_of(cells, corners, *cell);
-    if (next == &Cell::whole) {
-      return blend(cell->light, s, t);
-    }
-    if (next == &Cell::unclear) {
-      return gathered_.at_point(x, normal, 0).irradiance;
+    const Division& division =
+        cell->division.get([&] { return division_of(cells, corners, *cell); });
+    if (!division.parts) {
+      return division.is_unclear ? gathered_.at_point(x, normal, 0).irradiance
+                                 : blend(cell->light, s, t);
     }
     const bool is_right = s >= 0.5, is_upper = t >= 0.5;
-    cell = &next[is_upper ? (is_right ? 2 : 3) : (is_right ? 1 : 0)];
+    cell = &division.parts[is_upper ? (is_right ? 2 : 3) : (is_right ? 1 : 0)];
     const double low_s = is_right ? 0.5 : 0, low_t = is_upper ? 0.5 : 0;
     corners = {blend(corners, low_s, low_t), blend(corners, low_s + 0.5, low_t),
                blend(corners, low_s + 0.5, low_t + 0.5), blend(corners, low_s, low_t + 0.5)};

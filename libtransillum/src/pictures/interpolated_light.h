@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <memory>
 #include <vector>
 
+#include "base/kept.h"
 #include "pictures/gathered_light.h"
 #include "pictures/lamp_light.h"
 #include "pictures/plane_points.h"
@@ -31,25 +31,27 @@ class InterpolatedLight {
 
  private:
   struct Cell;
+  struct Division;
   struct PatchCells;
   struct Quad {
     std::array<Vec3, 4> corners;
     std::array<std::int32_t, 4> node;  ///< index of a PlanePoint; -1: no point of the scene
   };
-  const PatchCells& cells_of(PatchId patch) const;
+  std::unique_ptr<const PatchCells> cells_of(PatchId patch) const;
   Rgb light_of(std::int32_t n) const;
   GatheredLight::Gathered light_inside(const PatchCells& cells, const Vec3& x) const;
-  const Cell& root_of(const PatchCells& cells, std::size_t q) const;
-  const Cell* children_of(const PatchCells& cells, const std::array<Vec3, 4>& corners,
-                          const Cell& cell) const;
+  std::unique_ptr<const Cell> root_of(const PatchCells& cells, std::size_t q) const;
+  std::unique_ptr<const Division> division_of(const PatchCells& cells,
+                                              const std::array<Vec3, 4>& corners,
+                                              const Cell& cell) const;
 
   const Scene& scene_;
   const PlanePoints& points_;
   const GatheredLight& gathered_;
   const LampLight& lamps_;
   double diagonal_;
-  mutable std::vector<std::atomic<const Rgb*>> light_;   ///< by PlanePoint; null means unknown
-  mutable std::vector<std::atomic<PatchCells*>> cells_;  ///< by patch
+  std::vector<Kept<Rgb>> light_;         ///< by PlanePoint
+  std::vector<Kept<PatchCells>> cells_;  ///< by patch
 };
 
 }  // namespace transillum

@@ -21,22 +21,16 @@ std::vector<PatchId> emitting_patches(const Scene& scene) {
   return patches;
 }
 
-/// The lamps that are treated as such: as many as a picture can afford, the most powerful first,
-/// and none that only the last 1/10,000 of the power comes from.
-std::vector<LampPolygon> brightest(std::vector<LampPolygon> lamps) {
+/// The first patches of the faces that are treated as lamps: as many as a picture can afford, the
+/// most powerful first, and none that only the last 1/10,000 of the power comes from.
+std::set<PatchId> brightest(const std::map<PatchId, double>& power_of) {
   constexpr std::size_t most = 512;
   constexpr double least = 1e-4;
-  // Parts of one patch stay together.
-  std::map<PatchId, double> power_of;
   double left = 0;
-  for (const LampPolygon& lamp : lamps) {
-    const double power = norm(area_vector(lamp.outline)) * max_abs(lamp.exitance);
-    power_of[lamp.patches.front()] += power;
-    left += power;
-  }
   std::vector<std::pair<double, PatchId>> by_power;
   for (const auto& [patch, power] : power_of) {
     by_power.emplace_back(-power, patch);
+    left += power;
   }
   std::sort(by_power.begin(), by_power.end());
   const double negligible = least * left;
@@ -48,9 +42,7 @@ std::vector<LampPolygon> brightest(std::vector<LampPolygon> lamps) {
     chosen.insert(patch);
     left += power;
   }
-  std::erase_if(lamps,
-                [&](const LampPolygon& lamp) { return !chosen.contains(lamp.patches.front()); });
-  return lamps;
+  return chosen;
 }
 
 }  // namespace
@@ -58,7 +50,16 @@ std::vector<LampPolygon> brightest(std::vector<LampPolygon> lamps) {
 LampLight::LampLight(std::shared_ptr<const Scene> scene, const Cancellation& cancellation)
     : scene_(std::move(scene)),
       finder_(*scene_, cancellation),
-      lamps_(brightest(finder_.lamps(emitting_patches(*scene_)))) {
+      lamps_(finder_.lamps(emitting_patches(*scene_))) {
+  // Parts of one patch stay together.
+  std::map<PatchId, double> power_of;
+  for (const LampPolygon& lamp : lamps_) {
+    power_of[lamp.patches.front()] += norm(area_vector(lamp.outline)) * max_abs(lamp.exitance);
+  }
+  const std::set<PatchId> chosen = brightest(power_of);
+  gathered_count_ = static_cast<int>(power_of.size() - chosen.size());
+  std::erase_if(lamps_,
+                [&](const LampPolygon& lamp) { return !chosen.contains(lamp.patches.front()); });
   for (const LampPolygon& lamp : lamps_) {
     patches_.insert(patches_.end(), lamp.patches.begin(), lamp.patches.end());
   }

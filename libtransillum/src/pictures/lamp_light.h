@@ -25,6 +25,8 @@ class LampLight {
 
   /// The patches whose exitance it treats, ascending: of the brightest faces.
   const std::vector<PatchId>& patches() const { return patches_; }
+  /// Number of emitting faces that are none of them.
+  int gathered_count() const { return gathered_count_; }
   /// Irradiance by all lamps at a point of a patch, W/m².
   /// @param x on the patch, m
   Rgb at_point(PatchId patch, const Vec3& x) const;
@@ -44,6 +46,7 @@ class LampLight {
   ExchangeFinder finder_;
   std::vector<LampPolygon> lamps_;
   std::vector<PatchId> patches_;
+  int gathered_count_ = 0;
   mutable oneapi::tbb::enumerable_thread_specific<ViewsByPatch> views_;
 };
 

@@ -10,32 +10,43 @@
 
 namespace transillum {
 
-/// The light that the lobes of a glossy solve reflect toward a point, gathered by rays about the
-/// mirror direction.
+/// The light that the lobes of a glossy solve reflect toward a point: by rays that the lobe
+/// distributes, and of lamps also by rays to points of theirs.
 ///
 /// Threads: immutable once built.
 class LobeLight {
  public:
+  /// @param lamps the patches that GatheredLight treats as lamps.
   /// @param rays from each point.
   /// @throws Canceled
-  LobeLight(const Scene& scene, const GatheredLight& gathered, int rays,
-            const Cancellation& cancellation);
+  LobeLight(const Scene& scene, const GatheredLight& gathered, const std::vector<PatchId>& lamps,
+            int rays, const Cancellation& cancellation);
 
   /// pi times the radiance that the lobe of a patch sends from x, W/m²; 0 without a lobe.
   /// @param toward unit, away from the surface
-  /// @param variant one of many sequences of rays; any number
-  Rgb at_point(PatchId patch, const Vec3& x, const Vec3& toward, std::uint64_t variant) const;
+  /// @param salt names one of many sequences of rays
+  Rgb at_point(PatchId patch, const Vec3& x, const Vec3& toward, std::uint64_t salt) const;
 
  private:
   struct Used {
     Lobe lobe;
     std::unique_ptr<LobeFunction> function;
   };
+  struct Query;
+  struct LampTriangle {
+    Vec3 corner, first, second;  ///< edges from the corner, m
+    double end;                  ///< power of it and all before, W
+  };
+  double weight_of(const Query& query, const Vec3& direction, PatchId lamp,
+                   const Vec3& place) const;
+  Rgb by_lobe(const Query& query, double u, double v) const;
+  Rgb by_lamps(const Query& query, double u, double v) const;
 
   const Scene& scene_;
   const GatheredLight& gathered_;
-  int rays_;
+  int rays_, lamp_rays_ = 0;
   std::vector<Used> lobes_;  ///< by material; no function: no lobe
+  std::vector<LampTriangle> lamps_;
 };
 
 }  // namespace transillum

@@ -2,6 +2,7 @@
 #include "transillum/picture.h"
 
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 #include "base/bit_mixing.h"
@@ -11,22 +12,32 @@
 
 namespace transillum {
 
+namespace {
+
+template <class Light>
+Rgb mean_of_samples(const CameraRays& rays, int column, int row, int count, Light light) {
+  Rgb sum;
+  for (int k = 0; k < count; ++k) {
+    sum += light(sample_ray(rays, {column, row, k, count}));
+  }
+  return 1.0 / count * sum;
+}
+
+}  // namespace
+
 SampleRay sample_ray(const CameraRays& rays, const PixelSample& sample) {
   const auto [x, y] = sample_place(sample.number, sample.count);
   const std::uint64_t place =
       (static_cast<std::uint64_t>(sample.row) << 32) + static_cast<std::uint64_t>(sample.column);
   return {rays.at(sample.column + x, sample.row + y),
-          mixed(place) + golden_step * static_cast<std::uint64_t>(sample.number + 1)};
+          joined({mixed(place), static_cast<std::uint32_t>(sample.number)})};
 }
 
 Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, int column, int row,
                    int count) {
-  Rgb sum;
-  for (int k = 0; k < count; ++k) {
-    const auto [ray, salt] = sample_ray(rays, {column, row, k, count});
-    sum += light.radiance(ray.origin, ray.direction, salt);
-  }
-  return 1.0 / count * sum;
+  return mean_of_samples(rays, column, row, count, [&](const SampleRay& sample) {
+    return light.radiance(sample.ray.origin, sample.ray.direction, sample.salt);
+  });
 }
 
 Picture make_picture(std::shared_ptr<const Solution> solution, const Camera& camera,
@@ -36,13 +47,20 @@ Picture make_picture(std::shared_ptr<const Solution> solution, const Camera& cam
   const CameraRays rays(*solution->scene, camera, options.width, options.height);
   check_eye(solution->scene, camera);
   const SurfaceLight light(std::move(solution), options.gather, cancellation);
-  Picture picture{options.width, options.height, {}};
+  Picture picture{options.width, options.height, {}, light.gathered_lamps()};
   picture.radiance.resize(static_cast<std::size_t>(options.width) *
                           static_cast<std::size_t>(options.height));
   const auto visit = [&](int column, int row) {
     at(picture.radiance, static_cast<std::size_t>(row) * static_cast<std::size_t>(options.width) +
                              static_cast<std::size_t>(column)) =
-        pixel_radiance(light, rays, column, row, options.samples);
+        options.irradiance
+            ? mean_of_samples(rays, column, row, options.samples,
+                              [&](const SampleRay& sample) {
+                                return 1 / std::numbers::pi *
+                                       light.irradiance(sample.ray.origin, sample.ray.direction,
+                                                        sample.salt);
+                              })
+            : pixel_radiance(light, rays, column, row, options.samples);
   };
   visit_pixels({options.width, options.height}, options.threads, cancellation, visit, progress);
   return picture;

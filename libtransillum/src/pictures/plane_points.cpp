@@ -7,19 +7,8 @@
 #include <tuple>
 
 namespace transillum {
-namespace {
-
-Vec3 middle_of_corners(const Scene& scene, std::span<const PointId> corners) {
-  Vec3 sum;
-  for (const PointId p : corners) {
-    sum = sum + scene.point(p);
-  }
-  return sum / static_cast<double>(corners.size());
-}
-
-}  // namespace
-
-PlanePoints::PlanePoints(const Scene& scene) : step_(1e-4 * scene.bounds().diagonal()) {
+PlanePoints::PlanePoints(const Scene& scene)
+    : scene_(scene), step_(1e-4 * scene.bounds().diagonal()) {
   constexpr double steps = 1 << 20;  // in a component of a normal
   const auto rounded = [](double x) { return std::lround(steps * x); };
   std::map<std::tuple<PointId, long, long, long>, std::int32_t> numbers;
@@ -32,7 +21,7 @@ PlanePoints::PlanePoints(const Scene& scene) : step_(1e-4 * scene.bounds().diago
     }
     const auto corners = scene.corners(pieces[k]);
     const Vec3& normal = scene.patch(pieces[k].patch).normal;
-    const Vec3 middle = middle_of_corners(scene, corners);
+    const Vec3 middle = middle_of(outline(k));
     first_corner_.push_back(of_corner_.size());
     for (const PointId p : corners) {
       const auto [found, is_new] =
@@ -57,6 +46,14 @@ PlanePoints::PlanePoints(const Scene& scene) : step_(1e-4 * scene.bounds().diago
   for (std::size_t n = 0; n < points_.size(); ++n) {
     points_[n].place = inward(points_[n].place, sums[n] / counts[n]);
   }
+}
+
+Corners PlanePoints::outline(std::size_t piece) const {
+  Corners corners;
+  for (const PointId p : scene_.corners(scene_.pieces()[piece])) {
+    corners.push_back(scene_.point(p));
+  }
+  return corners;
 }
 
 Vec3 PlanePoints::inward(const Vec3& x, const Vec3& middle) const {

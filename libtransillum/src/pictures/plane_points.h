@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/form_factor.h"
 #include "transillum/at.h"
 #include "transillum/scene.h"
 
@@ -35,10 +36,14 @@ class PlanePoints {
   /// One past the last piece of a patch.
   std::size_t end_piece(PatchId patch) const { return at(first_piece_, patch + 1); }
 
+  /// The corners of a piece.
+  Corners outline(std::size_t piece) const;
+
   /// `x` moved toward `middle` by a little.
   Vec3 inward(const Vec3& x, const Vec3& middle) const;
 
  private:
+  const Scene& scene_;
   double step_;  ///< m
   std::vector<PlanePoint> points_;
   std::vector<std::size_t> first_piece_;   ///< by patch, and the number of pieces

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/bit_mixing.h"
+
 namespace transillum {
 
 inline double fraction(double x) { return x - std::floor(x); }
@@ -23,6 +25,54 @@ inline double mirrored_bits(std::uint32_t k) {
 /// Mixed bits as a number in [0,1).
 inline double unit_fraction(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
+/// A number for SurfaceLight::radiance(): that of a sample in its lower bits, and bits of its
+/// pixel.
+struct Salt {
+  static constexpr unsigned number_bits = 12;  ///< PictureOptions::most_samples is 2^12
+
+  std::uint64_t pixel;
+  std::uint32_t number;
+};
+inline std::uint64_t joined(const Salt& salt) {
+  return salt.pixel << Salt::number_bits | salt.number;
+}
+inline Salt split(std::uint64_t bits) {
+  return {bits >> Salt::number_bits,
+          static_cast<std::uint32_t>(bits & ((1U << Salt::number_bits) - 1))};
+}
+
+inline std::uint32_t reversed(std::uint32_t bits) {
+  bits = (bits >> 16) | (bits << 16);
+  bits = (bits & 0xff00ff00U) >> 8 | (bits & 0x00ff00ffU) << 8;
+  bits = (bits & 0xf0f0f0f0U) >> 4 | (bits & 0x0f0f0f0fU) << 4;
+  bits = (bits & 0xccccccccU) >> 2 | (bits & 0x33333333U) << 2;
+  return (bits & 0xaaaaaaaaU) >> 1 | (bits & 0x55555555U) << 1;
+}
+
+/// Owen's scrambling by a hash of Laine and Karras, with the constants of N. Vegdahl (2021); of
+/// numbers whose bits are reversed.
+inline std::uint32_t scrambled_reversed(std::uint32_t bits, std::uint32_t seed) {
+  bits ^= bits * 0x3d20adeaU;
+  bits += seed;
+  bits *= (seed >> 16) | 1U;
+  bits ^= bits * 0x05526c56U;
+  return bits ^ bits * 0x53a22864U;
+}
+
+/// Point k of Sobol's sequence in the plane, scrambled: any 2^n consecutive ones from a multiple of
+/// 2^n fill the square evenly.
+inline std::pair<double, double> scrambled_point(std::uint32_t k, std::uint64_t seed) {
+  std::uint32_t second = 0;
+  for (std::uint32_t column = 1U << 31, bits = k; bits != 0; bits >>= 1, column ^= column >> 1) {
+    second ^= (bits & 1U) != 0 ? column : 0;
+  }
+  const std::uint64_t seeds = mixed(seed + golden_step);
+  const auto number = [](std::uint32_t bits_reversed, std::uint64_t own) {
+    return 0x1p-32 * reversed(scrambled_reversed(bits_reversed, static_cast<std::uint32_t>(own)));
+  };
+  return {number(k, seeds), number(reversed(second), seeds >> 32)};
 }
 
 /// Powers of the plastic number's inverse: their multiples fill the square evenly.

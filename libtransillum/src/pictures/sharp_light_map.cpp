@@ -50,10 +50,8 @@ struct Texel {
   Vec3 point;  ///< m
 };
 
-using Polygon = std::vector<Vec3>;
-
 /// The point of a convex polygon that is nearest to x, a point of its plane.
-Vec3 nearest_in(const Polygon& polygon, const Vec3& normal, const Vec3& x) {
+Vec3 nearest_in(const Corners& polygon, const Vec3& normal, const Vec3& x) {
   bool is_inside = true;
   Vec3 nearest = polygon[0];
   double least = HUGE_VAL;
@@ -205,25 +203,22 @@ std::vector<Texel> texels_of(const Scene& scene, const PlanePoints& points, cons
   std::vector<Texel> texels(index(0, rows));
   struct PolygonOfPatch {
     PatchId patch;
-    Polygon polygon;
+    Corners polygon;
     std::array<int, 4> box;  ///< columns and rows that it meets, with a border
     Vec3 middle;
   };
   std::vector<PolygonOfPatch> parts;
   for (const PatchId i : chart.patches) {
     for (std::size_t k = points.first_piece(i); k < points.end_piece(i); ++k) {
-      PolygonOfPatch part{i, {}, {columns, 0, rows, 0}, {}};
-      for (const PointId p : scene.corners(scene.pieces()[k])) {
-        part.polygon.push_back(scene.point(p));
-        const auto [x, y] = chart.texel_of(chart.in_plane(scene.point(p)));
+      PolygonOfPatch part{i, points.outline(k), {columns, 0, rows, 0}, {}};
+      for (const Vec3& corner : part.polygon) {
+        const auto [x, y] = chart.texel_of(chart.in_plane(corner));
         part.box = {std::min(part.box[0], static_cast<int>(std::floor(x)) - 1),
                     std::max(part.box[1], static_cast<int>(std::floor(x)) + 1),
                     std::min(part.box[2], static_cast<int>(std::floor(y)) - 1),
                     std::max(part.box[3], static_cast<int>(std::floor(y)) + 1)};
       }
-      for (const Vec3& corner : part.polygon) {
-        part.middle = part.middle + corner / static_cast<double>(part.polygon.size());
-      }
+      part.middle = middle_of(part.polygon);
       parts.push_back(std::move(part));
     }
   }

@@ -28,6 +28,7 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
   std::shared_ptr<const Solution> solution;
   const Scene& scene;
   bool is_interpolated;
+  EmbreeScene embree;
   PlanePoints points;
   LampLight lamps;
   HitLight hits;
@@ -40,26 +41,29 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
       : solution(std::move(shown)),
         scene(*solution->scene),
         is_interpolated(gather == 0),
+        embree(scene, cancellation),
         points(scene),
         lamps(solution->scene, cancellation),
-        hits(*solution, points, lamps),
-        gathered(*solution, hits, gather > 0 ? gather : interpolated_rays(scene), cancellation),
+        hits(*solution, embree, points, lamps),
+        gathered(*solution, embree, hits, gather > 0 ? gather : interpolated_rays(scene)),
         interpolated(scene, points, gathered, lamps),
         picker(solution->scene, cancellation) {
     if (solution->glossy) {
-      lobes.emplace(scene, gathered, std::max(gather, least_lobe_rays), cancellation);
+      lobes.emplace(scene, gathered, lamps.patches(), std::max(gather, least_lobe_rays),
+                    cancellation);
     }
   }
 
+  Rgb irradiance(PatchId patch, const Vec3& x, std::uint64_t salt) const {
+    return lamps.at_point(patch, x) +
+           (is_interpolated ? interpolated.at_point(patch, x)
+                            : gathered.at_point(x, scene.patch(patch).normal, salt).irradiance);
+  }
   /// E and what `reflectance` makes of H.
-  Rgb radiosity(PatchId patch, const Vec3& x, const Rgb& reflectance, std::uint64_t variant) const {
-    if (max_abs(reflectance) == 0) {
-      return scene.exitance(patch);
-    }
-    const Rgb rest = is_interpolated
-                         ? interpolated.at_point(patch, x)
-                         : gathered.at_point(x, scene.patch(patch).normal, variant).irradiance;
-    return scene.exitance(patch) + reflectance * (lamps.at_point(patch, x) + rest);
+  Rgb radiosity(PatchId patch, const Vec3& x, const Rgb& reflectance, std::uint64_t salt) const {
+    return max_abs(reflectance) == 0
+               ? scene.exitance(patch)
+               : scene.exitance(patch) + reflectance * irradiance(patch, x, salt);
   }
 };
 
@@ -93,5 +97,12 @@ Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint6
   }
   return 1 / std::numbers::pi * light;
 }
+
+Rgb SurfaceLight::irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt) const {
+  const auto hit = impl_->picker.first_lit_hit(origin, direction);
+  return hit ? impl_->irradiance(hit->patch, hit->point, salt) : Rgb();
+}
+
+int SurfaceLight::gathered_lamps() const { return impl_->lamps.gathered_count(); }
 
 }  // namespace transillum

@@ -67,7 +67,7 @@ def make_picture(program, path, name, options):
     subprocess.run(command, check=True)
 
 
-def blocks(values, side=5):
+def blocks(values, side=8):
     """All squares of `side` pixels; the last two axes are those of a square."""
     return np.lib.stride_tricks.sliding_window_view(values, (side, side), axis=(0, 1))
 
@@ -147,11 +147,14 @@ def report(picture, reference, noise, mask, darkest):
           f"row {row}, column {column}; {(sure > 0.05).sum()} of {far.sum()} pixels above 5 %")
     inner = blocks(far).all(axis=(-2, -1))
     if inner.any():
+        # The noise of a mean is an eighth: pixels are independent.
         middle = np.linalg.norm(blocks(reference).mean(axis=(-2, -1)), axis=-1)[inner]
         means = np.linalg.norm(blocks(picture - reference).mean(axis=(-2, -1)), axis=-1)[inner]
-        square = blocks((noise * length) ** 2).mean(axis=(-2, -1))[inner] / 25
-        means = np.maximum(means - 4 * np.sqrt(square), 0) / middle
-        print(f"means of 5 by 5 such pixels, net of 4 noise: at most {percent(means.max())}")
+        square = blocks((noise * length) ** 2).mean(axis=(-2, -1))[inner] / 64
+        means, noises = means / middle, np.sqrt(square) / middle
+        print("RMS of the means of 8 by 8 such pixels", net(means, noises), "net of noise",
+              percent(np.sqrt(np.mean(noises**2))),
+              f"largest, net of 4 noise: {percent((means - 4 * noises).max())}")  # fmt: skip
     if black.any():
         print(f"without light in the reference: {black.sum()} pixels, "
               f"radiance at most {np.linalg.norm(picture[black], axis=-1).max():.3g}")  # fmt: skip

@@ -111,6 +111,14 @@ def write_ply(path, corners):
 def make_scene(mi, faces, camera, depth, samples, sampler, work):
     """Mitsuba's scene and, by the id of a shape, the face's number of each of its triangles."""
     corners, exitance, reflectance, numbers = faces
+    # Mitsuba's rays start 9e-5 (1 + largest coordinate) off a surface, which darkens penumbras by up
+    # to 2 % in a room of 0.5 m; in millimeters about the middle it is a fifth of that.
+    middle = (corners.min(axis=(0, 1)) + corners.max(axis=(0, 1))) / 2
+
+    def scaled(point):
+        return 1000 * (np.asarray(point) - middle)
+
+    corners = scaled(corners)
     size = camera.get("size", [256, 256])
     scene = {
         "type": "scene",
@@ -119,10 +127,12 @@ def make_scene(mi, faces, camera, depth, samples, sampler, work):
             "type": "perspective",
             "fov_axis": "y",
             "fov": camera["fov"],
-            "near_clip": 1e-4,
-            "far_clip": 1e4,
+            "near_clip": 0.1,
+            "far_clip": 1e7,
             "to_world": mi.ScalarTransform4f.look_at(
-                origin=camera["eye"], target=camera["target"], up=camera["up"]
+                origin=list(scaled(camera["eye"])),
+                target=list(scaled(camera["target"])),
+                up=camera["up"],
             ),
             "film": {
                 "type": "hdrfilm",

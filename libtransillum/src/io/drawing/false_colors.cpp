@@ -20,6 +20,7 @@
 #include "io/pictures/picture_writers.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/picture.h"
 
 namespace transillum {
 namespace {
@@ -34,7 +35,7 @@ class ColorBar {
   ColorBar(const FalseColors& colors, int picture_height)
       : unit_(colors.lux ? lumens_per_watt : 1),
         highest_(unit_ * colors.highest),
-        title_(colors.lux ? "radiosity B, lx" : "radiosity B, W/m²"),
+        title_(colors.lux ? "illuminance, lx" : "radiosity B, W/m²"),
         size_(std::clamp(picture_height / 40.0, smallest_text, largest_text)),
         ticks_(color_bar_ticks(highest_)) {}
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/content_hash.h"
-#include "transillum/form_factor_files.h"
+#include "transillum/files.h"
 
 namespace transillum {
 

@@ -1,6 +1,4 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "transillum/picture_files.h"
-
 #include <fmt/format.h>
 
 #include <ostream>
@@ -9,6 +7,7 @@
 #include "io/pictures/picture_writers.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/picture.h"
 
 namespace transillum {
 

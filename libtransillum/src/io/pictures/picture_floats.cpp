@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "io/pictures/picture_writers.h"
+#include "transillum/picture.h"
 
 namespace transillum {
 namespace {

@@ -5,6 +5,7 @@
 #include "io/pictures/picture_writers.h"
 #include "io/png_text.h"
 #include "io/srgb.h"
+#include "transillum/picture.h"
 
 namespace transillum {
 

@@ -3,7 +3,7 @@
 
 #include <iosfwd>
 
-#include "transillum/picture_files.h"
+#include "transillum/files.h"
 
 namespace transillum {
 

@@ -8,7 +8,8 @@
 
 #include "base/choice.h"
 #include "transillum/errors.h"
-#include "transillum/picture_files.h"
+#include "transillum/files.h"
+#include "transillum/picture.h"
 
 namespace transillum {
 namespace {

@@ -19,6 +19,7 @@
 #include "io/srgb.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/picture.h"
 
 namespace transillum {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "base/text_file.h"
 #include "scene/read/gltf/gltf_nodes.h"
+#include "scene/read/scene_cameras.h"
 #include "transillum/at.h"
-#include "transillum/scene_cameras.h"
 
 namespace transillum {
 namespace {

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
-#include "transillum/export.h"
 #include "transillum/vec3.h"
 
-namespace TRANSILLUM_API transillum {
+namespace transillum {
 
 /// A camera that a scene's file has.
 struct SceneCamera {
@@ -30,4 +29,4 @@ struct SceneCamera {
 std::vector<SceneCamera> read_cameras(const std::string& path, double scale = 1,
                                       const Cancellation& cancellation = {});
 
-}  // namespace TRANSILLUM_API transillum
+}  // namespace transillum
