@@ -49,7 +49,8 @@ class SolveWorker {
     std::shared_ptr<const LoadedScene> loaded;  ///< with the patches of the first round
     SolveSession session;
     Cancellation cancellation;       ///< cancels the session
-    std::optional<TotalPlan> total;  ///< if chosen; the session is its first stage
+    std::optional<TotalPlan> total;  ///< if chosen; the session is a stage of it
+    CheckpointKeeper::Solve saved;
   };
 
   /// @param messages get snapshots, scenes and progress
@@ -114,10 +115,10 @@ class SolveWorker {
                                                      // materials of the scene
   Choice choice_;                                    // options of session_
   std::optional<SolveSession> session_;
-  std::optional<Choice> unstarted_;  // to be started; session_ is canceled
-  Cancellation cancellation_;        // cancels session_ or unstarted_
-  bool failed_ = false;              // session_ cannot be continued
-  std::optional<TotalPlan> total_;   // where session_ is a stage of it
+  std::optional<Choice> unstarted_;               // to be started; session_ is canceled
+  Cancellation cancellation_;                     // cancels session_ or unstarted_
+  bool failed_ = false;                           // session_ cannot be continued
+  std::optional<TotalPlan> total_;                // where session_ is a stage of it
   std::shared_ptr<const MeasuredErrors> errors_;  // errors of session_; null if not known
   std::mutex measuring_mutex_;                    // guards measuring_
   Cancellation measuring_;                        // cancels a measurement of errors

@@ -49,4 +49,7 @@ void check_memory(const std::string& name, std::int64_t patches, int replicas = 
 double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
                           const Cancellation& cancellation = {});
 
+/// Whether any face has a patch on each side.
+bool has_two_sided_faces(const Scene& scene);
+
 }  // namespace transillum
