@@ -204,8 +204,11 @@ double error_of_worst(const Scene& scene, const std::vector<Rgb>& b,
   return worst;
 }
 
+/// B by passes. The first shot has more points than by default, with which it alone is off by
+/// 0.24 % in `rooms`; with these, by 0.001 %.
 std::vector<Rgb> truth_by_passes(const ScenePtr& scene, int passes) {
-  const SolveOptions options{.directions = passes, .seed = 77, .tolerance = 1e-9};
+  SolveOptions options{.directions = passes, .seed = 77, .tolerance = 1e-9};
+  options.engine_options.points = 128;
   return solve(scene, options).radiosity;
 }
 

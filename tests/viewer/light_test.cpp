@@ -15,6 +15,7 @@
 #include <QTemporaryDir>
 #include <span>
 
+#include "model/snapshot_values.h"
 #include "patches/material_panel.h"
 #include "solve/study_dialog.h"
 #include "solved_window.h"
@@ -78,9 +79,12 @@ struct Opened {
     window->open(path);
     ready = settles();
   }
+  /// Waits for the end of the solve; what has no light is not solved.
   bool settles() const {
     return wait_for([this] {
-      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+      const auto snapshot = window->snapshot();
+      return snapshot && (snapshot->progress.finished || !has_light(*snapshot)) &&
+             window->settled();
     });
   }
   bool is_relit() const {
@@ -120,6 +124,7 @@ class LightTest : public QObject {
     const Opened opened;
     QVERIFY(opened.ready);
     QVERIFY2(opened.light_bar().startsWith("No light"), qPrintable(opened.light_bar()));
+    QCOMPARE(opened.window->snapshot()->passes_done, std::int64_t{0});
     // Walls of one material differ by their direction; nothing is black.
     const auto& colors = opened.window->colors.patch_colors();
     QSet<int> brightness;
@@ -184,7 +189,12 @@ class LightTest : public QObject {
   void a_solve_without_light_is_refused_and_a_light_or_a_sky_is_offered() {
     const Opened opened;
     QVERIFY(opened.ready);
-    QCOMPARE(opened.part<QLabel>("phase")->text(), QString("No light: B is 0 everywhere"));
+    QCOMPARE(opened.part<QLabel>("phase")->text(), QString("No light: not solved"));
+    QCOMPARE(opened.part<QLabel>("summary_closure")->text(), QString("–"));
+    for (const char* command : {"run", "one_direction", "one_iteration"}) {
+      opened.part<QAction>(command)->trigger();
+      QVERIFY2(opened.light_bar().startsWith("Not solved"), command);
+    }
     emit opened.window->views().page.light_bar()->closed();
     opened.window->selection.select(3);
     QVERIFY(opened.light_bar().isEmpty());
@@ -208,6 +218,36 @@ class LightTest : public QObject {
     QVERIFY(wait_for([&] { return opened.scene().has_light(); }));
     QVERIFY(opened.settles());
     QVERIFY(opened.light_bar().isEmpty());
+  }
+
+  /// An accuracy of B = 0 would be reached after the fewest directions.
+  void the_form_factors_of_a_made_lamp_have_the_usual_directions() {
+    Opened opened;
+    QVERIFY(opened.ready);
+    SolveRunner runner;
+    std::shared_ptr<const SolverSnapshot> newest;
+    connect(&runner, &SolveRunner::snapshot_ready, &runner, [&](auto snapshot) {
+      newest = std::move(snapshot);
+    });
+    SolveOptions options;
+    options.goal.accuracy = 0.05;
+    runner.include_form_factors();
+    runner.open({opened.path.toStdString(),
+                 {.solve = options, .total = true},
+                 {.kind = Goal::Kind::finished}});
+    const auto rests_at = [&](std::int64_t passes) {
+      return wait_for([&] {
+        return newest && newest->passes_done == passes && runner.state() == RunState::paused;
+      });
+    };
+    QVERIFY(rests_at(0));
+    runner.set_goal({.kind = Goal::Kind::direction, .without_light = true});
+    QVERIFY(rests_at(1));
+    runner.set_goal({.kind = Goal::Kind::finished, .without_light = true});
+    QVERIFY(wait_for([&] { return newest->progress.finished && newest->form_factors; }));
+    QCOMPARE(newest->kept_passes.front(), options.directions);
+    QCOMPARE(newest->options.goal.accuracy, options.goal.accuracy);
+    QVERIFY(newest->total && newest->total->stages.empty());
   }
 
   void a_study_without_light_is_refused() {

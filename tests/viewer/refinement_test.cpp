@@ -231,18 +231,26 @@ class RefinementTest : public QObject {
   }
 
   // The rounds are made again; the solve after them continues where it was.
-  void goes_on_with_a_checkpoint_of_the_refined_scene() {
+  void continues_a_checkpoint_of_the_refined_scene_data() {
+    QTest::addColumn<bool>("shot");
+    QTest::newRow("first shot") << true;
+    QTest::newRow("no first shot") << false;
+  }
+  void continues_a_checkpoint_of_the_refined_scene() {
+    QFETCH(const bool, shot);
     const QTemporaryDir folder;
     const std::string mine = folder.filePath("mine.tck").toStdString();
     const QString left = folder.filePath("left.tck");
-    SolveOptions plain = few;
-    plain.first_shot.reset();
+    SolveOptions options = few;
+    if (!shot) {
+      options.first_shot.reset();
+    }
     const RefineChoice choice = by(RefineBy::jump, 60);
     std::vector<Rgb> radiosity;
     {
       WatchedRounds watched;
       watched.runner.save_to(mine, 0);
-      watched.open(plain, choice, {Goal::Kind::passes, 25});
+      watched.open(options, choice, {Goal::Kind::passes, 25});
       QVERIFY(watched.reaches([](const SolverSnapshot& s) {
         return !s.refinement.left && s.progress.direction == 25;
       }));
@@ -253,7 +261,7 @@ class RefinementTest : public QObject {
     }
     WatchedRounds watched;
     watched.runner.resume_from(left.toStdString());
-    watched.open(plain, choice, {Goal::Kind::passes, 1});
+    watched.open(options, choice, {Goal::Kind::passes, 1});
     // The solve has more than the one pass that was asked for.
     QVERIFY2(watched.reaches([](const SolverSnapshot& s) {
       return !s.refinement.left && s.progress.direction == 25;
@@ -263,6 +271,46 @@ class RefinementTest : public QObject {
     watched.runner.run();
     QVERIFY(watched.finishes());
     QVERIFY(watched.snapshot->radiosity == radiosity);
+  }
+
+  // The stages before the one that was saved are not solved again.
+  void continues_a_checkpoint_of_a_total_error() {
+    const QTemporaryDir folder;
+    const std::string mine = folder.filePath("mine.tck").toStdString();
+    const QString left = folder.filePath("left.tck");
+    SolveOptions options;
+    options.goal.accuracy = 0.15;
+    const SolveRunner::OpenRequest request{
+        "cornell-box", {.solve = options, .total = true}, {Goal::Kind::finished}};
+    const auto is_over = [](const SolverSnapshot& s) { return s.total && s.total->end; };
+    std::vector<Rgb> radiosity;
+    {
+      WatchedRounds watched;
+      watched.runner.save_to(mine, 0);
+      watched.runner.set_refresh_interval(0);
+      connect(&watched.runner, &SolveRunner::snapshot_ready, &watched.runner, [&](auto s) {
+        if (!s->total->stages.empty() && !s->measured_errors && s->passes_done > 0 &&
+            !QFile::exists(left)) {
+          watched.runner.pause();
+          QFile::copy(QString::fromStdString(mine), left);
+          watched.runner.run();
+        }
+      });
+      watched.runner.open(request);
+      QVERIFY(watched.reaches(is_over));
+      radiosity = watched.snapshot->radiosity;
+    }
+    QVERIFY(QFile::exists(left));
+    WatchedRounds watched;
+    std::size_t fewest = 1000;
+    connect(&watched.runner, &SolveRunner::snapshot_ready, &watched.runner,
+            [&](auto s) { fewest = std::min(fewest, s->total->stages.size()); });
+    watched.runner.resume_from(left.toStdString());
+    watched.runner.open(request);
+    QVERIFY(watched.reaches(is_over));
+    QVERIFY(fewest >= 1 && fewest < watched.snapshot->total->stages.size());
+    QVERIFY(watched.snapshot->radiosity == radiosity);
+    QVERIFY(!QFile::exists(left));
   }
 
   void the_window_shows_the_patches_of_each_round() {

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,12 @@ struct PatchMaterials {
 
   /// Material of patch i.
   const Material& of(PatchId i) const { return at(materials, at(of_patch, i)); }
+  /// Whether a patch emits.
+  bool has_light() const {
+    return std::any_of(of_patch.begin(), of_patch.end(), [this](std::int32_t material) {
+      return max_abs(at(materials, material).exitance) > 0;
+    });
+  }
 };
 
 }  // namespace transillum::viewer

@@ -32,7 +32,8 @@ struct LoadedScene {
   std::shared_ptr<const BspTree> tree;
   std::shared_ptr<const Picker> picker;
   SceneMeasures measures;
-  double back_fraction = 0;  ///< BackFraction::share
+  double back_fraction = 0;  ///< BackFraction::fraction
+  double open_fraction = 1;  ///< BackFraction::open; 1 with two-sided faces, which have an outside
   std::shared_ptr<const Solution>
       stored;               ///< solution of the result file that was opened; else null
   std::string file;         ///< path of the result file

@@ -36,7 +36,7 @@ SharpView::SharpView(SceneView& view, QObject* parent)
           }) {
   action_ = make_key_action(this, "sharp", tr("Sharp"),
                             tr("Once the scene rests, compute its light in every pixel, with exact "
-                               "shadows of lamps"),
+                               "shadows of lamps.\nIf this is off, the colors of the patches stay"),
                             QKeySequence(Qt::Key_S));
   action_->setCheckable(true);
   action_->setChecked(true);

@@ -195,9 +195,9 @@ void ProgressLine::show_solve() {
                          : tr("%1 done").arg(iterations_text(progress.iteration));
   const auto& accuracy = snapshot_->accuracy;
   phase_->setToolTip(finished && accuracy ? accuracy_tip(*accuracy) : QString());
-  if (finished && !has_light(*snapshot_)) {
+  if (!running && !has_light(*snapshot_)) {
     phase_->setToolTip({});
-    phase_->setText(tr("No light: B is 0 everywhere"));
+    phase_->setText(tr("No light: not solved"));
   } else if (finished && total && total->end && !total->stages.empty()) {
     phase_->setText(total_text(*snapshot_));
   } else if (finished && accuracy) {

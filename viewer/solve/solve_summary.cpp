@@ -90,8 +90,9 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
 
 void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   const SolveStatistics& s = snapshot.statistics;
-  const bool any_pass = s.iterations > 0 || snapshot.progress.direction > 0;
-  const bool any_iteration = s.iterations > 0;
+  const bool lit = has_light(snapshot);
+  const bool any_pass = lit && (s.iterations > 0 || snapshot.progress.direction > 0);
+  const bool any_iteration = lit && s.iterations > 0;
   const QString none = QStringLiteral("–");
   patches_->setText(count_text(s.patches));
   fragments_->setText(count_text(s.fragments));
@@ -120,7 +121,7 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   show_error(snapshot);
   show_directions_needed(snapshot);
   energy_->setText(any_iteration ? number_text(s.energy_defect) : none);
-  contraction_->setText(s.iteration_records.size() > 1
+  contraction_->setText(any_iteration && s.iteration_records.size() > 1
                             ? tr("%1, bound %2")
                                   .arg(number_text(s.iteration_records.back().contraction),
                                        number_text(s.predicted_contraction))

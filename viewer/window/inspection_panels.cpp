@@ -44,6 +44,9 @@ InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QW
           &SolveRunner::include_form_factors);
   connect(&relighting_, &Relighting::form_factors_requested, &state.runner,
           &SolveRunner::include_form_factors);
+  connect(&relighting_, &Relighting::solve_requested, &state.runner, [&runner = state.runner] {
+    runner.set_goal({.kind = Goal::Kind::finished, .without_light = true});
+  });
   connect(&relighting_, &Relighting::solver_light_requested, &state.runner, &SolveRunner::relight);
   connect(tables_, &PatchTablePanel::form_factors_requested, &state.runner,
           &SolveRunner::include_form_factors);

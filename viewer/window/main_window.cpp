@@ -26,6 +26,7 @@
 #include "map/compare_view.h"
 #include "map/map_canvas.h"
 #include "map/map_view.h"
+#include "model/snapshot_values.h"
 #include "map/phase_pair.h"
 #include "patches/error_page.h"
 #include "patches/patch_inspector.h"
@@ -85,10 +86,12 @@ namespace {
 
 constexpr QSize usual_size(1600, 1000);
 
-/// The fraction of light that escapes; not set before the first pass.
+/// The fraction of light that escapes; not set before the first pass of a scene with light.
 std::optional<double> escape_of(const SolverSnapshot& snapshot) {
-  const bool any_pass = snapshot.passes_done > 0;
-  return any_pass ? std::optional(snapshot.statistics.escaped) : std::nullopt;
+  if (snapshot.passes_done > 0) {
+    return snapshot.statistics.escaped;
+  }
+  return has_light(snapshot) ? std::nullopt : std::optional(snapshot.loaded->open_fraction);
 }
 
 QString dropped_file(const QMimeData& data) {

@@ -107,9 +107,6 @@ LightOffer::LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPan
     closed_ = false;
     refused_.reset();
     update();
-    if (!frame_.state.relighting.edits().has_light()) {
-      emit frame_.state.relighting.form_factors_requested();  // so that a light appears at once
-    }
   });
   connect(&frame_.state.relighting.edits(), &MaterialEdits::changed, this, &LightOffer::update);
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &LightOffer::update);

@@ -44,8 +44,10 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
   SolveRunner& runner = frame_.state.runner;
   connect(&actions_, &SolveActions::run, this, &SolveControl::run);
   connect(&actions_, &SolveActions::pause, &runner, &SolveRunner::pause);
-  connect(&actions_, &SolveActions::one_direction, &runner, &SolveRunner::advance_one_direction);
-  connect(&actions_, &SolveActions::one_iteration, &runner, &SolveRunner::advance_one_iteration);
+  connect(&actions_, &SolveActions::one_direction, this,
+          [this] { advance(Goal::Kind::direction); });
+  connect(&actions_, &SolveActions::one_iteration, this,
+          [this] { advance(Goal::Kind::iteration); });
   connect(&actions_, &SolveActions::stop, this, &SolveControl::start_over);
   connect(&runner, &SolveRunner::state_changed, this, &SolveControl::show_state);
   connect(&frame_.state.scene, &OpenScene::snapshot_ready, this, [this] {
@@ -86,18 +88,21 @@ bool SolveControl::finds_light(const Sky& sky) {
   return found;
 }
 
+/// Continues the solve, if it has light.
+void SolveControl::advance(Goal::Kind kind) {
+  const auto snapshot = frame_.state.scene.snapshot();
+  if (finds_light(snapshot ? snapshot->options.sky : settings_.solve_options().sky)) {
+    frame_.state.runner.set_goal({.kind = kind, .without_light = true});
+  }
+}
+
 void SolveControl::run() {
   // Before the first direction, changed settings still take effect.
   const bool again = frame_.state.scene.at_start() && settings_.differ_from_effect();
-  const auto snapshot = frame_.state.scene.snapshot();
-  const Sky sky = again || !snapshot ? settings_.solve_options().sky : snapshot->options.sky;
-  if (!finds_light(sky)) {
-    return;
-  }
-  if (again) {
+  if (!again) {
+    advance(Goal::Kind::finished);
+  } else if (finds_light(settings_.solve_options().sky)) {
     solve_again();
-  } else {
-    frame_.state.runner.run();
   }
 }
 

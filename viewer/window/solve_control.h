@@ -39,6 +39,7 @@ class SolveControl : public QObject {
 
  private:
   void run();
+  void advance(Goal::Kind kind);
   /// Whether a solve under this sky has light; if not, emits light_missing().
   bool finds_light(const Sky& sky);
   /// Solves with the settings of the panel; reads the scene again where its options differ.

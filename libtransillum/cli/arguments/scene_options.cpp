@@ -218,13 +218,6 @@ std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                        cancellation);
 }
 
-bool has_two_sided_faces(const Scene& scene) {
-  const auto& patches = scene.patches();
-  return std::adjacent_find(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
-           return a.face == b.face && a.center == b.center;
-         }) != patches.end();
-}
-
 std::string orientation_advice(const SceneInput& input, const BackFraction& backs) {
   if (backs.fraction <= BackFraction::worth_a_warning || input.run.input.orient) {
     return {};

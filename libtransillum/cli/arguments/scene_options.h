@@ -46,9 +46,6 @@ std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                               const SceneDescription& description,
                                               const Cancellation& cancellation);
 
-/// Whether any face has a patch on each side.
-bool has_two_sided_faces(const Scene& scene);
-
 /// One line that names --orient auto where more than a tenth of what is seen is a back; else empty.
 std::string orientation_advice(const SceneInput& input, const BackFraction& backs);
 

@@ -11,6 +11,7 @@
 #include "cli/messages.h"
 #include "cli/reports/report_text.h"
 #include "radiosity/analysis/power_table.h"
+#include "scene/build/patch_count.h"
 #include "transillum/at.h"
 
 namespace transillum::cli {

@@ -50,9 +50,17 @@ void Relighting::show_scene(std::shared_ptr<const Scene> scene) {
   edits_.start_with(std::move(scene));
 }
 
+/// Whether the scene is not solved because nothing emits.
+bool Relighting::awaits_light() const {
+  return !has_light(*snapshot_) && snapshot_->progress.iteration == 0;
+}
+
 QString Relighting::reason_unavailable() const {
   if (!snapshot_) {
     return tr("Open a scene to change its light.");
+  }
+  if (awaits_light()) {
+    return {};
   }
   if (snapshot_->shot && !snapshot_->shot->sources.empty() &&
       snapshot_->shot->contributions.empty()) {
@@ -108,7 +116,12 @@ void Relighting::request_light() {
     emit changed();
     return;
   }
-  if (!reason_unavailable().isEmpty()) {
+  if (snapshot_ && awaits_light() && edits_.has_light()) {
+    emit form_factors_requested();
+    emit solve_requested();
+    return;
+  }
+  if (!reason_unavailable().isEmpty() || !snapshot_->form_factors) {
     emit form_factors_requested();
     return;
   }

@@ -45,6 +45,9 @@ class Relighting : public QObject {
   /// The result of lit() has changed.
   void changed();
   void form_factors_requested();
+  /// A light was made in a scene without light, which is not solved: a solve is to make its form
+  /// factors.
+  void solve_requested();
   /// The solver is to find the light of these materials, in a run in which lobes take part.
   /// @param materials  null for the materials of the scene
   void solver_light_requested(std::shared_ptr<const transillum::viewer::PatchMaterials> materials);
@@ -63,6 +66,7 @@ class Relighting : public QObject {
     Basis basis = Basis::constant;
     double tolerance = 1e-6;
   };
+  bool awaits_light() const;
   static RelightResult relit(const Request& request, const Cancellation& cancellation);
   void request_light();
   void ask_solver();

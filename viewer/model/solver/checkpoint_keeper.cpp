@@ -2,6 +2,7 @@
 #include "model/solver/checkpoint_keeper.h"
 
 #include <filesystem>
+#include <sstream>
 #include <utility>
 
 #include "transillum/errors.h"
@@ -32,17 +33,36 @@ void CheckpointKeeper::resume_from(std::string file) {
   resume_from_ = std::move(file);
 }
 
-void CheckpointKeeper::resume(SolveSession& session, const SolveOptions& options) {
+bool CheckpointKeeper::restore(TotalPlan& plan, const Solve& solve,
+                               const Cancellation& cancellation) {
+  const std::lock_guard lock(mutex_);
+  if (resume_from_.empty()) {
+    return false;
+  }
+  try {
+    std::istringstream state(Checkpoint(resume_from_, *solve.scene, solve.options, solve.total)
+                                 .total_plan(cancellation));
+    plan.restore(state, state.str().size(), cancellation);
+    return true;
+  } catch (const Canceled&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    remove(std::exchange(resume_from_, {}));
+    return false;
+  }
+}
+
+void CheckpointKeeper::resume(SolveSession& session, const Solve& solve) {
   std::string file;
   {
     const std::lock_guard lock(mutex_);
     file = std::exchange(resume_from_, {});
   }
-  if (file.empty() || options.glossy) {
+  if (file.empty() || solve.options.glossy) {
     return;
   }
   try {
-    Checkpoint(file, *session.scene(), options).resume(session);
+    Checkpoint(file, *solve.scene, solve.options, solve.total).resume(session);
   } catch (const InputError&) {
     const std::lock_guard lock(mutex_);
     if (session.in_rounds() && resume_from_.empty()) {
@@ -56,13 +76,23 @@ void CheckpointKeeper::resume(SolveSession& session, const SolveOptions& options
   remove(file);
 }
 
-void CheckpointKeeper::begin(std::shared_ptr<const Scene> scene, const SolveOptions& options) {
+void CheckpointKeeper::begin(Solve solve) {
   const std::lock_guard lock(mutex_);
   remove(file_);
-  scene_ = std::move(scene);
-  options_ = options;
+  solve_ = std::move(solve);
+  plan_.clear();
   since_ = std::chrono::steady_clock::now();
   checkpoint_.reset();
+}
+
+void CheckpointKeeper::begin_stage(const TotalPlan& plan) {
+  std::ostringstream state;
+  plan.save(state);
+  const std::lock_guard lock(mutex_);
+  plan_ = state.str();
+  if (checkpoint_) {
+    checkpoint_->set_total_plan(plan_);
+  }
 }
 
 void CheckpointKeeper::save_if_due(const SolveSession& session, bool in_pause) {
@@ -70,12 +100,13 @@ void CheckpointKeeper::save_if_due(const SolveSession& session, bool in_pause) {
   const bool soon = in_pause || session.progress().direction == 0;
   const double interval = soon ? soon_fraction * interval_ : interval_;
   const std::chrono::duration<double> age = std::chrono::steady_clock::now() - since_;
-  if (file_.empty() || !scene_ || session.diffuse() == nullptr || age.count() < interval) {
+  if (file_.empty() || !solve_.scene || session.diffuse() == nullptr || age.count() < interval) {
     return;
   }
   try {
     if (!checkpoint_) {
-      checkpoint_.emplace(file_, *scene_, options_);
+      checkpoint_.emplace(file_, *solve_.scene, solve_.options, solve_.total);
+      checkpoint_->set_total_plan(plan_);
       checkpoint_->save(session);
     } else {
       checkpoint_->save_if_due(session, interval);

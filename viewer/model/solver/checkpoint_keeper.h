@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "session/total_plan.h"
 #include "transillum/checkpoint.h"
 
 namespace transillum::viewer {
@@ -27,16 +28,28 @@ class CheckpointKeeper {
   /// The next solve continues the checkpoint in `file`, if that is of the same scene and options.
   void resume_from(std::string file);
 
+  /// A solve, by what its file is recognized.
+  struct Solve {
+    std::shared_ptr<const Scene> scene;  ///< that of the first stage; null: nothing is saved
+    SolveOptions options;
+    bool total = false;  ///< whether the accuracy of `options` is about all errors
+  };
+
   /// Continues the solve in the file of resume_from(), if there is one, and removes it. If the file
   /// is from another solve, the session starts from the beginning; the file then stays for a later
   /// round, if there is one.
   /// @param session has made no pass
-  /// @param options of its solves
   /// @throws Canceled; as SolveSession::prepare()
-  void resume(SolveSession& session, const SolveOptions& options);
+  void resume(SolveSession& session, const Solve& solve);
+  /// Sets a new plan to the stage in the file of resume_from(), which resume() then continues.
+  /// @returns whether there is one; if not, the plan may not be used
+  /// @throws Canceled
+  bool restore(TotalPlan& plan, const Solve& solve, const Cancellation& cancellation);
   /// To be called when another solve begins; the previous one is no longer saved.
-  /// @param options of the solve
-  void begin(std::shared_ptr<const Scene> scene, const SolveOptions& options);
+  void begin(Solve solve);
+  /// To be called when a stage of a solve to a total error begins. What is saved of the stage
+  /// before stays until the new one is saved.
+  void begin_stage(const TotalPlan& plan);
   /// To be called after each pass and iteration, and in pauses: saves when the interval has passed;
   /// after an iteration and in a pause, when a twelfth of it has passed.
   void save_if_due(const SolveSession& session, bool in_pause = false);
@@ -46,8 +59,8 @@ class CheckpointKeeper {
   std::string resume_from_;  ///< checkpoint of another program; empty if there is none
   std::string file_;
   double interval_ = 60;
-  std::shared_ptr<const Scene> scene_;
-  SolveOptions options_;
+  Solve solve_;
+  std::string plan_;  ///< state of the TotalPlan; empty without one
   std::chrono::steady_clock::time_point since_;
   std::optional<Checkpoint> checkpoint_;  ///< made when it is first saved: that takes a while
 };

@@ -118,7 +118,9 @@ std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, RunOpti
     }
     loaded->scene = make_scene(*loaded->description, options, cancellation);
   }
-  loaded->back_fraction = back_fraction(*loaded->scene, 0, cancellation).fraction;
+  const BackFraction backs = back_fraction(*loaded->scene, 0, cancellation);
+  loaded->back_fraction = backs.fraction;
+  loaded->open_fraction = has_two_sided_faces(*loaded->scene) ? 1 : backs.open;
   examine(*loaded, cancellation);
   loaded->seconds_load = seconds(timer);
   timer.start();
@@ -141,6 +143,7 @@ std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
   loaded->description = start->description;
   loaded->tree = session.tree();
   loaded->back_fraction = start->back_fraction;
+  loaded->open_fraction = start->open_fraction;
   loaded->seconds_load = start->seconds_load;
   loaded->seconds_bsp = session.statistics().seconds_bsp;
   loaded->whole = whole_of(start);

@@ -63,7 +63,8 @@ class SolveRunner : public SolveMessages {
 
   /// From now on, the solve is saved to `file`: every minute, some seconds after iterations and
   /// when it pauses; with an interval of 0 after every pass. A solve that is replaced is not kept,
-  /// and glossy ones are not saved. If `file` is empty, nothing is saved, and the file is removed.
+  /// and those with lobes are not saved. If `file` is empty, nothing is saved, and the file is
+  /// removed.
   /// @param interval s
   void save_to(std::string file, double interval = 60) {
     worker_.checkpoints().save_to(std::move(file), interval);

@@ -15,6 +15,24 @@
 
 namespace transillum::viewer {
 
+namespace {
+
+/// Whether the scene as it was read gives light in a solve.
+bool is_lit(const Scene& scene, const SolveOptions& options) {
+  return options.sky.is_set() || scene.has_light();
+}
+
+/// The solve that makes the form factors of a scene without light, where B shows no accuracy.
+SolveOptions without_goal(SolveOptions options) {
+  if (options.goal.is_set()) {
+    options.goal = {};
+    options.directions = SolveOptions().directions;
+  }
+  return options;
+}
+
+}  // namespace
+
 SolveWorker::Prepared SolveWorker::load(const std::string& spec, RunOptions options,
                                         bool first_look, const Cancellation& cancellation) {
   options.solve.validate();
@@ -28,31 +46,40 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
     choice.refine = {};
     choice.total = false;
   }
-  SolveRequest request{.scene = start->scene, .options = choice.solve, .tree = start->tree};
+  const bool lit = is_lit(*start->scene, choice.solve);
+  SolveRequest request{.scene = start->scene,
+                       .options = lit ? choice.solve : without_goal(choice.solve),
+                       .tree = start->tree};
   if (!choice.divided.empty()) {
     request.scene = divide(*start->scene, choice.divided, cancellation).scene;
     request.tree = nullptr;
   }
-  if (choice.refine.is_set()) {
+  if (choice.refine.is_set() && lit) {
     request.refine = choice.refine.options();
   }
   request.keep_form_factors = true;
   request.preparing = phase_reporter(report_);
+  CheckpointKeeper::Solve saved{request.scene, choice.solve, choice.total && lit};
   std::optional<TotalPlan> total;
-  if (choice.total) {
+  if (saved.total) {
     check_measurable(choice.solve, choice.solve.glossy && has_lobes(*request.scene));
     TotalGoal goal{.total = choice.solve.goal.accuracy};
     if (choice.refine.patches > 0) {
       goal.patches = choice.refine.patches;
     }
-    total.emplace(std::move(request), goal);
+    total.emplace(request, goal);
+    if (!checkpoints_.restore(*total, saved, cancellation)) {
+      total.emplace(std::move(request), goal);
+    }
     request = total->stage();
   }
   SolveSession session(std::move(request), cancellation);
-  checkpoints_.resume(session, choice.solve);
+  saved.scene = saved.total ? saved.scene : session.scene();
+  checkpoints_.resume(session, saved);
   session.prepare();
   auto loaded = with_patches_of(session, start, cancellation);
-  return {std::move(choice), std::move(loaded), std::move(session), cancellation, std::move(total)};
+  return {std::move(choice), std::move(loaded), std::move(session),
+          cancellation,      std::move(total),  std::move(saved)};
 }
 
 void SolveWorker::open(Prepared prepared) {
@@ -89,10 +116,12 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool ru
 
 void SolveWorker::replace_session(Prepared prepared) {
   history_ = SolveHistory(prepared.session);
-  // A stage of a total error could not be continued: its accuracy is another.
-  checkpoints_.begin(prepared.total ? nullptr : prepared.loaded->scene, prepared.choice.solve);
+  checkpoints_.begin(std::move(prepared.saved));
   choice_ = std::move(prepared.choice);
   total_ = std::move(prepared.total);
+  if (total_) {
+    checkpoints_.begin_stage(*total_);
+  }
   errors_ = nullptr;
   session_ = std::move(prepared.session);
   cancellation_ = prepared.cancellation;
@@ -145,6 +174,11 @@ void SolveWorker::advance(const Goal& goal) {
   const bool by_passes = goal.kind == Goal::Kind::passes;
   if (!has_more() || (by_passes && !session_->in_rounds() && !total_ && is_ready() &&
                       session_->passes_done() >= goal.passes)) {
+    return;
+  }
+  const bool lit =
+      is_lit(*loaded_->scene, choice_.solve) || (materials_ && materials_->has_light());
+  if (!lit && !goal.without_light) {
     return;
   }
   messages_.post_state(RunState::running);
@@ -249,6 +283,7 @@ void SolveWorker::end_stage_of_total() {
     return;
   }
   post_snapshot();
+  checkpoints_.begin_stage(*total_);
   session_ = SolveSession(total_->stage(), cancellation_);
 }
 
@@ -260,12 +295,14 @@ void SolveWorker::prepare_stage() {
   // A round has its own tree, even if no patch was divided before the last round.
   const auto is_round = [this] { return session_->tree() != loaded_->tree; };
   if (is_round() && !total_) {
-    checkpoints_.resume(*session_, choice_.solve);
+    checkpoints_.resume(*session_, {session_->scene(), choice_.solve});
   }
   session_->prepare();
   if (is_round()) {
     take_patches(with_patches_of(*session_, whole_of(loaded_), cancellation_));
-    checkpoints_.begin(total_ ? nullptr : loaded_->scene, choice_.solve);
+    if (!total_) {
+      checkpoints_.begin({loaded_->scene, choice_.solve});
+    }
     stage_result_ = nullptr;
   }
   errors_ = nullptr;
@@ -348,6 +385,10 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
                        total_->finished() ? std::optional(outcome.end) : std::nullopt};
     snapshot->refinement = {session.scene()->patch_count(), !total_->finished()};
     snapshot->accuracy.reset();
+  }
+  if (!is_lit(*loaded_->scene, choice_.solve)) {
+    snapshot->options = choice_.solve;
+    snapshot->total = choice_.total ? std::optional(TotalState()) : std::nullopt;
   }
   snapshot->measured_errors = errors_;
   snapshot->materials = session.glossy() != nullptr ? materials_ : nullptr;

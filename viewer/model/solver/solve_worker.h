@@ -49,7 +49,8 @@ class SolveWorker {
     std::shared_ptr<const LoadedScene> loaded;  ///< with the patches of the first round
     SolveSession session;
     Cancellation cancellation;       ///< cancels the session
-    std::optional<TotalPlan> total;  ///< if chosen; the session is its first stage
+    std::optional<TotalPlan> total;  ///< if chosen; the session is a stage of it
+    CheckpointKeeper::Solve saved;
   };
 
   /// @param messages get snapshots, scenes and progress

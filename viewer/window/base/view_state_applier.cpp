@@ -281,7 +281,7 @@ bool ViewStateApplier::has_patches() const {
 // Uses the snapshot, because the state of the runner may still belong to the previous run.
 bool ViewStateApplier::run_is_over() const {
   const SolverSnapshot& snapshot = *frame_.state.scene.snapshot();
-  if (snapshot.progress.finished) {
+  if (snapshot.progress.finished || !has_light(snapshot)) {
     return true;
   }
   if (requested_.scene.empty()) {

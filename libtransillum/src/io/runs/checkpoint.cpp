@@ -97,6 +97,7 @@ void Checkpoint::save(const SolveSession& session) {
   head["seconds"] = session.seconds();
   head["total"] = impl_->total_plan.size();
   head["plan"] = plan_bytes.size();
+  head["in_rounds"] = session.in_rounds();
   std::uint64_t size = 0;
   // A save that fails is not tried again at once.
   impl_->saved = start;
@@ -162,6 +163,11 @@ void Checkpoint::resume(SolveSession& session) {
   std::uint64_t left = 0;
   sums->agree([&] {
     file.emplace(impl_->open(s.cancellation));
+    // The last round of refinement may solve the scene that is solved after all of them.
+    if (file->head().value("in_rounds", Json(false)) != Json(s.in_rounds())) {
+      file->refuse(s.in_rounds() ? "it is of the solve after rounds of refinement"
+                                 : "it is of a round of refinement");
+    }
     const std::uint64_t total_size = size_of(*file, "total"), plan_size = size_of(*file, "plan");
     left = file->size() - total_size - plan_size;
     file->seek(total_size);

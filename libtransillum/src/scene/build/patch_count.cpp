@@ -207,4 +207,11 @@ double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
   return with_few_digits(nearest.area, counter, cancellation);
 }
 
+bool has_two_sided_faces(const Scene& scene) {
+  const auto& patches = scene.patches();
+  return std::adjacent_find(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
+           return a.face == b.face && a.center == b.center;
+         }) != patches.end();
+}
+
 }  // namespace transillum

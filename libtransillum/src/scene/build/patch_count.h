@@ -54,4 +54,7 @@ std::int64_t usual_patches(std::size_t faces);
 double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
                           const Cancellation& cancellation = {});
 
+/// Whether any face has a patch on each side.
+bool has_two_sided_faces(const Scene& scene);
+
 }  // namespace transillum
