@@ -396,7 +396,7 @@ class AppearanceTest : public QObject {
   void a_floating_panel_can_be_maximized_and_docks_again() {
     const auto window = make_active_window();
     auto* panel = window->findChild<QDockWidget*>("compare_dock");
-    for (const char* layout : {"layout_inspect", "layout_reset", "layout_teach"}) {
+    for (const char* layout : {"layout_reset", "layout_debug", "layout_teach"}) {
       window->views().docks.bring_to_front("compare");
       panel->setFloating(true);
       QVERIFY(panel->isFloating() && panel->isVisible());

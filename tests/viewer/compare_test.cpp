@@ -241,6 +241,7 @@ class CompareTest : public QObject {
     const auto tabs = shown.window->tabifiedDockWidgets(dock);
     QVERIFY(tabs.contains(shown.window->findChild<QDockWidget*>("map_dock")));
     shown.trigger("layout_debug");
+    docks.bring_to_front("compare");
     QVERIFY(shown.window->tabifiedDockWidgets(dock).contains(
         shown.window->findChild<QDockWidget*>("map_dock")));
   }

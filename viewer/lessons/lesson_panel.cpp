@@ -270,7 +270,10 @@ bool LessonPanel::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::KeyPress && lesson_ >= 0 && widget && widget->window() == window()) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     if (key == Qt::Key_PageUp || key == Qt::Key_PageDown) {
-      (key == Qt::Key_PageUp ? previous_ : next_)->trigger();
+      QAction* turn = key == Qt::Key_PageUp ? previous_ : next_;
+      if (turn->isEnabled()) {
+        turn->trigger();
+      }
       return true;
     }
   }

@@ -104,6 +104,8 @@ QWidget* QuestionBox::make_buttons() {
     button->setToolButtonStyle(Qt::ToolButtonTextOnly);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     row->addWidget(button);
+    connect(action, &QAction::changed, button,
+            [action, button] { button->setVisible(action->isVisible()); });
   }
   return buttons;
 }
@@ -438,9 +440,9 @@ void QuestionBox::show_state() {
                                   : tr("Reveal the answer"));
   reveal_->setEnabled(asks);
   enable_if(*count_, given && !solved_ && page_->question->kind != Question::Kind::area,
-            solved_  ? tr("The answer is shown")
-            : given  ? tr("Areas are not counted")
-                     : tr("Give an answer first"));
+            solved_ ? tr("The answer is shown")
+            : given ? tr("Areas are not counted")
+                    : tr("Give an answer first"));
   reset_->setVisible(total_of(counts) > 0);
   if (!asks) {
     return;

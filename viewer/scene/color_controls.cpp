@@ -33,7 +33,7 @@ namespace {
 constexpr double lowest_exposure = -12, highest_exposure = 12;  // EV
 constexpr int slider_steps_per_ev = 10;
 constexpr int spacing = 8;
-constexpr int min_quantity_letters = 7;  // wide letters: fits "Radiosity B"
+constexpr int min_quantity_letters = 4;  // in a narrow scene
 constexpr int max_quantity_width = 260;
 
 /// Enables or disables an item of the list.

@@ -31,7 +31,8 @@ namespace {
 constexpr int page_margin = 28, card_gap = 12, card_padding = 10;
 constexpr int small_picture_height = 40, small_picture_width = 62;
 constexpr int least_picture_height = 66, most_picture_height = 150;
-constexpr double picture_ratio = 0.44;
+constexpr double picture_ratio = 0.44, flat_picture_ratio = 0.3;
+constexpr int low_height = 640;  // of a page whose pictures are flat
 constexpr int files_width = 290, least_card_width = 150;
 constexpr double small_type = 0.88, heading_type = 1.1, choice_type = 1.3;
 
@@ -69,7 +70,9 @@ class StartCard : public QAbstractButton {
     setCursor(Qt::PointingHandCursor);
   }
 
-  void set_width(int width) {
+  /// @param flat  whether a picture above the text is flat
+  void set_width(int width, bool flat) {
+    ratio_ = flat ? flat_picture_ratio : picture_ratio;
     const int line = fontMetrics().lineSpacing();
     const int padding = theme::scaled(card_padding);
     int height = 0;
@@ -106,8 +109,8 @@ class StartCard : public QAbstractButton {
   }
 
  private:
-  static int picture_height(int width) {
-    return std::clamp(qRound(picture_ratio * width), theme::scaled(least_picture_height),
+  int picture_height(int width) const {
+    return std::clamp(qRound(ratio_ * width), theme::scaled(least_picture_height),
                       theme::scaled(most_picture_height));
   }
 
@@ -133,7 +136,8 @@ class StartCard : public QAbstractButton {
         lines * line, painter.fontMetrics().boundingRect(room, Qt::TextWordWrap, text()).height());
     QRect title(room.left(), room.center().y() - (used + note_line) / 2 + 1, room.width(), used);
     painter.save();
-    painter.setClipRect(title, Qt::IntersectClip);  // a longer name is in the tool tip
+    // A longer name is in the tool tip.
+    painter.setClipRect(title.adjusted(0, 0, 0, 2), Qt::IntersectClip);
     painter.drawText(title, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, text());
     painter.restore();
     painter.setFont(scaled_font(font(), look_ == Look::choice ? 1 : small_type, false));
@@ -146,6 +150,7 @@ class StartCard : public QAbstractButton {
   Look look_;
   QString note_;
   QPixmap picture_;
+  double ratio_ = picture_ratio;
 };
 
 StartPage::StartPage(QWidget* parent) : QScrollArea(parent) {
@@ -158,6 +163,7 @@ StartPage::StartPage(QWidget* parent) : QScrollArea(parent) {
   for (Grid* grid : {&choices_, &scenes_, &lessons_, &recent_}) {
     grid->layout = new QGridLayout;
     grid->layout->setSpacing(card_gap);
+    grid->layout->setVerticalSpacing(card_gap - 4);
   }
   choices_.most_columns = 3;
   scenes_.most_columns = 4;
@@ -211,7 +217,7 @@ QWidget* StartPage::make_files() {
   open->setDefault(true);
   open->setMinimumHeight(theme::scaled(34));
   column->addWidget(open);
-  column->addWidget(note_label(tr("or drop a file here: .obj, .gltf, .glb, .ply, .stl …")));
+  column->addWidget(note_label(tr("or drop a scene, a result, a session or a lesson here")));
   column->addSpacing(4);
   column->addLayout(recent_.layout);
   column->addStretch(1);
@@ -313,7 +319,7 @@ void StartPage::place(Grid& grid, int room) const {
   const int columns = std::clamp((room + card_gap) / least, 1, grid.most_columns);
   const int across = (room - (columns - 1) * card_gap) / columns;
   for (int k = 0; k < grid.cards.size(); ++k) {
-    grid.cards[k]->set_width(across);
+    grid.cards[k]->set_width(across, viewport()->height() < theme::scaled(low_height));
     grid.layout->addWidget(grid.cards[k], k / columns, k % columns);
   }
 }

@@ -152,6 +152,7 @@ void DockLayouts::choose(Layout layout) {
   }
   uncover();
   if (layout == current_) {
+    show_alone({});
     return;
   }
   at(kept_, current_) = plain_state();
@@ -248,13 +249,17 @@ void DockLayouts::limit_tabs(QDockWidget* shown) {
 }
 
 void DockLayouts::arrange_sizes() {
+  constexpr double usual_height = 1000;
   QList<QDockWidget*> shown;
   QList<int> heights;
   for (const Dock& dock : docks_) {
     const DockPlace* place = place_of(dock);
     if (place && !dock.widget->isHidden()) {
       shown << dock.widget;
-      heights << place->height;
+      // The scene below the panels at the top needs room in a low window, too.
+      const double part = std::min(1.0, window_.height() / usual_height);
+      heights << (place->area == Qt::TopDockWidgetArea ? static_cast<int>(part * place->height)
+                                                       : place->height);
     }
   }
   window_.resizeDocks(shown, heights, Qt::Vertical);
@@ -289,7 +294,7 @@ void DockLayouts::keep_fraction(int width_before) {
 }
 
 void DockLayouts::fit_bottom() {
-  constexpr double fraction = 0.18, most_fraction = 0.24;
+  constexpr double fraction = 0.17, most_fraction = 0.24;
   for (const Dock& dock : docks_) {
     const DockPlace* place = place_of(dock);
     if (!place || place->area != Qt::BottomDockWidgetArea || dock.widget->isHidden()) {

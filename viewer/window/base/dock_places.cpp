@@ -34,7 +34,7 @@ const std::map<std::string, Places>& all_places() {
       {"algorithm", {{teach, right, 2, 420}, {step, above, 1, 330, front}}},
       {"received", {{inspect, right, 2, 420, behind}, {step, above, 1, 330}}},
       {"parts", {{inspect, right, 2, 420, behind}}},
-      {"convergence", {{teach, right, 2, 420}, {inspect, right, 2, 420, behind}}},
+      {"convergence", {{teach, right, 2, 420}, {inspect, right, 2, 420}}},
       {"direction", {{teach, right, 2, 420}, {inspect, right, 2, 420}}},
       {"event", {{teach, right, 2, 420}, {step, above, 1, 330, behind}}},
       {"breakpoint", {{step, above, 1, 330, behind}}},
