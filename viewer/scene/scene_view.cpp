@@ -131,10 +131,14 @@ void SceneView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   if (snapshot->loaded != loaded_) {
     return;
   }
+  const bool same_draft = snapshot_ && snapshot_->of_draft && snapshot->of_draft &&
+                          snapshot_->radiosity == snapshot->radiosity;
   snapshot_ = std::move(snapshot);
-  recolor();
-  show_direction();
-  render();
+  if (!same_draft) {  // without a GPU, a picture takes time from the solver
+    recolor();
+    show_direction();
+    render();
+  }
 }
 
 void SceneView::set_direction_shown(bool shown) {

@@ -170,7 +170,7 @@ void QualityControls::show_state(bool takes_directions, const QString& conflict)
                           static_cast<QWidget*>(fine_), static_cast<QWidget*>(accuracy_)}) {
     widget->setEnabled(takes_directions || (chosen && widget == accuracy_));
   }
-  note_->setText(!conflict.isEmpty() ? conflict
+  note_->setText(!conflict.isEmpty() ? capitalized(conflict)
                  : !takes_directions ? tr("This engine has no directions to choose")
                                      : QString());
   note_->setVisible(!note_->text().isEmpty());

@@ -63,7 +63,9 @@ void FocusFeed::set_watched(bool watched) {
 }
 
 void FocusFeed::follow() {
-  if (!snapshot_ || !watched_) {
+  // While a draft stands, the picture has nothing of the newest direction, and maps would take
+  // time from the solver.
+  if (!snapshot_ || !watched_ || snapshot_->of_draft) {
     return;
   }
   const SolveProgress& progress = snapshot_->progress;

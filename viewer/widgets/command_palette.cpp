@@ -8,6 +8,7 @@
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QRegularExpression>
 #include <QTimer>
 #include <QTreeWidget>
 #include <algorithm>
@@ -27,15 +28,23 @@ enum PaletteColumn { what_column, place_column, keys_column, palette_columns };
 // Penalties of a word of the query.
 constexpr int within_word = 2, scattered = 8;
 
-bool follow_one_another(const QString& letters, const QString& text) {
-  qsizetype from = 0;
-  for (const QChar letter : letters) {
-    from = text.indexOf(letter, static_cast<int>(from), Qt::CaseInsensitive) + 1;
-    if (from == 0) {
-      return false;
+/// Whether a word of the text begins with the first letter and has the others after it.
+bool abbreviates(const QString& letters, const QString& text) {
+  static const QRegularExpression separators(QStringLiteral("[^\\w]+"));
+  for (const QString& word : text.split(separators, Qt::SkipEmptyParts)) {
+    int from = 0;
+    for (const QChar letter : letters) {
+      const int at = word.indexOf(letter, from, Qt::CaseInsensitive);
+      from = at < 0 || (from == 0 && at > 0) ? -1 : at + 1;
+      if (from < 0) {
+        break;
+      }
+    }
+    if (from > 0) {
+      return true;
     }
   }
-  return true;
+  return false;
 }
 
 int misfit_of_word(const QString& word, const QString& text) {
@@ -47,7 +56,7 @@ int misfit_of_word(const QString& word, const QString& text) {
   if (text.contains(word, Qt::CaseInsensitive)) {
     return within_word;
   }
-  return follow_one_another(word, text) ? scattered : -1;
+  return abbreviates(word, text) ? scattered : -1;
 }
 
 }  // namespace
@@ -82,6 +91,8 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, OfQuery of_que
   list_->setUniformRowHeights(true);
   list_->setFocusPolicy(Qt::NoFocus);
   list_->setFrameShape(QFrame::NoFrame);
+  list_->setStyleSheet(QStringLiteral("QTreeView::item { padding: 4px 2px; }"));
+  query_->setStyleSheet(QStringLiteral("QLineEdit { padding: 5px; }"));
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(what_column, QHeaderView::Stretch);

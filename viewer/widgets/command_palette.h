@@ -22,7 +22,7 @@ struct PaletteEntry {
 };
 
 /// How well a text fits a query: the sum over the words of the query, which all have to be in the
-/// text. 0 is best: each begins a word. Letters that only follow one another fit least.
+/// text. 0 is best: each begins a word. An abbreviation fits least.
 /// @returns a negative number where the text does not fit
 int palette_misfit(const QString& query, const QString& text);
 

@@ -63,6 +63,9 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
       request_forecast(options);
     }
   });
+  connect(&undo_, &SolveUndo::returned, this, [this](const SolveOptions& options) {
+    settings_.set_options(options, frame_.state.scene.options());
+  });
   connect(&frame_.state.scene, &OpenScene::opening, this, [this] { awaits_forecast_ = false; });
   connect(settings_.rounds(), &RoundPanel::canceled, &runner, &SolveRunner::stop);
   connect(&frame_.page, &ScenePage::replicas_requested, this, &SolveControl::solve_with_replicas);

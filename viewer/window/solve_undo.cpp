@@ -33,11 +33,12 @@ SolveUndo::SolveUndo(const WindowFrame& frame) : QObject(&frame.window), frame_(
   // New patches clear the list of what can be undone, before this is called.
   connect(&frame_.state.scene, &OpenScene::patches_changed, this, &SolveUndo::push);
   connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] {
-    const bool returned = std::exchange(returns_, false);
-    if (returned) {
+    const auto now = std::exchange(returns_, nullptr);
+    if (now) {
+      emit returned(now->options);
       frame_.page.scene_view()->set_view_point(view_);
     }
-    if (returned || spec_ != frame_.state.scene.spec()) {
+    if (now || spec_ != frame_.state.scene.spec()) {
       earlier_ = nullptr;
     }
     push();
@@ -77,7 +78,7 @@ void SolveUndo::push() {
 }
 
 void SolveUndo::show(const Earlier& earlier) {
-  returns_ = true;
+  returns_ = std::make_shared<const Earlier>(earlier);
   view_ = frame_.page.scene_view()->view_point();
   frame_.state.scene.show_earlier(earlier.loaded, earlier.options, earlier.input);
 }

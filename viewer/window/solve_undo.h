@@ -23,6 +23,10 @@ class SolveUndo : public QObject {
   /// To be called before another solve of the open scene replaces the one that is shown.
   void remember();
 
+ signals:
+  /// An earlier solve is shown again.
+  void returned(const transillum::SolveOptions& options);
+
  private:
   class Command;
   struct Earlier;
@@ -43,7 +47,7 @@ class SolveUndo : public QObject {
   std::shared_ptr<const Earlier> earlier_;  ///< what Undo shows; null if nothing can be undone
   std::weak_ptr<Kept> kept_;                ///< of the command in the list
   std::string spec_;                        ///< its scene
-  bool returns_ = false;                    ///< an earlier solve is being shown
+  std::shared_ptr<const Earlier> returns_;  ///< what is about to be shown; null if nothing is
   ViewPoint view_;                          ///< the camera that it is to have
 };
 
