@@ -2,6 +2,8 @@
 //
 // The tab "Errors" of the panel "Surfaces": errors of surfaces by cause, measured on request, the
 // step that makes them smaller, and the errors of patches in color.
+#include <QApplication>
+#include <QClipboard>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
@@ -14,6 +16,7 @@
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QToolButton>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -25,6 +28,7 @@
 #include "session/next_steps.h"
 #include "session/total_plan.h"
 #include "solved_window.h"
+#include "transillum/errors.h"
 #include "window/base/dock_layouts.h"
 #include "window/files/export_actions.h"
 
@@ -41,6 +45,18 @@ ErrorReport report_of(const std::shared_ptr<const Scene>& scene, const SolveOpti
   SolveSession session({.scene = scene, .options = options});
   session.advance(SolveSession::Until::finished);
   return measure_errors(measured_solve(session));
+}
+
+/// The corners of all patches: x, y and z of each.
+std::vector<std::array<double, 3>> outlines_of(const Scene& scene) {
+  std::vector<std::array<double, 3>> corners;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    for (const PointId p : scene.outline(i)) {
+      const Vec3& point = scene.point(p);
+      corners.push_back({point.x, point.y, point.z});
+    }
+  }
+  return corners;
 }
 
 /// An open scene with the tab in front.
@@ -200,6 +216,21 @@ class ErrorsTest : public QObject {
     QCOMPARE(std::int64_t(snapshot.loaded->scene->patch_count()), step->patches);
     QCOMPARE(whole_of(snapshot.loaded), whole_of(before->loaded));
     QCOMPARE(snapshot.statistics.passes, step->passes);
+    // The copied command and the session divide the same patches.
+    shown.trigger("copy_solve");
+    const QString command = QApplication::clipboard()->text();
+    QVERIFY2(command.contains("--divide " + QString::fromStdString(step->surface)),
+             qPrintable(command));
+    QVERIFY(outlines_of(*divided_scene(load_scene("cornell-box"), {step->surface})) ==
+            outlines_of(*snapshot.loaded->scene));
+    QVERIFY_EXCEPTION_THROWN(divided_scene(load_scene("cornell-box"), {"roof"}), InputError);
+    const QTemporaryDir folder;
+    const QString session = folder.filePath("s.json");
+    shown.window->files().save_session(session);
+    const auto other = make_window(16);
+    other->files().open(session);
+    QVERIFY(wait_for([&] { return other->snapshot() && other->settled(); }));
+    QVERIFY(outlines_of(*other->snapshot()->loaded->scene) == outlines_of(*snapshot.loaded->scene));
     QVERIFY(!shown.window->views().settings.differ_from_effect());
     // The errors belonged to the solve before.
     QCOMPARE(shown.table().rowCount(), 0);
@@ -228,6 +259,7 @@ class ErrorsTest : public QObject {
     QVERIFY(shown.finishes());
     QVERIFY(shown.measures());
     const auto divided = shown.errors();
+    QVERIFY(*divided->loaded->divided == std::vector<std::string>{"all"});
     NextStep more = divided->report.steps.front();
     more.kind = NextStep::Kind::directions;
     more.passes = 2 * divided->solve.options.directions;

@@ -226,9 +226,8 @@ class LightTest : public QObject {
     QVERIFY(opened.ready);
     SolveRunner runner;
     std::shared_ptr<const SolverSnapshot> newest;
-    connect(&runner, &SolveRunner::snapshot_ready, &runner, [&](auto snapshot) {
-      newest = std::move(snapshot);
-    });
+    connect(&runner, &SolveRunner::snapshot_ready, &runner,
+            [&](auto snapshot) { newest = std::move(snapshot); });
     SolveOptions options;
     options.goal.accuracy = 0.05;
     runner.include_form_factors();

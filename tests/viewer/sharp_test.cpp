@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QLabel>
 #include <QTemporaryDir>
+#include <QToolButton>
 #include <numbers>
 
 #include "model/snapshot_values.h"
@@ -212,6 +213,18 @@ class SharpTest : public QObject {
     QVERIFY(comes_to_rest(*shown.window));
     QVERIFY(fraction_in_own_color(*shown.scene_view, shown.window->colors) > 0.95);
     QTest::keyClick(shown.window.get(), Qt::Key_S);
+    QVERIFY(shown.becomes_sharp());
+  }
+
+  void it_is_switched_by_its_button() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    auto* button = shown.window->findChild<QToolButton*>("sharp_button");
+    QVERIFY(button->isVisible() && button->isChecked());
+    QVERIFY2(button->toolTip().contains("(S)"), qPrintable(button->toolTip()));
+    button->click();
+    QVERIFY(!button->isChecked() && shown.scene_view->sharp().isNull());
+    button->click();
     QVERIFY(shown.becomes_sharp());
   }
 

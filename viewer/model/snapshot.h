@@ -42,6 +42,9 @@ struct LoadedScene {
   double seconds_bsp = 0;   ///< wall-clock time of building the tree
   /// The scene before patches were divided in rounds; null if none were divided.
   std::shared_ptr<const LoadedScene> whole;
+  /// The divisions that make these patches from `whole`, as in SceneInput::divided; nothing where
+  /// they were made in rounds or for a total error.
+  std::optional<std::vector<std::string>> divided = std::vector<std::string>();
 };
 
 /// The scene as it was read, before rounds of refinement.

@@ -49,11 +49,15 @@ Rgb radiosity_at(const SolverSnapshot& snapshot, PatchId i, const Vec3& point) {
 
 RunOptions run_options_of(const SolverSnapshot& snapshot, const SceneOptions& scene,
                           const SceneInput& input) {
-  return {.solve = snapshot.options,
-          .scene = scene,
-          .input = input,
-          .refine = snapshot.refine,
-          .total = snapshot.total.has_value()};
+  RunOptions options{.solve = snapshot.options,
+                     .scene = scene,
+                     .input = input,
+                     .refine = snapshot.refine,
+                     .total = snapshot.total.has_value()};
+  if (const auto& divided = snapshot.loaded->divided) {
+    options.input.divided.insert(options.input.divided.end(), divided->begin(), divided->end());
+  }
+  return options;
 }
 
 bool has_light(const SolverSnapshot& snapshot) {

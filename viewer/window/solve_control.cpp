@@ -222,7 +222,8 @@ void SolveControl::take_step(const NextStep& step) {
   solve.directions = step.passes;
   solve.tolerance = step.tolerance;
   settings_.set_options({solve, settings_.scene_options()});
-  frame_.state.runner.restart({solve, {}, errors->loaded, std::move(divided)},
+  const std::string division = divided.empty() ? "" : name_of_division(step, errors->solve);
+  frame_.state.runner.restart({solve, {}, errors->loaded, std::move(divided), division},
                               {Goal::Kind::finished});
 }
 

@@ -14,6 +14,7 @@
 #include "cli/progress_display.h"
 #include "cli/reports/report_text.h"
 #include "scene/build/patch_count.h"
+#include "session/next_steps.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
@@ -214,8 +215,9 @@ SceneDescription describe_input(const SceneInput& input, const Cancellation& can
 std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                               const SceneDescription& description,
                                               const Cancellation& cancellation) {
-  return std::make_shared<const Scene>(description, division(input, description, cancellation),
-                                       cancellation);
+  auto scene = std::make_shared<const Scene>(
+      description, division(input, description, cancellation), cancellation);
+  return divided_scene(std::move(scene), input.run.input.divided, cancellation);
 }
 
 std::string orientation_advice(const SceneInput& input, const BackFraction& backs) {

@@ -25,6 +25,9 @@ struct SceneInput {
   /// About how many patches to make, instead of SceneOptions::max_patch_area; 0 if not given. Once
   /// the scene is loaded, that area says the same.
   std::int64_t patches = 0;
+  /// Surfaces whose patches are divided into about four, one after the other; "all" stands for all
+  /// patches.
+  std::vector<std::string> divided = {};
 
   /// Exact comparison of all members.
   friend bool operator==(const SceneInput&, const SceneInput&) = default;

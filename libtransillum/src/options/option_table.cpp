@@ -381,6 +381,23 @@ void add_reading(Table& t) {
     o.input.orient = text == "auto";
   };
   orient.print = [](const RunOptions& o) { return std::string(o.input.orient ? "auto" : "keep"); };
+  Option& divide =
+      t.add("divide", "SURFACES", "names of surfaces, or none",
+            "divide each patch of a surface into about four; all: of all surfaces; several with ; "
+            "between them are divided one after the other");
+  divide.unset = "none";
+  divide.parse = [](RunOptions& o, const std::string& text) {
+    o.input.divided.clear();
+    for (std::size_t begin = 0; text != "none" && begin <= text.size();) {
+      const std::size_t end = std::min(text.find(';', begin), text.size());
+      o.input.divided.push_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  };
+  divide.print = [](const RunOptions& o) {
+    return o.input.divided.empty() ? std::string("none")
+                                   : fmt::format("{}", fmt::join(o.input.divided, ";"));
+  };
   change(t.common("emission", "NAME=E[,E,E]", "a name and one number or three",
                   "exitance of a material, a group or face:N, in W/m2; may be given several times"),
          exitance_change);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/build/patch_count.h"
+#include "session/next_steps.h"
 #include "transillum/files.h"
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
@@ -41,7 +42,8 @@ std::shared_ptr<const Scene> make_scene(const SceneDescription& description,
                    options.solve.replicas, unknowns);
     }
   }
-  return std::make_shared<const Scene>(description, scene_options, cancellation);
+  return divided_scene(std::make_shared<const Scene>(description, scene_options, cancellation),
+                       options.input.divided, cancellation);
 }
 
 SceneDescription describe(const std::string& spec, const SceneInput& input,
@@ -147,6 +149,7 @@ std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
   loaded->seconds_load = start->seconds_load;
   loaded->seconds_bsp = session.statistics().seconds_bsp;
   loaded->whole = whole_of(start);
+  loaded->divided = std::nullopt;
   examine(*loaded, cancellation);
   return loaded;
 }

@@ -78,6 +78,12 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
   checkpoints_.resume(session, saved);
   session.prepare();
   auto loaded = with_patches_of(session, start, cancellation);
+  if (!choice.division.empty() && !choice.refine.is_set() && !saved.total && start->divided) {
+    auto named = std::make_shared<LoadedScene>(*loaded);
+    named->divided = start->divided;
+    named->divided->push_back(choice.division);
+    loaded = std::move(named);
+  }
   return {std::move(choice), std::move(loaded), std::move(session),
           cancellation,      std::move(total),  std::move(saved)};
 }

@@ -36,6 +36,7 @@ class SolveWorker {
     /// The patches to begin with; null for the scene as it was read.
     std::shared_ptr<const LoadedScene> from = nullptr;
     std::vector<PatchId> divided = {};  ///< patches of `from` that are divided first
+    std::string division = {};          ///< name_of_division() of these; empty if there is none
     /// The accuracy of `solve` is about all errors; refine.patches limits the patches.
     bool total = false;
   };

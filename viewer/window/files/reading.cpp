@@ -143,6 +143,7 @@ SceneInput ReadingMemory::reading_of(const SceneInput& input) {
   SceneInput reading = input;
   reading.changes.clear();
   reading.patches = 0;
+  reading.divided.clear();
   return reading;
 }
 

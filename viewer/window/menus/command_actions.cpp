@@ -48,8 +48,13 @@ RunOptions CommandActions::options() const {
 }
 
 void CommandActions::copy_solve() {
-  QApplication::clipboard()->setText(QString::fromStdString(solve_command(
-      frame_.state.scene.spec(), options(), frame_.state.relighting.edits().changes())));
+  const SolverSnapshot& shown = *frame_.state.scene.snapshot();
+  std::string command = solve_command(frame_.state.scene.spec(), options(),
+                                      frame_.state.relighting.edits().changes());
+  if (!shown.loaded->divided && !shown.refine.is_set() && !shown.total) {
+    command += "  # without the divisions that were chosen in Errors";  // no option says them
+  }
+  QApplication::clipboard()->setText(QString::fromStdString(command));
 }
 
 void CommandActions::copy_map(std::optional<std::int32_t> steps) {
