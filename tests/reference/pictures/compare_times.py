@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Compares the time of a picture with the one that a path tracer needs for the same error.
 
-  compare_times.py --program build/release/bin/transillum [--name cornell-box] [OPTIONS of picture …]
+  compare_times.py --program build/release/bin/transillum [--name cornell-box] [OPTIONS …]
 
-In one run: `transillum picture` with its solve, its error against the reference (RMS by pixel,
+In one run: `transillum picture OPTIONS` with its solve, its error against the reference (RMS by pixel,
 relative, net of noise), and batches of Mitsuba, whose variance falls with the number of samples.
 Times are processor seconds, so that other work on the machine changes little.
 """
@@ -30,7 +30,7 @@ def main():
     parser.add_argument("--program", default="transillum")
     parser.add_argument("--name", default="cornell-box")
     parser.add_argument("--batches", type=int, default=4)
-    parser.add_argument("--samples", type=int, default=64, help="samples a pixel of a batch")
+    parser.add_argument("--batch-samples", type=int, default=64, help="samples a pixel of a batch")
     arguments, options = parser.parse_known_args()
     reference, noise, mask = compare.read_reference(arguments.name)
     length = np.linalg.norm(reference, axis=-1)
@@ -53,18 +53,18 @@ def main():
             arguments.program, make_references.scene_name(camera), work, camera.get("sky", 0)
         )
         scene, _ = make_references.make_scene(
-            mi, faces, camera, camera.get("depth", -1), arguments.samples, "multijitter", work
+            mi, faces, camera, camera.get("depth", -1), arguments.batch_samples, "multijitter", work
         )
-        np.array(mi.render(scene, spp=arguments.samples, seed=1))  # compiles
+        np.array(mi.render(scene, spp=arguments.batch_samples, seed=1))  # compiles
         start = time.process_time()
         images = [
-            np.array(mi.render(scene, spp=arguments.samples, seed=2 + k), dtype=float)
+            np.array(mi.render(scene, spp=arguments.batch_samples, seed=2 + k), dtype=float)
             for k in range(arguments.batches)
         ]
         seconds = (time.process_time() - start) / arguments.batches
     variance = np.var(images, axis=0, ddof=1).sum(axis=-1)[seen] / length[seen] ** 2
     needed = seconds * variance.mean() / square
-    print(f"Mitsuba: {seconds:.2f} s for {arguments.samples} samples a pixel, error "
+    print(f"Mitsuba: {seconds:.2f} s for {arguments.batch_samples} samples a pixel, error "
           f"{100 * np.sqrt(variance.mean()):.2f} %; {needed:.0f} s for the same error, "
           f"{needed / ours:.0f} times as long")  # fmt: skip
 
