@@ -3,9 +3,9 @@
 
   compare_times.py --program build/release/bin/transillum [--name cornell-box] [OPTIONS …]
 
-In one run: `transillum picture OPTIONS` with its solve, its error against the reference (RMS by pixel,
-relative, net of noise), and batches of Mitsuba, whose variance falls with the number of samples.
-Times are processor seconds, so that other work on the machine changes little.
+In one run: `transillum picture OPTIONS` with its solve, its error against the reference (RMS by
+pixel, relative, net of noise), and batches of Mitsuba, whose variance falls with the number of
+samples. Times are processor seconds, so that other work on the machine changes little.
 """
 
 import argparse
