@@ -28,8 +28,9 @@ def room(**options):
 class Pictures(unittest.TestCase):
     def test_a_furnace_is_two_everywhere(self):
         solution = transillum.solve(transillum.load("furnace"), directions=64)
-        center = solution.scene.center.mean(axis=0)
-        pixels = transillum.picture(solution, center, center + (0, 1, 0), size=(6, 4), samples=1)
+        eye = solution.scene.center[0] + 0.05 * solution.scene.normal[0]
+        target = eye + solution.scene.normal[0] + (0.1, 0.2, 0.3)
+        pixels = transillum.picture(solution, eye, target, size=(6, 4), samples=1)
         self.assertEqual((pixels.shape, pixels.dtype), ((4, 6, 3), np.float32))
         np.testing.assert_allclose(pixels, 2 / np.pi, rtol=1e-3)
 

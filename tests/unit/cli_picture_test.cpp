@@ -213,7 +213,7 @@ TEST(CliPicture, AnInterruptionLeavesNoFile) {
   const TemporaryFolder folder;
   const auto before = ::signal(SIGINT, SIG_DFL);  // programs inherit an ignored signal
   RunningProgram program({"picture", "cornell-box", "-m", "16", "--eye", "0.278,0.27,-0.8",
-                          "--size", "4000x4000", "--samples", "4096", "--out", folder / "p.png"});
+                          "--size", "4000x4000", "--samples", "64", "--out", folder / "p.png"});
   ::signal(SIGINT, before);
   ASSERT_TRUE(program.reports("pixels/s")) << program.err_so_far();
   program.send(SIGINT);

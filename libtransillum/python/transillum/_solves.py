@@ -124,7 +124,7 @@ def picture(
     fov: vertical angle of view, degrees; None: the whole scene, up to 75.
     size: width and height.
     samples: points at which each pixel is sampled.
-    gather: rays from each sample that gather the reflected light; 0: it is interpolated.
+    gather: rays from each sample that gather the reflected light; with 0 it is interpolated.
     """
     points = [
         None if point is None else np.asarray(point, dtype=np.float64)

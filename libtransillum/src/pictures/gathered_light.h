@@ -33,7 +33,7 @@ class GatheredLight {
   /// @param salt names one of many sequences of rays (`Salt`)
   Gathered at_point(const Vec3& x, const Vec3& normal, std::uint64_t salt) const;
 
-  /// What arrives along a ray.
+  /// The light of a ray.
   struct Arriving {
     Rgb light;     ///< pi times its radiance without the exitance of a lamp, W/m²
     PatchId lamp;  ///< the lamp that is met, or no_patch

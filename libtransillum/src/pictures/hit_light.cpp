@@ -71,7 +71,7 @@ struct Fit {
       Eigen::Matrix<double, term_count, term_count>::Zero();
   Eigen::Matrix<double, term_count, 3> right = Eigen::Matrix<double, term_count, 3>::Zero();
   Rgb low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high;     ///< limits of the values
-  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();  ///< of 1 and the basis
+  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();  ///< integrals of products of 1 and the basis
   std::array<Rgb, 3> moments{};
 
   void add(const std::array<double, 2>& place, double weight, const Rgb& light) {
@@ -125,8 +125,8 @@ struct HitLight::PatchLight {
   Rgb low, high;                         ///< limits of its exact values
   std::array<Rgb, 3> lamps_in_solution;  ///< its mean and linear terms, which the solution has
   std::array<Rgb, 3> solution;           ///< B without the exitance of lamps: mean, linear terms
-  std::array<double, 2> center{};        ///< of the part, in the basis
-  Vec3 middle;                           ///< of the part, m
+  std::array<double, 2> center{};        ///< middle in the basis
+  Vec3 middle;                           ///< centroid, m
 };
 
 HitLight::HitLight(const Solution& solution, const EmbreeScene& embree, const PlanePoints& points,
@@ -171,8 +171,8 @@ bool HitLight::is_partly_open(PatchId patch) const {
   return any_open && any_covered;
 }
 
-/// What the solution has of a patch is its mean over all of it, the part included that is covered
-/// and dark. No ray meets that part, and the rest has all light.
+/// The solution has the mean of a whole patch. If a part is covered, it is dark, and no ray meets
+/// it: the rest has all light.
 std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(PatchId patch) const {
   const bool is_partial = is_partly_open(patch);
   const LinearBasis& basis = at(bases_, patch);

@@ -98,7 +98,7 @@ struct InterpolatedLight::Cell {
   Kept<Division> division;
 };
 
-/// What is known of a cell: it is interpolated, or divided, or its points gather.
+/// A cell is interpolated, or divided, or its points gather.
 struct InterpolatedLight::Division {
   std::unique_ptr<Cell[]> parts = nullptr;  ///< four
   bool is_unclear = false;

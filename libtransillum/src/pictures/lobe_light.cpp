@@ -60,7 +60,7 @@ struct LobeLight::Query {
     const Vec3 half = frame.turned(visible_normal(local, alpha_of(lobe), u, v));
     return 2 * dot(half, toward) * half - toward;
   }
-  /// Of sampled(), by solid angle.
+  /// The density of sampled(), by solid angle.
   double density(const Vec3& direction) const {
     if (lobe.shape == LobeShape::phong) {
       return (lobe.exponent + 1) / (2 * std::numbers::pi) *
@@ -101,7 +101,7 @@ LobeLight::LobeLight(const Scene& scene, const GatheredLight& gathered,
   lamp_rays_ = power > 0 ? std::max(rays / 2, 1) : 0;
 }
 
-/// What a ray brings that the lobe has distributed.
+/// The light of a ray that the lobe has distributed.
 Rgb LobeLight::by_lobe(const Query& query, double u, double v) const {
   const Vec3 direction = query.sampled(u, v);
   const double density = query.density(direction);
@@ -116,7 +116,7 @@ Rgb LobeLight::by_lobe(const Query& query, double u, double v) const {
   return query.reflected(direction) * sum;
 }
 
-/// What a point of the lamps brings.
+/// The light of a point of the lamps.
 Rgb LobeLight::by_lamps(const Query& query, double u, double v) const {
   const double power = u * lamps_.back().end;
   const auto chosen = std::lower_bound(

@@ -27,8 +27,8 @@ inline double unit_fraction(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-/// A number for SurfaceLight::radiance(): that of a sample in its lower bits, and bits of its
-/// pixel.
+/// The parts of a number for SurfaceLight::radiance(): mixed bits of the pixel, and the number of a
+/// sample below them.
 struct Salt {
   static constexpr unsigned number_bits = 12;  ///< PictureOptions::most_samples is 2^12
 

@@ -111,8 +111,8 @@ def write_ply(path, corners):
 def make_scene(mi, faces, camera, depth, samples, sampler, work):
     """Mitsuba's scene and, by the id of a shape, the face's number of each of its triangles."""
     corners, exitance, reflectance, numbers = faces
-    # Mitsuba's rays start 9e-5 (1 + largest coordinate) off a surface, which darkens penumbras by up
-    # to 2 % in a room of 0.5 m; in millimeters about the middle it is a fifth of that.
+    # Mitsuba's rays start 9e-5 (1 + largest coordinate) off a surface, which darkens penumbras by
+    # up to 2 % in a room of 0.5 m; in millimeters about the middle it is a fifth of that.
     middle = (corners.min(axis=(0, 1)) + corners.max(axis=(0, 1))) / 2
 
     def scaled(point):
