@@ -266,6 +266,9 @@ void DockLayouts::arrange_sizes() {
 }
 
 void DockLayouts::follow_type() {
+  if (held_) {
+    return;  // the widths are those of a full screen
+  }
   const Widths widths = widths_of(current_, window_.width());
   for (const Dock& dock : docks_) {
     if (dock.widget->isHidden() || dock.widget->isFloating()) {
