@@ -211,7 +211,7 @@ inline std::unique_ptr<TestWindow> make_window(int directions = 32) {
   return make_window(SolveOptions{.directions = directions, .first_shot = {}});
 }
 
-/// What can be clicked or changed in a window as it is on the screen: buttons, fields, sliders,
+/// The controls of a window as it is on the screen: buttons, fields, sliders,
 /// tabs and the titles of menus.
 inline QStringList controls_of(const QWidget& window) {
   QStringList found;

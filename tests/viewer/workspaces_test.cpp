@@ -15,6 +15,7 @@
 #include "lessons/lesson_panel.h"
 #include "scene/color_controls.h"
 #include "scene/show_menu.h"
+#include "solve/study_dialog.h"
 #include "solved_window.h"
 #include "window/base/view_state_applier.h"
 
@@ -268,6 +269,22 @@ class WorkspacesTest : public QObject {
     page.light_bar()->dismiss();
     QVERIFY(page.reading_bar()->isVisible());
     QVERIFY(!page.reading_bar()->findChild<QPushButton*>("next_message")->isVisible());
+  }
+
+  // The button that begins the study must not be below the screen.
+  void the_study_fits_a_small_screen() {
+    const auto window = window_of(small_screen);
+    QVERIFY(begins(*window, "layout_debug"));
+    window->findChild<QAction*>("study")->trigger();
+    auto* study = window->findChild<StudyDialog*>();
+    QVERIFY(study->isVisible());
+    study->resize(small_screen);
+    handle_posted();
+    QCOMPARE(study->size(), small_screen);
+    const auto* run = study->findChild<QPushButton*>("study_run");
+    QCOMPARE(run->visibleRegion().boundingRect(), run->rect());
+    save_picture(*study, "study-small");
+    study->close();
   }
 
   void a_lesson_leaves_nothing_behind() {

@@ -137,7 +137,7 @@ class StartCard : public QAbstractButton {
     QRect title(room.left(), room.center().y() - (used + note_line) / 2 + 1, room.width(), used);
     painter.save();
     // A longer name is in the tool tip.
-    painter.setClipRect(title.adjusted(0, 0, 0, 2), Qt::IntersectClip);
+    painter.setClipRect(title.adjusted(0, 0, 0, 4), Qt::IntersectClip);
     painter.drawText(title, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, text());
     painter.restore();
     painter.setFont(scaled_font(font(), look_ == Look::choice ? 1 : small_type, false));

@@ -6,10 +6,12 @@
 
 #include <QComboBox>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QHeaderView>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScreen>
 #include <QTableWidget>
 #include <cmath>
 #include <utility>
@@ -24,12 +26,13 @@
 #include "widgets/banner.h"
 #include "widgets/build.h"
 #include "widgets/dialogs.h"
+#include "widgets/scrolling.h"
 
 namespace transillum::viewer {
 
 namespace {
 
-constexpr int controls_width = 250;
+constexpr int controls_width = 276;
 
 QString cost_text(const std::optional<StudyCost>& cost, StudyAxis axis) {
   if (!cost) {
@@ -83,7 +86,8 @@ StudyDialog::StudyDialog(const std::filesystem::path& cache, QWidget* parent)
   auto* layout = make_column(this, {}, 0);
   layout->addWidget(banner_);
   layout->addLayout(row, 1);
-  resize(1180, 760);
+  const QSize room = QGuiApplication::primaryScreen()->availableSize() - QSize(16, 48);  // a frame
+  resize(QSize(1180, 760).boundedTo(room));
   connect(&runner_, &StudyRunner::snapshot_ready, this, &StudyDialog::show_snapshot);
   connect(&runner_, &StudyRunner::failed, this,
           [this](const QString& message) { banner_->show_message(Banner::Kind::error, message); });
@@ -102,7 +106,7 @@ QWidget* StudyDialog::make_controls() {
   controls->setFixedWidth(controls_width);
   auto* layout = make_column(controls, {}, 12);
   layout->addWidget(scene_);
-  layout->addWidget(choices_, 1);
+  layout->addWidget(scrollable(choices_), 1);
   layout->addWidget(run_);
   return controls;
 }

@@ -79,7 +79,7 @@ void DockLayouts::make_actions() {
   add(Layout::teach, "layout_teach", tr("Teach"), "Ctrl+1",
       tr("Lessons with questions, on a screen or a projector"));
   add(Layout::inspect, "layout_inspect", tr("Inspect"), "Ctrl+2",
-      tr("What lights a patch, and how large is the error?"));
+      tr("A scene: what lights a patch, how large the error is"));
   add(Layout::debug, "layout_debug", tr("Step"), "Ctrl+3",
       tr("One direction, polygon by polygon, forward and back"));
 }
@@ -267,6 +267,9 @@ void DockLayouts::arrange_sizes() {
 }
 
 void DockLayouts::follow_type() {
+  if (held_) {
+    return;  // the widths are those of a full screen
+  }
   const Widths widths = widths_of(current_, window_.width());
   for (const Dock& dock : docks_) {
     if (dock.widget->isHidden() || dock.widget->isFloating()) {
@@ -472,9 +475,16 @@ void DockLayouts::show_for_page(const std::vector<std::string>& panels) {
   for (const std::string& panel : panels) {
     bring_to_front(panel);
   }
-  if (current_ == Layout::teach) {
-    arrange_sizes();
+  if (current_ != Layout::teach) {
+    return;
   }
+  arrange_sizes();
+  // Once more when panels that were hidden have got a place.
+  QTimer::singleShot(0, this, [this] {
+    if (current_ == Layout::teach && !enlarged_ && !held_ && !covered_ && alone_.isEmpty()) {
+      arrange_sizes();
+    }
+  });
 }
 
 void DockLayouts::end_alone() {
