@@ -214,7 +214,7 @@ void MainWindow::make_docks() {
   constexpr auto bottom = Qt::BottomDockWidgetArea;
   docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_, {{teach, left, 700}});
   docks_.add(tr("Notes"), "notes_dock", notes_, {{teach, left, 700, true}});
-  docks_.add(tr("Solve settings"), "settings_dock", settings_, {{inspect, left, 495}});
+  docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 495}});
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 305}});
   docks_.add(tr("Summary"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
   inspection_->add_materials_to(docks_);
