@@ -2,6 +2,7 @@
 //
 // Options of the program transillum-viewer.
 #include "window/command_line.h"
+#include "window/files/first_look.h"
 
 #include <QTest>
 #include <algorithm>
@@ -66,24 +67,32 @@ class CommandLineTest : public QObject {
       words.insert(words.begin(), {"--screenshot", "a.png"});
       return parse(std::move(words)).parsed.command_line;
     };
-    for (const char* scene : {"cornell-box", "rooms:rooms=2"}) {
+    const auto is_soft = [](const CommandLine& line) {
+      return line.first_look && has_first_look(line.scene);
+    };
+    for (const char* scene : {"cornell-box", "rooms:rooms=2", "room.obj"}) {
       const CommandLine soft = parsed({scene, "--threads", "1"});
-      QVERIFY(soft.options.solve.basis == Basis::linear);
-      QVERIFY(soft.options.input.patches >= 1000);
+      QVERIFY(is_soft(soft));
       QCOMPARE(soft.options.solve.directions, 1024);
     }
     const std::vector<std::vector<const char*>> others{{"furnace"},
-                                                       {"room.obj"},
+                                                       {"result.vtp"},
                                                        {"cornell-box", "-m", "64"},
                                                        {"cornell-box", "--max-patch-area", "1"},
                                                        {"cornell-box", "--after", "3"}};
     for (const auto& words : others) {
-      const CommandLine line = parsed(words);
-      QVERIFY(line.options.solve.basis == Basis::constant);
-      QCOMPARE(line.options.input.patches, std::int64_t{0});
+      QVERIFY2(!is_soft(parsed(words)), words.front());
     }
-    const ParsedCommandLine window = parse({"cornell-box"}).parsed;
-    QVERIFY(window.command_line.options.solve.basis == Basis::constant);
+    const auto in_window = [](std::vector<const char*> words) {
+      return parse(std::move(words)).parsed.command_line;
+    };
+    QVERIFY(is_soft(in_window({"cornell-box", "-m", "64"})));
+    for (const char* choice :
+         {"--patches=9", "--max-patch-area=1", "--basis=constant", "--paper"}) {
+      QVERIFY2(!is_soft(in_window({"cornell-box", choice})), choice);
+    }
+    QVERIFY(!in_window({"room.obj"}).up);
+    QVERIFY(in_window({"room.obj", "--up", "0,0,1"}).up == (Vec3{0, 0, 1}));
   }
 
   void options_of_scenes() {

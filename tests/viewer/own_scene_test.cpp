@@ -57,9 +57,9 @@ struct OwnScene {
   bool ready() const {
     return wait_for([this] { return window->snapshot() && window->settled(); });
   }
-  template <class Part>
-  Part* part(const char* name) const {
-    return window->findChild<Part*>(QLatin1String(name));
+  template <class Kind>
+  Kind* part(const char* name) const {
+    return window->findChild<Kind*>(QLatin1String(name));
   }
 };
 
@@ -136,7 +136,7 @@ class OwnSceneTest : public QObject {
     auto* zenith = own.part<QComboBox>("sky_up");
     QCOMPARE(zenith->currentText(), QString("+x"));
     zenith->setCurrentIndex(0);
-    emit zenith->activated(0);  // as a click does
+    emit zenith->activated(0);  // the signal of a click
     QVERIFY(own.window->vertical.up() == (Vec3{0, 0, 1}));
     QVERIFY(view->view_point().up == (Vec3{0, 0, 1}));
     // A scene that is read again keeps it.

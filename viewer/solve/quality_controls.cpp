@@ -70,7 +70,7 @@ QualityControls::QualityControls(QWidget* parent) : QWidget(parent) {
 
 void QualityControls::add_buttons() {
   draft_ = segment("draft", tr("Draft"), tr("A first picture: %1 directions").arg(draft_passes));
-  const QString tip = tr("As many directions as an error of at most %1 % takes");
+  const QString tip = tr("Directions for an error of at most %1 %");
   normal_ = segment("normal", tr("Normal"), tip.arg(normal_percent));
   fine_ = segment("fine", tr("Fine"), tip.arg(fine_percent));
   connect(draft_, &QPushButton::clicked, this, &QualityControls::choose_draft);

@@ -150,7 +150,7 @@ void SettingsPanel::show_basis_state() {
   basis_note_->setText(note);
   basis_note_->setVisible(!note.isEmpty());
   if (!note.isEmpty()) {
-    method_->set_open(true);  // what is wrong has to be seen
+    method_->set_open(true);  // a conflict has to be seen
   }
 }
 
@@ -216,7 +216,7 @@ void SettingsPanel::show_button() {
   restart_->setEnabled(enabled_);
   restart_->setToolTip(!enabled_ ? tr("No scene is open yet")
                        : differs ? tr("Solve the scene with these settings")
-                                 : tr("Solve again; the settings are those of the solve shown"));
+                                 : tr("Solve again, with the same settings as the solve shown"));
   restart_->setDefault(differs);
   QFont font = restart_->font();
   font.setBold(differs);

@@ -91,7 +91,9 @@ SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
   rounds_ = new RoundPanel;
   sections_->layout()->addWidget(rounds_);
   static_cast<QBoxLayout*>(sections_->layout())->addStretch(1);
-  layout()->addWidget(scrollable(sections_));
+  QWidget* scrolling = scrollable(sections_);
+  scrolling->setMinimumHeight(1);  // a low dock shows the button, and one scroll bar
+  layout()->addWidget(scrolling);
   connect_changes();
   made_ = true;
   set_options({}, {});

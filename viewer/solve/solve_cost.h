@@ -13,7 +13,7 @@ namespace transillum::viewer {
 
 /// The cost of a solve before it begins.
 struct SolveCost {
-  std::int64_t patches = 0;       ///< of the scene to be solved
+  std::int64_t patches = 0;       ///< patches of the scene to be solved
   std::optional<double> seconds;  ///< s; not set where nothing comparable has been solved
   std::uint64_t memory = 0;       ///< bytes, without kept form factors
 };

@@ -14,7 +14,7 @@ constexpr Vec3 usual{0, 1, 0}, other{0, 0, 1};
 Vec3 likely_vertical(const Scene& scene) {
   constexpr double level = 0.995;  // cosine of the tilt of a level face
   constexpr double clearly = 1.2;
-  constexpr double least_fraction = 0.02;  // of all area: a few faces tell nothing
+  constexpr double least_fraction = 0.02;  // a few small faces tell nothing
   double by_usual = 0, by_other = 0, all = 0;
   for (const Patch& patch : scene.patches()) {
     all += patch.area;

@@ -120,7 +120,7 @@ void CommandPalette::fill() {
   for (const PaletteEntry& entry : entries_) {
     const int misfit = palette_misfit(query, entry.text + QLatin1Char(' ') + entry.place);
     if (misfit >= 0) {
-      // What can be done now comes before what cannot.
+      // Possible entries come before the others.
       fitting.emplace_back(2 * misfit + (entry.enabled ? 0 : 1), entry);
     }
   }

@@ -80,7 +80,7 @@ void ContextMenus::show_patch_menu(PatchId patch, const QPoint& place) {
   auto* menu = named("patch_menu", new QMenu(&frame_.window));
   menu->setAttribute(Qt::WA_DeleteOnClose);
   if (patch != no_patch) {
-    // What follows is about the patch under the pointer, or about the selection that it is in.
+    // The entries are about the patch under the pointer, or about the selection that it is in.
     if (!frame_.state.selection.contains(patch)) {
       frame_.state.selection.select(patch);
     }

@@ -14,7 +14,7 @@ class QWidget;
 
 namespace transillum::viewer {
 
-/// What a click with the right button offers: on a patch in the scene and in tables, and on charts,
+/// The menus of clicks with the right button: on a patch in the scene and in tables, and on charts,
 /// kept runs and the timeline. Almost everything in these menus is an action of the menu bar too.
 class ContextMenus : public QObject {
   Q_OBJECT

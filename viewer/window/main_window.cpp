@@ -219,7 +219,7 @@ void MainWindow::make_whole_window_actions() {
 void MainWindow::make_docks() {
   docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_);
   docks_.add(tr("Notes"), "notes_dock", notes_);
-  docks_.add(tr("Solve settings"), "settings_dock", settings_);
+  docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_));
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_));
   docks_.add(tr("Summary"), "summary_dock", scrollable(summary_));
   inspection_->add_materials_to(docks_);

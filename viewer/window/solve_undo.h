@@ -44,10 +44,10 @@ class SolveUndo : public QObject {
   void show(const Earlier& earlier);
 
   WindowFrame frame_;
-  std::shared_ptr<const Earlier> earlier_;  ///< what Undo shows; null if nothing can be undone
-  std::weak_ptr<Kept> kept_;                ///< of the command in the list
+  std::shared_ptr<const Earlier> earlier_;  ///< the solve of Undo; null if nothing can be undone
+  std::weak_ptr<Kept> kept_;                ///< the solve of the command in the list
   std::string spec_;                        ///< its scene
-  std::shared_ptr<const Earlier> returns_;  ///< what is about to be shown; null if nothing is
+  std::shared_ptr<const Earlier> returns_;  ///< about to be shown; null if none is
   ViewPoint view_;                          ///< the camera that it is to have
 };
 

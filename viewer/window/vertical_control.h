@@ -39,7 +39,7 @@ class VerticalControl : public QObject {
   SettingsPanel& settings_;
   QActionGroup* choices_;
   std::optional<Vec3> preferred_;
-  std::string spec_;  ///< of the scene whose vertical is shown
+  std::string spec_;  ///< the scene whose vertical is shown
 };
 
 }  // namespace transillum::viewer

@@ -17,7 +17,7 @@ class PatchForecast {
   struct Request {
     std::shared_ptr<const LoadedScene> loaded;  ///< with a description, not divided by rounds
     SceneOptions options;
-    std::int64_t patches = 0;  ///< about how many are wanted; 0 counts those of `options`
+    std::int64_t patches = 0;  ///< about how many are wanted; 0 counts the patches that `options` give
   };
   struct Answer {
     std::int64_t patches = 0;   ///< at least 2^62 where there are more

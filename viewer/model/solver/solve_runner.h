@@ -31,7 +31,7 @@ class SolveRunner : public SolveMessages {
     std::string spec;  ///< file or built-in
     RunOptions options;
     Goal then;                ///< goal once the scene is open
-    bool first_look = false;  ///< as for loaded_scene()
+    bool first_look = false;  ///< the argument of loaded_scene()
     /// A scene with the light of an earlier solve, which is shown instead of reading `spec`.
     std::shared_ptr<const LoadedScene> earlier = nullptr;
   };
