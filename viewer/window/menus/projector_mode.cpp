@@ -86,7 +86,7 @@ void ProjectorMode::arrange() {
   if (!projecting_) {
     return;
   }
-  constexpr double page_fraction = 0.48;
+  constexpr double page_fraction = 0.46;
   const int width = frame_.window.width();
   const int page_width = static_cast<int>(page_fraction * width);
   QList<QDockWidget*> docks{dock("lesson")};
