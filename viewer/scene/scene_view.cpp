@@ -31,7 +31,6 @@
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
-
 namespace {
 
 // Antialiasing is slow without a GPU: it is off until no step has come for this long.
@@ -286,13 +285,6 @@ ViewPoint SceneView::view_point() const {
 void SceneView::set_view_point(const ViewPoint& view) {
   if (loaded_) {
     set_camera(view);
-  }
-}
-
-void SceneView::set_vertical(const Vec3& up) {
-  if (!(vertical_ == up)) {
-    vertical_ = up;
-    reset_view();
   }
 }
 
@@ -596,8 +588,8 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       render();
     } else if (event->type() == QEvent::MouseButtonRelease) {
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      const int moved = (mouse->pos() - press_position_).manhattanLength();
-      if (mouse->button() == Qt::RightButton && moved < QApplication::startDragDistance()) {
+      if (mouse->button() == Qt::RightButton &&
+          (mouse->pos() - press_position_).manhattanLength() < QApplication::startDragDistance()) {
         emit menu_requested(mouse->pos());
       }
     } else if (event->type() == QEvent::Resize && loaded_ && view_point() == initial_view_point_) {

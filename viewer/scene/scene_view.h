@@ -91,7 +91,12 @@ class SceneView : public QWidget {
   /// stays upright.
   void set_turntable(bool turntable);
   /// Sets the vertical of the scene, and goes to the initial view with it.
-  void set_vertical(const Vec3& up);
+  void set_vertical(const Vec3& up) {
+    if (!(vertical_ == up)) {
+      vertical_ = up;
+      reset_view();
+    }
+  }
   /// Clips the picture by a plane; shows all of it if no plane is given.
   void set_clip(const std::optional<ClipPlane>& clip);
   bool turntable() const { return turntable_; }
