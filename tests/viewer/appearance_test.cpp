@@ -401,7 +401,7 @@ class AppearanceTest : public QObject {
       panel->setFloating(true);
       QVERIFY(panel->isFloating() && panel->isVisible());
       QVERIFY(panel->windowFlags().testFlag(Qt::WindowMaximizeButtonHint));
-      QCOMPARE(panel->windowType(), Qt::Tool);  // it stays above the window
+      QCOMPARE(panel->windowType(), Qt::Tool);  // a tool window stays above
       window->findChild<QAction*>(layout)->trigger();
       QVERIFY2(!panel->isFloating(), layout);
     }

@@ -32,7 +32,7 @@ constexpr int page_margin = 28, card_gap = 12, card_padding = 10;
 constexpr int small_picture_height = 40, small_picture_width = 62;
 constexpr int least_picture_height = 66, most_picture_height = 150;
 constexpr double picture_ratio = 0.44, flat_picture_ratio = 0.3;
-constexpr int low_height = 640;  // of a page whose pictures are flat
+constexpr int low_height = 640;  // a lower page has flat pictures
 constexpr int files_width = 290, least_card_width = 150;
 constexpr double small_type = 0.88, heading_type = 1.1, choice_type = 1.3;
 

@@ -198,7 +198,7 @@ void SolveWorker::advance(const Goal& goal) {
 /// Posts a whole picture of few directions, where drafts are wanted and no pass has been made.
 void SolveWorker::begin_with_draft() {
   if (!drafts_ || !is_ready() || loaded_->stored || session_->in_rounds() || total_ ||
-      session_->passes_done() > 0) {
+      session_->passes_done() > 0 || !is_lit(*loaded_->scene, choice_.solve)) {
     return;
   }
   try {

@@ -268,7 +268,7 @@ void DockLayouts::arrange_sizes() {
 
 void DockLayouts::follow_type() {
   if (held_) {
-    return;  // the widths are those of a full screen
+    return;  // a full screen has other widths
   }
   const Widths widths = widths_of(current_, window_.width());
   for (const Dock& dock : docks_) {

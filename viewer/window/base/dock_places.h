@@ -19,7 +19,7 @@ struct DockPlace {
   Layout layout;
   Qt::DockWidgetArea area;
   int stack;   ///< panels of a side with the same number are tabs of one stack
-  int height;  ///< of the stack, in pixels
+  int height;  ///< height of the stack, pixels
   Opening opening = Opening::closed;
 };
 
