@@ -24,7 +24,7 @@ struct Shown : SolvedWindow {
   explicit Shown(const char* scene) : SolvedWindow(scene) {
     window->runner.run();
     (void)wait_for([this] { return window->snapshot()->progress.finished && window->settled(); });
-    window->findChild<QDockWidget*>("direction_dock")->raise();
+    window->views().docks.bring_to_front("direction");
     view = window->findChild<DirectionView*>();
     (void)wait_for([this] { return view->isVisible(); });
   }
@@ -91,7 +91,7 @@ class DirectionViewTest : public QObject {
   /// Eq. 11: B(n+1) = E + rho H, with H the sum over the table.
   void the_table_sums_to_the_next_radiosity() {
     Shown shown("cornell-box");
-    shown.window->findChild<QDockWidget*>("received_dock")->raise();
+    shown.window->views().docks.bring_to_front("received");
     auto* view = shown.window->findChild<QTableView*>("received_light");
     QVERIFY(wait_for([&] { return view->isVisible(); }));
     auto* table = qobject_cast<ReceivedTable*>(view->model());

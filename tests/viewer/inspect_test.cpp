@@ -318,10 +318,12 @@ class InspectTest : public QObject {
 
   void a_click_on_a_warning_goes_to_its_face() {
     const QTemporaryDir folder;
-    const QString scene = write_file(folder.filePath("warned.obj"),
-                                     "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n"
-                                     "v 1 1 1\nv 2 1 1\nv 2 2 1.5\nv 1 2 1\n"
-                                     "f 1 2 3 4\nf 5 6 7 8\n");  // face 1 is not planar
+    write_file(folder.filePath("lamp.mtl"), "newmtl lamp\nKd .5 .5 .5\nKe 1 1 1\n");
+    const QString scene =
+        write_file(folder.filePath("warned.obj"),
+                   "mtllib lamp.mtl\nusemtl lamp\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n"
+                   "v 1 1 1\nv 2 1 1\nv 2 2 1.5\nv 1 2 1\n"
+                   "f 1 2 3 4\nf 5 6 7 8\n");  // face 1 is not planar
     const Inspected shown(scene);
     QVERIFY(shown.ready);
     auto* button = shown.part<QPushButton>("list_warnings");
