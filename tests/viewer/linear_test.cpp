@@ -151,6 +151,7 @@ class LinearTest : public QObject {
   // The scene that a user sees first who has chosen nothing.
   void cards_of_coarse_scenes_open_soft() {
     auto window = make_window(64);
+    window->files().set_divides(true);
     const auto open_card = [&](const char* name) {
       window->findChild<QAbstractButton*>(QStringLiteral("built_in_%1").arg(name))->click();
       return wait_for([&] {
@@ -162,7 +163,7 @@ class LinearTest : public QObject {
     const auto patches = [&] { return window->snapshot()->loaded->scene->patch_count(); };
     QVERIFY(open_card("cornell-box"));
     QVERIFY(basis() == Basis::linear);
-    QVERIFY2(patches() > 1200 && patches() < 1800, qPrintable(QString::number(patches())));
+    QVERIFY2(patches() > 1800 && patches() < 2200, qPrintable(QString::number(patches())));
     QVERIFY(!window->views().settings.differ_from_effect());
     QVERIFY(!window->findChild<ColorControls*>()->outlines());
     save_picture(*window, "soft-cornell-box");
@@ -262,6 +263,7 @@ class LinearTest : public QObject {
     QVERIFY2(rest.pixels > 300 && rest.largest <= most_difference, qPrintable(text_of(rest)));
     shown.trigger("show_all");
 
+    shown.trigger("layout_debug");
     Focus& focus = shown.window->focus;
     focus.go_to({0, 0, 12});
     QVERIFY(wait_for([&] { return focus.map() && focus.arrived(); }));

@@ -134,7 +134,7 @@ class PicturesTest : public QObject {
     window.findChild<QAction*>("map_exact")->trigger();
     auto* compare = window.findChild<CompareView*>();
     auto* dock = window.findChild<QDockWidget*>("compare_dock");
-    dock->raise();
+    window.views().docks.bring_to_front("compare");
     QVERIFY(wait_for([&] { return compare->isVisible(); }));
     dock->setFloating(true);
     dock->resize(560, 760);

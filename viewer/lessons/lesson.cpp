@@ -198,6 +198,11 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
     if (question) {
       page.question =
           question_from_json(*question, page_object.where("question"), state, page.state, folder);
+      std::vector<std::string>& panels = page.state.panels;
+      if (page.question->kind == Question::Kind::area &&
+          std::find(panels.begin(), panels.end(), "map") == panels.end()) {
+        panels.emplace_back("map");  // the area is drawn there
+      }
     }
   }
   return lesson;
