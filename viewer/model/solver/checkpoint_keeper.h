@@ -30,7 +30,7 @@ class CheckpointKeeper {
 
   /// A solve, by what its file is recognized.
   struct Solve {
-    std::shared_ptr<const Scene> scene;  ///< of the first stage; nothing is saved without one
+    std::shared_ptr<const Scene> scene;  ///< scene of the first stage; nothing is saved without one
     SolveOptions options;
     bool total = false;  ///< whether the accuracy of `options` is about all errors
   };
