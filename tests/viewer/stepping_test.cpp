@@ -308,6 +308,7 @@ class SteppingTest : public QObject {
     const Stepping s("furnace");
     QVERIFY(s.ready);
     s.trigger("layout_debug");
+    s.window->views().docks.bring_to_front("event");
     s.focus.go_to({0, 3, 1 << 30});
     QVERIFY(s.settles());
     MapCanvas* canvas = s.map_view->canvas();

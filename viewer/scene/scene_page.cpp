@@ -62,9 +62,8 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
           &ColorChoice::form_factors_requested);
   camera_ = new CameraMenu(*scene_view_, bookmarks_);
   color_controls_->add_tool(camera_);
-  auto* sharp_button = button_for(sharp_->action());
-  sharp_button->setObjectName("sharp_button");
-  color_controls_->add_tool(sharp_button);
+  sharp_button_ = named("sharp_button", button_for(sharp_->action()));
+  color_controls_->add_tool(sharp_button_);
 
   pages_ = new QStackedWidget;
   scene_ = make_scene(selection, colors);

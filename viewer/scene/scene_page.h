@@ -47,6 +47,7 @@ class ScenePage : public QWidget {
   ColorControls* color_controls() const { return color_controls_; }
   SceneView* scene_view() const { return scene_view_; }
   SharpView* sharp() const { return sharp_; }
+  QWidget* sharp_button() const { return sharp_button_; }
   QMenu* camera_menu() const { return camera_->menu(); }
   QAction* turntable_action() const { return camera_->turntable(); }
   HiddenPatches& hidden() { return hidden_; }
@@ -81,6 +82,7 @@ class ScenePage : public QWidget {
   ColorControls* color_controls_;
   SceneView* scene_view_;
   SharpView* sharp_;
+  QWidget* sharp_button_;
 };
 
 }  // namespace transillum::viewer

@@ -114,9 +114,12 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
   connect_failures();
   make_docks();
   make_menus();
-  // To step and to teach, every direction is seen.
-  connect(&docks_, &DockLayouts::switched, &state_.runner,
-          [this] { state_.runner.set_drafts(docks_.current() == Layout::inspect); });
+  // To step and to teach, every direction is seen. The small scene beside a map has no room for all
+  // buttons; a key and the menu switch sharp pictures, too.
+  connect(&docks_, &DockLayouts::switched, &state_.runner, [this] {
+    state_.runner.set_drafts(docks_.current() == Layout::inspect);
+    page_->sharp_button()->setVisible(docks_.current() != Layout::debug);
+  });
   docks_.arrange(Layout::inspect);
   resize(usual_size);  // a screenshot has the same size on every screen
   if (remember_) {
