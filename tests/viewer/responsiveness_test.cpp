@@ -128,8 +128,8 @@ class ResponsivenessTest : public QObject {
 
   // The goals are 500 ms, and 1.15 times the library's time and the draft's, on an idle machine.
   void a_draft_stands_soon_and_the_window_costs_little() {
-    const auto window = make_window(1024);
-    SolveOptions options{.directions = 1024};
+    const auto window = make_window(512);
+    SolveOptions options{.directions = 512};
     options.basis = Basis::linear;
     window->set_options(options, {.max_patch_area = 1e-3});
     window->views().docks.arrange(Layout::inspect);

@@ -15,7 +15,7 @@ constexpr int draft_directions = 64;
 constexpr int least_ratio = 4;
 constexpr PatchId most_patches = 20'000;
 /// Bound of the light that is not propagated yet: far below the error of so few directions.
-constexpr double draft_tolerance = 1e-3;
+constexpr double draft_tolerance = 5e-3;
 /// Points of a first shot of its own, whose error is below that of the directions, too.
 constexpr int draft_points = 4;
 

@@ -327,6 +327,20 @@ class ExchangeFinder::PointQuadrature {
     return sums;
   }
 
+  /// The largest error where no point of a cell sees the other polygon: the light that its corners
+  /// see may reach to the next points.
+  double unseen(Outline cell, int divisions) {
+    constexpr double off_edges = 1.0 / 64;  // corners often lie on blockers
+    const Vec3 middle = middle_of(cell);
+    double at_corners = 0;
+    for (const Vec3& corner : cell) {
+      at_corners +=
+          view_.form_factor(corner + off_edges * (middle - corner), sampled_.normal, query_.tick);
+    }
+    return at_corners * norm(area_vector(cell)) /
+           (3 * static_cast<double>(cell.size()) * std::max(divisions, 1));
+  }
+
  private:
   /// The form factor from x. Adds its moments times `weight`.
   double see(const Vec3& x, double weight, std::array<double, 2>& moments) {
@@ -376,6 +390,10 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
     }
     exchange.area += sums.seen;
     if (!query.estimate) {
+      return;
+    }
+    if (sums.seen == 0) {
+      exchange.error += by_points.unseen(cell, divisions);
       return;
     }
     // Half the distance between points leaves a quarter of the error, and takes three quarters
