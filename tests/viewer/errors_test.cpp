@@ -259,7 +259,7 @@ class ErrorsTest : public QObject {
     QVERIFY(shown.finishes());
     QVERIFY(shown.measures());
     const auto divided = shown.errors();
-    QVERIFY(*divided->loaded->divided == std::vector<std::string>{"all"});
+    QVERIFY(divided->loaded->divided == std::vector<std::string>{"all"});
     NextStep more = divided->report.steps.front();
     more.kind = NextStep::Kind::directions;
     more.passes = 2 * divided->solve.options.directions;

@@ -35,16 +35,15 @@ struct LoadedScene {
   double back_fraction = 0;  ///< BackFraction::fraction
   double open_fraction = 1;  ///< BackFraction::open; 1 with two-sided faces, which have an outside
   std::shared_ptr<const Solution>
-      stored;               ///< solution of the result file that was opened; else null
-  std::string file;         ///< path of the result file
+      stored;                     ///< solution of the result file that was opened; else null
+  std::string file;               ///< path of the result file
   std::size_t divided_faces = 0;  ///< number of faces, where they were divided unasked
-  double seconds_load = 0;  ///< wall-clock time of reading
-  double seconds_bsp = 0;   ///< wall-clock time of building the tree
+  double seconds_load = 0;        ///< wall-clock time of reading
+  double seconds_bsp = 0;         ///< wall-clock time of building the tree
   /// The scene before patches were divided in rounds; null if none were divided.
   std::shared_ptr<const LoadedScene> whole;
-  /// The divisions that make these patches from `whole`, as in SceneInput::divided; nothing where
-  /// they were made in rounds or for a total error.
-  std::optional<std::vector<std::string>> divided = std::vector<std::string>();
+  /// The divisions that make these patches from `whole`, as in SceneInput::divided.
+  std::vector<std::string> divided = {};
 };
 
 /// The scene as it was read, before rounds of refinement.

@@ -54,8 +54,10 @@ RunOptions run_options_of(const SolverSnapshot& snapshot, const SceneOptions& sc
                      .input = input,
                      .refine = snapshot.refine,
                      .total = snapshot.total.has_value()};
-  if (const auto& divided = snapshot.loaded->divided) {
-    options.input.divided.insert(options.input.divided.end(), divided->begin(), divided->end());
+  // Rounds and a total error make their divisions themselves.
+  if (!options.refine.is_set() && !options.total) {
+    const std::vector<std::string>& divided = snapshot.loaded->divided;
+    options.input.divided.insert(options.input.divided.end(), divided.begin(), divided.end());
   }
   return options;
 }

@@ -22,8 +22,6 @@
 
 namespace transillum::viewer {
 
-namespace {}  // namespace
-
 SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, SolveActions& actions,
                            ViewStateApplier& applier)
     : QObject(&frame.window),
@@ -212,8 +210,8 @@ void SolveControl::take_step(const NextStep& step) {
   if (!errors || errors->loaded != frame_.state.scene.loaded() || !may_solve_again()) {
     return;
   }
-  std::vector<PatchId> divided = divided_patches(step, errors->solve);
-  if (!divided.empty() && !may_refine(step.patches)) {
+  const std::string division = name_of_division(step, errors->solve);
+  if (!division.empty() && !may_refine(step.patches)) {
     return;
   }
   frame_.notifier.dismiss();
@@ -222,8 +220,7 @@ void SolveControl::take_step(const NextStep& step) {
   solve.directions = step.passes;
   solve.tolerance = step.tolerance;
   settings_.set_options({solve, settings_.scene_options()});
-  const std::string division = divided.empty() ? "" : name_of_division(step, errors->solve);
-  frame_.state.runner.restart({solve, {}, errors->loaded, std::move(divided), division},
+  frame_.state.runner.restart({.solve = solve, .from = errors->loaded, .division = division},
                               {Goal::Kind::finished});
 }
 

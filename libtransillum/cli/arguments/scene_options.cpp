@@ -14,7 +14,7 @@
 #include "cli/progress_display.h"
 #include "cli/reports/report_text.h"
 #include "scene/build/patch_count.h"
-#include "session/next_steps.h"
+#include "session/divisions.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
