@@ -116,8 +116,8 @@ void add_engine(Table& t) {
   resolution.default_text = fmt::format("{}, hemicube 64", EngineOptions::default_resolution);
   Option& points =
       t.add("points", "P", "a number, or auto",
-            "engine pairs: number of points along a patch as large as its distance from the other, "
-            "where something is between");
+            "engine pairs and first shot: number of points along a patch as large as its distance "
+            "from the other, where something is between");
   whole(points, engine(&EngineOptions::points), 1, EngineOptions::largest_points, "auto");
   points.default_text = fmt::to_string(EngineOptions::default_points);
   Option& order =
