@@ -111,12 +111,6 @@ MeasuredSolve solve_to_measure(const ScenePointer& scene, const SolveOptions& op
   return measured_solve(session);
 }
 
-std::vector<PatchId> all_patches(const Scene& scene) {
-  std::vector<PatchId> patches(scene.patches().size());
-  std::iota(patches.begin(), patches.end(), PatchId{0});
-  return patches;
-}
-
 /// The errors of B(x) of a solve with constant functions, by surface, over the units of `report`.
 std::vector<double> true_errors(const MeasuredSolve& solve, const ErrorReport& report) {
   const ScenePointer scene = solve.solution.scene;

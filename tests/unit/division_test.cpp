@@ -23,12 +23,6 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using testing::Sketch;
 
-std::vector<PatchId> all_of(const Scene& scene) {
-  std::vector<PatchId> patches(scene.patches().size());
-  std::iota(patches.begin(), patches.end(), 0);
-  return patches;
-}
-
 Scene one_face(const std::vector<Vec3>& outline) { return Scene(test::polygon(outline)); }
 
 /// Areas of the patches of a scene with one face whose only patch is divided.
@@ -138,7 +132,7 @@ TEST(Division, LeavesWhatIsTooThin) {
   const Scene scene = one_face({{1, 0, 0}, {1 + tiny, 0, 0}, {1, tiny, 0}});
   std::shared_ptr<const Scene> last = std::make_shared<const Scene>(scene);
   for (int trial = 0; trial < 8; ++trial) {
-    last = divide(*last, all_of(*last)).scene;
+    last = divide(*last, all_patches(*last)).scene;
     for (const Patch& patch : last->patches()) {
       EXPECT_GT(patch.area, 0);
     }
