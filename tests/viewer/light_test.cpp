@@ -193,7 +193,8 @@ class LightTest : public QObject {
     QCOMPARE(opened.part<QLabel>("summary_closure")->text(), QString("–"));
     for (const char* command : {"run", "one_direction", "one_iteration"}) {
       opened.part<QAction>(command)->trigger();
-      QVERIFY2(opened.light_bar().startsWith("Not solved"), command);
+      QVERIFY2(opened.light_bar().startsWith("Not solved: nothing emits light, so B would be 0"),
+               command);
     }
     emit opened.window->views().page.light_bar()->closed();
     opened.window->selection.select(3);

@@ -63,15 +63,9 @@ RunOptions run_options_of(const SolverSnapshot& snapshot, const SceneOptions& sc
 }
 
 bool has_light(const SolverSnapshot& snapshot) {
-  if (snapshot.options.sky.is_set()) {
-    return true;
-  }
-  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
-    if (max_abs(material_of(snapshot, i).exitance) > 0) {
-      return true;
-    }
-  }
-  return false;
+  const bool emits =
+      snapshot.materials ? snapshot.materials->has_light() : snapshot.loaded->scene->has_light();
+  return snapshot.options.why_dark(emits).empty();
 }
 
 std::optional<double> escaped_share(const SolverSnapshot& snapshot) {

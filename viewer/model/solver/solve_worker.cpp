@@ -19,7 +19,7 @@ namespace {
 
 /// Whether the scene as it was read gives light in a solve.
 bool is_lit(const Scene& scene, const SolveOptions& options) {
-  return options.sky.is_set() || scene.has_light();
+  return options.why_dark(scene.has_light()).empty();
 }
 
 /// The solve that makes the form factors of a scene without light, where B shows no accuracy.
