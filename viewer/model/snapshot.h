@@ -72,8 +72,9 @@ struct ErrorBand {
   double lowest = 0, estimate = 0, limit = 0;
 };
 
-/// The state of a solve run at one moment. Immutable: created by the worker, shown by the window.
-struct SolverSnapshot {
+/// The state of a solve run at one moment: its light is the running estimate. Immutable: created by
+/// the worker, shown by the window.
+struct SolverSnapshot : PatchLight {
   std::shared_ptr<const LoadedScene> loaded;
   SolveOptions options;
   RefineChoice refine;
@@ -93,19 +94,12 @@ struct SolverSnapshot {
   /// M of each iteration that has begun; smaller in the first ones of the growing scheme.
   std::vector<int> kept_passes;
   SolveStatistics statistics;
-  std::vector<Rgb> radiosity;  ///< B, running estimate, W/m², one per patch; the mean where B is
-                               ///< linear on patches
-  /// The linear terms of B, one per patch; empty where B is constant on patches.
-  std::vector<LinearTerm> linear_terms;
   /// The bases of the scene's patches; null without linear_terms.
   std::shared_ptr<const std::vector<LinearBasis>> bases;
-  std::vector<Rgb> irradiance;  ///< H of the last finished iteration, W/m², one per patch
   /// The form factors of all passes so far; null until SolveRunner::include_form_factors() was
   /// called and they are assembled.
   std::shared_ptr<const FormFactors> form_factors;
   std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
-  /// Radiance by direction, of the last finished iteration; null where no lobes take part.
-  std::shared_ptr<const GlossyLight> glossy;
   /// E, rho and lobes that radiosity and irradiance were computed with, if they differ from the
   /// scene's; else null.
   std::shared_ptr<const PatchMaterials> materials;
@@ -120,10 +114,6 @@ struct SolverSnapshot {
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
   /// The linear terms of B(n) likewise; empty where B is constant on patches.
   std::vector<std::shared_ptr<const std::vector<LinearTerm>>> kept_linear_terms;
-  std::vector<double> form_factor_sums;      ///< one per patch; 0 before the first pass
-  std::vector<double> sky_fractions;         ///< Solution::sky_fractions; 0 before the first pass
-  std::vector<Rgb> sky_irradiance;           ///< Solution::sky_irradiance; empty without a sky
-  std::vector<LinearTerm> sky_linear_terms;  ///< Solution::sky_linear_terms
   std::vector<double>
       estimate_changes;  ///< changes in the newest iteration with passes, one per pass
   std::vector<double> quadrature_errors;  ///< epsilon after each pass

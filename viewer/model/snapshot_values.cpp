@@ -14,23 +14,17 @@ namespace transillum::viewer {
 Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
   Solution solution;
   solution.scene = snapshot.loaded->scene;
-  solution.radiosity = snapshot.radiosity;
-  solution.linear_terms = snapshot.linear_terms;
-  solution.irradiance = snapshot.irradiance;
+  static_cast<PatchLight&>(solution) = snapshot;
   solution.error = snapshot.error;
   solution.statistics = snapshot.statistics;
   solution.complete = snapshot.of_file ? snapshot.loaded->stored->complete : complete;
   solution.accuracy = snapshot.accuracy;
-  solution.glossy = snapshot.glossy;
-  const bool any_pass = snapshot.passes_done > 0;
-  if (any_pass) {
-    solution.form_factor_sums = snapshot.form_factor_sums;
-    solution.sky_fractions = snapshot.sky_fractions;
-    solution.sky_irradiance = snapshot.sky_irradiance;
-  } else if (snapshot.of_file) {
-    solution.form_factor_sums = snapshot.loaded->stored->form_factor_sums;
-    solution.sky_fractions = snapshot.loaded->stored->sky_fractions;
-    solution.sky_irradiance = snapshot.loaded->stored->sky_irradiance;
+  if (snapshot.passes_done == 0) {  // the snapshot has zeros in place of what is not known
+    const PatchLight unknown;
+    const PatchLight& known = snapshot.of_file ? *snapshot.loaded->stored : unknown;
+    solution.form_factor_sums = known.form_factor_sums;
+    solution.sky_fractions = known.sky_fractions;
+    solution.sky_irradiance = known.sky_irradiance;
   }
   return solution;
 }
