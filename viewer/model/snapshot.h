@@ -74,7 +74,7 @@ struct ErrorBand {
 
 /// The state of a solve run at one moment: its light is the running estimate. Immutable: created by
 /// the worker, shown by the window.
-struct SolverSnapshot : PatchLight {
+struct SolverSnapshot : SolvedLight {
   std::shared_ptr<const LoadedScene> loaded;
   SolveOptions options;
   RefineChoice refine;

@@ -14,14 +14,14 @@ namespace transillum::viewer {
 Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
   Solution solution;
   solution.scene = snapshot.loaded->scene;
-  static_cast<PatchLight&>(solution) = snapshot;
+  static_cast<SolvedLight&>(solution) = snapshot;
   solution.error = snapshot.error;
   solution.statistics = snapshot.statistics;
   solution.complete = snapshot.of_file ? snapshot.loaded->stored->complete : complete;
   solution.accuracy = snapshot.accuracy;
   if (snapshot.passes_done == 0) {  // the snapshot has zeros in place of what is not known
-    const PatchLight unknown;
-    const PatchLight& known = snapshot.of_file ? *snapshot.loaded->stored : unknown;
+    const SolvedLight unknown;
+    const SolvedLight& known = snapshot.of_file ? *snapshot.loaded->stored : unknown;
     solution.form_factor_sums = known.form_factor_sums;
     solution.sky_fractions = known.sky_fractions;
     solution.sky_irradiance = known.sky_irradiance;

@@ -193,7 +193,7 @@ inline constexpr double least_light_directions = 3;
 class GlossyLight;
 
 /// The light of all patches, one value per patch.
-struct PatchLight {
+struct SolvedLight {
   std::vector<Rgb> radiosity;   ///< B, W/m²; the mean over the patch where B is linear
   std::vector<Rgb> irradiance;  ///< H, W/m²
   /// RadiositySolver::linear_terms(), with Basis::linear; empty if B is constant on patches
@@ -213,7 +213,7 @@ struct PatchLight {
 };
 
 /// The result of a solve run.
-struct Solution : PatchLight {
+struct Solution : SolvedLight {
   std::shared_ptr<const Scene> scene;  ///< the scene
   ErrorEstimate error;                 ///< from replicas, if there are any
   SolveStatistics statistics;          ///< statistics of the run

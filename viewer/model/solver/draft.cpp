@@ -57,7 +57,7 @@ std::optional<Solution> make_draft(const SolveSession& session,
 }
 
 void show_light_of(const Solution& solution, SolverSnapshot& snapshot) {
-  static_cast<PatchLight&>(snapshot) = solution;
+  static_cast<SolvedLight&>(snapshot) = solution;
   snapshot.of_draft = true;
 }
 

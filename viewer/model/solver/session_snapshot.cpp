@@ -26,7 +26,7 @@ SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const Lo
   }
   snapshot.statistics = std::move(solution.statistics);
   snapshot.error = std::move(solution.error);
-  static_cast<PatchLight&>(snapshot) = std::move(solution);
+  static_cast<SolvedLight&>(snapshot) = std::move(solution);
   snapshot.glossy = glossy;
   // Empty before the first pass.
   snapshot.form_factor_sums.resize(snapshot.radiosity.size());
