@@ -283,6 +283,16 @@ class LightTest : public QObject {
              qPrintable(closure));
   }
 
+  /// The outer sides of its faces see nothing.
+  void a_closed_scene_of_two_sided_faces_has_no_defect() {
+    const auto window = make_window(8);
+    window->scene.open("furnace", {.solve = {.directions = 8}, .scene = {.two_sided = true}},
+                       {Goal::Kind::finished});
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    QCOMPARE(window->findChild<QLabel*>("summary_closure")->text(),
+             QString("closed, outer sides of two-sided faces omitted"));
+  }
+
   void sliders_change_a_material_a_group_or_a_face() {
     const Opened opened;
     QVERIFY(opened.ready);
