@@ -354,6 +354,9 @@ class Errors(unittest.TestCase):
             'memory: "lots" is not a size': lambda: transillum.solve(scene, memory="lots"),
             "one_way: expected True or False": lambda: transillum.solve(scene, one_way="yes"),
             "neither": lambda: transillum.Run(scene).advance("end"),
+            "nothing emits light, so B would be 0 everywhere": lambda: transillum.solve(
+                transillum.Scene(CORNERS, CUBE, reflectance=0.5)
+            ),
         }
         for message, call in cases.items():
             with self.subTest(message):

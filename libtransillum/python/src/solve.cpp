@@ -91,6 +91,9 @@ class ProgressRelay {
 
 Solution solve_scene(const ScenePtr& scene, const py::dict& keywords, const py::object& progress) {
   const SolveOptions options = options_from(keywords);
+  if (const std::string why = options.why_dark(scene->has_light()); !why.empty()) {
+    throw InputError(scene->name() + ": " + why);
+  }
   ProgressRelay relay(progress);
   return run_cancelably(
       [&](const Cancellation& cancellation) {
