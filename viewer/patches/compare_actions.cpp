@@ -39,6 +39,7 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
   difference_ = make_action(this, "show_difference", tr("Color by difference from A"),
                             tr("Color each patch by the difference between the runs (Shift+K)"),
                             QKeySequence("Shift+K"));
+  difference_->setIconText(tr("Difference"));  // the panel is narrow
   difference_->setCheckable(true);
   connect(keep_, &QAction::triggered, this, &CompareActions::keep_run);
   connect(show_, &QAction::triggered, &colors_, &ColorChoice::show_kept_run);

@@ -25,7 +25,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr int total_column = 5;
+constexpr int total_column = 1;
 
 QString text_of(const NextStep& step) {
   constexpr int longest_name = 24;
@@ -82,10 +82,10 @@ QWidget* ErrorPage::make_foot() {
   auto* row = make_row({}, 8);
   row->addWidget(measure_);
   row->addWidget(progress_, 1);
-  row->addWidget(total_, 1);
   row->addStretch();
   row->addWidget(save_);
   auto* layout = make_column(foot, {10, 3, 8, 3}, 3);
+  layout->addWidget(total_);
   layout->addWidget(step_);
   layout->addLayout(row);
   connect(measure_, &QPushButton::clicked, this, &ErrorPage::start_or_cancel);

@@ -195,10 +195,12 @@ void StudyDialog::run_or_stop() {
     return;
   }
   banner_->dismiss();
-  if (!loaded_->scene->has_light()) {
+  const std::string why = SolveOptions().why_dark(loaded_->scene->has_light());
+  if (!why.empty()) {
     banner_->show_message(Banner::Kind::offer,
-                          tr("Not started: without light, B is 0 everywhere. Make a face, material "
-                             "or group emit, and solve the scene again."));
+                          tr("Not started: %1. Make a face, material or group emit, and solve the "
+                             "scene again.")
+                              .arg(QString::fromStdString(why)));
     return;
   }
   running_ = true;

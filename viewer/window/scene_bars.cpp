@@ -132,7 +132,7 @@ void LightOffer::update() {
                                 : tr("No sky lights this scene: it is closed, or the engine has "
                                      "no directions"));
   const bool selected = frame_.state.selection.patch() != no_patch;
-  const QString state = refused_ ? tr("Not solved: without light, B is 0 everywhere.")
+  const QString state = refused_ ? tr("Not solved: %1.").arg(why_refused_)
                                  : tr("No light: the scene is shown in neutral light.");
   const QString offer = selected ? tr("Make the selected face, material or group emit")
                                  : tr("Click a face to make it emit");
@@ -140,7 +140,8 @@ void LightOffer::update() {
                    (may_have_sky ? tr("%1 %2, or set a sky.") : tr("%1 %2.")).arg(state, offer));
 }
 
-void LightOffer::show_refusal() {
+void LightOffer::show_refusal(const QString& why) {
+  why_refused_ = why;
   refused_ = frame_.state.scene.snapshot();
   closed_ = false;
   update();

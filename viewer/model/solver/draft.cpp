@@ -69,13 +69,7 @@ SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
 }
 
 void show_light_of(const Solution& solution, SolverSnapshot& snapshot) {
-  snapshot.radiosity = solution.radiosity;
-  snapshot.linear_terms = solution.linear_terms;
-  snapshot.irradiance = solution.irradiance;
-  snapshot.sky_fractions = solution.sky_fractions;
-  snapshot.sky_irradiance = solution.sky_irradiance;
-  snapshot.sky_linear_terms = solution.sky_linear_terms;
-  snapshot.form_factor_sums = solution.form_factor_sums;
+  static_cast<SolvedLight&>(snapshot) = solution;
   snapshot.of_draft = true;
 }
 

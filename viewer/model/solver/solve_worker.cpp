@@ -11,7 +11,7 @@
 #include "model/measured_errors.h"
 #include "model/solver/draft.h"
 #include "model/solver/session_snapshot.h"
-#include "scene/build/division.h"
+#include "session/divisions.h"
 
 namespace transillum::viewer {
 
@@ -19,7 +19,7 @@ namespace {
 
 /// Whether the scene as it was read gives light in a solve.
 bool is_lit(const Scene& scene, const SolveOptions& options) {
-  return options.sky.is_set() || scene.has_light();
+  return options.why_dark(scene.has_light()).empty();
 }
 
 /// The solve that makes the form factors of a scene without light, where B shows no accuracy.
@@ -29,6 +29,19 @@ SolveOptions without_goal(SolveOptions options) {
     options.directions = SolveOptions().directions;
   }
   return options;
+}
+
+/// The divisions that make the present patches of a run from those that it began with.
+std::vector<std::string> divisions_of(const SolveWorker::Choice& choice,
+                                      const SolveSession& session,
+                                      const std::optional<TotalPlan>& total) {
+  std::vector<std::string> names;
+  if (!choice.division.empty()) {
+    names.push_back(choice.division);
+  }
+  const auto made = total ? total->divisions() : session.divisions();
+  names.insert(names.end(), made.begin(), made.end());
+  return names;
 }
 
 }  // namespace
@@ -52,8 +65,8 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
   SolveRequest request{.scene = start->scene,
                        .options = lit ? choice.solve : without_goal(choice.solve),
                        .tree = start->tree};
-  if (!choice.divided.empty()) {
-    request.scene = divide(*start->scene, choice.divided, cancellation).scene;
+  if (!choice.division.empty()) {
+    request.scene = divided_scene(start->scene, {choice.division}, cancellation);
     request.tree = nullptr;
   }
   if (choice.refine.is_set() && lit) {
@@ -78,18 +91,12 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
   SolveSession session(std::move(request), cancellation);
   saved.scene = saved.total ? saved.scene : session.scene();
   checkpoints_.resume(session, saved);
-  const bool is_whole = choice.divided.empty() && !choice.refine.is_set() && !saved.total;
+  const bool is_whole = choice.division.empty() && !choice.refine.is_set() && !saved.total;
   if (!(drafted_first && drafts_ && lit && is_whole && !start->stored && !session.is_prepared() &&
         can_be_drafted(choice.solve, *start->scene))) {
     session.prepare();
   }
-  auto loaded = with_patches_of(session, start, cancellation);
-  if (!choice.division.empty() && !choice.refine.is_set() && !saved.total && start->divided) {
-    auto named = std::make_shared<LoadedScene>(*loaded);
-    named->divided = start->divided;
-    named->divided->push_back(choice.division);
-    loaded = std::move(named);
-  }
+  auto loaded = with_patches_of(session, divisions_of(choice, session, total), start, cancellation);
   return {std::move(choice), std::move(loaded), std::move(session),
           cancellation,      std::move(total),  std::move(saved)};
 }
@@ -116,10 +123,10 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool ru
   // Another scene may have been opened since.
   if (choice.from && whole_of(choice.from) != whole_of(loaded_)) {
     choice.from = nullptr;
-    choice.divided.clear();
+    choice.division.clear();
   }
-  const auto begun = choice.from ? choice.from : whole_of(loaded_);
-  Prepared prepared = prepare(begun, std::move(choice), cancellation);
+  const auto from = begun(choice);
+  Prepared prepared = prepare(from, std::move(choice), cancellation);
   if (prepared.session.glossy() != nullptr && materials_) {
     set_materials(prepared.session);
   }
@@ -128,6 +135,11 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool ru
   if (!runs_on || !drafts_) {
     post_snapshot();
   }
+}
+
+/// The patches that a run begins with.
+std::shared_ptr<const LoadedScene> SolveWorker::begun(const Choice& choice) const {
+  return choice.from ? choice.from : whole_of(loaded_);
 }
 
 void SolveWorker::replace_session(Prepared prepared) {
@@ -335,7 +347,8 @@ void SolveWorker::prepare_stage() {
   }
   session_->prepare();
   if (is_round()) {
-    take_patches(with_patches_of(*session_, whole_of(loaded_), cancellation_));
+    take_patches(with_patches_of(*session_, divisions_of(choice_, *session_, total_),
+                                 begun(choice_), cancellation_));
     if (!total_) {
       checkpoints_.begin({loaded_->scene, choice_.solve});
     }

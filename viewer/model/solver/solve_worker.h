@@ -35,8 +35,7 @@ class SolveWorker {
     RefineChoice refine = {};
     /// The patches to begin with; null for the scene as it was read.
     std::shared_ptr<const LoadedScene> from = nullptr;
-    std::vector<PatchId> divided = {};  ///< patches of `from` that are divided first
-    std::string division = {};          ///< name_of_division() of these; empty if there is none
+    std::string division = {};  ///< name_of_division() of what is divided in `from` first, or empty
     /// The accuracy of `solve` is about all errors; refine.patches limits the patches.
     bool total = false;
   };
@@ -101,6 +100,7 @@ class SolveWorker {
  private:
   void replace_session(Prepared prepared);
   void prepare_stage();
+  std::shared_ptr<const LoadedScene> begun(const Choice& choice) const;
   void begin_with_draft();
   bool advance_stage(const Goal& goal);
   void end_stage_of_total();

@@ -48,12 +48,8 @@ RunOptions CommandActions::options() const {
 }
 
 void CommandActions::copy_solve() {
-  const SolverSnapshot& shown = *frame_.state.scene.snapshot();
-  std::string command = solve_command(frame_.state.scene.spec(), options(),
-                                      frame_.state.relighting.edits().changes());
-  if (!shown.loaded->divided && !shown.refine.is_set() && !shown.total) {
-    command += "  # without the divisions that were chosen in Errors";  // no option says them
-  }
+  const std::string command = solve_command(frame_.state.scene.spec(), options(),
+                                            frame_.state.relighting.edits().changes());
   QApplication::clipboard()->setText(QString::fromStdString(command));
 }
 
