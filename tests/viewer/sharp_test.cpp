@@ -165,7 +165,7 @@ class SharpTest : public QObject {
     subject.snapshot = one_thread;
     QImage picture;
     int deliveries = 0;
-    SharpRenderer().render(subject, {}, [&](const QImage& image, const SharpProgress& progress) {
+    SharpRenderer().render(subject, false, {}, [&](const QImage& image, const SharpProgress& progress) {
       ++deliveries;
       picture = progress.finished ? image.copy() : QImage();
     });

@@ -10,9 +10,7 @@
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 #include <vtkWindowToImageFilter.h>
@@ -22,6 +20,7 @@
 #include <QPainter>
 #include <QTimer>
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "scene/callout_layer.h"
@@ -35,19 +34,6 @@ namespace {
 
 // Antialiasing is slow without a GPU: it is off until no step has come for this long.
 constexpr int rest_ms = 150;
-
-vtkSmartPointer<vtkActor> line_actor(vtkRenderer& renderer, const QColor& color) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkPolyData> empty;
-  mapper->SetInputData(empty);
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  actor->GetProperty()->LightingOff();
-  actor->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
-  actor->VisibilityOff();
-  renderer.AddActor(actor);
-  return actor;
-}
 
 Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
 
@@ -72,8 +58,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
 
   surface_ = std::make_unique<PatchSurface>(*renderer_, hidden_);
   renderer_->AddViewProp(sharp_layer_);
-  halo_ = line_actor(*renderer_, Qt::black);
-  outline_ = line_actor(*renderer_, theme::selection);
+  selected_ = std::make_unique<SelectionOutline>(*renderer_);
   renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::follow_camera);
   renderer_->AddObserver(vtkCommand::EndEvent, this, &SceneView::place_callouts);
   overlays_ = std::make_unique<SceneOverlays>(*renderer_);
@@ -86,7 +71,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
 
   canvas_->installEventFilter(this);
   connect(&selection_, &Selection::patches_changed, this, [this] {
-    show_selection();
+    selected_->show(loaded_.get(), selection_.patches(), 1.5e-3 * radius_);
     render();
   });
   connect(&hidden_, &HiddenPatches::changed, this, &SceneView::leave_out_hidden);
@@ -118,7 +103,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   turn_preview_->hide();
   feature_edges_->show_scene(loaded_);
   path_glyph_->hide();
-  show_selection();
+  selected_->show(loaded_.get(), selection_.patches(), 1.5e-3 * radius_);
   if (!stays) {
     reset_view();
   }
@@ -148,9 +133,7 @@ void SceneView::set_direction_shown(bool shown) {
 
 void SceneView::set_outlines_shown(bool shown) {
   surface_->set_outlined(shown);
-  if (snapshot_) {
-    show_edges();
-  }
+  recolor();
   render();
 }
 
@@ -161,6 +144,7 @@ void SceneView::set_overlay_shown(SceneOverlays::Kind kind, bool shown) {
 
 void SceneView::set_wireframe(bool wireframe) {
   surface_->set_wireframe(wireframe);
+  recolor();
   render();
 }
 
@@ -195,7 +179,9 @@ void SceneView::set_clip(const std::optional<ClipPlane>& clip) {
   std::vector<vtkActor*> actors = overlays_->actors();
   const std::vector<vtkActor*> of_patches = surface_->actors();
   actors.insert(actors.end(), of_patches.begin(), of_patches.end());
-  actors.insert(actors.end(), {halo_.Get(), outline_.Get(), feature_edges_->actor()});
+  const std::vector<vtkActor*> of_selection = selected_->actors();
+  actors.insert(actors.end(), of_selection.begin(), of_selection.end());
+  actors.push_back(feature_edges_->actor());
   for (vtkActor* actor : actors) {
     actor->GetMapper()->RemoveAllClippingPlanes();
     if (clip_ && loaded_) {
@@ -324,8 +310,20 @@ void SceneView::recolor() {
     dimmed = later_patches(*focus_.map(), focus_.position().step);
     dim_patches(dimmed, patch_colors_);
   }
-  surface_->color(colors_, patch_colors_, dimmed);
+  if (map_.light && map_.snapshot == lit_snapshot()) {
+    const bool by_eye = colors_.quantity() == Quantity::eye_radiance;
+    surface_->color(colors_.scale(), map_.light, by_eye ? 1 / std::numbers::pi : 1);
+  } else {
+    surface_->color(colors_, patch_colors_, dimmed);
+  }
   show_edges();
+}
+
+void SceneView::show_map(const SurfaceMap& map) {
+  if (!(map == map_)) {
+    map_ = map;
+    recolor();
+  }
 }
 
 // Light in true color shows the shape by itself; other quantities may be the same on all sides.
@@ -392,26 +390,10 @@ void SceneView::show_direction() {
                vec3(renderer_->GetActiveCamera()->GetPosition()));
 }
 
-void SceneView::show_selection() {
-  const std::vector<PatchId>& patches = selection_.patches();
-  const bool any = loaded_ && !patches.empty() && patches.front() >= 0 &&
-                   patches.back() < loaded_->scene->patch_count();
-  halo_->SetVisibility(any);
-  outline_->SetVisibility(any);
-  if (!any) {
-    return;
-  }
-  const auto lines = patch_outlines(*loaded_->scene, patches, 1.5e-3 * radius_);
-  for (const auto& actor : {halo_, outline_}) {
-    vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->SetInputData(lines);
-  }
-}
-
-// Scaled about the camera, the outline stays in place in the picture but is in front of its halo.
 void SceneView::follow_camera() {
-  feature_edges_->follow_camera(vec3(renderer_->GetActiveCamera()->GetPosition()));
-  outline_->SetOrigin(renderer_->GetActiveCamera()->GetPosition());
   const Vec3 eye = vec3(renderer_->GetActiveCamera()->GetPosition());
+  feature_edges_->follow_camera(eye);
+  selected_->follow_camera(eye);
   if (loaded_ && !(eye_ && *eye_ == eye)) {
     eye_ = eye;
     emit eye_moved(eye);
@@ -419,7 +401,6 @@ void SceneView::follow_camera() {
   if (!taking_picture_) {
     emit about_to_draw();
   }
-  outline_->SetScale(1 - 5e-4);
 }
 
 void SceneView::show_callouts(const std::vector<Callout>& callouts) {
@@ -465,8 +446,7 @@ void SceneView::place_callouts() {
 
 void SceneView::render() {
   const auto scale = static_cast<float>(canvas_->devicePixelRatioF() * theme::scale());
-  halo_->GetProperty()->SetLineWidth(5 * scale);
-  outline_->GetProperty()->SetLineWidth(2.5F * scale);
+  selected_->set_line_width(scale);
   glyph_->set_line_width(1.5 * scale);
   step_glyph_->set_line_width(2.5 * scale);
   overlays_->set_line_width(1.2 * scale);
@@ -480,7 +460,8 @@ void SceneView::render() {
   }
 }
 
-std::optional<SharpSubject> SceneView::sharp_subject() const {
+/// The snapshot whose light is shown in true color; null where something else is.
+std::shared_ptr<const SolverSnapshot> SceneView::lit_snapshot() const {
   const auto shown = colors_.shows_kept_run() ? colors_.run_a() : colors_.snapshot();
   const bool by_eye = colors_.quantity() == Quantity::eye_radiance;
   const bool of_light = by_eye || (colors_.quantity() == Quantity::radiosity && shown &&
@@ -488,12 +469,20 @@ std::optional<SharpSubject> SceneView::sharp_subject() const {
   if (!snapshot_ || !of_light || colors_.scale().mode != ColorMode::true_color ||
       colors_.values().empty() || shown->loaded->scene != loaded_->scene ||
       !(shown->passes_done > 0 || shown->of_file) || stepping() || surface_->draws_edges()) {
+    return nullptr;
+  }
+  return shown;
+}
+
+std::optional<SharpSubject> SceneView::sharp_subject() const {
+  const auto shown = lit_snapshot();
+  if (!shown) {
     return std::nullopt;
   }
   const int* size = window_->GetSize();
   SharpSubject subject{.loaded = loaded_,
                        .snapshot = shown,
-                       .by_eye = by_eye,
+                       .by_eye = colors_.quantity() == Quantity::eye_radiance,
                        .scale = colors_.scale(),
                        .view = view_point(),
                        .size = {size[0], size[1]}};

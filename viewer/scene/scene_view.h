@@ -4,12 +4,10 @@
 // ColorChoice, the current step from Focus.
 #pragma once
 
-#include <vtkActor.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 
 #include <QImage>
 #include <QPoint>
@@ -25,8 +23,10 @@
 #include "scene/patch_surface.h"
 #include "scene/path_glyph.h"
 #include "scene/scene_overlays.h"
+#include "scene/selection_outline.h"
 #include "scene/sharp_layer.h"
 #include "scene/sharp_picture.h"
+#include "scene/surface_map.h"
 #include "state/callout.h"
 #include "state/camera_views.h"
 #include "state/focus.h"
@@ -115,6 +115,9 @@ class SceneView : public QWidget {
   /// Shows a sharp picture in the next picture, in place of the surfaces; null hides it.
   void set_sharp(const QImage& picture) { sharp_layer_->set_picture(picture); }
   const QImage& sharp() const { return sharp_layer_->picture(); }
+  /// Shows the map of a snapshot wherever its light would be shown in a sharp picture, from the
+  /// next picture on. Without a map, patches are shown again.
+  void show_map(const SurfaceMap& map);
   /// Draws the picture again.
   void render();
   /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
@@ -142,10 +145,10 @@ class SceneView : public QWidget {
   void set_camera(const ViewPoint& view);
   double aspect() const;
   void recolor();
+  std::shared_ptr<const SolverSnapshot> lit_snapshot() const;
   void show_direction();
   bool stepping() const;
   void show_step();
-  void show_selection();
   void leave_out_hidden();
   bool in_picture(const PickedPoint& point) const;
   void show_edges();
@@ -159,6 +162,7 @@ class SceneView : public QWidget {
   const HiddenPatches& hidden_;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
+  SurfaceMap map_;
   bool turntable_ = false;
   std::vector<Color8> patch_colors_;
   Vec3 focus_point_;              ///< center of the part of interest, meters
@@ -182,7 +186,7 @@ class SceneView : public QWidget {
   std::unique_ptr<PatchSurface> surface_;
   vtkNew<SharpLayer> sharp_layer_;
   bool taking_picture_ = false;  ///< picture() draws
-  vtkSmartPointer<vtkActor> halo_, outline_;
+  std::unique_ptr<SelectionOutline> selected_;
   std::unique_ptr<FeatureEdges> feature_edges_;
   std::unique_ptr<DirectionGlyph> glyph_;
   std::unique_ptr<StepGlyph> step_glyph_;
