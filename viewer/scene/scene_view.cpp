@@ -9,15 +9,14 @@
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkImageData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <QApplication>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QResizeEvent>
 #include <QTimer>
 #include <algorithm>
 #include <numbers>
@@ -26,6 +25,7 @@
 #include "scene/callout_layer.h"
 #include "scene/camera_style.h"
 #include "scene/shown_hit.h"
+#include "scene/window_image.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
 
@@ -36,6 +36,10 @@ namespace {
 constexpr int rest_ms = 150;
 
 Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
+
+double aspect_of(const QSize& size) {
+  return static_cast<double>(size.width()) / std::max(size.height(), 1);
+}
 
 }  // namespace
 
@@ -127,6 +131,12 @@ void SceneView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
 
 void SceneView::set_direction_shown(bool shown) {
   direction_shown_ = shown;
+  show_direction();
+  render();
+}
+
+void SceneView::set_direction_followed(bool followed) {
+  direction_followed_ = followed;
   show_direction();
   render();
 }
@@ -232,20 +242,37 @@ void SceneView::reset_view() {
   if (!loaded_) {
     return;
   }
-  const ViewPoint view = initial_view(*loaded_->scene, aspect(), vertical_);
-  focus_point_ = view.target;
-  radius_ = view.radius;
-  set_camera(view);
-  initial_view_point_ = view_point();
+  fit([this] {
+    const ViewPoint view = initial_view(*loaded_->scene, aspect(), vertical_);
+    focus_point_ = view.target;
+    radius_ = view.radius;
+    return view;
+  });
 }
 
-double SceneView::aspect() const {
-  return static_cast<double>(canvas_->width()) / std::max(canvas_->height(), 1);
+void SceneView::fit(std::function<ViewPoint()> view) {
+  refit_ = std::move(view);
+  set_camera(refit_());
+  fitted_ = view_point();
 }
+
+/// Fits the view to a new size. A view that was set as it is stays until the camera is moved.
+void SceneView::follow_size(const QSize& before) {
+  if (!(view_point() == fitted_) && !before.isEmpty()) {
+    refit_ = [this, moved = view_point(), old = aspect_of(before)] {
+      return widened(moved, old, aspect());
+    };
+  }
+  if (refit_) {
+    fit(refit_);
+  }
+}
+
+double SceneView::aspect() const { return aspect_of(canvas_->size()); }
 
 void SceneView::fit_all() {
   if (loaded_) {
-    set_camera(fitting_view(*loaded_->scene, view_point(), aspect()));
+    fit([this] { return fitting_view(*loaded_->scene, view_point(), aspect()); });
   }
 }
 
@@ -258,7 +285,7 @@ void SceneView::fit_selected() {
 
 void SceneView::view_from_side(Side side) {
   if (loaded_) {
-    set_camera(standard_view(*loaded_->scene, side, aspect(), vertical_));
+    fit([this, side] { return standard_view(*loaded_->scene, side, aspect(), vertical_); });
   }
 }
 
@@ -271,6 +298,8 @@ ViewPoint SceneView::view_point() const {
 void SceneView::set_view_point(const ViewPoint& view) {
   if (loaded_) {
     set_camera(view);
+    refit_ = nullptr;
+    fitted_ = view_point();
   }
 }
 
@@ -376,17 +405,11 @@ void SceneView::show_direction() {
   const Vec3 omega = !snapshot_   ? Vec3{}
                      : stepping() ? focus_.map()->record().frame.omega
                                   : snapshot_->progress.last_direction;
-  if (norm(omega) < 0.5 || !direction_shown_) {
+  if (norm(omega) < 0.5 || !direction_shown_ || !(stepping() || direction_followed_)) {
     glyph_->hide();
     return;
   }
-  // The glyph is just outside the scene, or outside the part of interest of a large enclosure.
-  double reach = 0;
-  for (const Vec3& p : loaded_->scene->points()) {
-    reach = std::max(reach, std::abs(dot(p - focus_point_, omega)));
-  }
-  glyph_->show(omega, snapshot_->options.two_way, focus_point_, radius_,
-               std::min(0.86 * radius_, 1.06 * reach),
+  glyph_->show(omega, snapshot_->options.two_way, *loaded_->scene, focus_point_, radius_,
                vec3(renderer_->GetActiveCamera()->GetPosition()));
 }
 
@@ -501,26 +524,13 @@ QImage SceneView::picture(int scale, const QImage& sharp) {
   if (!sharp.isNull()) {
     sharp_layer_->set_picture(sharp);
   }
-  vtkNew<vtkWindowToImageFilter> filter;
-  filter->SetInput(window_);
-  filter->SetScale(scale);
-  filter->ReadFrontBufferOff();
-  filter->SetInputBufferTypeToRGB();
-  filter->Update();
+  QImage image = image_of_window(*window_, scale);
   sharp_layer_->set_picture(shown);
   if (scale > 1 || !sharp.isNull()) {
     window_->Render();  // the filter leaves its last tile on the screen
   }
   taking_picture_ = false;
-  vtkImageData* pixels = filter->GetOutput();
-  const int* size = pixels->GetDimensions();
-  const auto* bytes = static_cast<const uchar*>(pixels->GetScalarPointer());
-  if (!bytes) {
-    return {};
-  }
-  // VTK stores the bottom row first.
-  QImage image = QImage(bytes, size[0], size[1], 3 * size[0], QImage::Format_RGB888).mirrored();
-  if (!callout_layer_->callouts().empty()) {
+  if (!image.isNull() && !callout_layer_->callouts().empty()) {
     QPainter painter(&image);
     painter.setFont(callout_layer_->font());
     painter.scale(1.0 * image.width() / canvas_->width(), 1.0 * image.height() / canvas_->height());
@@ -565,13 +575,12 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
     } else if (event->type() == QEvent::MouseButtonRelease && pressed_) {
       pressed_ = false;
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      const QPoint position = mouse->pos();
-      const int moved = (position - press_position_).manhattanLength();
+      const int moved = (mouse->pos() - press_position_).manhattanLength();
       if (moved < QApplication::startDragDistance()) {
         if (mouse->modifiers() & Qt::ControlModifier) {
-          selection_.toggle(patch_at(position));
+          selection_.toggle(patch_at(mouse->pos()));
         } else {
-          selection_.select(patch_at(position));
+          selection_.select(patch_at(mouse->pos()));
         }
       }
       render();
@@ -581,8 +590,8 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
           (mouse->pos() - press_position_).manhattanLength() < QApplication::startDragDistance()) {
         emit menu_requested(mouse->pos());
       }
-    } else if (event->type() == QEvent::Resize && loaded_ && view_point() == initial_view_point_) {
-      reset_view();  // the user has not changed it: fit it to the new size
+    } else if (event->type() == QEvent::Resize && loaded_) {
+      follow_size(static_cast<QResizeEvent*>(event)->oldSize());
     }
   }
   return QWidget::eventFilter(watched, event);

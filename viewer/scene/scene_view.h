@@ -12,6 +12,7 @@
 #include <QImage>
 #include <QPoint>
 #include <QWidget>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -57,6 +58,8 @@ class SceneView : public QWidget {
   const std::shared_ptr<const LoadedScene>& loaded() const { return loaded_; }
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void set_direction_shown(bool shown);
+  /// Whether the newest direction is shown, too, while nothing is stepped.
+  void set_direction_followed(bool followed);
   void set_outlines_shown(bool shown);
   void set_overlay_shown(SceneOverlays::Kind kind, bool shown);
   void set_wireframe(bool wireframe);
@@ -144,6 +147,8 @@ class SceneView : public QWidget {
  private:
   void set_camera(const ViewPoint& view);
   double aspect() const;
+  void fit(std::function<ViewPoint()> view);
+  void follow_size(const QSize& before);
   void recolor();
   std::shared_ptr<const SolverSnapshot> lit_snapshot() const;
   void show_direction();
@@ -165,11 +170,13 @@ class SceneView : public QWidget {
   SurfaceMap map_;
   bool turntable_ = false;
   std::vector<Color8> patch_colors_;
-  Vec3 focus_point_;              ///< center of the part of interest, meters
-  double radius_ = 1;             ///< its radius, meters
-  std::optional<Vec3> eye_;       ///< eye of the newest picture
-  ViewPoint initial_view_point_;  ///< set by reset_view()
+  Vec3 focus_point_;                  ///< center of the part of interest, meters
+  double radius_ = 1;                 ///< its radius, meters
+  std::optional<Vec3> eye_;           ///< eye of the newest picture
+  ViewPoint fitted_;                  ///< the camera has not been moved while it is there
+  std::function<ViewPoint()> refit_;  ///< fitted_ for the present size; empty if it stays
   bool direction_shown_ = true;
+  bool direction_followed_ = false;
   bool antialiased_ = true;
   bool stepped_ = false;  ///< a step is drawn
   QTimer* rest_timer_;    ///< runs while steps follow each other quickly

@@ -21,7 +21,8 @@ class SelectionOutline {
   /// @param patches  ascending; nothing is shown where they are none of the scene
   /// @param lift  distance from the patches, m
   void show(const LoadedScene* loaded, const std::vector<PatchId>& patches, double lift);
-  /// Scaled about the camera, the outline stays in place in the picture but is in front of its halo.
+  /// Scaled about the camera, the outline stays in place in the picture but is in front of its
+  /// halo.
   void follow_camera(const Vec3& eye);
   void set_line_width(double pixels);
 

@@ -212,8 +212,8 @@ std::shared_ptr<const SnapshotLight> SharpRenderer::light_of(
     solution->scene = scene_of(*snapshot);
     solution->sky = snapshot->options.sky;
     std::shared_ptr<const Scene> scene = solution->scene;
-    light_ = std::make_shared<const SnapshotLight>(
-        SnapshotLight{snapshot, std::move(scene), SurfaceLight(std::move(solution), 0, cancellation)});
+    light_ = std::make_shared<const SnapshotLight>(SnapshotLight{
+        snapshot, std::move(scene), SurfaceLight(std::move(solution), 0, cancellation)});
   }
   return light_;
 }

@@ -153,19 +153,20 @@ void SharpView::run(const Task& task, const Cancellation& cancellation) {
     renderer_.release();
     return;
   }
-  renderer_.render(
-      *task.subject, task.begins_fine, cancellation, [&](const QImage& picture, const SharpProgress& progress) {
-        if (posted_.exchange(true) && !progress.finished) {
-          return;  // the window is still busy with an earlier one
-        }
-        const auto deliver = [this, number = task.number, copy = picture.copy(), progress] {
-          posted_ = false;
-          if (number == number_) {
-            receive(copy, progress);
-          }
-        };
-        QMetaObject::invokeMethod(this, deliver, Qt::QueuedConnection);
-      });
+  renderer_.render(*task.subject, task.begins_fine, cancellation,
+                   [&](const QImage& picture, const SharpProgress& progress) {
+                     if (posted_.exchange(true) && !progress.finished) {
+                       return;  // the window is still busy with an earlier one
+                     }
+                     const auto deliver = [this, number = task.number, copy = picture.copy(),
+                                           progress] {
+                       posted_ = false;
+                       if (number == number_) {
+                         receive(copy, progress);
+                       }
+                     };
+                     QMetaObject::invokeMethod(this, deliver, Qt::QueuedConnection);
+                   });
 }
 
 void SharpView::receive(const QImage& picture, const SharpProgress& progress) {

@@ -69,7 +69,7 @@ class SharpView : public QObject {
   QTimer* rest_timer_;  ///< from the last change until the picture is begun
   Plate* label_;
   bool solving_ = false;
-  bool on_ = false;  ///< the action is enabled and checked
+  bool on_ = false;                      ///< the action is enabled and checked
   std::optional<SharpSubject> subject_;  ///< the subject to be shown; none without a sharp picture
   bool finished_ = false;                ///< its picture is shown at its final quality
   bool begun_ = false;

@@ -163,6 +163,15 @@ ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from) {
   return view;
 }
 
+ViewPoint widened(const ViewPoint& from, double before, double now) {
+  constexpr double wide = 4.0 / 3, degree = std::numbers::pi / 180, largest_angle = 120;
+  const double tangent = std::tan(from.view_angle / 2 * degree) * std::min(before, wide) /
+                         std::min(std::max(now, 1e-3), wide);
+  ViewPoint view = from;
+  view.view_angle = std::min(2 * std::atan(tangent) / degree, largest_angle);
+  return view;
+}
+
 ViewPoint turned(const ViewPoint& from, const Vec3& vertical, double azimuth, double elevation) {
   constexpr double degree = std::numbers::pi / 180;
   const Vec3 arm = from.eye - from.target;

@@ -54,6 +54,11 @@ ViewPoint fitting_view(const Scene& scene, const ViewPoint& from, double aspect)
 /// if needed.
 ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from);
 
+/// The view from the same eye, with another angle: no less is seen across a picture narrower than
+/// 4 : 3 than in a picture of the aspect before.
+/// @param before, now  width / height of the picture
+ViewPoint widened(const ViewPoint& from, double before, double now);
+
 /// The view after the eye has moved around the target: about `vertical` by `azimuth`, and up by
 /// `elevation`, to at most 89 degrees against the horizontal. `up` of the view is `vertical`, so
 /// that it is upright.

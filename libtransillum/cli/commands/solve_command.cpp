@@ -90,9 +90,9 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
 /// The map of --sharp; null without it.
 /// @throws NothingToSave where it is canceled
 std::shared_ptr<const LightMap> sharp_map_of(const SolveCall& call,
-                                                  const std::shared_ptr<const Solution>& solution,
-                                                  ProgressDisplay& display,
-                                                  const Cancellation& cancellation) {
+                                             const std::shared_ptr<const Solution>& solution,
+                                             ProgressDisplay& display,
+                                             const Cancellation& cancellation) {
   if (!call.colors.sharp) {
     return nullptr;
   }

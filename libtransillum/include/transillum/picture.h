@@ -176,8 +176,7 @@ class LightMap {
   /// @param progress as make_picture()
   /// @throws InputError where the map would be larger than largest_side; Canceled
   LightMap(const Scene& scene, const SurfaceLight& light, const Options& options,
-           const Cancellation& cancellation = {},
-           const std::function<void(double)>& progress = {});
+           const Cancellation& cancellation = {}, const std::function<void(double)>& progress = {});
   ~LightMap();
 
   int width() const;   ///< texels

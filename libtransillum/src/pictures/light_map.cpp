@@ -321,9 +321,7 @@ LightMap::~LightMap() = default;
 
 int LightMap::width() const { return impl_->width; }
 int LightMap::height() const { return impl_->height; }
-const std::vector<std::array<float, 3>>& LightMap::radiosity() const {
-  return impl_->radiosity;
-}
+const std::vector<std::array<float, 3>>& LightMap::radiosity() const { return impl_->radiosity; }
 
 std::array<double, 2> LightMap::place(PatchId patch, const Vec3& point) const {
   const Chart& chart = at(impl_->charts, at(impl_->chart_of, patch));

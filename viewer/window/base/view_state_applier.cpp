@@ -62,6 +62,7 @@ ViewStateApplier::ViewStateApplier(const WindowFrame& frame, DockLayouts& docks,
 
 void ViewStateApplier::show(const ViewState& state) {
   before_lesson_.reset();
+  follow_layout();
   frame_.page.sharp()->action()->setEnabled(true);
   apply(state);
   for (const std::string& panel : state.panels) {
@@ -84,7 +85,13 @@ void ViewStateApplier::enter_lesson() {
     before_lesson_->layout = docks_.current();
     // Lessons are about patches, and what few directions do to them.
     frame_.page.sharp()->action()->setEnabled(false);
+    follow_layout();
   }
+}
+
+void ViewStateApplier::follow_layout() {
+  frame_.page.scene_view()->set_direction_followed(in_lesson() ||
+                                                   docks_.current() != Layout::inspect);
 }
 
 void ViewStateApplier::set_option(const std::string& name, const std::string& value) {
@@ -247,6 +254,7 @@ void ViewStateApplier::restore_appearance() {
       docks_.choose(before_lesson_->layout == Layout::debug ? Layout::debug : Layout::inspect);
     }
     before_lesson_.reset();
+    follow_layout();
   }
   frame_.state.colors.set_automatic_exposure(true);
   frame_.state.focus.set_following(true);
