@@ -90,6 +90,14 @@ class SceneView : public QWidget {
   /// The camera; set_view_point() keeps the radius of the scene's part of interest.
   ViewPoint view_point() const;
   void set_view_point(const ViewPoint& view);
+  /// The camera, as a square picture has it. What is in that is in the picture of any shape, also
+  /// after a change of size.
+  ViewPoint square_view() const { return widened(view_point(), aspect(), 1); }
+  void set_square_view(const ViewPoint& view) {
+    if (loaded_) {
+      fit([this, view] { return widened(view, 1, aspect()); });
+    }
+  }
   /// How a drag rotates: as a trackball, or as a turntable, about the vertical of the scene, which
   /// stays upright.
   void set_turntable(bool turntable);

@@ -164,11 +164,13 @@ ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from) {
 }
 
 ViewPoint widened(const ViewPoint& from, double before, double now) {
-  constexpr double wide = 4.0 / 3, degree = std::numbers::pi / 180, largest_angle = 120;
-  const double tangent = std::tan(from.view_angle / 2 * degree) * std::min(before, wide) /
-                         std::min(std::max(now, 1e-3), wide);
+  constexpr double degree = std::numbers::pi / 180, largest_angle = 150, least_aspect = 1e-3;
+  const double factor = std::clamp(before, least_aspect, 1.0) / std::clamp(now, least_aspect, 1.0);
   ViewPoint view = from;
-  view.view_angle = std::min(2 * std::atan(tangent) / degree, largest_angle);
+  if (factor != 1) {
+    view.view_angle = std::min(
+        2 * std::atan(factor * std::tan(from.view_angle / 2 * degree)) / degree, largest_angle);
+  }
   return view;
 }
 

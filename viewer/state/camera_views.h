@@ -54,8 +54,7 @@ ViewPoint fitting_view(const Scene& scene, const ViewPoint& from, double aspect)
 /// if needed.
 ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from);
 
-/// The view from the same eye, with another angle: no less is seen across a picture narrower than
-/// 4 : 3 than in a picture of the aspect before.
+/// The view from the same eye, whose angle across the smaller side of the picture stays.
 /// @param before, now  width / height of the picture
 ViewPoint widened(const ViewPoint& from, double before, double now);
 

@@ -340,7 +340,7 @@ void ViewStateApplier::apply_view() {
   frame_.page.show_scene();
   SceneView* view = frame_.page.scene_view();
   if (requested_.camera) {
-    view->set_view_point(*requested_.camera);
+    view->set_square_view(*requested_.camera);
   } else {
     view->reset_view();
   }
@@ -453,7 +453,7 @@ ViewState ViewStateApplier::state() const {
   }
   state.materials = frame_.state.relighting.edits().changes();
   read_patches(state);
-  state.camera = frame_.page.scene_view()->view_point();
+  state.camera = frame_.page.scene_view()->square_view();
   state.outlines = frame_.page.color_controls()->outlines();
   state.layout = docks_.current();
   return state;
