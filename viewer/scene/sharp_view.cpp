@@ -179,8 +179,8 @@ void SharpView::receive(const QImage& picture, const SharpProgress& progress) {
     view_.set_sharp(picture);
     show_progress(progress);
     view_.render();
-    if (finished_) {
-      request_map();
+    if (progress.fraction >= 1.0 / SharpRenderer::samples) {
+      request_map();  // every pixel is known; more samples only make edges smooth
     }
   }
   emit progressed(progress.fraction, progress.finished);
