@@ -2,9 +2,7 @@
 #include "scene/surface_map.h"
 
 #include <QCoreApplication>
-#include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "model/snapshot_values.h"
 
@@ -38,11 +36,7 @@ void make_map(const SnapshotLight& light, const Cancellation& cancellation,
   for (const Patch& patch : light.scene->patches()) {
     area += patch.area;
   }
-  // Half of the threads: the picture of a view may be made at the same time.
-  const int all = light.snapshot->options.threads > 0
-                      ? light.snapshot->options.threads
-                      : static_cast<int>(std::thread::hardware_concurrency());
-  LightMap::Options options{.threads = std::max(all / 2, 1)};
+  LightMap::Options options{.threads = light.snapshot->options.threads};
   for (const double texels : {coarse_texels, fine_texels}) {
     options.density = std::sqrt(texels / area);
     deliver({light.snapshot,
