@@ -262,7 +262,7 @@ class SharpTest : public QObject {
 
   void a_scene_with_too_many_patches_has_no_light_map() {
     const SharpWindow shown;
-    QVERIFY(shown.becomes_sharp());
+    QVERIFY(shown.ready);
     auto many = std::make_shared<SolverSnapshot>(*shown.window->snapshot());
     QVERIFY(why_no_map(*many).isEmpty());
     auto loaded = std::make_shared<LoadedScene>(*many->loaded);
