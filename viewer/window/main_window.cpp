@@ -118,6 +118,7 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
   // buttons; a key and the menu switch sharp pictures, too.
   connect(&docks_, &DockLayouts::switched, &state_.runner, [this] {
     state_.runner.set_drafts(docks_.current() == Layout::inspect);
+    applier_->follow_layout();
     page_->sharp_button()->setVisible(docks_.current() != Layout::debug);
   });
   docks_.arrange(Layout::inspect);
