@@ -5,16 +5,13 @@
 #include "scene/scene_view.h"
 
 #include <QVTKOpenGLNativeWidget.h>
-#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <QApplication>
@@ -409,9 +406,10 @@ void SceneView::show_selection() {
 
 // Scaled about the camera, the outline stays in place in the picture but is in front of its halo.
 void SceneView::follow_camera() {
-  feature_edges_->follow_camera(vec3(renderer_->GetActiveCamera()->GetPosition()));
-  outline_->SetOrigin(renderer_->GetActiveCamera()->GetPosition());
   const Vec3 eye = vec3(renderer_->GetActiveCamera()->GetPosition());
+  feature_edges_->follow_camera(eye);
+  outline_->SetOrigin(eye.x, eye.y, eye.z);
+  outline_->SetScale(1 - 5e-4);
   if (loaded_ && !(eye_ && *eye_ == eye)) {
     eye_ = eye;
     emit eye_moved(eye);
@@ -419,7 +417,6 @@ void SceneView::follow_camera() {
   if (!taking_picture_) {
     emit about_to_draw();
   }
-  outline_->SetScale(1 - 5e-4);
 }
 
 void SceneView::show_callouts(const std::vector<Callout>& callouts) {

@@ -121,7 +121,8 @@ void SettingsPanel::add_top() {
   cost_ = named("patch_forecast", note_label(),
                 tr("Patches, time and memory of the next solve, without kept form factors; the "
                    "time is known once passes of the same engine have been made"));
-  restart_ = named("restart", new QPushButton(tr("Solve")));
+  restart_ =
+      named("restart", new QPushButton(tr("Solve")), tr("Solve the scene with these settings"));
   restart_->setProperty("primary", true);
   auto* quality_label = new QLabel(tr("Quality"));
   quality_label->setToolTip(
