@@ -8,6 +8,7 @@
 #include <QRegularExpression>
 #include <QTabBar>
 #include <QTemporaryDir>
+#include <QTextBrowser>
 #include <QTextDocument>
 
 #include "scene/scene_page.h"
@@ -118,7 +119,7 @@ class DialogsTest : public QObject {
     QTest::addColumn<bool>("is_resizable");
     for (const char* name : {"Study…", "Save session…", "Save scene…", "Result…", "Keys and mouse",
                              "Export for Blender or the web…", "All settings", "Visibility map…",
-                             "Find a command…", "Convergence charts…", "Open…"}) {
+                             "Find a command…", "Convergence charts…", "Open…", "User guide"}) {
       QTest::newRow(name) << QString::fromUtf8(name) << true;
     }
     for (const char* name :
@@ -149,6 +150,23 @@ class DialogsTest : public QObject {
       QCOMPARE(cut_texts(dialog), QStringList());
       save_picture(dialog, "dialog-" + opening.section(' ', 0, 0).remove(QChar(0x2026)));
     }));
+  }
+
+  void the_guide_has_all_its_pages() {
+    const auto window = make_window();
+    QAction* guide = action_with_text(*window, "User guide");
+    QVERIFY(guide && examine_dialog(*guide, [](QDialog& dialog) {
+              auto* browser = dialog.findChild<QTextBrowser*>();
+              const QString index = browser->toPlainText();
+              QVERIFY(index.contains("11 Export") && !index.contains("](") &&
+                      !index.contains("!["));
+              for (const char* page : {"guide/03-scenes.md", "04-solving.md", "../USER_GUIDE.md",
+                                       "../libtransillum/GLOSSARY.md"}) {
+                const QString before = browser->toPlainText();
+                emit browser->anchorClicked(QUrl(QString(page)));
+                QVERIFY2(browser->toPlainText() != before, page);
+              }
+            }));
   }
 
   void every_panel_fits_a_small_screen() {
