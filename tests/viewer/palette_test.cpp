@@ -89,6 +89,7 @@ class PaletteTest : public QObject {
     QVERIFY(wait_for([&] { return shown.window->selection.patch() == 15; }));
     {
       const OpenPalette palette(*shown.window);
+      QCOMPARE(palette.first("surfaces"), QString("Surfaces"));  // not a lesson about surfaces
       QCOMPARE(palette.first("events pan"), QString("Events"));
       save_picture(*palette.dialog, "palette");
       QVERIFY(palette.closes_on_return());

@@ -12,9 +12,6 @@
 #include <QLabel>
 #include <QMenu>
 #include <QScrollBar>
-#include <QTextBlock>
-#include <QTextList>
-#include <QTextTable>
 #include <QTimer>
 #include <QUrl>
 #include <utility>
@@ -28,6 +25,7 @@
 #include "transillum/at.h"
 #include "widgets/build.h"
 #include "widgets/elided.h"
+#include "widgets/markdown.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -43,28 +41,6 @@ QToolButton* wide_button_for(QAction* action, Qt::ToolButtonStyle style) {
   button->setToolButtonStyle(style);
   button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   return button;
-}
-
-// Qt lays out Markdown paragraphs without space between them.
-void spread_paragraphs(QTextDocument& document) {
-  const double room = 0.6 * QFontInfo(document.defaultFont()).pixelSize();
-  for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
-    QTextCursor cursor(block);
-    if (QTextTable* table = cursor.currentTable()) {
-      QTextTableFormat rules = table->format();
-      rules.setBorderCollapse(true);
-      rules.setBorder(1);
-      rules.setBorderStyle(QTextFrameFormat::BorderStyle_Solid);
-      rules.setBorderBrush(theme::rule);
-      rules.setCellPadding(room / 3);
-      rules.setBottomMargin(room);
-      table->setFormat(rules);
-      continue;
-    }
-    QTextBlockFormat format = block.blockFormat();
-    format.setBottomMargin(block.textList() ? room / 2 : room);
-    cursor.setBlockFormat(format);
-  }
 }
 
 }  // namespace

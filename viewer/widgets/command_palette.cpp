@@ -120,8 +120,9 @@ void CommandPalette::fill() {
   for (const PaletteEntry& entry : entries_) {
     const int misfit = palette_misfit(query, entry.text + QLatin1Char(' ') + entry.place);
     if (misfit >= 0) {
-      // Possible entries come before the others.
-      fitting.emplace_back(2 * misfit + (entry.enabled ? 0 : 1), entry);
+      // Possible entries come before the others, and among them those that begin with the query.
+      const bool begins = entry.text.startsWith(query, Qt::CaseInsensitive);
+      fitting.emplace_back(4 * misfit + (entry.enabled ? 0 : 2) + (begins ? 0 : 1), entry);
     }
   }
   std::stable_sort(fitting.begin(), fitting.end(),

@@ -14,6 +14,7 @@
 #include "options/option_table.h"
 #include "support/number_text.h"
 #include "widgets/dialogs.h"
+#include "widgets/markdown.h"
 #include "widgets/theme.h"
 
 // The resources of a static library must be initialized explicitly.
@@ -61,6 +62,9 @@ void show_guide(QWidget& parent) {
     if (!text.isEmpty()) {
       browser->setProperty("page", whole);
       browser->setMarkdown(text);
+      constexpr double margin = 16;
+      browser->document()->setDocumentMargin(margin);
+      spread_paragraphs(*browser->document());
     }
   };
   QObject::connect(browser, &QTextBrowser::anchorClicked, browser, show);

@@ -2,6 +2,7 @@
 #include "window/menus/projector_mode.h"
 
 #include <QDockWidget>
+#include <QEvent>
 #include <QMainWindow>
 #include <QTimer>
 #include <algorithm>
@@ -31,6 +32,15 @@ ProjectorMode::ProjectorMode(const WindowFrame& frame, DockLayouts& docks, Lesso
   connect(&full_screen_, &FullScreen::ended, this, [this] { docks_.hold(false); });
   connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
   connect(&lessons_, &LessonPanel::page_shown, this, &ProjectorMode::follow_page);
+  frame_.window.installEventFilter(this);
+}
+
+// A window manager gives the window the size of the screen some time after it was asked.
+bool ProjectorMode::eventFilter(QObject* watched, QEvent* event) {
+  if (projecting_ && watched == &frame_.window && event->type() == QEvent::Resize) {
+    QTimer::singleShot(0, this, &ProjectorMode::arrange);
+  }
+  return QObject::eventFilter(watched, event);
 }
 
 void ProjectorMode::follow_appearance() {
@@ -99,7 +109,7 @@ void ProjectorMode::arrange() {
     return;
   }
   // Beside the page there is one view, or the scene and a panel.
-  constexpr double usual_page = 0.46, narrow_page = 0.38, panel_fraction = 0.31;
+  constexpr double usual_page = 0.46, narrow_page = 0.36, panel_fraction = 0.37;
   const int width = frame_.window.width();
   const bool scene_and_panel = projected_.size() > 3;
   const double page_fraction = scene_and_panel ? narrow_page : usual_page;

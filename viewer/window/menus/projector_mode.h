@@ -31,6 +31,9 @@ class ProjectorMode : public QObject {
   /// Gives the timeline the height that it needs now.
   void follow_timeline();
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   void project(bool on);
   void follow_page();
