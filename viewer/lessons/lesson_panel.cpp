@@ -326,7 +326,7 @@ QString LessonPanel::list_of_lessons() const {
          "(Ctrl+L) restores the page's state.\n\n");
   for (int k = 0; k < static_cast<int>(lessons_.size()); ++k) {
     const Lesson& lesson = at(lessons_, k);
-    const QString minutes = lesson.minutes > 0 ? tr(", %1 min").arg(lesson.minutes) : QString();
+    const QString minutes = lesson.minutes > 0 ? tr(", %1 min").arg(lesson.minutes) : QString();
     text +=
         QStringLiteral("[%1](%2:%3)%4\n\n")
             .arg(QString::fromStdString(lesson.title), lesson_scheme, QString::number(k), minutes);

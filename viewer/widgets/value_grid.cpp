@@ -30,6 +30,7 @@ QLabel* ValueGrid::add_row(const QString& name, const QString& unit, const QStri
   auto* value = new QLabel(QStringLiteral("–"));
   value->setTextInteractionFlags(Qt::TextSelectableByMouse);
   value->setToolTip(tip);
+  value->setWordWrap(true);  // long values do not make the panel wider
   grid_->addWidget(title, row, 0);
   grid_->addWidget(value, row, 1);
   return value;
