@@ -77,7 +77,7 @@ void type_into(QWidget& field, const QString& value) {
 }
 
 /// Drops a file on the window, as the file manager of a desktop does.
-void drop_file(QWidget& window, const QString& path) {
+void drop_on(QWidget& window, const QString& path) {
   QMimeData data;
   data.setUrls({QUrl::fromLocalFile(path)});
   const QPoint place = window.rect().center();
@@ -219,7 +219,7 @@ class FirstMinutesTest : public QObject {
     QFETCH(QSize, screen);
     const QTemporaryDir folder;
     const auto window = first_window(screen);
-    drop_file(*window, write_room(folder));
+    drop_on(*window, write_room(folder));
     QVERIFY(wait_for([&] { return window->snapshot() != nullptr; }) && comes_to_rest(*window));
     // Faces are divided, and a bar says so.
     auto* keep = window->findChild<QAbstractButton*>("keep_faces");
