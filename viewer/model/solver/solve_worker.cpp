@@ -339,9 +339,7 @@ void SolveWorker::prepare_stage() {
     return;
   }
   // A round has its own tree, even if no patch was divided before the last round.
-  const auto is_round = [this] {
-    return session_->tree() != nullptr && session_->tree() != loaded_->tree;
-  };
+  const auto is_round = [this] { return session_->tree() != loaded_->tree; };
   if (is_round() && !total_) {
     checkpoints_.resume(*session_, {session_->scene(), choice_.solve});
   }
