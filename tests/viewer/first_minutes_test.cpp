@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The first five minutes of a teacher, a researcher and a developer, by mouse and keys alone, on a
-// small screen and on a large one; a further test of CMake runs them on a screen of scale 2.
+// small screen and on a large one.
 #include <QClipboard>
 #include <QComboBox>
 #include <QDockWidget>
