@@ -204,11 +204,12 @@ void ErrorPage::show_buttons() {
   measure_->setText(works ? tr("Cancel") : errors() ? tr("Measure again") : tr("Measure"));
   const bool ready = snapshot_ && state_ != RunState::empty && state_ != RunState::loading &&
                      why_not_measurable(*snapshot_).isEmpty();
-  measure_->setEnabled(works || ready);
+  enable_if(*measure_, works || ready,
+            snapshot_ ? why_not_measurable(*snapshot_) : tr("No scene is open"));
   progress_->setVisible(busy());
   total_->setVisible(!busy() && shown_ && shown_->report.worst >= 0);
-  save_->setEnabled(!works && errors());
-  step_->setEnabled(!works);
+  enable_if(*save_, !works && errors(), tr("No errors have been measured"));
+  enable_if(*step_, !works, tr("Errors are being measured"));
 }
 
 QString ErrorPage::caption() const {

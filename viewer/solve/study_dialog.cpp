@@ -292,8 +292,9 @@ void StudyDialog::show_table() {
 void StudyDialog::show_buttons() {
   const StudyOptions options = choices_->options();
   run_->setText(running_ ? tr("Stop") : tr("Run the study"));
-  run_->setEnabled(running_ || (loaded_ && !options.series.empty() && !options.directions.empty()));
-  save_->setEnabled(has_points());
+  enable_if(*run_, running_ || (loaded_ && !options.series.empty() && !options.directions.empty()),
+            loaded_ ? tr("No sampling or number of directions is chosen") : tr("No scene is open"));
+  enable_if(*save_, has_points(), tr("No study has been run yet"));
 }
 
 void StudyDialog::choose_file() {

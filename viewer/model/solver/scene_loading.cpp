@@ -88,7 +88,8 @@ void examine(LoadedScene& loaded, const Cancellation& cancellation) {
 }  // namespace
 
 std::function<void(Preparation, double)> phase_reporter(LoadProgress progress) {
-  constexpr qint64 report_interval_ms = 50;
+  // Without a GPU, whatever changes in the window takes as long as a picture of all of it.
+  constexpr qint64 report_interval_ms = 250;
   return [progress = std::move(progress), since_report = QElapsedTimer()](Preparation what,
                                                                           double fraction) mutable {
     if (fraction > 0 && since_report.isValid() && since_report.elapsed() < report_interval_ms) {

@@ -47,14 +47,16 @@ std::vector<std::string> divisions_of(const SolveWorker::Choice& choice,
 }  // namespace
 
 SolveWorker::Prepared SolveWorker::load(const std::string& spec, RunOptions options,
-                                        bool first_look, const Cancellation& cancellation) {
+                                        bool first_look, const Cancellation& cancellation,
+                                        bool runs_on) {
   options.solve.validate();
   const auto loaded = loaded_scene(spec, options, first_look, report_, cancellation);
-  return prepare(loaded, choice_of(options), cancellation);
+  return prepare(loaded, choice_of(options), cancellation, runs_on);
 }
 
 SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& start,
-                                           Choice choice, const Cancellation& cancellation) {
+                                           Choice choice, const Cancellation& cancellation,
+                                           bool drafted_first) {
   if (start->stored && !start->description) {
     choice.refine = {};
     choice.total = false;
@@ -89,7 +91,11 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
   SolveSession session(std::move(request), cancellation);
   saved.scene = saved.total ? saved.scene : session.scene();
   checkpoints_.resume(session, saved);
-  session.prepare();
+  const bool is_whole = choice.division.empty() && !choice.refine.is_set() && !saved.total;
+  if (!(drafted_first && drafts_ && lit && is_whole && !start->stored && !session.is_prepared() &&
+        can_be_drafted(choice.solve, *start->scene))) {
+    session.prepare();
+  }
   auto loaded = with_patches_of(session, divisions_of(choice, session, total), start, cancellation);
   return {std::move(choice), std::move(loaded), std::move(session),
           cancellation,      std::move(total),  std::move(saved)};
@@ -101,6 +107,10 @@ void SolveWorker::open(Prepared prepared) {
   patches_to_announce_ = false;
   replace_session(std::move(prepared));
   messages_.post_scene(loaded_);
+  if (!session_->is_prepared()) {
+    begin_with_draft();
+    prepare_stage();
+  }
   post_snapshot();
 }
 
@@ -133,7 +143,7 @@ std::shared_ptr<const LoadedScene> SolveWorker::begun(const Choice& choice) cons
 }
 
 void SolveWorker::replace_session(Prepared prepared) {
-  history_ = SolveHistory(prepared.session);
+  history_ = prepared.session.is_prepared() ? SolveHistory(prepared.session) : SolveHistory();
   checkpoints_.begin(std::move(prepared.saved));
   choice_ = std::move(prepared.choice);
   total_ = std::move(prepared.total);
@@ -209,16 +219,34 @@ void SolveWorker::advance(const Goal& goal) {
 
 /// Posts a whole picture of few directions, where drafts are wanted and no pass has been made.
 void SolveWorker::begin_with_draft() {
-  if (!drafts_ || !is_ready() || loaded_->stored || session_->in_rounds() || total_ ||
-      session_->passes_done() > 0 || !is_lit(*loaded_->scene, choice_.solve)) {
+  const bool prepared = session_->is_prepared();
+  if (!drafts_ || whole_ || (prepared && (!is_ready() || session_->passes_done() > 0)) ||
+      loaded_->stored || session_->in_rounds() || total_ ||
+      !is_lit(*loaded_->scene, choice_.solve) || !can_be_drafted(choice_.solve, *loaded_->scene)) {
     return;
   }
   try {
-    whole_ = make_draft(
-        *session_, [this] { return !interrupted_; }, cancellation_);
-    if (whole_ && !interrupted_) {
-      post_snapshot();
+    SolveSession draft =
+        prepare_draft(choice_.solve, *loaded_,
+                      prepared ? session_->diffuse()->direct_light() : nullptr, cancellation_);
+    SolverSnapshot start = snapshot_of(draft, loaded_);
+    SolveHistory(draft).write_to(start);
+    draft.advance(SolveSession::Until::finished,
+                  [this](const SolveSession&) { return !interrupted_; });
+    if (!draft.finished() || interrupted_) {
+      return;
     }
+    whole_ = draft.solution();
+    if (prepared) {
+      post_snapshot();
+      return;
+    }
+    start.options = choice_.solve;
+    if (!start.options.goal.is_set()) {
+      start.progress.passes = start.options.directions;
+    }
+    show_light_of(*whole_, start);
+    messages_.post_snapshot(std::make_shared<const SolverSnapshot>(std::move(start)));
   } catch (...) {
     whole_.reset();  // the solve itself meets the same problem, and tells it
   }
