@@ -42,7 +42,7 @@ void keep(const QImage& picture, const QString& name, const QSize& size) {
   QVERIFY(small.convertToFormat(QImage::Format_RGB888).save(QDir(folder()).filePath(name), "PNG"));
 }
 
-bool settles(TestWindow& window) { return comes_to_rest(window, 120000); }
+bool settles(TestWindow& window) { return comes_to_rest(window, 600000); }
 
 /// A window with sharp pictures, as users have it.
 struct PictureWindow : TestWindow {
