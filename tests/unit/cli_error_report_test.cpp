@@ -27,7 +27,7 @@ TEST(CliErrorReport, RefusesInOneLineWhatItCannotMeasure) {
           {{"--error-report", "no-folder/e.json"}, "no-folder"},
           {{"--error-report", "e.json", "--engine", "hemicube"}, "engine hemicube"},
           {{"--error-report", "e.json", "--scheme", "semi-iterative"}, "scheme semi-iterative"},
-          {{"--error-report", "e.json", "--glossy"}, "--glossy"},
+          {{"--error-report", "e.json", "--glossy"}, "not available with lobes"},
           {{"--error-report", "e.json", "--stats", "e.json"}, "given twice"},
           {{"--error-report", "e.json", "--shard", "1/2", "-o", "a.tsh"}, "with shards"},
       });

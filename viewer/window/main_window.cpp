@@ -454,6 +454,7 @@ void MainWindow::make_menus() {
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   help->addAction((new PaletteActions(frame(), docks_))->action());
+  help->addAction(tr("User guide"), this, [this] { show_guide(*this); });
   QAction* keys = help->addAction(tr("Keys and mouse"), this, [this] { show_keys(*this); });
   keys->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
   help->addAction(tr("All settings"), this, [this] { show_settings(*this); });

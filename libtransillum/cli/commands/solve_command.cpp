@@ -156,8 +156,7 @@ PreparedCall prepare_call(SolveCall& call, const Cancellation& cancellation) {
   }
   complete(call);
   prepared.options = call.options();
-  prepared.scene = load_input_scene(call.scene, outputs, cancellation,
-                                    prepared.options.sky.is_set() ? Light::sky : Light::required);
+  prepared.scene = load_input_scene(call.scene, outputs, cancellation, Light::required);
   check_series(call.colors, prepared.scene->files());
   check_picture_request(pictures_of(call, *prepared.scene), prepared.scene);
   if (!call.colors.series.empty() && is_first_process()) {
@@ -305,8 +304,7 @@ int run_shard(SolveCall& call) {
   check_can_be_shared(options, *call.share);
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.quiet);
-  const auto scene = load_input_scene(call.scene, outputs, cancellation,
-                                      options.sky.is_set() ? Light::sky : Light::required);
+  const auto scene = load_input_scene(call.scene, outputs, cancellation, Light::required);
   const auto start = Clock::now();
   const int passes = (options.directions - call.share->number) / call.share->of + 1;
   int done = 0;
