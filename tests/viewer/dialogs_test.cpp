@@ -81,6 +81,9 @@ QStringList silent_buttons(const QWidget& window, int& disabled) {
       continue;
     }
     ++disabled;
+    if (qobject_cast<const FoldHeader*>(button) && button->toolTip().startsWith("none: ")) {
+      continue;  // the state of the section is the reason
+    }
     const QObject* cause = disabled_by(*button);
     const QString why = cause->property("why_disabled").toString();
     const QString tip = cause->property("toolTip").toString();
@@ -142,9 +145,11 @@ class DialogsTest : public QObject {
     QVERIFY(examine_dialog(*action, [&](QDialog& dialog) {
       if (is_resizable) {
         dialog.resize(dialog.size().boundedTo(small_screen));
-        handle_posted();
       }
-      QVERIFY2(dialog.width() <= small_screen.width() && dialog.height() <= small_screen.height(),
+      const auto fits = [&dialog] {
+        return dialog.size().boundedTo(small_screen) == dialog.size();
+      };
+      QVERIFY2(wait_for(fits, 5000),
                qPrintable(QStringLiteral("%1 x %2").arg(dialog.width()).arg(dialog.height())));
       QCOMPARE(cut_buttons(dialog), QStringList());
       QCOMPARE(cut_texts(dialog), QStringList());
@@ -222,7 +227,7 @@ class DialogsTest : public QObject {
     for (auto* header : panel->findChildren<FoldHeader*>()) {
       header->setChecked(true);
     }
-    static const QRegularExpression further_sentence(R"([.;!?]\s+[A-Z])");
+    static const QRegularExpression further_sentence(R"([.!?]\s+[A-Z])");
     int labels = 0;
     auto* engine = panel->findChild<QComboBox*>("engine");
     const auto examine = [&] {

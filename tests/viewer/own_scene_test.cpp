@@ -117,10 +117,10 @@ class OwnSceneTest : public QObject {
     QVERIFY(thumbnails.picture_of(own.folder.filePath("other.obj")).isNull());
 
     StartPage& start = *own.window->views().page.start();
-    start.set_recent({{file, thumbnails.picture_of(file)}});
     own.window->findChild<QAction*>("start")->trigger();
+    start.set_recent({{file, thumbnails.picture_of(file)}});
     auto* card = start.findChild<QAbstractButton*>("recent_room.obj");
-    QVERIFY(card && card->isVisible());
+    QVERIFY(card && wait_for([card] { return card->isVisible(); }));
     save_picture(*own.window, "recent");
     QTest::mouseClick(card, Qt::LeftButton);
     QVERIFY(own.ready());

@@ -195,7 +195,7 @@ class SettingsTest : public QObject {
     const auto* cost = solved.window->findChild<QLabel*>("patch_forecast");
     QVERIFY2(cost->text().contains("less than 1 s"), qPrintable(cost->text()));
     solved.window->findChild<QSpinBox*>("directions")->setValue(1 << 24);
-    QVERIFY2(cost->text().contains(" h "), qPrintable(cost->text()));
+    QVERIFY2(cost->text().contains(" h"), qPrintable(cost->text()));
   }
 
   // At the size of a projector, with all sections open, in both themes.

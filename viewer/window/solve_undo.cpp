@@ -57,8 +57,8 @@ void SolveUndo::on_scene() {
 
 std::shared_ptr<const SolveUndo::Light> SolveUndo::shown() const {
   const auto snapshot = frame_.state.scene.snapshot();
-  if (!snapshot || !snapshot->loaded->description || !snapshot->progress.finished ||
-      snapshot->materials) {
+  const bool complete = snapshot && (snapshot->progress.finished || snapshot->of_file);
+  if (!complete || !snapshot->loaded->description || snapshot->materials) {
     return nullptr;
   }
   auto loaded = std::make_shared<LoadedScene>(*snapshot->loaded);
