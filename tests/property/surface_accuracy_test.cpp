@@ -307,7 +307,7 @@ TEST(SurfaceAccuracy, HoldsWhereOneGroupDiffersFromAllOthers) {
       EXPECT_LE(error, 0.06) << scene->name() << ", seed " << seed;
     }
   }
-  EXPECT_LE(above, 3);  // of 24, each with a probability of at most 5 %
+  EXPECT_LE(above, 3);  // 24 claims, each wrong with a probability of at most 5 %
 }
 
 /// Light through a gap is a thousandth of the light of the lit room, and counts by itself.

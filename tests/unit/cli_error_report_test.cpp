@@ -73,7 +73,7 @@ TEST(CliTotal, RefusesInOneLineWhatItCannotDo) {
           {{"--accuracy", "20%", "--accuracy-of", "rms"}, "an error of surfaces"},
           {{"--accuracy", "20%", "--seconds", "5"}, "no time limit"},
           {{"--accuracy", "20%", "--refine-by", "jump", "--patches", "60"}, "no rounds"},
-          {{"--accuracy", "20%", "--glossy"}, "--glossy"},
+          {{"--accuracy", "20%", "--glossy"}, "glossy"},
           {{"--accuracy", "20%", "--series", "a.pvd"}, "an accuracy"},
           {{"--accuracy", "20%", "--shard", "1/2", "-o", "a.tsh"}, "with shards"},
       });

@@ -81,7 +81,7 @@ QStringList silent_buttons(const QWidget& window, int& disabled) {
       continue;
     }
     ++disabled;
-    if (qobject_cast<const FoldHeader*>(button) && button->toolTip().startsWith("none: ")) {
+    if (qobject_cast<const FoldHeader*>(button) && button->toolTip().startsWith("none")) {
       continue;  // the state of the section is the reason
     }
     const QObject* cause = disabled_by(*button);

@@ -24,6 +24,7 @@
 #include "io/results/error_report_files.h"
 #include "patches/error_page.h"
 #include "patches/patch_table.h"
+#include "session/divisions.h"
 #include "session/measure_errors.h"
 #include "session/next_steps.h"
 #include "session/total_plan.h"

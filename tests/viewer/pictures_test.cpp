@@ -14,6 +14,7 @@
 #include "lessons/lesson_panel.h"
 #include "map/compare_view.h"
 #include "scene/build/patch_count.h"
+#include "scene/color_controls.h"
 #include "solve/study_dialog.h"
 #include "solved_window.h"
 #include "transillum/first_shot.h"
@@ -42,7 +43,7 @@ void keep(const QImage& picture, const QString& name, const QSize& size) {
   QVERIFY(small.convertToFormat(QImage::Format_RGB888).save(QDir(folder()).filePath(name), "PNG"));
 }
 
-bool settles(TestWindow& window) { return comes_to_rest(window, 120000); }
+bool settles(TestWindow& window) { return comes_to_rest(window, 600000); }
 
 /// A window with sharp pictures, as users have it.
 struct PictureWindow : TestWindow {
@@ -95,6 +96,7 @@ class PicturesTest : public QObject {
     window.selection.select(16);
     for (const char* layout : {"inspect", "debug"}) {
       window.findChild<QAction*>(QStringLiteral("layout_%1").arg(layout))->trigger();
+      window.views().page.color_controls()->set_outlines(layout == QByteArray("debug"));
       if (layout == QByteArray("debug")) {
         window.focus.go_to({0, 9, -1});
         QVERIFY(settles(window));

@@ -242,7 +242,7 @@ class SharpTest : public QObject {
     QVERIFY(difference_of_map < 1.0);
     QVERIFY(difference_of_darker < 1.0);
     QVERIFY(difference_of_patches > 3 * difference_of_darker);
-    // It is kept while sharp pictures are off.
+    // The light map is kept while sharp pictures are off.
     shown.sharp->action()->setChecked(true);
     QCOMPARE(different_pixels(shown.scene_view->picture(1), darker), 0);
   }

@@ -226,7 +226,7 @@ QString ErrorPage::caption() const {
     return tr("Solving first; then the errors are measured.");
   }
   if (const auto errors = this->errors()) {
-    return tr("In percent of the light that each surface reflects. Measured in %1.")
+    return tr("In percent of reflected light. Measured in %1.")
         .arg(duration_text(errors->report.measurements.seconds));
   }
   return tr(

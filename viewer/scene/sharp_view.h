@@ -79,7 +79,7 @@ class SharpView : public QObject {
   std::atomic<bool> posted_ = false;  ///< a picture has not been received yet
   SharpRenderer renderer_;
   std::shared_ptr<const SolverSnapshot> map_requested_;  ///< its map is made; null if none is
-  SurfaceMap map_;                                       ///< of map_requested_
+  SurfaceMap map_;                                       ///< the map of map_requested_
   bool map_finished_ = false;
   RequestWorker<Task> worker_;
   RequestWorker<std::shared_ptr<const SolverSnapshot>> map_worker_;

@@ -38,7 +38,7 @@ class SolveUndo : public QObject {
   };
   struct Kept {
     std::shared_ptr<const Light> solve;
-    bool is_earlier = true;  ///< of Undo; else of Redo
+    bool is_earlier = true;  ///< for Undo; else for Redo
   };
   std::shared_ptr<const Light> shown() const;
   void on_scene();

@@ -85,6 +85,13 @@ double depth_in(const std::array<Vec3, 4>& corners, const Vec3& normal, const Ve
   return depth;
 }
 
+/// The largest difference between two corners.
+double contrast_of(const std::array<Rgb, 4>& corners) {
+  return std::max({max_abs(corners[0] - corners[1]), max_abs(corners[1] - corners[2]),
+                   max_abs(corners[2] - corners[3]), max_abs(corners[3] - corners[0]),
+                   max_abs(corners[0] - corners[2]), max_abs(corners[1] - corners[3])});
+}
+
 double size_of(const std::array<Vec3, 4>& corners) {
   return std::max(norm(corners[2] - corners[0]), norm(corners[3] - corners[1]));
 }
@@ -95,6 +102,9 @@ double size_of(const std::array<Vec3, 4>& corners) {
 struct InterpolatedLight::Cell {
   std::array<Rgb, 4> light{};  ///< at its corners
   bool is_part = false;        ///< whether it is of a divided cell
+  /// The difference of the middle from the mean of the corners if the light is smooth, as a fraction
+  /// of all light: a quarter of the difference in the cell that was divided.
+  double expected_difference = HUGE_VAL;
   Kept<Division> division;
 };
 
@@ -190,11 +200,26 @@ std::unique_ptr<const InterpolatedLight::Cell> InterpolatedLight::root_of(const 
   return root;
 }
 
+/// The largest difference of what points between the middle and the corners gather from what is
+/// interpolated there, W/m².
+double InterpolatedLight::difference_at_quarters(const PatchCells& cells,
+                                                 const std::array<Vec3, 4>& corners,
+                                                 const Cell& cell) const {
+  double largest = 0;
+  for (const double s : {0.25, 0.75}) {
+    for (const double t : {0.25, 0.75}) {
+      const Rgb light = light_inside(cells, blend(corners, s, t)).irradiance;
+      largest = std::max(largest, max_abs(light - blend(cell.light, s, t)));
+    }
+  }
+  return largest;
+}
+
 /// Decides whether a cell is divided, and divides it.
 std::unique_ptr<const InterpolatedLight::Division> InterpolatedLight::division_of(
     const PatchCells& cells, const std::array<Vec3, 4>& corners, const Cell& cell) const {
   constexpr double largest = 1.0 / 12, smallest = 1.0 / 1500, tiny = 1.0 / 300;
-  constexpr double least_tolerance = 0.004;
+  constexpr double least_tolerance = 0.004, least_contrast = 0.04;
   const double size = size_of(corners) / diagonal_;
   auto division = std::make_unique<Division>();
   if (size <= tiny && !cell.is_part) {
@@ -204,8 +229,13 @@ std::unique_ptr<const InterpolatedLight::Division> InterpolatedLight::division_o
   const auto [middle, noise] = light_inside(cells, center);
   const Rgb all = middle + lamps_.at_point(cells.patch, center);
   const double unit = std::max(max_abs(all), std::numeric_limits<double>::min());
-  const double difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) / unit;
+  double difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) / unit;
   const double tolerance = std::max(least_tolerance, 2 * max_abs(noise) / unit);
+  // The edge of a shadow through the middle has the mean of the corners there.
+  if (size <= largest && size > smallest && difference <= tolerance &&
+      cell.expected_difference > tolerance && contrast_of(cell.light) > least_contrast * unit) {
+    difference = difference_at_quarters(cells, corners, cell) / unit;
+  }
   if (size <= largest && (difference <= tolerance || size <= smallest)) {
     division->is_unclear = difference > 4 * tolerance;
     return division;
@@ -221,6 +251,7 @@ std::unique_ptr<const InterpolatedLight::Division> InterpolatedLight::division_o
   division->parts[3].light = {left, middle, top, cell.light[3]};
   for (std::size_t k = 0; k < 4; ++k) {
     division->parts[k].is_part = true;
+    division->parts[k].expected_difference = difference / 4;
   }
   return division;
 }

@@ -13,8 +13,8 @@
 namespace transillum {
 
 /// Gathered light, interpolated between points of a patch: bilinearly in quadrilaterals, which are
-/// divided where what their middle gathers differs from the mean of their corners. Where that does
-/// not help, the point itself gathers.
+/// divided where what their middle gathers differs from the mean of their corners, or points around
+/// it do. Where that does not help, the point itself gathers.
 ///
 /// Threads: any number may query; a value does not depend on the order of queries.
 class InterpolatedLight {
@@ -41,6 +41,8 @@ class InterpolatedLight {
   Rgb light_of(std::int32_t n) const;
   GatheredLight::Gathered light_inside(const PatchCells& cells, const Vec3& x) const;
   std::unique_ptr<const Cell> root_of(const PatchCells& cells, std::size_t q) const;
+  double difference_at_quarters(const PatchCells& cells, const std::array<Vec3, 4>& corners,
+                                const Cell& cell) const;
   std::unique_ptr<const Division> division_of(const PatchCells& cells,
                                               const std::array<Vec3, 4>& corners,
                                               const Cell& cell) const;

@@ -26,7 +26,7 @@ std::vector<PatchId> patches_of_surface(const Scene& scene, const std::string& n
 /// "patch:3,7-20".
 /// @param patches in ascending order
 std::string division_by_numbers(std::span<const PatchId> patches);
-/// What divides these patches of a scene: `name`, if it means the same patches, or their numbers.
+/// The entry that divides these patches of a scene: `name`, if it means them, or their numbers.
 /// @param patches in ascending order
 std::string division_name(const Scene& scene, const std::string& name,
                           std::span<const PatchId> patches);

@@ -63,7 +63,7 @@ class RefinementPlan {
   double seconds_ = 0;           ///< time of dividing, before the solve
   bool finished_ = false;
   std::vector<RefinementRound> rounds_;
-  std::vector<std::string> divisions_;  ///< those that make refined_
+  std::vector<std::string> divisions_;  ///< the divisions that make refined_
 };
 
 }  // namespace transillum
