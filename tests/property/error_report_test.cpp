@@ -15,6 +15,7 @@
 #include "radiosity/error/surfaces.h"
 #include "scene/build/division.h"
 #include "scene/build/patch_count.h"
+#include "session/divisions.h"
 #include "session/measure_errors.h"
 #include "session/next_steps.h"
 #include "session/total_plan.h"
@@ -108,12 +109,6 @@ MeasuredSolve solve_to_measure(const ScenePointer& scene, const SolveOptions& op
   SolveSession session({.scene = scene, .options = options});
   session.advance(SolveSession::Until::finished);
   return measured_solve(session);
-}
-
-std::vector<PatchId> all_patches(const Scene& scene) {
-  std::vector<PatchId> patches(scene.patches().size());
-  std::iota(patches.begin(), patches.end(), PatchId{0});
-  return patches;
 }
 
 /// The errors of B(x) of a solve with constant functions, by surface, over the units of `report`.
@@ -246,27 +241,31 @@ TEST(ErrorReport, DividesASampleWherePatchesWouldBeTooMany) {
               0.5 * worst(all).errors.patches);
 }
 
-TotalSolve solve_to_total(const TotalGoal& goal) {
+TotalPlan solve_to_total(const TotalGoal& goal) {
   TotalPlan plan({.scene = load_scene("cornell-box")}, goal);
   while (!plan.finished()) {
     SolveSession session(plan.stage());
     session.advance(SolveSession::Until::finished);
     plan.assess(session);
   }
-  return plan.outcome();
+  return plan;
 }
 
 TEST(TotalError, IsReachedByDividingPatchesAndAddingDirections) {
-  const TotalSolve total = solve_to_total({.total = 0.25, .patches = 5000});
+  const TotalPlan plan = solve_to_total({.total = 0.25, .patches = 5000});
+  const TotalSolve& total = plan.outcome();
   EXPECT_EQ(total.end, TotalEnd::reached);
   EXPECT_LE(total.report.total(), 0.25);
   ASSERT_GE(total.stages.size(), 2U);
   EXPECT_GT(total.stages.front().errors.total(), 0.25);
   EXPECT_GT(total.stages.back().patches, total.stages.front().patches);
+  // The divisions, and then the options of the last stage, give the same bits.
+  const auto divided = divided_scene(load_scene("cornell-box"), plan.divisions());
+  EXPECT_EQ(solve(divided, total.solve.options).radiosity, total.solve.solution.radiosity);
 }
 
 TEST(TotalError, EndsWhereThePatchesAreTooMany) {
-  const TotalSolve total = solve_to_total({.total = 0.1, .patches = 60});
+  const TotalSolve total = solve_to_total({.total = 0.1, .patches = 60}).outcome();
   EXPECT_EQ(total.end, TotalEnd::patches);
   EXPECT_LE(total.solve.solution.scene->patch_count(), 60);
   EXPECT_EQ(total.stages.back().patches, total.solve.solution.scene->patch_count());

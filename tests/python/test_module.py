@@ -158,6 +158,14 @@ class Solves(unittest.TestCase):
     def test_accuracy(self):
         solution = transillum.solve(room(), accuracy="5%")
         self.assertLessEqual(solution.rms_error, 0.05)
+        self.assertTrue(solution.accuracy["reached"])
+        worst = solution.accuracy["surface"]
+        errors = solution.surface_errors
+        self.assertEqual(errors[worst], max(errors.values()))
+        self.assertLessEqual(errors[worst], solution.accuracy["error"])
+        self.assertLessEqual(solution.accuracy["error"], 0.05)
+        self.assertIsNone(transillum.solve(room(), directions=16).accuracy)
+        self.assertIsNone(transillum.solve(room(), directions=16).surface_errors)
 
     def test_a_small_lamp_is_no_measure(self):
         data = os.path.join(os.path.dirname(__file__), "..", "..", "data")
@@ -346,6 +354,9 @@ class Errors(unittest.TestCase):
             'memory: "lots" is not a size': lambda: transillum.solve(scene, memory="lots"),
             "one_way: expected True or False": lambda: transillum.solve(scene, one_way="yes"),
             "neither": lambda: transillum.Run(scene).advance("end"),
+            "nothing emits light, so B would be 0 everywhere": lambda: transillum.solve(
+                transillum.Scene(CORNERS, CUBE, reflectance=0.5)
+            ),
         }
         for message, call in cases.items():
             with self.subTest(message):

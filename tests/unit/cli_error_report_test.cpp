@@ -27,7 +27,7 @@ TEST(CliErrorReport, RefusesInOneLineWhatItCannotMeasure) {
           {{"--error-report", "no-folder/e.json"}, "no-folder"},
           {{"--error-report", "e.json", "--engine", "hemicube"}, "engine hemicube"},
           {{"--error-report", "e.json", "--scheme", "semi-iterative"}, "scheme semi-iterative"},
-          {{"--error-report", "e.json", "--glossy"}, "--glossy"},
+          {{"--error-report", "e.json", "--glossy"}, "not available with lobes"},
           {{"--error-report", "e.json", "--stats", "e.json"}, "given twice"},
           {{"--error-report", "e.json", "--shard", "1/2", "-o", "a.tsh"}, "with shards"},
       });
@@ -73,7 +73,7 @@ TEST(CliTotal, RefusesInOneLineWhatItCannotDo) {
           {{"--accuracy", "20%", "--accuracy-of", "rms"}, "an error of surfaces"},
           {{"--accuracy", "20%", "--seconds", "5"}, "no time limit"},
           {{"--accuracy", "20%", "--refine-by", "jump", "--patches", "60"}, "no rounds"},
-          {{"--accuracy", "20%", "--glossy"}, "--glossy"},
+          {{"--accuracy", "20%", "--glossy"}, "glossy"},
           {{"--accuracy", "20%", "--series", "a.pvd"}, "an accuracy"},
           {{"--accuracy", "20%", "--shard", "1/2", "-o", "a.tsh"}, "with shards"},
       });

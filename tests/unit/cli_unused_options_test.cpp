@@ -51,7 +51,9 @@ const Unused unused[] = {
     {by_pairs, {"-m", "64"}, "--directions: not used with engine hemicube or pairs"},
     {by_pairs, {"--resolution", "64"}, "--resolution: used only with"},
     {by_hemicubes, {"--points", "8"}, "--points: used only with engine pairs"},
-    {by_directions, {"--points", "8"}, "--points: used only with engine pairs"},
+    {by_directions,
+     {"--first-shot", "none", "--points", "8"},
+     "--points: used only with engine pairs and with a first shot"},
     {factors, {"--points", "8"}, "--points: used only with engine pairs"},
     {factors, {"--engine", "rays", "--points", "8"}, "--points: not used with engine rays"},
     {transfers, {"--resolution", "64"}, "--resolution: used only with"},
@@ -105,6 +107,7 @@ TEST(CliUnusedOptions, AreAcceptedWhereTheyHaveAnEffect) {
       by_directions + Call{"--replicas", "2", "--seed", "2"},
       by_directions +
           Call{"--scheme", "semi-iterative", "--iterations", "9", "--burn-in", "2", "--seed", "2"},
+      by_directions + Call{"--points", "8"},
       by_hemicubes + Call{"--resolution", "16", "--iterations", "3", "--scheme", "fixed"},
       factors + Call{"--engine", "zbuffer", "-m", "8", "--resolution", "64"},
       factors + Call{"--engine", "rays", "--rays", "10", "--seed", "2"},

@@ -8,8 +8,10 @@
 #include <numeric>
 
 #include "scene_test_support.h"
+#include "session/divisions.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
+#include "transillum/errors.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
@@ -20,12 +22,6 @@ namespace {
 using ::testing::Each;
 using ::testing::ElementsAre;
 using testing::Sketch;
-
-std::vector<PatchId> all_of(const Scene& scene) {
-  std::vector<PatchId> patches(scene.patches().size());
-  std::iota(patches.begin(), patches.end(), 0);
-  return patches;
-}
 
 Scene one_face(const std::vector<Vec3>& outline) { return Scene(test::polygon(outline)); }
 
@@ -136,12 +132,42 @@ TEST(Division, LeavesWhatIsTooThin) {
   const Scene scene = one_face({{1, 0, 0}, {1 + tiny, 0, 0}, {1, tiny, 0}});
   std::shared_ptr<const Scene> last = std::make_shared<const Scene>(scene);
   for (int trial = 0; trial < 8; ++trial) {
-    last = divide(*last, all_of(*last)).scene;
+    last = divide(*last, all_patches(*last)).scene;
     for (const Patch& patch : last->patches()) {
       EXPECT_GT(patch.area, 0);
     }
   }
   EXPECT_LT(last->patch_count(), 1 << 16);
+}
+
+TEST(Division, IsNamedByASurfaceOrByNumbers) {
+  const auto box = load_scene("cornell-box");
+  const std::vector<PatchId> all = all_patches(*box);
+  EXPECT_EQ(division_name(*box, "all", all), "all");
+  EXPECT_EQ(division_name(*box, "floor", all), "patch:0-" + std::to_string(box->patch_count() - 1));
+  const std::vector<PatchId> some{2, 5, 6, 7, 9};
+  EXPECT_EQ(division_name(*box, "patch:2", some), "patch:2,5-7,9");
+  const auto by_numbers = divided_scene(box, {"patch:2,5-7,9", "patch:0"});
+  const auto direct = divide(*divide(*box, some).scene, std::vector<PatchId>{0}).scene;
+  ASSERT_EQ(by_numbers->patch_count(), direct->patch_count());
+  for (PatchId i = 0; i < direct->patch_count(); ++i) {
+    EXPECT_EQ(by_numbers->patch(i).center, direct->patch(i).center);
+  }
+}
+
+TEST(Division, OfUnknownPatchesIsRefused) {
+  const auto box = load_scene("cornell-box");
+  const std::string last = std::to_string(box->patch_count() - 1);
+  for (const char* name :
+       {"patch:", "patch:1,", "patch:-1", "patch:7-3", "patch:1e2", "patch:0-99999", "patch:1 2"}) {
+    try {
+      divided_scene(box, {name});
+      FAIL() << name;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("from 0 to " + last)) << name;
+    }
+  }
+  EXPECT_THROW(divided_scene(box, {"roof"}), InputError);
 }
 
 }  // namespace

@@ -93,6 +93,25 @@ TEST(Shoot, EstimatesItsError) {
   }
 }
 
+/// Past a turned box, some patches see so little of the lamp that none of their points does.
+TEST(Shoot, EstimatesTheErrorWhereNoPointSeesLight) {
+  const auto scene = load_scene("cornell-box", {.max_patch_area = 1.272e-3});
+  const std::vector<PatchId> sources = find_small_sources(*scene, 0);
+  const DirectLight light = shoot(*scene, sources);
+  const DirectLight better = shoot(*scene, sources, {.points = 64});
+  int unseen = 0;
+  for (PatchId i = 0; i < scene->patch_count(); ++i) {
+    const double exact = at(better.irradiance, i).r, error = at(light.irradiance_error, i).r;
+    if (at(light.irradiance, i).r == 0) {
+      EXPECT_LE(exact, 2 * error) << i;
+      unseen += exact > 0 ? 1 : 0;
+    } else if (error == 0) {
+      EXPECT_NEAR(at(light.irradiance, i).r, exact, 1e-9 * exact) << i;
+    }
+  }
+  EXPECT_GT(unseen, 0);
+}
+
 TEST(Shoot, MatchesTheFormulaForIrradiance) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0), light = sketch.material(0.5, 7);

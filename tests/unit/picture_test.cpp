@@ -130,6 +130,41 @@ TEST(Picture, InterpolatedLightIsTheGathered) {
   }
 }
 
+/// A room of 1 m with a thin shelf before a wall, and a lamp that lights the ceiling. The wall's
+/// cells are 1/16 m wide; the shelf is at the middle of a row of them.
+std::shared_ptr<const Scene> room_with_shelf() {
+  Sketch sketch("room with shelf");
+  const int gray = sketch.material(0.7, 0), black = sketch.material(0.05, 0);
+  sketch.box({0, 0, 0}, {1, 1, 1}, true, gray);
+  sketch.box({0.01, 0.004, 0.53025}, {0.99, 0.6, 0.53225}, false, black);
+  sketch.face({{0.2, 0.5, 0.8}, {0.8, 0.5, 0.8}, {0.8, 0.8, 0.8}, {0.2, 0.8, 0.8}},
+              sketch.material(0, 10));
+  return sketch.scene();
+}
+
+TEST(Picture, AnEdgeOfAShadowInTheMiddleOfACellIsFound) {
+  const auto scene = room_with_shelf();
+  const auto solution = solved(scene, 512);
+  const SurfaceLight interpolated(solution), gathered(solution, 2048);
+  PatchId wall = 0;
+  while (scene->patch(wall).normal.y < 0.5 || scene->patch(wall).center.y > 0.001) {
+    ++wall;
+  }
+  double least = HUGE_VAL, largest = 0;
+  constexpr double edge = 0.53125, gap = 0.004;
+  for (double z = 0.502; z < 0.56; z += 0.002) {
+    if (std::abs(z - edge) < gap) {
+      continue;  // the edge is as soft as the gap is wide
+    }
+    const Vec3 x{0.47, 0, z};
+    const double expected = gathered.radiosity(wall, x).r;
+    EXPECT_NEAR(interpolated.radiosity(wall, x).r, expected, 0.02 * expected) << z;
+    least = std::min(least, expected);
+    largest = std::max(largest, expected);
+  }
+  EXPECT_GT(largest, 1.1 * least);
+}
+
 /// Two rooms of 1 m with one floor and one ceiling, and a wall between them; a lamp in one.
 std::shared_ptr<const Scene> divided_room() {
   Sketch sketch("divided room");

@@ -9,6 +9,7 @@
 #include "support/program_call.h"
 #include "support/refusal.h"
 #include "transillum/at.h"
+#include "transillum/radiosity_solver.h"
 
 namespace transillum::testing::power_table_test {
 namespace {

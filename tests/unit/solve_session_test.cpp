@@ -7,6 +7,7 @@
 
 #include <stdexcept>
 
+#include "session/divisions.h"
 #include "transillum/errors.h"
 
 namespace transillum::solve_session_test {
@@ -54,10 +55,14 @@ Solution solved(const SolveRequest& request) {
   return session.solution();
 }
 
-void expect_same(const Solution& a, const Solution& b) {
+void expect_same_light(const Solution& a, const Solution& b) {
   EXPECT_EQ(a.radiosity, b.radiosity);
   EXPECT_EQ(a.irradiance, b.irradiance);
   EXPECT_EQ(a.error.rms_limit, b.error.rms_limit);
+}
+
+void expect_same(const Solution& a, const Solution& b) {
+  expect_same_light(a, b);
   EXPECT_EQ(a.complete, b.complete);
   EXPECT_EQ(a.scene->patch_count(), b.scene->patch_count());
   EXPECT_EQ(a.statistics.refinement.size(), b.statistics.refinement.size());
@@ -184,6 +189,34 @@ TEST(SolveSession, ShowsItsRoundsAndStages) {
   EXPECT_GT(rounds, 0U);
   EXPECT_GT(stages, rounds);
   EXPECT_EQ(session.scene(), session.refined_scene());
+}
+
+/// The corners of all patches, in order.
+std::vector<Vec3> corners_of(const Scene& scene) {
+  std::vector<Vec3> corners;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    for (const PointId p : scene.outline(i)) {
+      corners.push_back(scene.point(p));
+    }
+  }
+  return corners;
+}
+
+TEST(SolveSession, NamesTheDivisionsOfItsRounds) {
+  for (const std::size_t k : {2U, 3U}) {
+    const SolveRequest request = cases()[k].request;
+    SolveSession session(request);
+    while (session.in_rounds()) {
+      const auto again = divided_scene(request.scene, session.divisions());
+      EXPECT_EQ(corners_of(*again), corners_of(*session.scene()));
+      session.advance(Until::stage);
+    }
+    session.advance(Until::finished);
+    EXPECT_GT(session.divisions().size(), 0U);
+    const auto again = divided_scene(request.scene, session.divisions());
+    EXPECT_GT(again->patch_count(), request.scene->patch_count());
+    expect_same_light(solve(again, request.options), session.solution());
+  }
 }
 
 TEST(SolveSession, RelightsSolvesWithLobesOnly) {

@@ -15,9 +15,12 @@
 #include <QTemporaryDir>
 
 #include "options/option_table.h"
+#include "patches/error_page.h"
+#include "session/next_steps.h"
 #include "solved_window.h"
 #include "test_files.h"
 #include "transillum/at.h"
+#include "window/base/dock_layouts.h"
 
 namespace transillum::viewer::command_text_test {
 
@@ -116,6 +119,57 @@ class CommandTextTest : public QObject {
         return;
       }
     }
+  }
+
+  void a_copied_division_has_the_same_bits_data() {
+    QTest::addColumn<bool>("total");
+    QTest::newRow("after rounds") << false;
+    QTest::newRow("after a total error") << true;
+  }
+  /// The step that *Errors* offers, after patches were divided by the program.
+  void a_copied_division_has_the_same_bits() {
+    QFETCH(bool, total);
+    RunOptions options{.solve = {.directions = 64, .first_shot = {}, .replicas = 4}};
+    if (total) {
+      options = {.total = true};
+      options.solve.goal.accuracy = 0.4;
+      options.refine.patches = 5000;
+    } else {
+      options.refine = {RefineBy::error, 100};
+    }
+    const auto window = make_window(options.solve);
+    const auto solved = [&] {
+      return window->settled() && window->runner.state() == RunState::finished &&
+             window->snapshot() && window->snapshot()->progress.finished;
+    };
+    window->scene.open("cornell-box", options, {Goal::Kind::finished});
+    QVERIFY(wait_for(solved));
+    window->views().docks.bring_to_front("parts");
+    if (!total) {
+      window->findChild<QPushButton*>("measure_surfaces")->click();
+    }
+    QVERIFY(wait_for([&] { return window->colors.errors() && window->settled(); }));
+    const auto errors = window->colors.errors();
+    QCOMPARE(errors->loaded, window->scene.loaded());
+    QVERIFY(!errors->loaded->divided.empty());
+    const SurfaceCauses& worst = at(errors->report.surfaces, errors->report.worst);
+    const SolveOptions& last = errors->solve.options;
+    emit window->findChild<ErrorPage*>()->step_chosen({.kind = NextStep::Kind::divide_surface,
+                                                       .surface = worst.name,
+                                                       .patches = 1,
+                                                       .passes = last.directions,
+                                                       .tolerance = last.tolerance});
+    QVERIFY(wait_for([&] { return window->scene.loaded() != errors->loaded && solved(); }));
+    expect_same_bits(*window);
+    const QTemporaryDir folder;
+    const QString session = folder.filePath("s.json");
+    window->files().save_session(session);
+    const auto other = make_window(16);
+    other->files().open(session);
+    QVERIFY(wait_for([&] {
+      return other->snapshot() && other->snapshot()->progress.finished && other->settled();
+    }));
+    QVERIFY(other->snapshot()->radiosity == window->snapshot()->radiosity);
   }
 
   void a_copied_step_is_v_at_that_step_data() {

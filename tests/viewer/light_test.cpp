@@ -193,7 +193,8 @@ class LightTest : public QObject {
     QCOMPARE(opened.part<QLabel>("summary_closure")->text(), QString("–"));
     for (const char* command : {"run", "one_direction", "one_iteration"}) {
       opened.part<QAction>(command)->trigger();
-      QVERIFY2(opened.light_bar().startsWith("Not solved"), command);
+      QVERIFY2(opened.light_bar().startsWith("Not solved: nothing emits light, so B would be 0"),
+               command);
     }
     emit opened.window->views().page.light_bar()->closed();
     opened.window->selection.select(3);
@@ -280,6 +281,16 @@ class LightTest : public QObject {
     const QString closure = opened.part<QLabel>("summary_closure")->text();
     QVERIFY2(closure.startsWith("open: ") && closure.endsWith("% of the light escapes"),
              qPrintable(closure));
+  }
+
+  /// The outer sides of its faces see nothing.
+  void a_closed_scene_of_two_sided_faces_has_no_defect() {
+    const auto window = make_window(8);
+    window->scene.open("furnace", {.solve = {.directions = 8}, .scene = {.two_sided = true}},
+                       {Goal::Kind::finished});
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    QCOMPARE(window->findChild<QLabel*>("summary_closure")->text(),
+             QString("closed, outer sides of two-sided faces omitted"));
   }
 
   void sliders_change_a_material_a_group_or_a_face() {

@@ -6,11 +6,13 @@
 #include <QTemporaryDir>
 
 #include "model/command_text.h"
+#include "scene/start_page.h"
 #include "solved_window.h"
 #include "state/vertical.h"
 #include "test_files.h"
 #include "transillum/files.h"
 #include "widgets/banner.h"
+#include "window/files/thumbnails.h"
 
 namespace transillum::viewer::own_scene_test {
 
@@ -94,6 +96,35 @@ class OwnSceneTest : public QObject {
     }));
     QVERIFY(own.window->snapshot()->options.basis == Basis::constant);
     QVERIFY(!bar->isVisible());
+  }
+
+  // The first page shows it beside the name of the file.
+  void a_file_that_was_open_has_a_picture() {
+    const QTemporaryDir pictures;
+    const OwnScene own;
+    bool in_lesson = true;
+    const Thumbnails thumbnails(own.window->frame(), pictures.filePath("small"),
+                                [&in_lesson] { return in_lesson; });
+    const QString file = own.folder.filePath("room.obj");
+    QVERIFY(own.ready() && comes_to_rest(*own.window));
+    QVERIFY(thumbnails.picture_of(file).isNull());
+    in_lesson = false;
+    own.window->files().open_scene("furnace");  // the room is left
+    QVERIFY(own.ready() && comes_to_rest(*own.window));
+    const QImage picture = thumbnails.picture_of(file).toImage();
+    QVERIFY(picture.width() >= 150 && picture.height() >= 100);
+    QVERIFY(color_count(picture) > 3);
+    QVERIFY(thumbnails.picture_of(own.folder.filePath("other.obj")).isNull());
+
+    StartPage& start = *own.window->views().page.start();
+    own.window->findChild<QAction*>("start")->trigger();
+    start.set_recent({{file, thumbnails.picture_of(file)}});
+    auto* card = start.findChild<QAbstractButton*>("recent_room.obj");
+    QVERIFY(card && wait_for([card] { return card->isVisible(); }));
+    save_picture(*own.window, "recent");
+    QTest::mouseClick(card, Qt::LeftButton);
+    QVERIFY(own.ready());
+    QVERIFY(wait_for([&] { return own.window->windowTitle().startsWith("room.obj"); }));
   }
 
   void a_limit_of_the_user_is_kept() {

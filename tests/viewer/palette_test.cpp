@@ -89,6 +89,12 @@ class PaletteTest : public QObject {
     QVERIFY(wait_for([&] { return shown.window->selection.patch() == 15; }));
     {
       const OpenPalette palette(*shown.window);
+      QCOMPARE(palette.first("surfaces"), QString("Surfaces"));  // not a lesson about surfaces
+      QCOMPARE(palette.first("compare engines"), QString("Compare engines"));
+      QCOMPARE(palette.first("irradiance"), QString("Show Irradiance H"));
+      QCOMPARE(palette.first("no such thing"), QString("Nothing has these words"));
+      QTest::keyClick(palette.query, Qt::Key_Return);
+      QVERIFY(palette.dialog);
       QCOMPARE(palette.first("events pan"), QString("Events"));
       save_picture(*palette.dialog, "palette");
       QVERIFY(palette.closes_on_return());

@@ -14,6 +14,7 @@
 #include "lessons/lesson_panel.h"
 #include "map/compare_view.h"
 #include "scene/build/patch_count.h"
+#include "scene/color_controls.h"
 #include "solve/study_dialog.h"
 #include "solved_window.h"
 #include "transillum/first_shot.h"
@@ -42,10 +43,12 @@ void keep(const QImage& picture, const QString& name, const QSize& size) {
   QVERIFY(small.convertToFormat(QImage::Format_RGB888).save(QDir(folder()).filePath(name), "PNG"));
 }
 
-bool settles(TestWindow& window) { return comes_to_rest(window, 120000); }
+bool settles(TestWindow& window) { return comes_to_rest(window, 600000); }
 
+/// A window with sharp pictures, as users have it.
 struct PictureWindow : TestWindow {
   PictureWindow() {
+    views().page.sharp()->action()->setChecked(true);
     resize(window_size);
     show();
   }
@@ -60,8 +63,8 @@ struct PictureWindow : TestWindow {
 
 QImage whole(TestWindow& window) { return window.grab().toImage(); }
 
-/// The picture of a lesson on the first page: the map of the page that enlarges it, or else the
-/// scene of the last page.
+/// The picture of a lesson on the first page: the map of the page that enlarges it, cropped to its
+/// middle, or else all of the scene of the last page.
 void keep_card(TestWindow& window, LessonPanel& panel, int lesson) {
   const auto& pages = at(panel.lessons(), lesson).pages;
   const auto large = std::find_if(pages.begin(), pages.end(),
@@ -71,12 +74,14 @@ void keep_card(TestWindow& window, LessonPanel& panel, int lesson) {
   QVERIFY(settles(window));
   const QImage picture = of_map ? window.findChild<MapView*>()->canvas()->grab().toImage()
                                 : window.views().page.scene_view()->picture(1);
-  constexpr QSize card(192, 120);
-  const QImage filling =
-      picture.scaled(card, Qt::KeepAspectRatioByExpanding, Qt::SmoothTransformation);
-  QRect middle(QPoint(), card);
-  middle.moveCenter(filling.rect().center());
-  keep(filling.copy(middle), QStringLiteral("card-%1.png").arg(lesson + 1), card);
+  constexpr QSize size(192, 120);
+  const QImage scaled =
+      picture.scaled(size, of_map ? Qt::KeepAspectRatioByExpanding : Qt::KeepAspectRatio,
+                     Qt::SmoothTransformation);
+  QImage card(size, QImage::Format_RGB888);
+  card.fill(theme::scene_background);
+  QPainter(&card).drawImage(QRect(QPoint(), size).center() - scaled.rect().center(), scaled);
+  keep(card, QStringLiteral("card-%1.png").arg(lesson + 1), size);
 }
 
 }  // namespace
@@ -91,6 +96,7 @@ class PicturesTest : public QObject {
     window.selection.select(16);
     for (const char* layout : {"inspect", "debug"}) {
       window.findChild<QAction*>(QStringLiteral("layout_%1").arg(layout))->trigger();
+      window.views().page.color_controls()->set_outlines(layout == QByteArray("debug"));
       if (layout == QByteArray("debug")) {
         window.focus.go_to({0, 9, -1});
         QVERIFY(settles(window));
@@ -222,16 +228,12 @@ class PicturesTest : public QObject {
       } else {
         options.first_shot = first_shot_where_it_pays;
       }
-      if (name == "stars") {
-        refined.max_patch_area = max_patch_area_for(*load_scene(scene.name), 10000);
-      }
       window.set_options(options, refined);
       window.open(name, {Goal::Kind::finished});
       QVERIFY(settles(window));
       auto* view = window.findChild<SceneView*>();
-      view->set_outlines_shown(name == "furnace" || name == "boards");
-      view->set_smooth_shading(name == "stars");
-      view->set_direction_shown(false);
+      view->set_outlines_shown(name == "furnace");
+      QVERIFY(settles(window));
       const QImage picture = view->picture(1);
       // The center, cropped to the aspect ratio of the card.
       const int height = std::min(picture.height(), picture.width() * 5 / 8);

@@ -198,6 +198,7 @@ class SceneDrawingTest : public QObject {
     const Inspected shown("cornell-box");
     QVERIFY(shown.ready);
     shown.window->colors.set_automatic_exposure(false);
+    shown.scene_view->set_direction_followed(true);
     // The number of pixels that the direction changes.
     const auto changed = [&shown] {
       const QImage with = shown.picture();
@@ -211,6 +212,51 @@ class SceneDrawingTest : public QObject {
     const int outlined = changed();
     QVERIFY2(outlined > 0 && 3 * outlined < filled,
              qPrintable(QString("%1 of %2").arg(outlined).arg(filled)));
+  }
+
+  void in_inspect_the_direction_is_shown_while_stepping() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    Callout direction;
+    direction.anchor = Callout::Anchor::direction;
+    QVERIFY(!shown.scene_view->anchor_of(direction));
+    shown.window->focus.go_to({0, 3, 5});
+    QVERIFY(comes_to_rest(*shown.window));
+    QVERIFY(shown.scene_view->anchor_of(direction).has_value());
+    shown.window->focus.set_following(true);
+    QVERIFY(comes_to_rest(*shown.window));
+    QVERIFY(!shown.scene_view->anchor_of(direction));
+    shown.trigger("layout_debug");
+    QVERIFY(comes_to_rest(*shown.window));
+    QVERIFY(shown.scene_view->anchor_of(direction).has_value());
+  }
+
+  void a_narrow_picture_shows_what_a_square_one_does() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    SceneView& view = *shown.scene_view;
+    drag(*view.canvas(), view.canvas()->rect().center(), {60, 20});
+    const ViewPoint square = view.square_view(), before = view.view_point();
+    const QSize size = shown.window->size();
+    shown.window->resize(shown.window->minimumSizeHint());
+    QVERIFY(wait_for([&] { return shown.window->size() != size; }));
+    QVERIFY(comes_to_rest(*shown.window));
+    QVERIFY(std::abs(view.square_view().view_angle - square.view_angle) < 1e-9);
+    QVERIFY(view.view_point().eye == before.eye);
+    const double aspect = 1.0 * view.canvas()->width() / view.canvas()->height();
+    QCOMPARE(view.view_point().view_angle > square.view_angle, aspect < 1);
+    shown.window->resize(size);
+    QVERIFY(wait_for([&] { return shown.window->size() == size; }));
+    QVERIFY(comes_to_rest(*shown.window));
+    QVERIFY(std::abs(view.view_point().view_angle - before.view_angle) < 1e-9);
+    // A view of the whole scene is fitted again.
+    shown.trigger("view_fit");
+    shown.window->resize(shown.window->minimumSizeHint());
+    QVERIFY(wait_for([&] { return shown.window->size() != size; }));
+    QVERIFY(comes_to_rest(*shown.window));
+    const ViewPoint fitted = view.view_point();
+    view.fit_all();
+    QVERIFY(distance_of(view.view_point(), fitted) < 1e-9);
   }
 
   void a_turntable_keeps_the_scene_upright() {

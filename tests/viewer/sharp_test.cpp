@@ -1,10 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The sharp picture: when it is made and hidden, and that its pixels are the light of the solution.
+// The sharp picture, and the light map below it: when they are made and hidden, and that their
+// pixels are the light of the solution.
 #include <QAction>
 #include <QLabel>
 #include <QTemporaryDir>
 #include <QToolButton>
+#include <cmath>
 #include <numbers>
 
 #include "model/snapshot_values.h"
@@ -121,6 +123,40 @@ Compared compare(const QImage& picture, const ShownLight& shown) {
   return result;
 }
 
+/// The mean difference of a picture from the light, over a grid of its plain pixels, in levels of
+/// gray.
+double mean_difference(const QImage& picture, const ShownLight& shown) {
+  double sum = 0;
+  int pixels = 0;
+  for (int row = 3; row < picture.height(); row += 7) {
+    for (int column = 3; column < picture.width(); column += 7) {
+      if (shown.is_plain(column, row)) {
+        ++pixels;
+        sum += difference(picture.pixelColor(column, row), shown.color(column, row));
+      }
+    }
+  }
+  return pixels > 300 ? sum / pixels : HUGE_VAL;
+}
+
+/// Turns the scene with the button held, as long as this exists.
+class HeldDrag {
+ public:
+  HeldDrag(QWidget& canvas, const QPoint& by) : canvas_(canvas), end_(canvas.rect().center() + by) {
+    QTest::mousePress(&canvas_, Qt::LeftButton, {}, canvas_.rect().center());
+    QMouseEvent move(QEvent::MouseMove, end_, canvas_.mapToGlobal(end_), Qt::LeftButton,
+                     Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&canvas_, &move);
+  }
+  ~HeldDrag() { QTest::mouseRelease(&canvas_, Qt::LeftButton, {}, end_); }
+  HeldDrag(const HeldDrag&) = delete;
+  HeldDrag& operator=(const HeldDrag&) = delete;
+
+ private:
+  QWidget& canvas_;
+  QPoint end_;
+};
+
 double brightness(const QImage& picture) {
   double sum = 0;
   for (int y = 0; y < picture.height(); y += 3) {
@@ -165,10 +201,11 @@ class SharpTest : public QObject {
     subject.snapshot = one_thread;
     QImage picture;
     int deliveries = 0;
-    SharpRenderer().render(subject, {}, [&](const QImage& image, const SharpProgress& progress) {
-      ++deliveries;
-      picture = progress.finished ? image.copy() : QImage();
-    });
+    SharpRenderer().render(subject, false, {},
+                           [&](const QImage& image, const SharpProgress& progress) {
+                             ++deliveries;
+                             picture = progress.finished ? image.copy() : QImage();
+                           });
     QVERIFY(deliveries > 1);
     QCOMPARE(picture, shown.scene_view->sharp());
   }
@@ -183,6 +220,55 @@ class SharpTest : public QObject {
     QVERIFY(shown.becomes_sharp());
     QVERIFY(shown.scene_view->sharp() != before);
     QCOMPARE(compare(shown.scene_view->sharp(), ShownLight(shown.subject())).different, 0);
+  }
+
+  void surfaces_have_the_light_while_the_camera_moves() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    QVERIFY(wait_for([&] { return shown.sharp->has_map(); }));
+    const HeldDrag drag(*shown.scene_view->canvas(), {40, 10});
+    QVERIFY(shown.scene_view->sharp().isNull());
+    const QImage moving = shown.scene_view->picture(1);
+    const double difference_of_map = mean_difference(moving, ShownLight(shown.subject()));
+    // The scale acts on it at once.
+    shown.window->colors.set_exposure(shown.window->colors.scale().exposure - 0.5);
+    const QImage darker = shown.scene_view->picture(1);
+    const ShownLight light(shown.subject());
+    const double difference_of_darker = mean_difference(darker, light);
+    shown.sharp->action()->setChecked(false);
+    const double difference_of_patches = mean_difference(shown.scene_view->picture(1), light);
+    qInfo("mean difference from the light: %.2f, darker %.2f, of patches %.2f", difference_of_map,
+          difference_of_darker, difference_of_patches);
+    QVERIFY(difference_of_map < 1.0);
+    QVERIFY(difference_of_darker < 1.0);
+    QVERIFY(difference_of_patches > 3 * difference_of_darker);
+    // The light map is kept while sharp pictures are off.
+    shown.sharp->action()->setChecked(true);
+    QCOMPARE(different_pixels(shown.scene_view->picture(1), darker), 0);
+  }
+
+  void a_light_map_is_of_the_shown_snapshot_only() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    QVERIFY(wait_for([&] { return shown.sharp->has_map(); }));
+    MaterialEdits& edits = shown.window->relighting.edits();
+    const PatchId lamp = shown.scene_view->patch_at(shown.scene_view->canvas()->rect().center());
+    const Scene& scene = *shown.window->snapshot()->loaded->scene;
+    edits.set_exitance(MaterialEdits::target_of(scene, TargetKind::material, lamp), {0, 0, 40});
+    QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
+    const HeldDrag drag(*shown.scene_view->canvas(), {40, 10});
+    QVERIFY(fraction_in_own_color(*shown.scene_view, shown.window->colors) > 0.95);
+  }
+
+  void a_scene_with_too_many_patches_has_no_light_map() {
+    const SharpWindow shown;
+    QVERIFY(shown.ready);
+    auto many = std::make_shared<SolverSnapshot>(*shown.window->snapshot());
+    QVERIFY(why_no_map(*many).isEmpty());
+    auto loaded = std::make_shared<LoadedScene>(*many->loaded);
+    loaded->scene = load_scene("cornell-box", {.max_patch_area = 1.2e-4});
+    many->loaded = loaded;
+    QVERIFY2(why_no_map(*many).contains("up to 20000 patches"), qPrintable(why_no_map(*many)));
   }
 
   void a_lamp_made_in_the_window_lights_it() {

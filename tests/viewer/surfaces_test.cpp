@@ -199,6 +199,26 @@ class SurfacesTest : public QObject {
     QCOMPARE(hidden.flags(), (std::vector<bool>{false, false, false, true}));
   }
 
+  void a_right_click_on_a_group_is_about_its_patches() {
+    const Shown shown;
+    QVERIFY(shown.listed());
+    QTableView& view = shown.view("group_table");
+    const QModelIndex index = view.model()->index(shown.row_of("group_table", "wall"), 0);
+    QTest::mouseClick(view.viewport(), Qt::RightButton, {}, view.visualRect(index).center());
+    QCOMPARE(shown.window().selection.patches(), std::vector<PatchId>{3});
+    QCOMPARE(view.contextMenuPolicy(), Qt::ActionsContextMenu);
+    QStringList entries;
+    for (const QAction* action : view.actions()) {
+      entries << action->text();
+      QVERIFY2(action->isEnabled() || !action->property("why_disabled").toString().isEmpty(),
+               qPrintable(action->text()));
+    }
+    QCOMPARE(entries, (QStringList{"Select its patches", "Hide", "Isolate", "Make it emit",
+                                   "Make it reflect", "Copy the name"}));
+    view.actions().back()->trigger();
+    QCOMPARE(QGuiApplication::clipboard()->text(), QString("wall"));
+  }
+
   void a_group_is_made_to_emit_in_one_step() {
     const Shown shown;
     QVERIFY(shown.listed());

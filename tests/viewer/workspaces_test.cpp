@@ -15,7 +15,7 @@
 #include "lessons/lesson_panel.h"
 #include "scene/color_controls.h"
 #include "scene/show_menu.h"
-#include "solve/study_dialog.h"
+#include "screen_checks.h"
 #include "solved_window.h"
 #include "window/base/view_state_applier.h"
 
@@ -24,8 +24,6 @@ namespace transillum::viewer::workspaces_test {
 using namespace test;
 
 namespace {
-
-constexpr QSize small_screen(1280 - 16, 720 - 48);  // less the frame of a window
 
 std::unique_ptr<TestWindow> window_of(const QSize& size) {
   auto window = make_window();
@@ -210,20 +208,6 @@ class WorkspacesTest : public QObject {
     QVERIFY(quantity->currentIndex() != before);
   }
 
-  void disabled_buttons_say_why() {
-    const auto window = window_of(small_screen);
-    QVERIFY(begins(*window, "layout_debug"));
-    int disabled = 0;
-    for (const auto* button : window->findChildren<QToolButton*>()) {
-      const QAction* action = button->defaultAction();
-      if (button->isVisible() && action && !action->isEnabled()) {
-        QVERIFY2(button->toolTip().contains('\n'), qPrintable(action->text()));
-        ++disabled;
-      }
-    }
-    QVERIFY(disabled >= 3);
-  }
-
   void the_keys_of_a_presenter_belong_to_the_lesson() {
     const auto window = window_of(small_screen);
     QApplication::setActiveWindow(window.get());
@@ -242,6 +226,25 @@ class WorkspacesTest : public QObject {
     QTest::keyClick(quantity, Qt::Key_PageUp);
     QCOMPARE(lessons.page(), end - 1);
     QCOMPARE(quantity->currentIndex(), before);
+  }
+
+  void a_projector_shows_the_panel_that_the_page_needs() {
+    const auto window = window_of(small_screen);
+    window->views().lessons.show_page(1, 0);
+    QVERIFY(comes_to_rest(*window));
+    QTest::keyClick(window.get(), Qt::Key_P);
+    QVERIFY(wait_for([&] { return window->isFullScreen(); }));
+    const auto* map = window->findChild<QDockWidget*>("map_dock");
+    const auto* page = window->findChild<QDockWidget*>("lesson_dock");
+    const auto* scene = window->findChild<SceneView*>();
+    QVERIFY(wait_for([&] { return map->isVisible() && page->width() > scene->width(); }));
+    QVERIFY(scene->isVisible() && !window->findChild<QWidget*>("settings_dock")->isVisible());
+    QVERIFY(map->width() > 0.25 * window->width() && scene->width() > 0.25 * window->width());
+    save_picture(*window, "projector-panel");
+    QTest::keyClick(window.get(), Qt::Key_PageDown);  // this page wants a large map
+    QVERIFY(wait_for([&] { return !scene->isVisible() && map->width() > page->width(); }));
+    QTest::keyClick(window.get(), Qt::Key_Escape);
+    QVERIFY(wait_for([&] { return !window->isFullScreen(); }));
   }
 
   void several_bars_share_one_place() {
@@ -269,22 +272,6 @@ class WorkspacesTest : public QObject {
     page.light_bar()->dismiss();
     QVERIFY(page.reading_bar()->isVisible());
     QVERIFY(!page.reading_bar()->findChild<QPushButton*>("next_message")->isVisible());
-  }
-
-  // The button that begins the study must not be below the screen.
-  void the_study_fits_a_small_screen() {
-    const auto window = window_of(small_screen);
-    QVERIFY(begins(*window, "layout_debug"));
-    window->findChild<QAction*>("study")->trigger();
-    auto* study = window->findChild<StudyDialog*>();
-    QVERIFY(study->isVisible());
-    study->resize(small_screen);
-    handle_posted();
-    QCOMPARE(study->size(), small_screen);
-    const auto* run = study->findChild<QPushButton*>("study_run");
-    QCOMPARE(run->visibleRegion().boundingRect(), run->rect());
-    save_picture(*study, "study-small");
-    study->close();
   }
 
   void a_lesson_leaves_nothing_behind() {

@@ -16,7 +16,8 @@ namespace {
 
 QString text_on_file(const LoadedScene& loaded) {
   if (loaded.description) {
-    return ColorNote::tr("The solve before. Run (F5) makes it again, with its form factors.");
+    return ColorNote::tr(
+        "Light of an earlier solve. Run (F5) solves it again, for form factors and steps.");
   }
   const QString name = QFileInfo(QString::fromStdString(loaded.file)).fileName();
   return loaded.stored->complete

@@ -165,7 +165,7 @@ void ControlWidget::follow_focus() {
   const QSignalBlocker blocker(slider_);
   const bool of_steps = control_.kind == PageControl::Kind::step;
   const auto map = focus_.map();
-  setEnabled(map != nullptr);
+  enable_if(*this, map != nullptr, tr("No direction is shown yet"));
   if (!map) {
     return;
   }

@@ -12,9 +12,6 @@
 #include <QLabel>
 #include <QMenu>
 #include <QScrollBar>
-#include <QTextBlock>
-#include <QTextList>
-#include <QTextTable>
 #include <QTimer>
 #include <QUrl>
 #include <utility>
@@ -28,6 +25,7 @@
 #include "transillum/at.h"
 #include "widgets/build.h"
 #include "widgets/elided.h"
+#include "widgets/markdown.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -36,34 +34,13 @@ namespace {
 
 constexpr double text_scale = 1.25,
                  title_scale = 1.6;  // relative to the window's font, for projectors
+const QString lesson_scheme = QStringLiteral("lesson");
 
 QToolButton* wide_button_for(QAction* action, Qt::ToolButtonStyle style) {
   auto* button = button_for(action);
   button->setToolButtonStyle(style);
   button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   return button;
-}
-
-// Qt lays out Markdown paragraphs without space between them.
-void spread_paragraphs(QTextDocument& document) {
-  const double room = 0.6 * QFontInfo(document.defaultFont()).pixelSize();
-  for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
-    QTextCursor cursor(block);
-    if (QTextTable* table = cursor.currentTable()) {
-      QTextTableFormat rules = table->format();
-      rules.setBorderCollapse(true);
-      rules.setBorder(1);
-      rules.setBorderStyle(QTextFrameFormat::BorderStyle_Solid);
-      rules.setBorderBrush(theme::rule);
-      rules.setCellPadding(room / 3);
-      rules.setBottomMargin(room);
-      table->setFormat(rules);
-      continue;
-    }
-    QTextBlockFormat format = block.blockFormat();
-    format.setBottomMargin(block.textList() ? room / 2 : room);
-    cursor.setBlockFormat(format);
-  }
 }
 
 }  // namespace
@@ -103,9 +80,11 @@ void LessonPanel::make_page() {
   text_ = named("lesson_text", new PageText);
   text_->setOpenLinks(false);
   text_->setMinimumHeight(2 * text_->fontMetrics().lineSpacing() + 8);  // beside a long question
-  connect(text_, &QTextBrowser::anchorClicked, this, [](const QUrl& link) {
+  connect(text_, &QTextBrowser::anchorClicked, this, [this](const QUrl& link) {
     if (link.scheme().startsWith(QStringLiteral("http"))) {
       QDesktopServices::openUrl(link);
+    } else if (link.scheme() == lesson_scheme) {
+      show_page(link.path().toInt(), 0);
     }
   });
   connect(text_, qOverload<const QUrl&>(&QTextBrowser::highlighted), this,
@@ -340,6 +319,21 @@ bool LessonPanel::scroll_on() {
   return true;
 }
 
+/// The lessons as links, in Markdown.
+QString LessonPanel::list_of_lessons() const {
+  QString text =
+      tr("Each page sets up the window. Explore as you like; *Show this page again* "
+         "(Ctrl+L) restores the page's state.\n\n");
+  for (int k = 0; k < static_cast<int>(lessons_.size()); ++k) {
+    const Lesson& lesson = at(lessons_, k);
+    const QString minutes = lesson.minutes > 0 ? tr(", %1 min").arg(lesson.minutes) : QString();
+    text +=
+        QStringLiteral("[%1](%2:%3)%4\n\n")
+            .arg(QString::fromStdString(lesson.title), lesson_scheme, QString::number(k), minutes);
+  }
+  return text;
+}
+
 void LessonPanel::show_state() {
   list_->setCurrentIndex(lesson_);
   const bool any = lesson_ >= 0;
@@ -354,9 +348,7 @@ void LessonPanel::show_state() {
   if (!any) {
     title_->setText(tr("Choose a lesson"));
     controls_.clear();
-    text_->show_page(tr("Each page sets up the window. Explore as you like; *Show this page "
-                        "again* (Ctrl+L) restores the page's state."),
-                     {});
+    text_->show_page(list_of_lessons(), {});
     page_number_->clear();
   } else {
     const Lesson& lesson = at(lessons_, lesson_);

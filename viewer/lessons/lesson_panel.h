@@ -95,6 +95,7 @@ class LessonPanel : public QWidget {
   void turn(int pages);
   int pages_of(int lesson) const;
   void show_state();
+  QString list_of_lessons() const;
   void show_question();
   void point_at(const QString& link);
   void show_text(const Lesson::Page& page);

@@ -438,7 +438,7 @@ void QuestionBox::show_state() {
   reveal_->setText(solver_.busy() ? tr("Stop")
                    : solved_      ? tr("Ask again")
                                   : tr("Reveal the answer"));
-  reveal_->setEnabled(asks);
+  enable_if(*reveal_, asks, tr("This page asks no question"));
   enable_if(*count_, given && !solved_ && page_->question->kind != Question::Kind::area,
             solved_ ? tr("The answer is shown")
             : given ? tr("Areas are not counted")
@@ -468,7 +468,8 @@ void QuestionBox::show_state() {
   } else if (given_) {
     given_->setText(tr("Click the corners of the area in the map, in order: %1 so far")
                         .arg(answer_.outline.size()));
-    drop_->setEnabled(!solved_ && !answer_.outline.empty());
+    enable_if(*drop_, !solved_ && !answer_.outline.empty(),
+              solved_ ? tr("The answer is shown") : tr("No corner is given yet"));
   }
   show_choices(counts);
 }
@@ -483,7 +484,7 @@ void QuestionBox::show_choices(const AnswerCounts& counts) {
     row.bar->setValue(count == counts.end() ? 0 : count->second);
     row.bar->setToolTip(tr("%1 of %2 answers").arg(row.bar->value()).arg(total_of(counts)));
     row.bar->setVisible(solved_ && total_of(counts) > 0);
-    choices_->button(k)->setEnabled(!solved_);
+    enable_if(*choices_->button(k), !solved_, tr("The answer is shown"));
     const bool right =
         solved_ && std::binary_search(solved_->right.begin(), solved_->right.end(), k);
     row.mark->setText(right ? colored(QStringLiteral("✓"), theme::good) : QString());

@@ -272,12 +272,17 @@ void MapView::show_position() {
 
 void MapView::show_title() {
   const auto map = focus_.map();
+  const bool of_engine = engine_menu_->choice().engine.has_value();
+  const QString no_phase = !map        ? tr("No direction is shown yet")
+                           : of_engine ? tr("The picture of an engine has no phases")
+                                       : tr("Two phases are shown");
   for (QAbstractButton* button : phases_->buttons()) {
-    button->setEnabled(map && !engine_menu_->choice().engine && !shows_pair());
+    enable_if(*button, map && !of_engine && !shows_pair(), no_phase);
   }
-  pair_->button()->setEnabled(map && !engine_menu_->choice().engine);
-  zoom_->setEnabled(map && !shows_hemicube());
-  labels_->setEnabled(!shows_hemicube());
+  enable_if(*pair_->button(), map && !of_engine, no_phase);
+  const QString no_zoom = tr("The hemicube is shown as a whole, without numbers");
+  enable_if(*zoom_, map && !shows_hemicube(), map ? no_zoom : no_phase);
+  enable_if(*labels_, !shows_hemicube(), no_zoom);
   phases_->button(static_cast<int>(focus_.phase()))->setChecked(true);
   if (!map) {
     title_->setText(tr("No direction yet"));

@@ -35,16 +35,15 @@ struct LoadedScene {
   double back_fraction = 0;  ///< BackFraction::fraction
   double open_fraction = 1;  ///< BackFraction::open; 1 with two-sided faces, which have an outside
   std::shared_ptr<const Solution>
-      stored;               ///< solution of the result file that was opened; else null
-  std::string file;         ///< path of the result file
+      stored;                     ///< solution of the result file that was opened; else null
+  std::string file;               ///< path of the result file
   std::size_t divided_faces = 0;  ///< number of faces, where they were divided unasked
-  double seconds_load = 0;  ///< wall-clock time of reading
-  double seconds_bsp = 0;   ///< wall-clock time of building the tree
+  double seconds_load = 0;        ///< wall-clock time of reading
+  double seconds_bsp = 0;         ///< wall-clock time of building the tree
   /// The scene before patches were divided in rounds; null if none were divided.
   std::shared_ptr<const LoadedScene> whole;
-  /// The divisions that make these patches from `whole`, as in SceneInput::divided; nothing where
-  /// they were made in rounds or for a total error.
-  std::optional<std::vector<std::string>> divided = std::vector<std::string>();
+  /// The divisions that make these patches from `whole`, as in SceneInput::divided.
+  std::vector<std::string> divided = {};
 };
 
 /// The scene as it was read, before rounds of refinement.
@@ -73,8 +72,9 @@ struct ErrorBand {
   double lowest = 0, estimate = 0, limit = 0;
 };
 
-/// The state of a solve run at one moment. Immutable: created by the worker, shown by the window.
-struct SolverSnapshot {
+/// The state of a solve run at one moment: its light is the running estimate. Immutable: created by
+/// the worker, shown by the window.
+struct SolverSnapshot : SolvedLight {
   std::shared_ptr<const LoadedScene> loaded;
   SolveOptions options;
   RefineChoice refine;
@@ -94,19 +94,12 @@ struct SolverSnapshot {
   /// M of each iteration that has begun; smaller in the first ones of the growing scheme.
   std::vector<int> kept_passes;
   SolveStatistics statistics;
-  std::vector<Rgb> radiosity;  ///< B, running estimate, W/m², one per patch; the mean where B is
-                               ///< linear on patches
-  /// The linear terms of B, one per patch; empty where B is constant on patches.
-  std::vector<LinearTerm> linear_terms;
   /// The bases of the scene's patches; null without linear_terms.
   std::shared_ptr<const std::vector<LinearBasis>> bases;
-  std::vector<Rgb> irradiance;  ///< H of the last finished iteration, W/m², one per patch
   /// The form factors of all passes so far; null until SolveRunner::include_form_factors() was
   /// called and they are assembled.
   std::shared_ptr<const FormFactors> form_factors;
   std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
-  /// Radiance by direction, of the last finished iteration; null where no lobes take part.
-  std::shared_ptr<const GlossyLight> glossy;
   /// E, rho and lobes that radiosity and irradiance were computed with, if they differ from the
   /// scene's; else null.
   std::shared_ptr<const PatchMaterials> materials;
@@ -121,10 +114,6 @@ struct SolverSnapshot {
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
   /// The linear terms of B(n) likewise; empty where B is constant on patches.
   std::vector<std::shared_ptr<const std::vector<LinearTerm>>> kept_linear_terms;
-  std::vector<double> form_factor_sums;      ///< one per patch; 0 before the first pass
-  std::vector<double> sky_fractions;         ///< Solution::sky_fractions; 0 before the first pass
-  std::vector<Rgb> sky_irradiance;           ///< Solution::sky_irradiance; empty without a sky
-  std::vector<LinearTerm> sky_linear_terms;  ///< Solution::sky_linear_terms
   std::vector<double>
       estimate_changes;  ///< changes in the newest iteration with passes, one per pass
   std::vector<double> quadrature_errors;  ///< epsilon after each pass

@@ -14,23 +14,17 @@ namespace transillum::viewer {
 Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
   Solution solution;
   solution.scene = snapshot.loaded->scene;
-  solution.radiosity = snapshot.radiosity;
-  solution.linear_terms = snapshot.linear_terms;
-  solution.irradiance = snapshot.irradiance;
+  static_cast<SolvedLight&>(solution) = snapshot;
   solution.error = snapshot.error;
   solution.statistics = snapshot.statistics;
   solution.complete = snapshot.of_file ? snapshot.loaded->stored->complete : complete;
   solution.accuracy = snapshot.accuracy;
-  solution.glossy = snapshot.glossy;
-  const bool any_pass = snapshot.passes_done > 0;
-  if (any_pass) {
-    solution.form_factor_sums = snapshot.form_factor_sums;
-    solution.sky_fractions = snapshot.sky_fractions;
-    solution.sky_irradiance = snapshot.sky_irradiance;
-  } else if (snapshot.of_file) {
-    solution.form_factor_sums = snapshot.loaded->stored->form_factor_sums;
-    solution.sky_fractions = snapshot.loaded->stored->sky_fractions;
-    solution.sky_irradiance = snapshot.loaded->stored->sky_irradiance;
+  if (snapshot.passes_done == 0) {  // the snapshot has zeros in place of what is not known
+    const SolvedLight unknown;
+    const SolvedLight& known = snapshot.of_file ? *snapshot.loaded->stored : unknown;
+    solution.form_factor_sums = known.form_factor_sums;
+    solution.sky_fractions = known.sky_fractions;
+    solution.sky_irradiance = known.sky_irradiance;
   }
   return solution;
 }
@@ -54,22 +48,18 @@ RunOptions run_options_of(const SolverSnapshot& snapshot, const SceneOptions& sc
                      .input = input,
                      .refine = snapshot.refine,
                      .total = snapshot.total.has_value()};
-  if (const auto& divided = snapshot.loaded->divided) {
-    options.input.divided.insert(options.input.divided.end(), divided->begin(), divided->end());
+  // Rounds and a total error make their divisions themselves.
+  if (!options.refine.is_set() && !options.total) {
+    const std::vector<std::string>& divided = snapshot.loaded->divided;
+    options.input.divided.insert(options.input.divided.end(), divided.begin(), divided.end());
   }
   return options;
 }
 
 bool has_light(const SolverSnapshot& snapshot) {
-  if (snapshot.options.sky.is_set()) {
-    return true;
-  }
-  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
-    if (max_abs(material_of(snapshot, i).exitance) > 0) {
-      return true;
-    }
-  }
-  return false;
+  const bool emits =
+      snapshot.materials ? snapshot.materials->has_light() : snapshot.loaded->scene->has_light();
+  return snapshot.options.why_dark(emits).empty();
 }
 
 std::optional<double> escaped_share(const SolverSnapshot& snapshot) {

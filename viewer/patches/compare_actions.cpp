@@ -39,6 +39,7 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
   difference_ = make_action(this, "show_difference", tr("Color by difference from A"),
                             tr("Color each patch by the difference between the runs (Shift+K)"),
                             QKeySequence("Shift+K"));
+  difference_->setIconText(tr("Difference"));  // the panel is narrow
   difference_->setCheckable(true);
   connect(keep_, &QAction::triggered, this, &CompareActions::keep_run);
   connect(show_, &QAction::triggered, &colors_, &ColorChoice::show_kept_run);
@@ -67,10 +68,11 @@ void CompareActions::keep_run() {
 }
 
 void CompareActions::show_state() {
-  keep_->setEnabled(colors_.snapshot() != nullptr);
-  show_->setEnabled(colors_.run_a() != nullptr);
+  enable_if(*keep_, colors_.snapshot() != nullptr, tr("No scene is solved yet"));
+  const QString none_kept = tr("No run is kept");
+  enable_if(*show_, colors_.run_a() != nullptr, none_kept);
   show_->setChecked(colors_.shows_kept_run());
-  difference_->setEnabled(colors_.run_a() != nullptr || difference_->isChecked());
+  enable_if(*difference_, colors_.run_a() != nullptr || difference_->isChecked(), none_kept);
   difference_->setChecked(colors_.quantity() == Quantity::difference);
 }
 

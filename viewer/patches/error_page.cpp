@@ -25,7 +25,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr int total_column = 5;
+constexpr int total_column = 1;
 
 QString text_of(const NextStep& step) {
   constexpr int longest_name = 24;
@@ -82,10 +82,10 @@ QWidget* ErrorPage::make_foot() {
   auto* row = make_row({}, 8);
   row->addWidget(measure_);
   row->addWidget(progress_, 1);
-  row->addWidget(total_, 1);
   row->addStretch();
   row->addWidget(save_);
   auto* layout = make_column(foot, {10, 3, 8, 3}, 3);
+  layout->addWidget(total_);
   layout->addWidget(step_);
   layout->addLayout(row);
   connect(measure_, &QPushButton::clicked, this, &ErrorPage::start_or_cancel);
@@ -204,11 +204,12 @@ void ErrorPage::show_buttons() {
   measure_->setText(works ? tr("Cancel") : errors() ? tr("Measure again") : tr("Measure"));
   const bool ready = snapshot_ && state_ != RunState::empty && state_ != RunState::loading &&
                      why_not_measurable(*snapshot_).isEmpty();
-  measure_->setEnabled(works || ready);
+  enable_if(*measure_, works || ready,
+            snapshot_ ? why_not_measurable(*snapshot_) : tr("No scene is open"));
   progress_->setVisible(busy());
   total_->setVisible(!busy() && shown_ && shown_->report.worst >= 0);
-  save_->setEnabled(!works && errors());
-  step_->setEnabled(!works);
+  enable_if(*save_, !works && errors(), tr("No errors have been measured"));
+  enable_if(*step_, !works, tr("Errors are being measured"));
 }
 
 QString ErrorPage::caption() const {
@@ -225,7 +226,7 @@ QString ErrorPage::caption() const {
     return tr("Solving first; then the errors are measured.");
   }
   if (const auto errors = this->errors()) {
-    return tr("In percent of the light that each surface reflects. Measured in %1.")
+    return tr("In percent of reflected light. Measured in %1.")
         .arg(duration_text(errors->report.measurements.seconds));
   }
   return tr(

@@ -218,7 +218,7 @@ void KeptRunPanel::show_list() {
 
 void KeptRunPanel::show_hint() {
   const int row = table_->currentRow();
-  remove_->setEnabled(row >= 0);
+  enable_if(*remove_, row >= 0, tr("No run is chosen in the list"));
   hint_->setText(table_->rowCount() == 0 ? tr("No runs are kept. Keep one (K), change the "
                                               "settings, and solve again.")
                  : row >= 0              ? runs_.reason_against(static_cast<std::size_t>(row))
@@ -238,8 +238,9 @@ void KeptRunPanel::show_choices() {
   }
   first_->setCurrentIndex(runs_.first());
   second_->setCurrentIndex(runs_.second() + 1);
-  first_->setEnabled(runs_.first() >= 0);
-  second_->setEnabled(runs_.first() >= 0);
+  for (QComboBox* box : {first_, second_}) {
+    enable_if(*box, runs_.first() >= 0, tr("No run is kept"));
+  }
   show_difference();
 }
 
@@ -252,7 +253,7 @@ void KeptRunPanel::show_difference() {
   if (a && b && isVisible()) {
     show_comparison(compare_runs(*a, *b));
   }
-  go_->setEnabled(worst_ != no_patch);
+  enable_if(*go_, worst_ != no_patch, tr("No run is compared with another"));
 }
 
 void KeptRunPanel::show_comparison(const ResultComparison& comparison) {

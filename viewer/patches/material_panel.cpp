@@ -208,7 +208,8 @@ void MaterialPanel::show_state() {
     gloss_->setVisible(relighting_.by_lobes());
   }
   const QString reason = relighting_.reason_unavailable();
-  sliders_->setEnabled(reason.isEmpty() && !target().empty());
+  enable_if(*sliders_, reason.isEmpty() && !target().empty(),
+            reason.isEmpty() ? extent_text() : reason);
   obstacle_->setText(reason);
   obstacle_->setHidden(reason.isEmpty());
   account_->setText(relighting_.method_note());
@@ -231,7 +232,7 @@ void MaterialPanel::release_exposure() {
 
 void MaterialPanel::show_values() {
   const MaterialEdits& edits = relighting_.edits();
-  restore_->setEnabled(edits.any());
+  enable_if(*restore_, edits.any(), tr("No material is changed"));
   if (scene_ && edits.materials()) {
     const Material shown = edits.values_of(target());
     reflectance_->show_value(shown.reflectance, largest_reflectance);
@@ -251,7 +252,7 @@ void MaterialPanel::show_lobe(const Material& shown) {
   } else {
     gloss_->show_roughness(shown.lobe.roughness);
   }
-  gloss_->setEnabled(shown.lobe.present());
+  enable_if(*gloss_, shown.lobe.present(), tr("The material has no lobe"));
 }
 
 QString MaterialPanel::extent_text() const {

@@ -185,7 +185,7 @@ void PathPanel::show_paths() {
       table_->setItem(row, column, item);
     }
   }
-  export_->setEnabled(rows > 0);
+  enable_if(*export_, rows > 0, tr("No light paths are listed"));
   show_caption();
   emit paths_shown(watched_ ? paths_ : nullptr, -1);
 }

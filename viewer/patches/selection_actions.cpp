@@ -74,10 +74,11 @@ void SelectionActions::show_state() {
   const PatchId patch = selection_.patch();
   const bool any = scene_ && patch >= 0 && patch < scene_->patch_count();
   for (QAction* action : {material_, face_, hide_, isolate_}) {
-    action->setEnabled(any);
+    enable_if(*action, any, tr("No patch is selected"));
   }
-  group_->setEnabled(any && scene_->patch(patch).group != no_group);
-  show_all_->setEnabled(hidden_.any());
+  enable_if(*group_, any && scene_->patch(patch).group != no_group,
+            any ? tr("The selected patch is in no group") : tr("No patch is selected"));
+  enable_if(*show_all_, hidden_.any(), tr("No patch is hidden"));
 }
 
 }  // namespace transillum::viewer

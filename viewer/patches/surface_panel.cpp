@@ -4,6 +4,8 @@
 // times a second at most, on a thread of their own, and only while the panel is visible.
 #include "patches/surface_panel.h"
 
+#include <QClipboard>
+#include <QGuiApplication>
 #include <QHeaderView>
 #include <QItemSelectionModel>
 #include <QLabel>
@@ -120,7 +122,7 @@ TablePage SurfacePanel::add_page(const QString& title, const char* name) {
   page.view->setTabKeyNavigation(false);
   page.view->setContextMenuPolicy(Qt::ActionsContextMenu);
   if (!pairs) {
-    page.view->addActions({select_, hide_, isolate_, emit_, reflect_});
+    page.view->addActions({select_, hide_, isolate_, emit_, reflect_, copy_});
     connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             [this, page](const QModelIndex& index) {
               if (index.isValid() && page.view->hasFocus()) {
@@ -156,9 +158,14 @@ QWidget* SurfacePanel::make_buttons() {
   isolate_ =
       add_action("isolate_surface", tr("Isolate"), tr("Hide all other patches in the scene (I)"),
                  nullptr, &SurfacePanel::isolate_current);
-  emit_ = add_action("emit_surface", tr("Make it emit"), {}, "E", &SurfacePanel::make_emit);
-  reflect_ =
-      add_action("reflect_surface", tr("Make it reflect"), {}, "R", &SurfacePanel::make_reflect);
+  emit_ = add_action("emit_surface", tr("Make it emit"),
+                     tr("Set an exitance of 10 W/m² (E); the sliders in Materials change it"), "E",
+                     &SurfacePanel::make_emit);
+  reflect_ = add_action("reflect_surface", tr("Make it reflect"),
+                        tr("Set the exitance to 0 (R); ρ stays, or becomes 0.5 where it is 0"), "R",
+                        &SurfacePanel::make_reflect);
+  copy_ = add_action("copy_surface", tr("Copy the name"), tr("Copy the name of the row"), nullptr,
+                     &SurfacePanel::copy_name);
   auto* buttons = new QWidget;
   auto* row = make_row(buttons, {8, 4, 8, 6});
   for (QAction* action : {hide_, isolate_, emit_, reflect_}) {
@@ -335,10 +342,17 @@ void SurfacePanel::make_reflect() {
   emit target_changed(target);
 }
 
+void SurfacePanel::copy_name() {
+  if (const SurfacePower* surface = current()) {
+    QGuiApplication::clipboard()->setText(QString::fromStdString(surface->name));
+  }
+}
+
 void SurfacePanel::show_state() {
   const SurfacePower* surface = current();
-  for (QAction* action : {select_, hide_, isolate_}) {
-    action->setEnabled(surface != nullptr);
+  const QString no_row = tr("No row is chosen");
+  for (QAction* action : {select_, hide_, isolate_, copy_}) {
+    enable_if(*action, surface != nullptr, no_row);
   }
   const bool fits = !snapshot_ || snapshot_->form_factors_fit;
   const bool has_target = surface && surface->index >= 0;
@@ -351,17 +365,14 @@ void SurfacePanel::show_state() {
     none_emits = std::none_of(patches.begin(), patches.end(), emits);
     black = max_abs(materials.of(patches.front()).reflectance) == 0;
   }
-  emit_->setEnabled(has_target && fits && !all_emit);
-  reflect_->setEnabled(has_target && fits && (!none_emits || black));
-  const QString obstacle = surface && !has_target ? tr("These patches are in no group")
-                           : !fits                ? tr("The form factors exceed the memory limit")
-                                                  : QString();
-  emit_->setToolTip(!obstacle.isEmpty() ? obstacle
-                                        : tr("Set an exitance of 10 W/m² (E); the sliders in "
-                                             "Materials change it"));
-  reflect_->setToolTip(
-      !obstacle.isEmpty() ? obstacle
-                          : tr("Set the exitance to 0 (R); ρ stays, or becomes 0.5 where it is 0"));
+  const QString obstacle = !surface      ? no_row
+                           : !has_target ? tr("These patches are in no group")
+                           : !fits       ? tr("The form factors exceed the memory limit")
+                                         : QString();
+  enable_if(*emit_, has_target && fits && !all_emit,
+            obstacle.isEmpty() ? tr("All its patches emit") : obstacle);
+  enable_if(*reflect_, has_target && fits && (!none_emits || black),
+            obstacle.isEmpty() ? tr("All its patches reflect, and none emits") : obstacle);
 }
 
 }  // namespace transillum::viewer

@@ -70,6 +70,7 @@ class SurfacePanel : public QWidget {
   void isolate_current();
   void make_emit();
   void make_reflect();
+  void copy_name();
 
   Relighting& relighting_;
   Selection& selection_;
@@ -81,7 +82,7 @@ class SurfacePanel : public QWidget {
   TablePage groups_, materials_, exchanges_;
   ErrorPage* errors_;
   QWidget* buttons_;  ///< actions of groups and materials
-  QAction *select_, *hide_, *isolate_, *emit_, *reflect_;
+  QAction *select_, *hide_, *isolate_, *emit_, *reflect_, *copy_;
   bool watched_ = false;
   bool selects_ = false;   ///< while the panel itself changes the selection
   QTimer* refresh_timer_;  ///< limits how often powers are added up

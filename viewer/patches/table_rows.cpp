@@ -302,6 +302,8 @@ PatchRows rows_of_errors(const ErrorReport& report) {
     }
     rows.columns.push_back(std::move(column));
   };
+  add("Total", "The sum of the four errors beside it", "total_percent",
+      [](const CauseErrors& errors) { return errors.total(); });
   add("Directions", "Too few directions: at most that in 95 % of all runs, by replicas",
       "directions_percent", [](const CauseErrors& errors) { return errors.directions; });
   add("Patches", "Too large patches: estimated by a solve with all of them divided",
@@ -310,8 +312,6 @@ PatchRows rows_of_errors(const ErrorReport& report) {
       "iterations_percent", [](const CauseErrors& errors) { return errors.iterations; });
   add("Method", "The engine, compared with another one, the first shot, and light that is lost",
       "method_percent", [](const CauseErrors& errors) { return errors.method; });
-  add("Total", "The sum of the four", "total_percent",
-      [](const CauseErrors& errors) { return errors.total(); });
   return rows;
 }
 

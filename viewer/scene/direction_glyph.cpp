@@ -97,8 +97,13 @@ DirectionGlyph::DirectionGlyph(vtkRenderer& renderer) {
   border_->ForceOpaqueOn();
 }
 
-void DirectionGlyph::show(const Vec3& omega, bool two_way, const Vec3& center, double radius,
-                          double distance, const Vec3& eye) {
+void DirectionGlyph::show(const Vec3& omega, bool two_way, const Scene& scene, const Vec3& center,
+                          double radius, const Vec3& eye) {
+  double reach = 0;
+  for (const Vec3& p : scene.points()) {
+    reach = std::max(reach, std::abs(dot(p - center, omega)));
+  }
+  const double distance = std::min(0.86 * radius, 1.06 * reach);
   const Vec3 side = dot(omega, eye - center) >= 0 ? omega : -omega;
   show_at(omega, two_way, center + distance * side, radius);
 }

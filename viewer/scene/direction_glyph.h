@@ -12,6 +12,7 @@
 
 #include "colors/color_map.h"
 #include "model/requests/recorded_map.h"
+#include "transillum/scene.h"
 #include "transillum/vec3.h"
 
 namespace transillum::viewer {
@@ -25,9 +26,9 @@ class DirectionGlyph {
   explicit DirectionGlyph(vtkRenderer& renderer);
 
   /// `omega` points toward the source: light travels along -omega, and also along omega if
-  /// `two_way` is set. The plane is `distance` from `center`, on the side nearer to `eye`; its size
-  /// is proportional to `radius`. Lengths in meters.
-  void show(const Vec3& omega, bool two_way, const Vec3& center, double radius, double distance,
+  /// `two_way` is set. The plane is just outside the scene, or outside the part of interest of a
+  /// large enclosure, `radius` around `center`; on the side nearer to `eye`. Lengths in meters.
+  void show(const Vec3& omega, bool two_way, const Scene& scene, const Vec3& center, double radius,
             const Vec3& eye);
   /// The same with the plane through `middle`.
   void show_at(const Vec3& omega, bool two_way, const Vec3& middle, double radius);

@@ -18,6 +18,7 @@
 #include "transillum/at.h"
 #include "transillum/first_shot.h"
 #include "transillum/study.h"
+#include "widgets/build.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -98,7 +99,9 @@ QString percent_text(double fraction) { return number_text(100 * fraction) + QSt
 ErrorView::ErrorView(std::function<ViewPoint()> view, QWidget* parent)
     : QWidget(parent),
       view_(std::move(view)),
-      button_(new QPushButton(this)),
+      button_(named("measure_errors", new QPushButton(this),
+                    tr("Solve with each set of directions, and compare with a reference of many "
+                       "passes"))),
       worker_(
           [this](const Job& job, const Cancellation& cancellation) { measure(job, cancellation); },
           [this](const Job& job, const QString& message) {
@@ -113,7 +116,6 @@ ErrorView::ErrorView(std::function<ViewPoint()> view, QWidget* parent)
                 Qt::QueuedConnection);
           }) {
   setObjectName("error_view");
-  button_->setObjectName("measure_errors");
   connect(button_, &QPushButton::clicked, this, [this] {
     if (busy_) {
       drop();
@@ -241,9 +243,7 @@ void ErrorView::show_progress(int number, double fraction) {
 
 void ErrorView::place_button() {
   button_->setText(busy_ ? tr("Stop") : result_ ? tr("Measure again") : tr("Measure the errors"));
-  button_->setToolTip(
-      tr("Solve with each set of directions, and compare with a reference of many passes"));
-  button_->setEnabled(busy_ || snapshot_);
+  enable_if(*button_, busy_ || snapshot_, tr("No scene is open"));
   button_->adjustSize();
   button_->move(width() - button_->width() - 8, height() - button_->height() - 6);
   update();

@@ -4,11 +4,14 @@
 // with a gamma, nor with a color map, nor where values are below 0 or too bright. So the values go
 // through the vertex shader, and the fragment shader does what ColorScale::color() does. Blocks of
 // VTK's shaders for polygons are replaced. A geometry shader, which VTK adds for edges and thick
-// lines, passes the values on ("VSOut" is then renamed in the fragment shader).
+// lines, passes the values on ("VSOut" is then renamed in the fragment shader). VTK declares the
+// sampler "actortexture" for the texture of an actor, and without its texture coordinates does
+// nothing else with it.
 #include "scene/linear_surface.h"
 
 #include <vtkCellArray.h>
 #include <vtkDataObject.h>
+#include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkShaderProperty.h>
@@ -72,7 +75,12 @@ vec3 dimmed(vec3 color) {
 constexpr const char* fragment_color = R"(
 //VTK::Color::Impl
   float lightMark = floor(lightVSOutput.a + 0.5);
-  vec3 shownColor = lightMark > 1.5 ? lightOmittedColor : color_of_light(lightVSOutput.rgb);
+  vec3 lightValue = lightVSOutput.rgb;
+  if (lightMark > 3.5) {
+    lightValue = lightVSOutput.b * texture(actortexture, lightVSOutput.rg).rgb;
+  }
+  vec3 shownColor = lightMark == 2.0 || lightMark == 3.0 ? lightOmittedColor
+                                                         : color_of_light(lightValue);
   ambientColor = vec3(0.0);
   diffuseColor = mod(lightMark, 2.0) > 0.5 ? dimmed(shownColor) : shownColor;
 )";
@@ -129,7 +137,8 @@ void set_scale(vtkUniforms& uniforms, const ColorScale& scale) {
 LinearSurface::LinearSurface(vtkRenderer& renderer, vtkProperty& property)
     : surface_(vtkSmartPointer<vtkPolyData>::New()),
       mapper_(vtkSmartPointer<vtkPolyDataMapper>::New()),
-      actor_(vtkSmartPointer<vtkActor>::New()) {
+      actor_(vtkSmartPointer<vtkActor>::New()),
+      texture_(vtkSmartPointer<vtkTexture>::New()) {
   mapper_->ScalarVisibilityOff();
   mapper_->SetInputData(surface_);
   mapper_->MapDataArrayToVertexAttribute(attribute_name, values_name,
@@ -138,6 +147,12 @@ LinearSurface::LinearSurface(vtkRenderer& renderer, vtkProperty& property)
   actor_->SetProperty(&property);
   actor_->VisibilityOff();
   replace_shaders(*actor_->GetShaderProperty());
+  texture_->SetColorModeToDirectScalars();
+  texture_->InterpolateOn();
+  texture_->RepeatOff();
+  texture_->EdgeClampOn();
+  load(nullptr);
+  actor_->SetTexture(texture_);
   renderer.AddActor(actor_);
 }
 
@@ -145,7 +160,31 @@ void LinearSurface::show_scene(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
   hidden_.assign(scene_->patches().size(), false);
   made_ = false;
+  load(nullptr);
   hide();
+}
+
+/// The texture shares the memory of the map.
+void LinearSurface::load(std::shared_ptr<const LightMap> map) {
+  if (map && map == map_) {
+    return;
+  }
+  vtkNew<vtkFloatArray> values;
+  values->SetNumberOfComponents(3);
+  vtkNew<vtkImageData> image;
+  if (map) {
+    const auto& radiosity = map->radiosity();
+    constexpr int keeps_memory = 1;
+    values->SetArray(const_cast<float*>(radiosity.data()->data()),
+                     static_cast<vtkIdType>(3 * radiosity.size()), keeps_memory);
+    image->SetDimensions(map->width(), map->height(), 1);
+  } else {
+    values->InsertNextTuple3(0, 0, 0);
+    image->SetDimensions(1, 1, 1);
+  }
+  image->GetPointData()->SetScalars(values);
+  texture_->SetInputData(image);
+  map_ = std::move(map);
 }
 
 void LinearSurface::leave_out(const std::vector<bool>& hidden) {
@@ -180,6 +219,30 @@ void LinearSurface::make_points() {
 }
 
 void LinearSurface::show(const ColorChoice& colors, const std::vector<bool>& dimmed) {
+  show(colors.scale(), [&](PatchId patch, const Vec3& point) {
+    const float dim = !dimmed.empty() && at(dimmed, patch) ? 1 : 0;
+    Rgb value = colors.value_at(patch, point);
+    const bool is_omitted = std::isnan(value.r);
+    if (is_omitted) {
+      value = {};
+    }
+    return Tuple{static_cast<float>(value.r), static_cast<float>(value.g),
+                 static_cast<float>(value.b), dim + (is_omitted ? 2.0F : 0.0F)};
+  });
+}
+
+void LinearSurface::show(const ColorScale& scale, std::shared_ptr<const LightMap> map,
+                         double factor) {
+  load(std::move(map));
+  show(scale, [&](PatchId patch, const Vec3& point) {
+    const auto [x, y] = map_->place(patch, point);
+    return Tuple{static_cast<float>(x / map_->width()), static_cast<float>(y / map_->height()),
+                 static_cast<float>(factor), 4};
+  });
+}
+
+void LinearSurface::show(const ColorScale& scale,
+                         const std::function<Tuple(PatchId, const Vec3&)>& light_at) {
   if (!made_) {
     make_points();
   }
@@ -188,22 +251,13 @@ void LinearSurface::show(const ColorChoice& colors, const std::vector<bool>& dim
     if (at(hidden_, piece.patch)) {
       continue;
     }
-    const float dim = !dimmed.empty() && at(dimmed, piece.patch) ? 1 : 0;
     for (const PointId corner : scene_->corners(piece)) {
-      Rgb value = colors.value_at(piece.patch, scene_->point(corner));
-      const bool is_omitted = std::isnan(value.r);
-      if (is_omitted) {
-        value = {};
-      }
-      const float mark = dim + (is_omitted ? 2.0F : 0.0F);
-      const float tuple[4] = {static_cast<float>(value.r), static_cast<float>(value.g),
-                              static_cast<float>(value.b), mark};
-      light_->SetTypedTuple(next++, tuple);
+      light_->SetTypedTuple(next++, light_at(piece.patch, scene_->point(corner)).data());
     }
   }
   light_->Modified();
   surface_->Modified();
-  set_scale(*actor_->GetShaderProperty()->GetFragmentCustomUniforms(), colors.scale());
+  set_scale(*actor_->GetShaderProperty()->GetFragmentCustomUniforms(), scale);
   actor_->VisibilityOn();
 }
 

@@ -94,4 +94,10 @@ void PatchSurface::color(const ColorChoice& colors, std::span<const Color8> patc
   }
 }
 
+void PatchSurface::color(const ColorScale& scale, std::shared_ptr<const LightMap> map,
+                         double factor) {
+  actor_->VisibilityOff();
+  linear_->show(scale, std::move(map), factor);
+}
+
 }  // namespace transillum::viewer

@@ -17,7 +17,7 @@
 namespace transillum::viewer {
 
 /// The colored patches in the 3-D view: with one color per patch, with colors interpolated across
-/// patches, or with a quantity that is linear on patches.
+/// patches, with a quantity that is linear on patches, or with a light map.
 class PatchSurface {
  public:
   /// @param hidden  patches that are omitted
@@ -38,6 +38,8 @@ class PatchSurface {
   /// none is
   void color(const ColorChoice& colors, std::span<const Color8> patch_colors,
              const std::vector<bool>& dimmed);
+  /// Shows a light map, `factor` times its B, until color() is called.
+  void color(const ColorScale& scale, std::shared_ptr<const LightMap> map, double factor);
   bool outlined() const;
   /// Whether edges of patches are drawn, with the surfaces or in their place.
   bool draws_edges() const;

@@ -5,28 +5,26 @@
 #include "scene/scene_view.h"
 
 #include <QVTKOpenGLNativeWidget.h>
-#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkImageData.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <QApplication>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QResizeEvent>
 #include <QTimer>
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "scene/callout_layer.h"
 #include "scene/camera_style.h"
 #include "scene/shown_hit.h"
+#include "scene/window_image.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
 
@@ -36,20 +34,11 @@ namespace {
 // Antialiasing is slow without a GPU: it is off until no step has come for this long.
 constexpr int rest_ms = 150;
 
-vtkSmartPointer<vtkActor> line_actor(vtkRenderer& renderer, const QColor& color) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkPolyData> empty;
-  mapper->SetInputData(empty);
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  actor->GetProperty()->LightingOff();
-  actor->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
-  actor->VisibilityOff();
-  renderer.AddActor(actor);
-  return actor;
-}
-
 Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
+
+double aspect_of(const QSize& size) {
+  return static_cast<double>(size.width()) / std::max(size.height(), 1);
+}
 
 }  // namespace
 
@@ -72,8 +61,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
 
   surface_ = std::make_unique<PatchSurface>(*renderer_, hidden_);
   renderer_->AddViewProp(sharp_layer_);
-  halo_ = line_actor(*renderer_, Qt::black);
-  outline_ = line_actor(*renderer_, theme::selection);
+  selected_ = std::make_unique<SelectionOutline>(*renderer_);
   renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::follow_camera);
   renderer_->AddObserver(vtkCommand::EndEvent, this, &SceneView::place_callouts);
   overlays_ = std::make_unique<SceneOverlays>(*renderer_);
@@ -86,7 +74,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
 
   canvas_->installEventFilter(this);
   connect(&selection_, &Selection::patches_changed, this, [this] {
-    show_selection();
+    selected_->show(loaded_.get(), selection_.patches(), 1.5e-3 * radius_);
     render();
   });
   connect(&hidden_, &HiddenPatches::changed, this, &SceneView::leave_out_hidden);
@@ -118,7 +106,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   turn_preview_->hide();
   feature_edges_->show_scene(loaded_);
   path_glyph_->hide();
-  show_selection();
+  selected_->show(loaded_.get(), selection_.patches(), 1.5e-3 * radius_);
   if (!stays) {
     reset_view();
   }
@@ -146,11 +134,15 @@ void SceneView::set_direction_shown(bool shown) {
   render();
 }
 
+void SceneView::set_direction_followed(bool followed) {
+  direction_followed_ = followed;
+  show_direction();
+  render();
+}
+
 void SceneView::set_outlines_shown(bool shown) {
   surface_->set_outlined(shown);
-  if (snapshot_) {
-    show_edges();
-  }
+  recolor();
   render();
 }
 
@@ -161,6 +153,7 @@ void SceneView::set_overlay_shown(SceneOverlays::Kind kind, bool shown) {
 
 void SceneView::set_wireframe(bool wireframe) {
   surface_->set_wireframe(wireframe);
+  recolor();
   render();
 }
 
@@ -195,7 +188,9 @@ void SceneView::set_clip(const std::optional<ClipPlane>& clip) {
   std::vector<vtkActor*> actors = overlays_->actors();
   const std::vector<vtkActor*> of_patches = surface_->actors();
   actors.insert(actors.end(), of_patches.begin(), of_patches.end());
-  actors.insert(actors.end(), {halo_.Get(), outline_.Get(), feature_edges_->actor()});
+  const std::vector<vtkActor*> of_selection = selected_->actors();
+  actors.insert(actors.end(), of_selection.begin(), of_selection.end());
+  actors.push_back(feature_edges_->actor());
   for (vtkActor* actor : actors) {
     actor->GetMapper()->RemoveAllClippingPlanes();
     if (clip_ && loaded_) {
@@ -246,20 +241,37 @@ void SceneView::reset_view() {
   if (!loaded_) {
     return;
   }
-  const ViewPoint view = initial_view(*loaded_->scene, aspect(), vertical_);
-  focus_point_ = view.target;
-  radius_ = view.radius;
-  set_camera(view);
-  initial_view_point_ = view_point();
+  fit([this] {
+    const ViewPoint view = initial_view(*loaded_->scene, aspect(), vertical_);
+    focus_point_ = view.target;
+    radius_ = view.radius;
+    return view;
+  });
 }
 
-double SceneView::aspect() const {
-  return static_cast<double>(canvas_->width()) / std::max(canvas_->height(), 1);
+void SceneView::fit(std::function<ViewPoint()> view) {
+  refit_ = std::move(view);
+  set_camera(refit_());
+  fitted_ = view_point();
 }
+
+/// Fits the view to a new size. A view that was set as it is stays until the camera is moved.
+void SceneView::follow_size(const QSize& before) {
+  if (!(view_point() == fitted_) && !before.isEmpty()) {
+    refit_ = [this, moved = view_point(), old = aspect_of(before)] {
+      return widened(moved, old, aspect());
+    };
+  }
+  if (refit_) {
+    fit(refit_);
+  }
+}
+
+double SceneView::aspect() const { return aspect_of(canvas_->size()); }
 
 void SceneView::fit_all() {
   if (loaded_) {
-    set_camera(fitting_view(*loaded_->scene, view_point(), aspect()));
+    fit([this] { return fitting_view(*loaded_->scene, view_point(), aspect()); });
   }
 }
 
@@ -272,7 +284,7 @@ void SceneView::fit_selected() {
 
 void SceneView::view_from_side(Side side) {
   if (loaded_) {
-    set_camera(standard_view(*loaded_->scene, side, aspect(), vertical_));
+    fit([this, side] { return standard_view(*loaded_->scene, side, aspect(), vertical_); });
   }
 }
 
@@ -285,6 +297,8 @@ ViewPoint SceneView::view_point() const {
 void SceneView::set_view_point(const ViewPoint& view) {
   if (loaded_) {
     set_camera(view);
+    refit_ = nullptr;
+    fitted_ = view_point();
   }
 }
 
@@ -324,8 +338,20 @@ void SceneView::recolor() {
     dimmed = later_patches(*focus_.map(), focus_.position().step);
     dim_patches(dimmed, patch_colors_);
   }
-  surface_->color(colors_, patch_colors_, dimmed);
+  if (map_.light && map_.snapshot == lit_snapshot()) {
+    const bool by_eye = colors_.quantity() == Quantity::eye_radiance;
+    surface_->color(colors_.scale(), map_.light, by_eye ? 1 / std::numbers::pi : 1);
+  } else {
+    surface_->color(colors_, patch_colors_, dimmed);
+  }
   show_edges();
+}
+
+void SceneView::show_map(const SurfaceMap& map) {
+  if (!(map == map_)) {
+    map_ = map;
+    recolor();
+  }
 }
 
 // Light in true color shows the shape by itself; other quantities may be the same on all sides.
@@ -378,40 +404,18 @@ void SceneView::show_direction() {
   const Vec3 omega = !snapshot_   ? Vec3{}
                      : stepping() ? focus_.map()->record().frame.omega
                                   : snapshot_->progress.last_direction;
-  if (norm(omega) < 0.5 || !direction_shown_) {
+  if (norm(omega) < 0.5 || !direction_shown_ || !(stepping() || direction_followed_)) {
     glyph_->hide();
     return;
   }
-  // The glyph is just outside the scene, or outside the part of interest of a large enclosure.
-  double reach = 0;
-  for (const Vec3& p : loaded_->scene->points()) {
-    reach = std::max(reach, std::abs(dot(p - focus_point_, omega)));
-  }
-  glyph_->show(omega, snapshot_->options.two_way, focus_point_, radius_,
-               std::min(0.86 * radius_, 1.06 * reach),
+  glyph_->show(omega, snapshot_->options.two_way, *loaded_->scene, focus_point_, radius_,
                vec3(renderer_->GetActiveCamera()->GetPosition()));
 }
 
-void SceneView::show_selection() {
-  const std::vector<PatchId>& patches = selection_.patches();
-  const bool any = loaded_ && !patches.empty() && patches.front() >= 0 &&
-                   patches.back() < loaded_->scene->patch_count();
-  halo_->SetVisibility(any);
-  outline_->SetVisibility(any);
-  if (!any) {
-    return;
-  }
-  const auto lines = patch_outlines(*loaded_->scene, patches, 1.5e-3 * radius_);
-  for (const auto& actor : {halo_, outline_}) {
-    vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->SetInputData(lines);
-  }
-}
-
-// Scaled about the camera, the outline stays in place in the picture but is in front of its halo.
 void SceneView::follow_camera() {
-  feature_edges_->follow_camera(vec3(renderer_->GetActiveCamera()->GetPosition()));
-  outline_->SetOrigin(renderer_->GetActiveCamera()->GetPosition());
   const Vec3 eye = vec3(renderer_->GetActiveCamera()->GetPosition());
+  feature_edges_->follow_camera(eye);
+  selected_->follow_camera(eye);
   if (loaded_ && !(eye_ && *eye_ == eye)) {
     eye_ = eye;
     emit eye_moved(eye);
@@ -419,7 +423,6 @@ void SceneView::follow_camera() {
   if (!taking_picture_) {
     emit about_to_draw();
   }
-  outline_->SetScale(1 - 5e-4);
 }
 
 void SceneView::show_callouts(const std::vector<Callout>& callouts) {
@@ -465,8 +468,7 @@ void SceneView::place_callouts() {
 
 void SceneView::render() {
   const auto scale = static_cast<float>(canvas_->devicePixelRatioF() * theme::scale());
-  halo_->GetProperty()->SetLineWidth(5 * scale);
-  outline_->GetProperty()->SetLineWidth(2.5F * scale);
+  selected_->set_line_width(scale);
   glyph_->set_line_width(1.5 * scale);
   step_glyph_->set_line_width(2.5 * scale);
   overlays_->set_line_width(1.2 * scale);
@@ -480,7 +482,8 @@ void SceneView::render() {
   }
 }
 
-std::optional<SharpSubject> SceneView::sharp_subject() const {
+/// The snapshot whose light is shown in true color; null where something else is.
+std::shared_ptr<const SolverSnapshot> SceneView::lit_snapshot() const {
   const auto shown = colors_.shows_kept_run() ? colors_.run_a() : colors_.snapshot();
   const bool by_eye = colors_.quantity() == Quantity::eye_radiance;
   const bool of_light = by_eye || (colors_.quantity() == Quantity::radiosity && shown &&
@@ -488,12 +491,20 @@ std::optional<SharpSubject> SceneView::sharp_subject() const {
   if (!snapshot_ || !of_light || colors_.scale().mode != ColorMode::true_color ||
       colors_.values().empty() || shown->loaded->scene != loaded_->scene ||
       !(shown->passes_done > 0 || shown->of_file) || stepping() || surface_->draws_edges()) {
+    return nullptr;
+  }
+  return shown;
+}
+
+std::optional<SharpSubject> SceneView::sharp_subject() const {
+  const auto shown = lit_snapshot();
+  if (!shown) {
     return std::nullopt;
   }
   const int* size = window_->GetSize();
   SharpSubject subject{.loaded = loaded_,
                        .snapshot = shown,
-                       .by_eye = by_eye,
+                       .by_eye = colors_.quantity() == Quantity::eye_radiance,
                        .scale = colors_.scale(),
                        .view = view_point(),
                        .size = {size[0], size[1]}};
@@ -512,26 +523,13 @@ QImage SceneView::picture(int scale, const QImage& sharp) {
   if (!sharp.isNull()) {
     sharp_layer_->set_picture(sharp);
   }
-  vtkNew<vtkWindowToImageFilter> filter;
-  filter->SetInput(window_);
-  filter->SetScale(scale);
-  filter->ReadFrontBufferOff();
-  filter->SetInputBufferTypeToRGB();
-  filter->Update();
+  QImage image = image_of_window(*window_, scale);
   sharp_layer_->set_picture(shown);
   if (scale > 1 || !sharp.isNull()) {
     window_->Render();  // the filter leaves its last tile on the screen
   }
   taking_picture_ = false;
-  vtkImageData* pixels = filter->GetOutput();
-  const int* size = pixels->GetDimensions();
-  const auto* bytes = static_cast<const uchar*>(pixels->GetScalarPointer());
-  if (!bytes) {
-    return {};
-  }
-  // VTK stores the bottom row first.
-  QImage image = QImage(bytes, size[0], size[1], 3 * size[0], QImage::Format_RGB888).mirrored();
-  if (!callout_layer_->callouts().empty()) {
+  if (!image.isNull() && !callout_layer_->callouts().empty()) {
     QPainter painter(&image);
     painter.setFont(callout_layer_->font());
     painter.scale(1.0 * image.width() / canvas_->width(), 1.0 * image.height() / canvas_->height());
@@ -576,13 +574,12 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
     } else if (event->type() == QEvent::MouseButtonRelease && pressed_) {
       pressed_ = false;
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      const QPoint position = mouse->pos();
-      const int moved = (position - press_position_).manhattanLength();
+      const int moved = (mouse->pos() - press_position_).manhattanLength();
       if (moved < QApplication::startDragDistance()) {
         if (mouse->modifiers() & Qt::ControlModifier) {
-          selection_.toggle(patch_at(position));
+          selection_.toggle(patch_at(mouse->pos()));
         } else {
-          selection_.select(patch_at(position));
+          selection_.select(patch_at(mouse->pos()));
         }
       }
       render();
@@ -592,8 +589,8 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
           (mouse->pos() - press_position_).manhattanLength() < QApplication::startDragDistance()) {
         emit menu_requested(mouse->pos());
       }
-    } else if (event->type() == QEvent::Resize && loaded_ && view_point() == initial_view_point_) {
-      reset_view();  // the user has not changed it: fit it to the new size
+    } else if (event->type() == QEvent::Resize && loaded_) {
+      follow_size(static_cast<QResizeEvent*>(event)->oldSize());
     }
   }
   return QWidget::eventFilter(watched, event);

@@ -4,16 +4,15 @@
 // ColorChoice, the current step from Focus.
 #pragma once
 
-#include <vtkActor.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 
 #include <QImage>
 #include <QPoint>
 #include <QWidget>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,8 +24,10 @@
 #include "scene/patch_surface.h"
 #include "scene/path_glyph.h"
 #include "scene/scene_overlays.h"
+#include "scene/selection_outline.h"
 #include "scene/sharp_layer.h"
 #include "scene/sharp_picture.h"
+#include "scene/surface_map.h"
 #include "state/callout.h"
 #include "state/camera_views.h"
 #include "state/focus.h"
@@ -57,6 +58,8 @@ class SceneView : public QWidget {
   const std::shared_ptr<const LoadedScene>& loaded() const { return loaded_; }
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void set_direction_shown(bool shown);
+  /// Whether the newest direction is shown, too, while nothing is stepped.
+  void set_direction_followed(bool followed);
   void set_outlines_shown(bool shown);
   void set_overlay_shown(SceneOverlays::Kind kind, bool shown);
   void set_wireframe(bool wireframe);
@@ -87,6 +90,14 @@ class SceneView : public QWidget {
   /// The camera; set_view_point() keeps the radius of the scene's part of interest.
   ViewPoint view_point() const;
   void set_view_point(const ViewPoint& view);
+  /// The camera, as a square picture has it. What is in that is in the picture of any shape, also
+  /// after a change of size.
+  ViewPoint square_view() const { return widened(view_point(), aspect(), 1); }
+  void set_square_view(const ViewPoint& view) {
+    if (loaded_) {
+      fit([this, view] { return widened(view, 1, aspect()); });
+    }
+  }
   /// How a drag rotates: as a trackball, or as a turntable, about the vertical of the scene, which
   /// stays upright.
   void set_turntable(bool turntable);
@@ -115,6 +126,9 @@ class SceneView : public QWidget {
   /// Shows a sharp picture in the next picture, in place of the surfaces; null hides it.
   void set_sharp(const QImage& picture) { sharp_layer_->set_picture(picture); }
   const QImage& sharp() const { return sharp_layer_->picture(); }
+  /// Shows the map of a snapshot wherever its light would be shown in a sharp picture, from the
+  /// next picture on. Without a map, patches are shown again.
+  void show_map(const SurfaceMap& map);
   /// Draws the picture again.
   void render();
   /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
@@ -141,11 +155,13 @@ class SceneView : public QWidget {
  private:
   void set_camera(const ViewPoint& view);
   double aspect() const;
+  void fit(std::function<ViewPoint()> view);
+  void follow_size(const QSize& before);
   void recolor();
+  std::shared_ptr<const SolverSnapshot> lit_snapshot() const;
   void show_direction();
   bool stepping() const;
   void show_step();
-  void show_selection();
   void leave_out_hidden();
   bool in_picture(const PickedPoint& point) const;
   void show_edges();
@@ -159,13 +175,16 @@ class SceneView : public QWidget {
   const HiddenPatches& hidden_;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
+  SurfaceMap map_;
   bool turntable_ = false;
   std::vector<Color8> patch_colors_;
-  Vec3 focus_point_;              ///< center of the part of interest, meters
-  double radius_ = 1;             ///< its radius, meters
-  std::optional<Vec3> eye_;       ///< eye of the newest picture
-  ViewPoint initial_view_point_;  ///< set by reset_view()
+  Vec3 focus_point_;                  ///< center of the part of interest, meters
+  double radius_ = 1;                 ///< its radius, meters
+  std::optional<Vec3> eye_;           ///< eye of the newest picture
+  ViewPoint fitted_;                  ///< the camera has not been moved while it is there
+  std::function<ViewPoint()> refit_;  ///< fitted_ for the present size; empty if it stays
   bool direction_shown_ = true;
+  bool direction_followed_ = false;
   bool antialiased_ = true;
   bool stepped_ = false;  ///< a step is drawn
   QTimer* rest_timer_;    ///< runs while steps follow each other quickly
@@ -182,7 +201,7 @@ class SceneView : public QWidget {
   std::unique_ptr<PatchSurface> surface_;
   vtkNew<SharpLayer> sharp_layer_;
   bool taking_picture_ = false;  ///< picture() draws
-  vtkSmartPointer<vtkActor> halo_, outline_;
+  std::unique_ptr<SelectionOutline> selected_;
   std::unique_ptr<FeatureEdges> feature_edges_;
   std::unique_ptr<DirectionGlyph> glyph_;
   std::unique_ptr<StepGlyph> step_glyph_;

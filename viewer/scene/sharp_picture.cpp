@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "model/snapshot_values.h"
@@ -31,6 +32,7 @@ constexpr Pass passes[] = {{8, 0, 1},
                            {1, 1, 2},
                            {1, 2, 3},
                            {1, 3, SharpRenderer::samples}};
+constexpr std::size_t first_fine_pass = 3;
 
 /// The pixels of one picture.
 class Pixels {
@@ -197,35 +199,42 @@ std::shared_ptr<const Scene> scene_of(const SolverSnapshot& snapshot) {
 }  // namespace
 
 void SharpRenderer::release() {
-  light_.reset();
-  scene_ = nullptr;
-  snapshot_ = nullptr;
+  const std::lock_guard lock(mutex_);
+  light_ = nullptr;
 }
 
-void SharpRenderer::render(const SharpSubject& subject, const Cancellation& cancellation,
-                           const Deliver& deliver) {
-  const SolverSnapshot& snapshot = *subject.snapshot;
-  if (snapshot_ != subject.snapshot) {
-    release();
-    scene_ = scene_of(snapshot);
-    auto solution = std::make_shared<Solution>(solution_of(snapshot));
-    solution->scene = scene_;
-    solution->sky = snapshot.options.sky;
-    light_.emplace(std::move(solution), 0, cancellation);
-    snapshot_ = subject.snapshot;
+std::shared_ptr<const SnapshotLight> SharpRenderer::light_of(
+    const std::shared_ptr<const SolverSnapshot>& snapshot, const Cancellation& cancellation) {
+  const std::lock_guard lock(mutex_);
+  if (!light_ || light_->snapshot != snapshot) {
+    light_ = nullptr;
+    auto solution = std::make_shared<Solution>(solution_of(*snapshot));
+    solution->scene = scene_of(*snapshot);
+    solution->sky = snapshot->options.sky;
+    std::shared_ptr<const Scene> scene = solution->scene;
+    light_ = std::make_shared<const SnapshotLight>(SnapshotLight{
+        snapshot, std::move(scene), SurfaceLight(std::move(solution), 0, cancellation)});
   }
+  return light_;
+}
+
+void SharpRenderer::render(const SharpSubject& subject, bool begins_fine,
+                           const Cancellation& cancellation, const Deliver& deliver) {
+  const SolverSnapshot& snapshot = *subject.snapshot;
+  const auto light = light_of(subject.snapshot, cancellation);
   const Camera camera{.eye = subject.view.eye,
                       .target = subject.view.target,
                       .up = subject.view.up,
                       .field_of_view = subject.view.view_angle};
   const QSize& size = subject.size;
-  const CameraRays rays(*scene_, camera, size.width(), size.height());
-  Pixels pixels(subject, *light_, rays);
+  const CameraRays rays(*light->scene, camera, size.width(), size.height());
+  Pixels pixels(subject, light->light, rays);
   auto delivered = std::chrono::steady_clock::now();
   double done = 0;
-  for (const Pass& pass : passes) {
+  for (const Pass& pass : std::span(passes).subspan(begins_fine ? first_fine_pass : 0)) {
     // Three quarters of the pixels of a smaller step are new.
-    const double share = pass.first > 0 ? 1 : (pass.step == 8 ? 1 : 0.75) / (pass.step * pass.step);
+    const bool all_new = pass.step == 8 || begins_fine || pass.first > 0;
+    const double share = (all_new ? 1 : 0.75) / (pass.step * pass.step);
     visit_pixels(
         {size.width(), size.height(), pass.step}, snapshot.options.threads, cancellation,
         [&](int column, int row) { pixels.visit(column, row, pass); },

@@ -8,6 +8,7 @@
 #include <QSize>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,13 @@ struct SharpProgress {
   bool finished = false;
 };
 
+/// The light of a snapshot at points of its surfaces.
+struct SnapshotLight {
+  std::shared_ptr<const SolverSnapshot> snapshot;
+  std::shared_ptr<const Scene> scene;  ///< with the snapshot's materials
+  SurfaceLight light;
+};
+
 /// Makes sharp pictures, one at a time. Keeps the light of the newest snapshot for the next.
 class SharpRenderer {
  public:
@@ -59,18 +67,21 @@ class SharpRenderer {
   /// Called about every 100 ms, and with the finished picture: RGBA, without alpha where nothing is
   /// known yet.
   using Deliver = std::function<void(const QImage&, const SharpProgress&)>;
-  /// Few pixels first; between those that see the same plane, colors are interpolated. Then all
-  /// pixels, then more samples of each.
+  /// Few pixels first, unless `begins_fine` is set; between those that see the same plane, colors
+  /// are interpolated. Then all pixels, then more samples of each.
   /// @throws Canceled, InputError
-  void render(const SharpSubject& subject, const Cancellation& cancellation,
+  void render(const SharpSubject& subject, bool begins_fine, const Cancellation& cancellation,
               const Deliver& deliver);
-  /// Releases the light.
+  /// The light of a snapshot. Any thread may call it.
+  /// @throws Canceled, InputError
+  std::shared_ptr<const SnapshotLight> light_of(
+      const std::shared_ptr<const SolverSnapshot>& snapshot, const Cancellation& cancellation);
+  /// Releases the light. Any thread may call it.
   void release();
 
  private:
-  std::shared_ptr<const SolverSnapshot> snapshot_;
-  std::shared_ptr<const Scene> scene_;  ///< with the snapshot's materials
-  std::optional<SurfaceLight> light_;
+  std::mutex mutex_;  ///< guards light_
+  std::shared_ptr<const SnapshotLight> light_;
 };
 
 }  // namespace transillum::viewer

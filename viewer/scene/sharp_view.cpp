@@ -33,16 +33,40 @@ SharpView::SharpView(SceneView& view, QObject* parent)
               }
             };
             QMetaObject::invokeMethod(this, report, Qt::QueuedConnection);
+          }),
+      map_worker_(
+          [this](const std::shared_ptr<const SolverSnapshot>& snapshot,
+                 const Cancellation& cancellation) {
+            make_map(*renderer_.light_of(snapshot, cancellation), cancellation,
+                     [this](const SurfaceMap& map) {
+                       const auto deliver = [this, map] { receive_map(map); };
+                       QMetaObject::invokeMethod(this, deliver, Qt::QueuedConnection);
+                     });
+          },
+          [this](const std::shared_ptr<const SolverSnapshot>& snapshot, const QString& message) {
+            const auto report = [this, snapshot, message] {
+              if (snapshot == map_requested_) {
+                map_finished_ = true;
+                tell(message);
+              }
+            };
+            QMetaObject::invokeMethod(this, report, Qt::QueuedConnection);
           }) {
   action_ = make_key_action(this, "sharp", tr("Sharp"),
                             tr("Once the scene rests, compute its light in every pixel, with exact "
                                "shadows of lamps.\nIf this is off, the colors of the patches stay"),
                             QKeySequence(Qt::Key_S));
+  usual_tip_ = action_->toolTip();
   action_->setCheckable(true);
   action_->setChecked(true);
+  on_ = true;
   connect(action_, &QAction::changed, this, [this] {
-    follow();
-    view_.render();
+    const bool on = action_->isEnabled() && action_->isChecked();
+    if (on != on_) {
+      on_ = on;
+      follow();
+      view_.render();
+    }
   });
   label_ = named("sharp_label", new Plate(view_.canvas()));
   rest_timer_ = new QTimer(this);
@@ -56,6 +80,9 @@ void SharpView::set_solving(bool solving) {
   solving_ = solving;
   if (solving) {
     stop();
+    if (!map_finished_) {
+      release_map();
+    }
   } else if (subject_ && !begun_) {
     rest_timer_->start();
   }
@@ -64,18 +91,26 @@ void SharpView::set_solving(bool solving) {
 /// Compares what the view shows with what was requested; called before each picture is drawn.
 void SharpView::follow() {
   std::optional<SharpSubject> now;
-  if (action_->isEnabled() && action_->isChecked()) {
+  if (on_) {
     now = view_.sharp_subject();
   }
   if (now == subject_) {
     return;
   }
   const bool same_light = now && subject_ && now->snapshot == subject_->snapshot;
+  const bool moved_on = begun_ && same_light;
   subject_ = std::move(now);
   stop();
   if (!same_light) {
     worker_.request({std::nullopt, number_});
   }
+  if (map_requested_ && subject_ && subject_->snapshot != map_requested_) {
+    release_map();
+  }
+  if (moved_on) {
+    request_map();
+  }
+  view_.show_map(subject_ ? map_ : SurfaceMap());
   if (wanted()) {
     rest_timer_->start();
   }
@@ -109,7 +144,7 @@ void SharpView::start() {
 
 void SharpView::request(const SharpSubject& subject) {
   posted_ = false;
-  worker_.request({subject, ++number_});
+  worker_.request({subject, ++number_, map_.light != nullptr});
 }
 
 /// Runs on the worker's thread.
@@ -118,19 +153,20 @@ void SharpView::run(const Task& task, const Cancellation& cancellation) {
     renderer_.release();
     return;
   }
-  renderer_.render(
-      *task.subject, cancellation, [&](const QImage& picture, const SharpProgress& progress) {
-        if (posted_.exchange(true) && !progress.finished) {
-          return;  // the window is still busy with an earlier one
-        }
-        const auto deliver = [this, number = task.number, copy = picture.copy(), progress] {
-          posted_ = false;
-          if (number == number_) {
-            receive(copy, progress);
-          }
-        };
-        QMetaObject::invokeMethod(this, deliver, Qt::QueuedConnection);
-      });
+  renderer_.render(*task.subject, task.begins_fine, cancellation,
+                   [&](const QImage& picture, const SharpProgress& progress) {
+                     if (posted_.exchange(true) && !progress.finished) {
+                       return;  // the window is still busy with an earlier one
+                     }
+                     const auto deliver = [this, number = task.number, copy = picture.copy(),
+                                           progress] {
+                       posted_ = false;
+                       if (number == number_) {
+                         receive(copy, progress);
+                       }
+                     };
+                     QMetaObject::invokeMethod(this, deliver, Qt::QueuedConnection);
+                   });
 }
 
 void SharpView::receive(const QImage& picture, const SharpProgress& progress) {
@@ -143,6 +179,9 @@ void SharpView::receive(const QImage& picture, const SharpProgress& progress) {
     view_.set_sharp(picture);
     show_progress(progress);
     view_.render();
+    if (progress.fraction >= 1.0 / SharpRenderer::samples) {
+      request_map();  // every pixel is known; more samples only make edges smooth
+    }
   }
   emit progressed(progress.fraction, progress.finished);
 }
@@ -152,6 +191,45 @@ void SharpView::show_progress(const SharpProgress& progress) {
   label_->setText(tr("sharp %1 %").arg(qRound(100 * progress.fraction)));
   label_->adjustSize();
   label_->move(label_distance, view_.canvas()->height() - label_->height() - label_distance);
+}
+
+/// Once for each snapshot.
+void SharpView::request_map() {
+  if (!wanted() || map_requested_ == subject_->snapshot) {
+    return;
+  }
+  map_requested_ = subject_->snapshot;
+  const QString reason = why_no_map(*map_requested_);
+  tell(reason);
+  map_finished_ = !reason.isEmpty();
+  if (!map_finished_) {
+    map_worker_.request(map_requested_);
+  }
+}
+
+void SharpView::release_map() {
+  map_worker_.clear();
+  map_requested_ = nullptr;
+  map_ = {};
+  map_finished_ = false;
+  view_.show_map({});
+}
+
+void SharpView::receive_map(const SurfaceMap& map) {
+  if (map.snapshot != map_requested_) {
+    return;
+  }
+  map_finished_ = map_.light != nullptr;  // the first is coarse
+  map_ = map;
+  if (subject_) {
+    view_.show_map(map_);
+    view_.render();
+  }
+}
+
+/// Says in the tool tip why something is not shown.
+void SharpView::tell(const QString& reason) {
+  action_->setToolTip(reason.isEmpty() ? usual_tip_ : usual_tip_ + '\n' + reason);
 }
 
 std::optional<QImage> SharpView::make(int scale, QWidget* window) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "scene/sharp_picture.h"
+#include "scene/surface_map.h"
 #include "support/request_worker.h"
 #include "widgets/plate.h"
 
@@ -19,7 +20,7 @@ namespace transillum::viewer {
 class SceneView;
 
 /// Shows the sharp picture in the scene view while that rests, and hides it at once when anything
-/// in it changes.
+/// in it changes. Below it, and while the camera moves, the surfaces have a light map.
 class SharpView : public QObject {
   Q_OBJECT
 
@@ -32,6 +33,8 @@ class SharpView : public QObject {
   void set_solving(bool solving);
   /// Whether the picture of the scene is final: the sharp picture is finished, or none is made.
   bool settled() const { return !wanted() || finished_; }
+  /// Whether the light map is finished, or none is made.
+  bool has_map() const { return !map_requested_ || map_finished_; }
   /// Makes the sharp picture with `scale` times as many pixels a side, behind a dialog.
   /// @returns null where none is shown; nothing where the user canceled or it failed
   std::optional<QImage> make(int scale, QWidget* window);
@@ -45,6 +48,7 @@ class SharpView : public QObject {
   struct Task {
     std::optional<SharpSubject> subject;  ///< none releases the light
     quint64 number = 0;
+    bool begins_fine = false;  ///< the surfaces have a light map
   };
   bool wanted() const { return subject_ && !solving_; }
   void follow();
@@ -54,12 +58,18 @@ class SharpView : public QObject {
   void run(const Task& task, const Cancellation& cancellation);
   void receive(const QImage& picture, const SharpProgress& progress);
   void show_progress(const SharpProgress& progress);
+  void request_map();
+  void release_map();
+  void tell(const QString& reason);
+  void receive_map(const SurfaceMap& map);
 
   SceneView& view_;
   QAction* action_;
+  QString usual_tip_;
   QTimer* rest_timer_;  ///< from the last change until the picture is begun
   Plate* label_;
   bool solving_ = false;
+  bool on_ = false;                      ///< the action is enabled and checked
   std::optional<SharpSubject> subject_;  ///< the subject to be shown; none without a sharp picture
   bool finished_ = false;                ///< its picture is shown at its final quality
   bool begun_ = false;
@@ -67,8 +77,12 @@ class SharpView : public QObject {
   quint64 number_ = 0;                ///< number of the newest request
   bool enlarges_ = false;             ///< the newest request is of make()
   std::atomic<bool> posted_ = false;  ///< a picture has not been received yet
-  SharpRenderer renderer_;            ///< used by the worker's thread only
+  SharpRenderer renderer_;
+  std::shared_ptr<const SolverSnapshot> map_requested_;  ///< its map is made; null if none is
+  SurfaceMap map_;                                       ///< the map of map_requested_
+  bool map_finished_ = false;
   RequestWorker<Task> worker_;
+  RequestWorker<std::shared_ptr<const SolverSnapshot>> map_worker_;
 };
 
 }  // namespace transillum::viewer

@@ -87,7 +87,8 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   };
   outlines_ = add("show_outlines", tr("Outlines"), tr("Draw the edges of the patches"));
   direction_ = add("show_direction", tr("Direction"),
-                   tr("Draw the newest direction as an arrow with its plane (D)"));
+                   tr("Draw the direction as an arrow with its plane (D).\nIn Inspect, only while "
+                      "you step"));
   direction_->setChecked(true);
   const auto add_overlay = [&](Overlay overlay, const char* name, const QString& text,
                                const QString& tip) {

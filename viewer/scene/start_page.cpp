@@ -42,6 +42,25 @@ QFont scaled_font(QFont font, double factor, bool bold) {
   return font;
 }
 
+int height_of(const QString& text, const QFontMetrics& metrics, int width) {
+  constexpr int any_height = 10'000;
+  return metrics.boundingRect(QRect(0, 0, width, any_height), Qt::TextWordWrap, text).height();
+}
+
+/// The text with as many of its words as fit, in lines of this width, into this height.
+QString shortened(const QString& text, const QFontMetrics& metrics, int width, int height) {
+  QString fitting = text;
+  for (QString words = text; height_of(fitting, metrics, width) > height;) {
+    const int space = words.lastIndexOf(QLatin1Char(' '));
+    if (space < 0) {
+      return metrics.elidedText(text, Qt::ElideRight, width);
+    }
+    words.truncate(space);
+    fitting = words + QStringLiteral("…");
+  }
+  return fitting;
+}
+
 /// Draws the middle of a picture, which fills `rect`.
 void draw_filling(QPainter& painter, const QRect& rect, const QPixmap& picture) {
   const double ratio = painter.device()->devicePixelRatioF();
@@ -132,14 +151,12 @@ class StartCard : public QAbstractButton {
     const int line = painter.fontMetrics().lineSpacing();
     const int note_line = fontMetrics().lineSpacing();
     const int lines = look_ == Look::picture_left ? 2 : 1;
-    const int used = std::min(
-        lines * line, painter.fontMetrics().boundingRect(room, Qt::TextWordWrap, text()).height());
-    QRect title(room.left(), room.center().y() - (used + note_line) / 2 + 1, room.width(), used);
-    painter.save();
-    // A longer name is in the tool tip.
-    painter.setClipRect(title.adjusted(0, 0, 0, 4), Qt::IntersectClip);
-    painter.drawText(title, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, text());
-    painter.restore();
+    // The tool tip has the whole name.
+    const QString name = shortened(text(), painter.fontMetrics(), room.width(), lines * line);
+    const int used = height_of(name, painter.fontMetrics(), room.width());
+    const QRect title(room.left(), room.center().y() - (used + note_line) / 2 + 1, room.width(),
+                      used);
+    painter.drawText(title, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, name);
     painter.setFont(scaled_font(font(), look_ == Look::choice ? 1 : small_type, false));
     painter.setPen(theme::ink_dim);
     const QRect note(room.left(), title.bottom() + 1, room.width(), note_line);

@@ -209,7 +209,7 @@ void ProgressLine::show_solve() {
                         .arg(iterations_text(progress.iteration),
                              QString::number(snapshot_->statistics.seconds_total, 'f', 1)));
   } else if (snapshot_->of_file) {
-    phase_->setText((snapshot_->loaded->description ? tr("The solve before: %1 of %2 passes each")
+    phase_->setText((snapshot_->loaded->description ? tr("Earlier solve: %1 of %2 passes each")
                                                     : tr("From the file: %1 of %2 passes each"))
                         .arg(iterations_text(snapshot_->statistics.iterations),
                              count_text(snapshot_->statistics.passes)));

@@ -168,7 +168,8 @@ void QualityControls::show_state(bool takes_directions, const QString& conflict)
   passes_->setVisible(takes_directions && !chosen);
   for (QWidget* widget : {static_cast<QWidget*>(draft_), static_cast<QWidget*>(normal_),
                           static_cast<QWidget*>(fine_), static_cast<QWidget*>(accuracy_)}) {
-    widget->setEnabled(takes_directions || (chosen && widget == accuracy_));
+    enable_if(*widget, takes_directions || (chosen && widget == accuracy_),
+              tr("This engine has no directions to choose"));
   }
   note_->setText(!conflict.isEmpty() ? capitalized(conflict)
                  : !takes_directions ? tr("This engine has no directions to choose")

@@ -213,10 +213,7 @@ void SettingsPanel::show_cost() {
 
 void SettingsPanel::show_button() {
   const bool differs = enabled_ && differ_from_effect();
-  restart_->setEnabled(enabled_);
-  restart_->setToolTip(!enabled_ ? tr("No scene is open yet")
-                       : differs ? tr("Solve the scene with these settings")
-                                 : tr("Solve again, with the same settings as the solve shown"));
+  enable_if(*restart_, enabled_, tr("No scene is open yet, or one is being loaded"));
   restart_->setDefault(differs);
   QFont font = restart_->font();
   font.setBold(differs);

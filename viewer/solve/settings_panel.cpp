@@ -121,7 +121,8 @@ void SettingsPanel::add_top() {
   cost_ = named("patch_forecast", note_label(),
                 tr("Patches, time and memory of the next solve, without kept form factors; the "
                    "time is known once passes of the same engine have been made"));
-  restart_ = named("restart", new QPushButton(tr("Solve")));
+  restart_ =
+      named("restart", new QPushButton(tr("Solve")), tr("Solve the scene with these settings"));
   restart_->setProperty("primary", true);
   auto* quality_label = new QLabel(tr("Quality"));
   quality_label->setToolTip(
@@ -200,11 +201,9 @@ void SettingsPanel::add_estimator_rows(SettingRows& rows) {
          "memory"));
   basis_note_ = named("basis_note", note_label());
   glossy_ = named("glossy", new QCheckBox(tr("Lobes reflect too")),
-                  tr("<span>Off: all surfaces are diffuse, and reflect ρ only. On: the lobes of "
-                     "materials (MTL: Ks with Ns or Pr; glTF: metal and roughness) reflect too, "
-                     "most of it about the mirror direction. Patches then keep light by direction, "
-                     "and look different from each point. M directions resolve exponents n up to "
-                     "about M/10; sharper lobes are coarse.</span>"));
+                  tr("<span>Whether the lobes of materials (MTL: Ks with Ns or Pr; glTF: metal and "
+                     "roughness) reflect too, so that patches look different from each point; M "
+                     "directions resolve exponents n up to about M/10</span>"));
   glossy_note_ = named("glossy_note", note_label());
   rows.add(tr("B on a patch"), with_note(basis_, basis_note_), basis_->toolTip());
   glossy_column_ = with_note(glossy_, glossy_note_);

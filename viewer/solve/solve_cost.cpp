@@ -83,8 +83,10 @@ QString cost_text(const SolveCost& cost) {
   }
   QStringList parts{tr("%1 patches").arg(count_text(cost.patches))};
   if (cost.seconds) {
-    parts << (*cost.seconds < 1 ? tr("less than 1 s")
-                                : tr("about %1").arg(duration_text(*cost.seconds)));
+    const QString time = duration_text(*cost.seconds);
+    parts << (*cost.seconds < 1         ? tr("less than 1 s")
+              : time.startsWith("over") ? time
+                                        : tr("about %1").arg(time));
   }
   parts << memory_text(cost.memory);
   return parts.join(QStringLiteral(", "));

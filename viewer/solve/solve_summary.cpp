@@ -3,6 +3,7 @@
 
 #include "model/snapshot_values.h"
 #include "radiosity/analysis/power_table.h"
+#include "scene/build/patch_count.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
@@ -18,7 +19,10 @@ constexpr double accuracy = 0.01;  ///< accuracy of the rows "Directions for 1 %
 QString closure_text(const SolverSnapshot& snapshot) {
   const SolveStatistics& s = snapshot.statistics;
   if (!is_open(s)) {
-    return SolveSummary::tr("closed, defect %1").arg(number_text(s.closure_defect_max));
+    // The outer sides of two-sided faces see nothing, which is no defect.
+    return has_two_sided_faces(*snapshot.loaded->scene)
+               ? SolveSummary::tr("closed, outer sides of two-sided faces omitted")
+               : SolveSummary::tr("closed, defect %1").arg(number_text(s.closure_defect_max));
   }
   const auto fraction = escaped_share(snapshot);
   return fraction

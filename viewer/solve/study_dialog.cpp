@@ -195,10 +195,12 @@ void StudyDialog::run_or_stop() {
     return;
   }
   banner_->dismiss();
-  if (!loaded_->scene->has_light()) {
+  const std::string why = SolveOptions().why_dark(loaded_->scene->has_light());
+  if (!why.empty()) {
     banner_->show_message(Banner::Kind::offer,
-                          tr("Not started: without light, B is 0 everywhere. Make a face, material "
-                             "or group emit, and solve the scene again."));
+                          tr("Not started: %1. Make a face, material or group emit, and solve the "
+                             "scene again.")
+                              .arg(QString::fromStdString(why)));
     return;
   }
   running_ = true;
@@ -290,8 +292,9 @@ void StudyDialog::show_table() {
 void StudyDialog::show_buttons() {
   const StudyOptions options = choices_->options();
   run_->setText(running_ ? tr("Stop") : tr("Run the study"));
-  run_->setEnabled(running_ || (loaded_ && !options.series.empty() && !options.directions.empty()));
-  save_->setEnabled(has_points());
+  enable_if(*run_, running_ || (loaded_ && !options.series.empty() && !options.directions.empty()),
+            loaded_ ? tr("No sampling or number of directions is chosen") : tr("No scene is open"));
+  enable_if(*save_, has_points(), tr("No study has been run yet"));
 }
 
 void StudyDialog::choose_file() {

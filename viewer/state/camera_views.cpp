@@ -163,6 +163,17 @@ ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from) {
   return view;
 }
 
+ViewPoint widened(const ViewPoint& from, double before, double now) {
+  constexpr double degree = std::numbers::pi / 180, largest_angle = 150, least_aspect = 1e-3;
+  const double factor = std::clamp(before, least_aspect, 1.0) / std::clamp(now, least_aspect, 1.0);
+  ViewPoint view = from;
+  if (factor != 1) {
+    view.view_angle = std::min(
+        2 * std::atan(factor * std::tan(from.view_angle / 2 * degree)) / degree, largest_angle);
+  }
+  return view;
+}
+
 ViewPoint turned(const ViewPoint& from, const Vec3& vertical, double azimuth, double elevation) {
   constexpr double degree = std::numbers::pi / 180;
   const Vec3 arm = from.eye - from.target;

@@ -54,6 +54,10 @@ ViewPoint fitting_view(const Scene& scene, const ViewPoint& from, double aspect)
 /// if needed.
 ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from);
 
+/// The view from the same eye, whose angle across the smaller side of the picture stays.
+/// @param before, now  width / height of the picture
+ViewPoint widened(const ViewPoint& from, double before, double now);
+
 /// The view after the eye has moved around the target: about `vertical` by `azimuth`, and up by
 /// `elevation`, to at most 89 degrees against the horizontal. `up` of the view is `vertical`, so
 /// that it is upright.

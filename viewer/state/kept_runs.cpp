@@ -25,16 +25,10 @@ std::shared_ptr<const SolverSnapshot> part_to_keep(const SolverSnapshot& snapsho
   kept->options = snapshot.options;
   kept->progress = snapshot.progress;
   kept->statistics = snapshot.statistics;
-  kept->radiosity = snapshot.radiosity;
-  kept->linear_terms = snapshot.linear_terms;
+  static_cast<SolvedLight&>(*kept) = snapshot;
   kept->bases = snapshot.bases;
-  kept->irradiance = snapshot.irradiance;
-  kept->glossy = snapshot.glossy;
   kept->materials = snapshot.materials;
   kept->of_file = snapshot.of_file;
-  kept->form_factor_sums = snapshot.form_factor_sums;
-  kept->sky_fractions = snapshot.sky_fractions;
-  kept->sky_irradiance = snapshot.sky_irradiance;
   kept->error = snapshot.error;
   // The last change of B needs the newest two iterations.
   kept->kept_radiosity = snapshot.kept_radiosity;
@@ -64,7 +58,8 @@ std::int64_t bytes_of(const SolverSnapshot& snapshot) {
                        bytes_of(snapshot.linear_terms) +
                        (snapshot.bases ? bytes_of(*snapshot.bases) : 0) +
                        bytes_of(snapshot.form_factor_sums) + bytes_of(snapshot.sky_fractions) +
-                       bytes_of(snapshot.sky_irradiance) + bytes_of(snapshot.error.standard_error);
+                       bytes_of(snapshot.sky_irradiance) + bytes_of(snapshot.sky_linear_terms) +
+                       bytes_of(snapshot.error.standard_error);
   for (const auto& radiosity : snapshot.kept_radiosity) {
     bytes += radiosity ? bytes_of(*radiosity) : 0;
   }

@@ -247,18 +247,23 @@ void BreakpointPanel::show_state() {
       box->setMaximum(map->loaded->scene->patch_count() - 1);
     }
   }
-  run_on_->setEnabled(can_run);
-  run_back_->setEnabled(can_run);
+  for (QAction* run : {run_on_, run_back_}) {
+    enable_if(*run, can_run,
+              focus_.map() ? tr("No breakpoint is checked") : tr("No direction is shown yet"));
+  }
   const int row = list_->currentRow();
+  const QString none_chosen = tr("No breakpoint is chosen in the list");
   for (QWidget* control : std::initializer_list<QWidget*>{remove_, stop_at_}) {
-    control->setEnabled(row >= 0);
+    enable_if(*control, row >= 0, none_chosen);
   }
   const QSignalBlocker quiet(stop_at_);
   stop_at_->setValue(row >= 0 ? at(breakpoints_.list(), row).stop_at : 1);
   mark_current();
-  add_->setEnabled(choices[kind_->currentIndex()].unit == nullptr || value_->hasAcceptableInput());
+  const bool valid = choices[kind_->currentIndex()].unit == nullptr || value_->hasAcceptableInput();
+  const QString no_number = tr("The condition needs a number");
+  enable_if(*add_, valid, no_number);
   for (QToolButton* join : {and_, or_}) {
-    join->setEnabled(add_->isEnabled() && row >= 0);
+    enable_if(*join, valid && row >= 0, valid ? none_chosen : no_number);
   }
 }
 

@@ -117,7 +117,7 @@ void EventFilterRow::show_filter() {
   for (std::size_t k = 0; k < kind_actions_.size(); ++k) {
     kind_actions_[k]->setChecked(filter.kinds[k]);
   }
-  clear_->setEnabled(filter.on());
+  enable_if(*clear_, filter.on(), tr("All events are shown"));
 }
 
 }  // namespace transillum::viewer

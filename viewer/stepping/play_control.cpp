@@ -98,7 +98,8 @@ void PlayControl::toggle(bool on) {
 }
 
 void PlayControl::show_state() {
-  action_->setEnabled(action_->isChecked() || (focus_.passes() > 0 && focus_.map()));
+  enable_if(*action_, action_->isChecked() || (focus_.passes() > 0 && focus_.map()),
+            tr("No direction is shown yet"));
 }
 
 void PlayControl::show_next() {

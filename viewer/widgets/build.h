@@ -36,15 +36,17 @@ inline QAction* make_key_action(QObject* parent, const QString& name, const QStr
   return make_action(parent, name, text, QStringLiteral("%1 (%2)").arg(tip, key_text), key);
 }
 
-/// Enables an action, or disables it and says why in its tool tip.
-inline void enable_if(QAction& action, bool enabled, const QString& why) {
+/// Enables a widget or an action, or disables it and says why in its tool tip.
+template <class Control>
+void enable_if(Control& control, bool enabled, const QString& why) {
   constexpr const char* usual_tip = "usual_tip";
-  if (!action.property(usual_tip).isValid()) {
-    action.setProperty(usual_tip, action.toolTip());
+  if (!control.property(usual_tip).isValid()) {
+    control.setProperty(usual_tip, control.toolTip());
   }
-  const QString tip = action.property(usual_tip).toString();
-  action.setEnabled(enabled);
-  action.setToolTip(enabled ? tip : QStringLiteral("%1\n%2").arg(tip, why));
+  const QString tip = control.property(usual_tip).toString();
+  control.setEnabled(enabled);
+  control.setToolTip(enabled ? tip : tip.isEmpty() ? why : QStringLiteral("%1\n%2").arg(tip, why));
+  control.setProperty("why_disabled", enabled ? QString() : why);
 }
 
 /// A label of dim text in as many lines as it needs.

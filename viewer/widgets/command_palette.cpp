@@ -82,7 +82,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, OfQuery of_que
   setObjectName("command_palette");
   setAttribute(Qt::WA_DeleteOnClose);
   query_->setPlaceholderText(
-      tr("An action, panel, scene, lesson, material, or the number of a patch"));
+      tr("An action, panel, quantity, scene, lesson, material, or the number of a patch"));
   query_->setClearButtonEnabled(true);
   query_->installEventFilter(this);
   list_->setColumnCount(palette_columns);
@@ -120,8 +120,10 @@ void CommandPalette::fill() {
   for (const PaletteEntry& entry : entries_) {
     const int misfit = palette_misfit(query, entry.text + QLatin1Char(' ') + entry.place);
     if (misfit >= 0) {
-      // Possible entries come before the others.
-      fitting.emplace_back(2 * misfit + (entry.enabled ? 0 : 1), entry);
+      // Possible entries come before the others, and among them those that begin with the query.
+      const bool begins = entry.text.startsWith(query, Qt::CaseInsensitive);
+      const int rest = !begins ? 2 : entry.text.size() == query.size() ? 0 : 1;
+      fitting.emplace_back(6 * misfit + (entry.enabled ? 0 : 3) + rest, entry);
     }
   }
   std::stable_sort(fitting.begin(), fitting.end(),
@@ -138,6 +140,11 @@ void CommandPalette::fill() {
       item->setToolTip(what_column, tr("Not possible now"));
     }
     shown_.push_back(std::move(entry));
+  }
+  if (shown_.empty()) {
+    auto* nothing = new QTreeWidgetItem(list_, {tr("Nothing has these words")});
+    nothing->setForeground(what_column, theme::ink_dim);
+    shown_.push_back({{}, {}, {}, false, {}});
   }
   list_->setCurrentItem(list_->topLevelItem(0));
 }

@@ -22,17 +22,27 @@ PageDialog::PageDialog(const char* name, const QString& title, const QString& ht
   resize(QSize(960, 760).boundedTo(parent.size()));
 }
 
+namespace {
+
+QString& folder_to_write() {
+  static QString folder;
+  return folder;
+}
+
+}  // namespace
+
+void propose_folder(const QString& folder) { folder_to_write() = folder; }
+
 QString ask_where_to_write(QWidget* parent, const QString& title, const QString& filter,
                            const QString& proposed, const QString& suffix) {
-  static QString folder;
-  QFileDialog dialog(parent, title, folder, filter);
+  QFileDialog dialog(parent, title, folder_to_write(), filter);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setDefaultSuffix(suffix.isEmpty() ? QFileInfo(proposed).suffix() : suffix);
   dialog.selectFile(proposed);
   if (dialog.exec() == QDialog::Rejected || dialog.selectedFiles().isEmpty()) {
     return {};
   }
-  folder = dialog.directory().path();
+  propose_folder(dialog.directory().path());
   return dialog.selectedFiles().front();
 }
 

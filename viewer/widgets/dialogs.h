@@ -16,8 +16,11 @@ class PageDialog : public QDialog {
   PageDialog(const char* name, const QString& title, const QString& html, QWidget& parent);
 };
 
-/// Shows a file dialog for a file to write. Starts in the last chosen folder with the name
-/// `proposed`; existing files need confirmation.
+/// The folder that the next dialog for a file to write starts in.
+void propose_folder(const QString& folder);
+
+/// Shows a file dialog for a file to write. Starts in the last chosen or proposed folder with the
+/// name `proposed`; existing files need confirmation.
 /// @param suffix appended to a name without one; if it is empty, the suffix of `proposed` is used
 /// @return the path; empty if the dialog was canceled
 QString ask_where_to_write(QWidget* parent, const QString& title, const QString& filter,

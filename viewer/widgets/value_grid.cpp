@@ -25,19 +25,17 @@ ValueGrid::ValueGrid(QWidget* parent) : QWidget(parent), grid_(new QGridLayout(t
 
 QLabel* ValueGrid::add_row(const QString& name, const QString& unit, const QString& tip) {
   const int row = grid_->rowCount();
-  QLabel* title = dim_label(name);
+  QLabel* title = dim_label(unit.isEmpty() ? name : tr("%1, %2").arg(name, unit));
   title->setToolTip(tip);
   auto* value = new QLabel(QStringLiteral("–"));
   value->setTextInteractionFlags(Qt::TextSelectableByMouse);
   value->setToolTip(tip);
+  value->setWordWrap(true);  // long values do not make the panel wider
   grid_->addWidget(title, row, 0);
   grid_->addWidget(value, row, 1);
-  if (!unit.isEmpty()) {
-    grid_->addWidget(dim_label(unit), row, 2, Qt::AlignRight);
-  }
   return value;
 }
 
-void ValueGrid::add_wide(QWidget* widget) { grid_->addWidget(widget, grid_->rowCount(), 0, 1, 3); }
+void ValueGrid::add_wide(QWidget* widget) { grid_->addWidget(widget, grid_->rowCount(), 0, 1, 2); }
 
 }  // namespace transillum::viewer

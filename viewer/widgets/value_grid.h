@@ -8,7 +8,7 @@ class QLabel;
 
 namespace transillum::viewer {
 
-/// Rows of a name, a value and a unit.
+/// Rows of a name with its unit, and a value.
 class ValueGrid : public QWidget {
   Q_OBJECT
 

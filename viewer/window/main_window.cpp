@@ -118,6 +118,7 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
   // buttons; a key and the menu switch sharp pictures, too.
   connect(&docks_, &DockLayouts::switched, &state_.runner, [this] {
     state_.runner.set_drafts(docks_.current() == Layout::inspect);
+    applier_->follow_layout();
     page_->sharp_button()->setVisible(docks_.current() != Layout::debug);
   });
   docks_.arrange(Layout::inspect);
@@ -453,6 +454,7 @@ void MainWindow::make_menus() {
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   help->addAction((new PaletteActions(frame(), docks_))->action());
+  help->addAction(tr("User guide"), this, [this] { show_guide(*this); });
   QAction* keys = help->addAction(tr("Keys and mouse"), this, [this] { show_keys(*this); });
   keys->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
   help->addAction(tr("All settings"), this, [this] { show_settings(*this); });

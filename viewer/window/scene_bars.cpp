@@ -19,6 +19,7 @@
 #include "support/number_text.h"
 #include "transillum/orientation.h"
 #include "widgets/banner.h"
+#include "widgets/build.h"
 #include "window/base/dock_layouts.h"
 #include "window/base/notifier.h"
 #include "window/base/open_scene.h"
@@ -100,6 +101,7 @@ LightOffer::LightOffer(const WindowFrame& frame, DockLayouts& docks, SettingsPan
   menu_ = new QMenu(button);
   button->setMenu(menu_);
   sky_ = bar->add_button("make_sky", tr("Sky"));
+  sky_->setToolTip(tr("Set the exitance of the sky, in Solve settings"));
   connect(sky_, &QPushButton::clicked, this, &LightOffer::ask_for_sky);
   connect(menu_, &QMenu::aboutToShow, this, &LightOffer::fill_menu);
   connect(bar, &Banner::closed, this, [this] { closed_ = true; });
@@ -127,12 +129,10 @@ void LightOffer::update() {
     return;
   }
   const bool may_have_sky = settings_.may_have_sky();
-  sky_->setEnabled(may_have_sky);
-  sky_->setToolTip(may_have_sky ? tr("Set the exitance of the sky, in Solve settings")
-                                : tr("No sky lights this scene: it is closed, or the engine has "
-                                     "no directions"));
+  enable_if(*sky_, may_have_sky,
+            tr("No sky lights this scene: it is closed, or the engine has no directions"));
   const bool selected = frame_.state.selection.patch() != no_patch;
-  const QString state = refused_ ? tr("Not solved: without light, B is 0 everywhere.")
+  const QString state = refused_ ? tr("Not solved: %1.").arg(why_refused_)
                                  : tr("No light: the scene is shown in neutral light.");
   const QString offer = selected ? tr("Make the selected face, material or group emit")
                                  : tr("Click a face to make it emit");
@@ -140,7 +140,8 @@ void LightOffer::update() {
                    (may_have_sky ? tr("%1 %2, or set a sky.") : tr("%1 %2.")).arg(state, offer));
 }
 
-void LightOffer::show_refusal() {
+void LightOffer::show_refusal(const QString& why) {
+  why_refused_ = why;
   refused_ = frame_.state.scene.snapshot();
   closed_ = false;
   update();

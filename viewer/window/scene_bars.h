@@ -51,7 +51,8 @@ class LightOffer : public QObject {
              MaterialPanel& materials, ViewStateApplier& applier);
 
   /// Says that nothing is solved without light, also if the user has closed the bar.
-  void show_refusal();
+  /// @param why SolveOptions::why_dark()
+  void show_refusal(const QString& why);
   /// Gives a target an exitance, and shows its sliders.
   /// @param target  as in MaterialEdits
   void make_emit(const std::string& target);
@@ -73,6 +74,7 @@ class LightOffer : public QObject {
   bool closed_ = false;  ///< by the user, for the open scene
   /// The snapshot before a solve that was refused; nothing where none was.
   std::optional<std::shared_ptr<const SolverSnapshot>> refused_;
+  QString why_refused_;
 };
 
 /// The bar above a scene in which more than a tenth of the surface that light meets is the back of

@@ -22,8 +22,6 @@
 
 namespace transillum::viewer {
 
-namespace {}  // namespace
-
 SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, SolveActions& actions,
                            ViewStateApplier& applier)
     : QObject(&frame.window),
@@ -54,7 +52,7 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
     actions_.show_state(frame_.state.runner.state(), frame_.state.scene.at_start());
   });
   connect(&settings_, &SettingsPanel::restart_clicked, this, [this] {
-    if (finds_light(settings_.solve_options().sky) && may_solve_again()) {
+    if (finds_light(settings_.solve_options()) && may_solve_again()) {
       solve_again();
     }
   });
@@ -82,19 +80,19 @@ bool SolveControl::may_solve_again() const {
   return frame_.guard.may_lose(&frame_.window, tr("Solve again"));
 }
 
-bool SolveControl::finds_light(const Sky& sky) {
-  const bool found =
-      !frame_.state.scene.loaded() || sky.is_set() || frame_.state.relighting.edits().has_light();
-  if (!found) {
-    emit light_missing();
+bool SolveControl::finds_light(const SolveOptions& options) {
+  const bool emits = !frame_.state.scene.loaded() || frame_.state.relighting.edits().has_light();
+  const std::string why = options.why_dark(emits);
+  if (!why.empty()) {
+    emit light_missing(QString::fromStdString(why));
   }
-  return found;
+  return why.empty();
 }
 
 /// Continues the solve, if it has light.
 void SolveControl::advance(Goal::Kind kind) {
   const auto snapshot = frame_.state.scene.snapshot();
-  if (finds_light(snapshot ? snapshot->options.sky : settings_.solve_options().sky)) {
+  if (finds_light(snapshot ? snapshot->options : settings_.solve_options())) {
     frame_.state.runner.set_goal({.kind = kind, .without_light = true});
   }
 }
@@ -104,7 +102,7 @@ void SolveControl::run() {
   const bool again = frame_.state.scene.at_start() && settings_.differ_from_effect();
   if (!again) {
     advance(Goal::Kind::finished);
-  } else if (finds_light(settings_.solve_options().sky)) {
+  } else if (finds_light(settings_.solve_options())) {
     solve_again();
   }
 }
@@ -188,7 +186,7 @@ bool SolveControl::may_refine(std::int64_t patches) {
 }
 
 void SolveControl::solve_with_replicas() {
-  if (!finds_light(settings_.solve_options().sky) || !may_solve_again()) {
+  if (!finds_light(settings_.solve_options()) || !may_solve_again()) {
     return;
   }
   constexpr int replicas = 8;
@@ -202,7 +200,7 @@ void SolveControl::solve_with_replicas() {
 void SolveControl::finish() {
   if (frame_.state.relighting.edits().changes().empty()) {
     run();
-  } else if (finds_light(settings_.solve_options().sky) && may_solve_again()) {
+  } else if (finds_light(settings_.solve_options()) && may_solve_again()) {
     solve_again();
   }
 }
@@ -212,8 +210,8 @@ void SolveControl::take_step(const NextStep& step) {
   if (!errors || errors->loaded != frame_.state.scene.loaded() || !may_solve_again()) {
     return;
   }
-  std::vector<PatchId> divided = divided_patches(step, errors->solve);
-  if (!divided.empty() && !may_refine(step.patches)) {
+  const std::string division = name_of_division(step, errors->solve);
+  if (!division.empty() && !may_refine(step.patches)) {
     return;
   }
   frame_.notifier.dismiss();
@@ -222,8 +220,7 @@ void SolveControl::take_step(const NextStep& step) {
   solve.directions = step.passes;
   solve.tolerance = step.tolerance;
   settings_.set_options({solve, settings_.scene_options()});
-  const std::string division = divided.empty() ? "" : name_of_division(step, errors->solve);
-  frame_.state.runner.restart({solve, {}, errors->loaded, std::move(divided), division},
+  frame_.state.runner.restart({.solve = solve, .from = errors->loaded, .division = division},
                               {Goal::Kind::finished});
 }
 

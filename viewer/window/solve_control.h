@@ -27,8 +27,8 @@ class SolveControl : public QObject {
                ViewStateApplier& applier);
 
  signals:
-  /// A solve was refused, because nothing emits light.
-  void light_missing();
+  /// A solve was refused, because nothing emits light: SolveOptions::why_dark().
+  void light_missing(const QString& why);
 
  public slots:
   /// Solves to the end, with the changed materials.
@@ -40,8 +40,8 @@ class SolveControl : public QObject {
  private:
   void run();
   void advance(Goal::Kind kind);
-  /// Whether a solve under this sky has light; if not, emits light_missing().
-  bool finds_light(const Sky& sky);
+  /// Whether a solve has light; if not, emits light_missing().
+  bool finds_light(const SolveOptions& options);
   /// Solves with the settings of the panel; reads the scene again where its options differ.
   void solve_again();
   /// Asks about long work. @returns whether the solve may be discarded

@@ -17,14 +17,17 @@ class SolveUndo::Command : public QUndoCommand {
   Command(SolveUndo& owner, std::shared_ptr<Kept> kept)
       : QUndoCommand(SolveUndo::tr("solving again")), owner_(owner), kept_(std::move(kept)) {}
 
-  // Opening the earlier solve clears the list, so that there is no redo.
-  void undo() override {
-    if (kept_->solve) {
-      owner_.show(*kept_->solve);
+  // Opening the other solve clears the list; it then begins with a command for the way back.
+  void undo() override { show(true); }
+  void redo() override { show(false); }
+
+ private:
+  void show(bool undoes) {
+    if (kept_->solve && kept_->is_earlier == undoes) {
+      owner_.show(*kept_);
     }
   }
 
- private:
   SolveUndo& owner_;
   std::shared_ptr<Kept> kept_;
 };
@@ -32,31 +35,38 @@ class SolveUndo::Command : public QUndoCommand {
 SolveUndo::SolveUndo(const WindowFrame& frame) : QObject(&frame.window), frame_(frame) {
   // New patches clear the list of what can be undone, before this is called.
   connect(&frame_.state.scene, &OpenScene::patches_changed, this, &SolveUndo::push);
-  connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] {
-    const auto now = std::exchange(returns_, nullptr);
-    if (now) {
-      emit returned(now->options);
-      frame_.page.scene_view()->set_view_point(view_);
-    }
-    if (now || spec_ != frame_.state.scene.spec()) {
-      earlier_ = nullptr;
-    }
-    push();
-  });
+  connect(&frame_.state.scene, &OpenScene::opening, this, [this] { returns_ = {}; });
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, &SolveUndo::on_scene);
 }
 
-std::shared_ptr<const SolveUndo::Earlier> SolveUndo::shown() const {
+void SolveUndo::on_scene() {
+  const Kept now = std::exchange(returns_, {});
+  if (now.solve) {
+    emit returned(now.solve->options);
+    frame_.page.scene_view()->set_view_point(view_);
+    earlier_ = now.is_earlier ? nullptr : left_;
+    if (now.is_earlier && left_) {
+      push_redo();
+    }
+  } else if (spec_ != frame_.state.scene.spec()) {
+    earlier_ = nullptr;
+  }
+  left_ = nullptr;
+  push();
+}
+
+std::shared_ptr<const SolveUndo::Light> SolveUndo::shown() const {
   const auto snapshot = frame_.state.scene.snapshot();
-  if (!snapshot || !snapshot->loaded->description || !snapshot->progress.finished ||
-      snapshot->materials) {
+  const bool complete = snapshot && (snapshot->progress.finished || snapshot->of_file);
+  if (!complete || !snapshot->loaded->description || snapshot->materials) {
     return nullptr;
   }
   auto loaded = std::make_shared<LoadedScene>(*snapshot->loaded);
   loaded->stored = std::make_shared<const Solution>(solution_of(*snapshot, true));
   loaded->file = loaded->scene->name();
   loaded->divided_faces = 0;
-  return std::make_shared<const Earlier>(
-      Earlier{std::move(loaded), snapshot->options, frame_.state.scene.input()});
+  return std::make_shared<const Light>(
+      Light{std::move(loaded), snapshot->options, frame_.state.scene.input()});
 }
 
 void SolveUndo::remember() {
@@ -71,16 +81,25 @@ void SolveUndo::remember() {
 
 void SolveUndo::push() {
   if (earlier_ && kept_.expired()) {
-    const auto kept = std::make_shared<Kept>(Kept{earlier_});
+    const auto kept = std::make_shared<Kept>(Kept{earlier_, true});
     kept_ = kept;
     frame_.state.undo.push(new Command(*this, kept));
   }
 }
 
-void SolveUndo::show(const Earlier& earlier) {
-  returns_ = std::make_shared<const Earlier>(earlier);
+// A list of commands is only filled by doing them: this one does nothing until it has been undone.
+void SolveUndo::push_redo() {
+  const auto kept = std::make_shared<Kept>();
+  frame_.state.undo.push(new Command(*this, kept));
+  frame_.state.undo.undo();
+  *kept = {left_, false};
+}
+
+void SolveUndo::show(const Kept& kept) {
+  left_ = shown();
   view_ = frame_.page.scene_view()->view_point();
-  frame_.state.scene.show_earlier(earlier.loaded, earlier.options, earlier.input);
+  frame_.state.scene.show_earlier(kept.solve->loaded, kept.solve->options, kept.solve->input);
+  returns_ = kept;
 }
 
 }  // namespace transillum::viewer

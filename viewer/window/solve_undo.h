@@ -11,8 +11,9 @@
 
 namespace transillum::viewer {
 
-/// Undo of "Solve again": the light of the earlier solve comes back, with its patches and settings.
-/// Form factors and the light of single iterations are not kept. One earlier solve is kept.
+/// Undo and redo of "Solve again": the light of the other solve comes back, with its patches and
+/// settings. Form factors and the light of single iterations are not kept. One solve is kept beside
+/// the one shown.
 class SolveUndo : public QObject {
   Q_OBJECT
 
@@ -24,31 +25,34 @@ class SolveUndo : public QObject {
   void remember();
 
  signals:
-  /// An earlier solve is shown again.
+  /// A kept solve is shown again.
   void returned(const transillum::SolveOptions& options);
 
  private:
   class Command;
-  struct Earlier;
-  struct Kept {
-    std::shared_ptr<const Earlier> solve;
-  };
   /// The light of a solve, as for a result file.
-  struct Earlier {
+  struct Light {
     std::shared_ptr<const LoadedScene> loaded;  ///< with the light
     SolveOptions options;
     SceneInput input;
   };
-  std::shared_ptr<const Earlier> shown() const;
+  struct Kept {
+    std::shared_ptr<const Light> solve;
+    bool is_earlier = true;  ///< for Undo; else for Redo
+  };
+  std::shared_ptr<const Light> shown() const;
+  void on_scene();
   void push();
-  void show(const Earlier& earlier);
+  void push_redo();
+  void show(const Kept& kept);
 
   WindowFrame frame_;
-  std::shared_ptr<const Earlier> earlier_;  ///< the solve of Undo; null if nothing can be undone
-  std::weak_ptr<Kept> kept_;                ///< the solve of the command in the list
-  std::string spec_;                        ///< its scene
-  std::shared_ptr<const Earlier> returns_;  ///< about to be shown; null if none is
-  ViewPoint view_;                          ///< the camera that it is to have
+  std::shared_ptr<const Light> earlier_;  ///< the solve of Undo; null if nothing can be undone
+  std::weak_ptr<Kept> kept_;              ///< the solve of the command in the list
+  std::string spec_;                      ///< its scene
+  Kept returns_;                          ///< about to be shown; null if none is
+  std::shared_ptr<const Light> left_;     ///< shown until then; null if it had not finished
+  ViewPoint view_;                        ///< the camera that it is to have
 };
 
 }  // namespace transillum::viewer

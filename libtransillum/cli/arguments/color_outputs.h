@@ -16,7 +16,7 @@ struct ColorOutputs {
   DisplayOptions display;
   std::optional<Vec3> target;  ///< --target
   bool sharp = false;          ///< --sharp
-  double texels = 0;           ///< --texels, per meter; 0 means the default of SharpLightMap
+  double texels = 0;           ///< --texels, per meter; 0 means the default of LightMap
   std::string series;          ///< --series
   int series_every = 0;        ///< --series-every: a number of directions; 0 means every iteration
 };

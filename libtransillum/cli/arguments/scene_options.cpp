@@ -14,7 +14,7 @@
 #include "cli/progress_display.h"
 #include "cli/reports/report_text.h"
 #include "scene/build/patch_count.h"
-#include "session/next_steps.h"
+#include "session/divisions.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
@@ -238,21 +238,23 @@ std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
   check_memory(description.name, static_cast<std::int64_t>(description.face_count()));
   auto scene = make_input_scene(input, description, cancellation);
   print_warnings(*scene);
-  if (light == Light::required && !scene->has_light()) {
+  if (light == Light::optional) {
+    return scene;
+  }
+  const SolveOptions& solve = input.run.solve;
+  if (const std::string why = solve.why_dark(scene->has_light()); !why.empty()) {
     throw InputError(fmt::format(
-        "{}: nothing emits light, so B would be 0 everywhere; give a material, a group or a face "
-        "an exitance in W/m2, such as --emission '{}=10'",
-        scene->name(), suggested_light(description)));
+        "{}: {}; give a material, a group or a face an exitance in W/m2, such as --emission "
+        "'{}=10'",
+        scene->name(), why, suggested_light(description)));
   }
-  if (light != Light::optional) {
-    if (const std::string advice = overlap_advice(*scene, cancellation); !advice.empty()) {
-      print_message("warning: " + advice);
-    }
+  if (const std::string advice = overlap_advice(*scene, cancellation); !advice.empty()) {
+    print_message("warning: " + advice);
   }
-  if (light == Light::sky || (light == Light::required && !input.run.input.orient)) {
-    const BackFraction backs = back_fraction(*scene, input.run.solve.threads, cancellation);
-    const std::string advice = light == Light::required ? orientation_advice(input, backs)
-                                                        : sky_advice(input, *scene, backs);
+  if (solve.sky.is_set() || !input.run.input.orient) {
+    const BackFraction backs = back_fraction(*scene, solve.threads, cancellation);
+    const std::string advice =
+        solve.sky.is_set() ? sky_advice(input, *scene, backs) : orientation_advice(input, backs);
     if (!advice.empty()) {
       print_message("warning: " + advice);
     }

@@ -32,8 +32,8 @@ void add_scene_options(CLI::App& command, SceneInput& input);
 /// @throws InputError
 void check_seed(const SceneInput& input);
 
-/// Which light a command needs: none, light of faces, or light of a sky.
-enum class Light { optional, required, sky };
+/// Whether a command needs light of faces, or of the sky that it is given.
+enum class Light { optional, required };
 
 /// The scene's faces, read and changed as the options say.
 /// @throws InputError, Canceled

@@ -11,6 +11,7 @@
 #include "cli/output_files.h"
 #include "cli/processes.h"
 #include "io/results/error_report_files.h"
+#include "session/measure_errors.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -32,8 +33,7 @@ void check_glossy(const SolveCall& call) {
   refuse_unless(has_picture || any_file({".csv", ".vtp", ".ply"}), *call.scene.command, "--eye",
                 "used only with a .csv, .vtp, .ply, .png, .exr or .pfm file");
   if (call.options().glossy) {
-    for (const char* option :
-         {"--factors", "--by", "--series", "--checkpoint", "--shard", "--refine-by"}) {
+    for (const char* option : {"--factors", "--by", "--series", "--checkpoint", "--shard"}) {
       refuse_unless(false, *call.scene.command, option, "not used with --glossy");
     }
   }
@@ -156,11 +156,13 @@ void check_errors(const SolveCall& call) {
   refuse_unless(!processes().sums, command, option, "not available with several processes");
   refuse_unless(call.shards.empty() && !call.share, command, option, "not available with shards");
   refuse_unless(call.factors.empty(), command, option, "not used with --factors");
-  refuse_unless(!call.options().glossy, command, option, "not used with --glossy");
   refuse_unless(takes_directions(call.options().engine), command, option,
                 fmt::format("not used with engine {}", name_of(call.options().engine)));
-  refuse_unless(!traits_of(call.options().scheme).renews_directions, command, option,
-                fmt::format("not used with scheme {}", name_of(call.options().scheme)));
+  try {
+    check_measurable(call.options(), call.options().glossy);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
   if (call.error_report.empty()) {
     return;
   }

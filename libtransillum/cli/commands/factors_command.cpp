@@ -62,7 +62,6 @@ FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scen
                        const Cancellation& cancellation, ProgressDisplay& display) {
   const auto tree = build_tree(*scene, cancellation, display, call.passes().threads);
   SolveOptions options = call.passes();
-  options.first_shot.reset();
   options.iterations = 1;
   RadiositySolver solver(scene, options, {.tree = tree}, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
@@ -221,6 +220,7 @@ void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
 
 Command add_factors_command(CLI::App& program) {
   auto call = std::make_shared<FactorsCall>();
+  call->scene.run.solve.first_shot.reset();
   CLI::App& command =
       *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
   add_scene_argument(command, call->scene);

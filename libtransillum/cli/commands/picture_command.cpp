@@ -188,8 +188,7 @@ int run(PictureCall& call) {
   } else {
     call.scene.divides_few_faces = true;
     complete(call.scene);
-    scene = load_input_scene(call.scene, call.picture.files, cancellation,
-                             call.solve().sky.is_set() ? Light::sky : Light::required);
+    scene = load_input_scene(call.scene, call.picture.files, cancellation, Light::required);
   }
   call.picture.camera = camera_of(call, *scene, given);
   call.picture.options.threads = call.solve().threads;

@@ -48,7 +48,7 @@ void print_powers(const SolveCall& call, const Solution& solution) {
 /// Writes the files and the summary.
 void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution,
                    const std::optional<MeasuredErrors>& errors,
-                   const std::shared_ptr<const SharpLightMap>& sharp_map) {
+                   const std::shared_ptr<const LightMap>& sharp_map) {
   std::vector<std::function<void()>> writers;
   DisplayOptions display = call.colors.display;
   display.sharp_map = sharp_map;
@@ -89,18 +89,19 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
 
 /// The map of --sharp; null without it.
 /// @throws NothingToSave where it is canceled
-std::shared_ptr<const SharpLightMap> sharp_map_of(const SolveCall& call,
-                                                  std::shared_ptr<const Solution> solution,
-                                                  ProgressDisplay& display,
-                                                  const Cancellation& cancellation) {
+std::shared_ptr<const LightMap> sharp_map_of(const SolveCall& call,
+                                             const std::shared_ptr<const Solution>& solution,
+                                             ProgressDisplay& display,
+                                             const Cancellation& cancellation) {
   if (!call.colors.sharp) {
     return nullptr;
   }
   display.begin("light map");
   try {
-    auto map = std::make_shared<const SharpLightMap>(
-        std::move(solution),
-        SharpLightMap::Options{.density = call.colors.texels, .threads = call.options().threads},
+    const SurfaceLight light(solution, 0, cancellation);
+    auto map = std::make_shared<const LightMap>(
+        *solution->scene, light,
+        LightMap::Options{.density = call.colors.texels, .threads = call.options().threads},
         cancellation, [&](double fraction) { display.show("light map", fraction); });
     display.clear();
     return map;
@@ -155,8 +156,7 @@ PreparedCall prepare_call(SolveCall& call, const Cancellation& cancellation) {
   }
   complete(call);
   prepared.options = call.options();
-  prepared.scene = load_input_scene(call.scene, outputs, cancellation,
-                                    prepared.options.sky.is_set() ? Light::sky : Light::required);
+  prepared.scene = load_input_scene(call.scene, outputs, cancellation, Light::required);
   check_series(call.colors, prepared.scene->files());
   check_picture_request(pictures_of(call, *prepared.scene), prepared.scene);
   if (!call.colors.series.empty() && is_first_process()) {
@@ -304,8 +304,7 @@ int run_shard(SolveCall& call) {
   check_can_be_shared(options, *call.share);
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.quiet);
-  const auto scene = load_input_scene(call.scene, outputs, cancellation,
-                                      options.sky.is_set() ? Light::sky : Light::required);
+  const auto scene = load_input_scene(call.scene, outputs, cancellation, Light::required);
   const auto start = Clock::now();
   const int passes = (options.directions - call.share->number) / call.share->of + 1;
   int done = 0;

@@ -28,7 +28,7 @@
 namespace TRANSILLUM_API transillum {
 
 struct Picture;
-class SharpLightMap;
+class LightMap;
 
 /// Writes `path` through a temporary file in the same folder. A symbolic link stays, and what it
 /// refers to is written, whether that exists or not. A device, and an open file of this process
@@ -69,7 +69,7 @@ struct DisplayOptions {
   /// patch, instead of a color per corner.
   bool light_map = false;
   /// .glb, .gltf with `light_map`: the picture, of the solution that is written, instead.
-  std::shared_ptr<const SharpLightMap> sharp_map = nullptr;
+  std::shared_ptr<const LightMap> sharp_map = nullptr;
 
   /// @throws InputError naming the value and its range.
   void validate() const;

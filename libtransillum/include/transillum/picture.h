@@ -151,30 +151,33 @@ SampleRay sample_ray(const CameraRays& rays, const PixelSample& sample);
 Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, int column, int row,
                    int count);
 
-/// The radiosity of a result on grids of points of its surfaces, as one picture: a light map.
+/// The radiosity of a result on grids of points of its surfaces, as one picture for linear
+/// filtering.
 ///
-/// Patches of one plane and material that touch share a rectangle of it, so that it has no seams
-/// between them; each rectangle continues by a texel beyond its edges, for linear filtering.
 /// Threads: immutable once made.
-class SharpLightMap {
+class LightMap {
  public:
   /// Largest width and height, texels.
   static constexpr int largest_side = 16384;
 
-  /// Options of a light map.
+  /// Options of a map of exact light.
   struct Options {
     /// Texels per meter, > 0; 0 means 1,024 along the diagonal of the scene's bounding box.
     double density = 0;
     int threads = 0;  ///< 0 uses all cores; the result does not depend on it
   };
 
-  /// Computes all texels.
+  /// B of the solution: a square of 4 by 4 texels for each patch. Filtering gives its function and
+  /// no other; where it is constant, filtering of the first reduction does, too.
+  /// @throws InputError where the map would be larger than largest_side
+  explicit LightMap(const Solution& solution);
+  /// Light computed at each texel. Patches of one plane and material that touch share a rectangle,
+  /// so that there are no seams between them; each rectangle continues by a texel beyond its edges.
   /// @param progress as make_picture()
   /// @throws InputError where the map would be larger than largest_side; Canceled
-  explicit SharpLightMap(std::shared_ptr<const Solution> solution, const Options& options,
-                         const Cancellation& cancellation = {},
-                         const std::function<void(double)>& progress = {});
-  ~SharpLightMap();
+  LightMap(const Scene& scene, const SurfaceLight& light, const Options& options,
+           const Cancellation& cancellation = {}, const std::function<void(double)>& progress = {});
+  ~LightMap();
 
   int width() const;   ///< texels
   int height() const;  ///< texels

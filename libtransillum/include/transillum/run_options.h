@@ -25,8 +25,9 @@ struct SceneInput {
   /// About how many patches to make, instead of SceneOptions::max_patch_area; 0 if not given. Once
   /// the scene is loaded, that area says the same.
   std::int64_t patches = 0;
-  /// Surfaces whose patches are divided into about four, one after the other; "all" stands for all
-  /// patches.
+  /// Patches that are divided into about four, one entry after the other: the name of a surface,
+  /// "all" for all patches, or "patch:3,7-20" for patches by their numbers after the entries
+  /// before it, as rounds and steps choose them.
   std::vector<std::string> divided = {};
 
   /// Exact comparison of all members.

@@ -192,16 +192,13 @@ inline constexpr double least_light_directions = 3;
 
 class GlossyLight;
 
-/// The result of a solve run.
-struct Solution {
-  std::shared_ptr<const Scene> scene;  ///< the scene
-  std::vector<Rgb> radiosity;          ///< B, W/m², one per patch
-  std::vector<Rgb> irradiance;         ///< H, W/m², one per patch
-  ErrorEstimate error;                 ///< from replicas, if there are any
-  SolveStatistics statistics;          ///< statistics of the run
-  bool complete = false;  ///< false: stopped early, radiosity is the best estimate so far
-  std::optional<AccuracyReport> accuracy = {};  ///< report of a solve with a goal
-  /// sum_j F_ij, one per patch; empty if not known
+/// The light of all patches, one value per patch.
+struct SolvedLight {
+  std::vector<Rgb> radiosity;   ///< B, W/m²; the mean over the patch where B is linear
+  std::vector<Rgb> irradiance;  ///< H, W/m²
+  /// RadiositySolver::linear_terms(), with Basis::linear; empty if B is constant on patches
+  std::vector<LinearTerm> linear_terms = {};
+  /// sum_j F_ij; empty if not known
   std::vector<double> form_factor_sums = {};
   /// RadiositySolver::sky_fractions(); with given form factors, 1 - sum_j F_ij, which counts
   /// what meets back sides as escaping. Empty if not known.
@@ -210,15 +207,21 @@ struct Solution {
   std::vector<Rgb> sky_irradiance = {};
   /// RadiositySolver::sky_linear_terms(); empty without a sky, and with Basis::constant
   std::vector<LinearTerm> sky_linear_terms = {};
-  Sky sky = {};  ///< SolveOptions::sky
-  /// The form factors given to the solve; if null, RadiositySolver::form_factors() may have them.
-  std::shared_ptr<const FormFactors> form_factors = nullptr;
-  /// RadiositySolver::linear_terms(), with Basis::linear: the mean over a patch is `radiosity`;
-  /// empty if B is constant on patches
-  std::vector<LinearTerm> linear_terms = {};
   /// Radiance by direction after a glossy solve in which lobes took part; else null. `radiosity` is
   /// then E + (rho + reflectance of the lobe) H.
   std::shared_ptr<const GlossyLight> glossy = nullptr;
+};
+
+/// The result of a solve run.
+struct Solution : SolvedLight {
+  std::shared_ptr<const Scene> scene;  ///< the scene
+  ErrorEstimate error;                 ///< from replicas, if there are any
+  SolveStatistics statistics;          ///< statistics of the run
+  bool complete = false;  ///< false: stopped early, radiosity is the best estimate so far
+  std::optional<AccuracyReport> accuracy = {};  ///< report of a solve with a goal
+  Sky sky = {};                                 ///< SolveOptions::sky
+  /// The form factors given to the solve; if null, RadiositySolver::form_factors() may have them.
+  std::shared_ptr<const FormFactors> form_factors = nullptr;
   /// A point from which patches are seen; result files then have their radiance toward it.
   std::optional<Vec3> eye = std::nullopt;
 };

@@ -114,6 +114,9 @@ struct SolveOptions {
   Sampling used_sampling() const { return sampling.value_or(default_sampling(two_way)); }
   /// @throws InputError naming the option and its range.
   void validate() const;
+  /// Why B would be 0 everywhere, as a phrase; empty if there is light.
+  /// @param emits whether a patch emits: Scene::has_light()
+  std::string why_dark(bool emits) const;
   /// Exact comparison of all members.
   friend bool operator==(const SolveOptions&, const SolveOptions&) = default;
 };

@@ -120,6 +120,9 @@ class SolveSession {
   /// The scene as refined so far: scene(), or, in a round by RefineBy::error, the scene before each
   /// patch was divided.
   const std::shared_ptr<const Scene>& refined_scene() const;
+  /// The divisions that make scene() from the scene of the request: SceneInput::divided. Solved
+  /// with them, that scene has the same patches.
+  std::vector<std::string> divisions() const;
   /// The finished stages of a solve with a goal, and whether the last reached it; nothing without
   /// a goal.
   std::optional<AccuracyReport> accuracy() const;

@@ -91,6 +91,9 @@ class ProgressRelay {
 
 Solution solve_scene(const ScenePtr& scene, const py::dict& keywords, const py::object& progress) {
   const SolveOptions options = options_from(keywords);
+  if (const std::string why = options.why_dark(scene->has_light()); !why.empty()) {
+    throw InputError(scene->name() + ": " + why);
+  }
   ProgressRelay relay(progress);
   return run_cancelably(
       [&](const Cancellation& cancellation) {
@@ -263,6 +266,30 @@ py::array_t<float> picture(const Solution& solution, const py::handle& eye,
   return array;
 }
 
+std::optional<py::dict> surface_errors_of(const Solution& solution) {
+  if (solution.error.replicas == 0) {
+    return {};
+  }
+  py::dict errors;
+  for (const SurfaceError& surface : solution.error.surfaces.surfaces) {
+    errors[py::str(surface.name)] = surface.limit;
+  }
+  return errors;
+}
+
+std::optional<py::dict> accuracy_of(const Solution& solution) {
+  if (!solution.accuracy) {
+    return {};
+  }
+  const AccuracyReport& report = *solution.accuracy;
+  py::dict dict;
+  dict["reached"] = report.reached;
+  dict["error"] = report.error;
+  dict["surface"] = report.surface;
+  dict["passes"] = report.passes_made;
+  return dict;
+}
+
 void bind_solution(py::module_& module) {
   py::class_<Solution>(module, "Solution")
       .def_property_readonly(
@@ -282,6 +309,8 @@ void bind_solution(py::module_& module) {
                                }
                                return s.error.rms_limit;
                              })
+      .def_property_readonly("surface_errors", &surface_errors_of)
+      .def_property_readonly("accuracy", &accuracy_of)
       .def_property_readonly("complete", [](const Solution& s) { return s.complete; })
       .def_property_readonly("statistics", [](const Solution& s) {
         py::dict dict = to_dict(s.statistics);

@@ -70,6 +70,18 @@ class Solution:
         return self._core.rms_error
 
     @property
+    def surface_errors(self) -> Union[dict[str, float], None]:
+        """The limit of the relative RMS error of B - E on each surface (group, material or
+        connected component) in 95 % of all runs, by its name; None without replicas."""
+        return self._core.surface_errors
+
+    @property
+    def accuracy(self) -> Union[dict[str, Any], None]:
+        """How a solve to an accuracy has ended; None without one: whether it was `reached`, the
+        `error`, the worst `surface` (empty where the error is of none) and `passes`."""
+        return self._core.accuracy
+
+    @property
     def complete(self) -> bool:
         """False: stopped early; radiosity is the best estimate so far."""
         return self._core.complete

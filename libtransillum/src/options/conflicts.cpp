@@ -143,6 +143,10 @@ void SolveOptions::validate() const {
   goal.validate();
 }
 
+std::string SolveOptions::why_dark(bool emits) const {
+  return emits || sky.is_set() ? "" : "nothing emits light, so B would be 0 everywhere";
+}
+
 std::optional<double> SolveOptions::used_first_shot() const {
   if (!first_shot || *first_shot >= 0) {
     return first_shot;

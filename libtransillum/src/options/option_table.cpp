@@ -116,8 +116,8 @@ void add_engine(Table& t) {
   resolution.default_text = fmt::format("{}, hemicube 64", EngineOptions::default_resolution);
   Option& points =
       t.add("points", "P", "a number, or auto",
-            "engine pairs: number of points along a patch as large as its distance from the other, "
-            "where something is between");
+            "engine pairs and first shot: number of points along a patch as large as its distance "
+            "from the other, where something is between");
   whole(points, engine(&EngineOptions::points), 1, EngineOptions::largest_points, "auto");
   points.default_text = fmt::to_string(EngineOptions::default_points);
   Option& order =
@@ -382,9 +382,9 @@ void add_reading(Table& t) {
   };
   orient.print = [](const RunOptions& o) { return std::string(o.input.orient ? "auto" : "keep"); };
   Option& divide =
-      t.add("divide", "SURFACES", "names of surfaces, or none",
-            "divide each patch of a surface into about four; all: of all surfaces; several with ; "
-            "between them are divided one after the other");
+      t.add("divide", "PATCHES", "names of surfaces or numbers of patches, or none",
+            "divide each patch of a surface into about four; all: of all surfaces; patch:3,7-20: "
+            "these patches; several with ; between them are divided one after the other");
   divide.unset = "none";
   divide.parse = [](RunOptions& o, const std::string& text) {
     o.input.divided.clear();

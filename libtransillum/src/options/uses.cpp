@@ -14,7 +14,9 @@ bool has_directions(const RunOptions& run) { return takes_directions(run.solve.e
 bool takes_resolution(const RunOptions& run) {
   return traits_of(run.solve.engine).takes_resolution;
 }
-bool takes_points(const RunOptions& run) { return traits_of(run.solve.engine).takes_points; }
+bool takes_points(const RunOptions& run) {
+  return traits_of(run.solve.engine).takes_points || run.solve.used_first_shot();
+}
 bool takes_order(const RunOptions& run) { return traits_of(run.solve.engine).takes_order; }
 
 bool draws_random_numbers(const RunOptions& run) {
@@ -64,7 +66,7 @@ constexpr Use uses[] = {
      "used only with sampling random, sobol or scrambled-hammersley, with engine rays, with scheme "
      "semi-iterative, or to rotate replicas"},
     {"resolution", takes_resolution, "used only with engine zbuffer, painter, rays or hemicube"},
-    {"points", takes_points, "used only with engine pairs"},
+    {"points", takes_points, "used only with engine pairs and with a first shot"},
     {"order", takes_order, "used only with engine painter"},
     {"sky-model", has_sky, "used only with a sky"},
     {"burn-in", is_semi_iterative, "used only with scheme semi-iterative"},

@@ -1,17 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "session/next_steps.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "radiosity/error/surfaces.h"
 #include "scene/build/division.h"
-#include "scene/build/patch_count.h"
+#include "session/divisions.h"
 #include "transillum/at.h"
-#include "transillum/errors.h"
 
 namespace transillum {
 namespace {
@@ -91,45 +87,13 @@ std::vector<NextStep> next_steps(const ErrorReport& report, const MeasuredSolve&
   return steps;
 }
 
-namespace {
-
-constexpr const char* all_surfaces = "all";
-
-/// The patches of a surface, in ascending order.
-/// @param kept AccuracyGoal::surfaces
-std::vector<PatchId> patches_of(const Scene& scene, const std::string& name,
-                                const std::vector<std::string>& kept) {
-  std::vector<PatchId> patches;
-  const Surfaces surfaces = find_surfaces(scene, Measured::reflecting, kept);
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const std::int32_t s = surfaces.of(i);
-    if (s != Surfaces::none && at(surfaces.surfaces, s).name == name) {
-      patches.push_back(i);
-    }
-  }
-  return patches;
-}
-
-std::vector<PatchId> all_patches_of(const Scene& scene) {
-  std::vector<PatchId> patches(scene.patches().size());
-  std::iota(patches.begin(), patches.end(), PatchId{0});
-  return patches;
-}
-
-/// The patches of an entry of SceneInput::divided. A surface counts alone whatever its area.
-std::vector<PatchId> patches_of(const Scene& scene, const std::string& name) {
-  return name == all_surfaces ? all_patches_of(scene) : patches_of(scene, name, {name});
-}
-
-}  // namespace
-
 std::vector<PatchId> divided_patches(const NextStep& step, const MeasuredSolve& solve) {
   const Scene& scene = *solve.solution.scene;
   switch (step.kind) {
     case NextStep::Kind::divide_all:
-      return all_patches_of(scene);
+      return all_patches(scene);
     case NextStep::Kind::divide_surface:
-      return patches_of(scene, step.surface, solve.options.goal.surfaces);
+      return patches_of_surface(scene, step.surface, solve.options.goal.surfaces);
     case NextStep::Kind::directions:
     case NextStep::Kind::iterations:
       break;
@@ -138,36 +102,10 @@ std::vector<PatchId> divided_patches(const NextStep& step, const MeasuredSolve& 
 }
 
 std::string name_of_division(const NextStep& step, const MeasuredSolve& solve) {
+  const std::vector<PatchId> patches = divided_patches(step, solve);
   const std::string name =
-      step.kind == NextStep::Kind::divide_all ? std::string(all_surfaces) : step.surface;
-  const bool is_same = name.find(';') == std::string::npos && name != "none" &&
-                       patches_of(*solve.solution.scene, name) == divided_patches(step, solve);
-  return is_same ? name : std::string();
-}
-
-std::shared_ptr<const Scene> divided_scene(std::shared_ptr<const Scene> scene,
-                                           const std::vector<std::string>& names,
-                                           const Cancellation& cancellation) {
-  for (const std::string& name : names) {
-    const std::vector<PatchId> patches = patches_of(*scene, name);
-    if (patches.empty()) {
-      std::string known;
-      for (const auto& surface : find_surfaces(*scene, Measured::reflecting).surfaces) {
-        known += fmt::format(", \"{}\"", surface.name);
-      }
-      throw InputError(
-          fmt::format("division of patches: there is no surface \"{}\" whose patches reflect and "
-                      "do not emit; there are \"all\"{}",
-                      name, known));
-    }
-    std::int64_t count = scene->patch_count();
-    for (const PatchId i : patches) {
-      count += division_count(*scene, i) - 1;
-    }
-    check_memory(scene->name(), count);
-    scene = divide(*scene, patches, cancellation).scene;
-  }
-  return scene;
+      step.kind == NextStep::Kind::divide_all ? std::string(all_patches_name) : step.surface;
+  return patches.empty() ? std::string() : division_name(*solve.solution.scene, name, patches);
 }
 
 }  // namespace transillum

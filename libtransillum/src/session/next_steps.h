@@ -1,12 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "session/error_report.h"
-#include "transillum/cancellation.h"
 
 namespace transillum {
 
@@ -28,13 +26,7 @@ std::vector<NextStep> next_steps(const ErrorReport& report, const MeasuredSolve&
 /// The patches that a step divides, in ascending order; empty if it divides none.
 /// @param solve whose errors were measured
 std::vector<PatchId> divided_patches(const NextStep& step, const MeasuredSolve& solve);
-/// The name by which divided_scene() divides the patches of a step; empty if there is none.
+/// The name by which divided_scene() divides the patches of a step; empty if it divides none.
 std::string name_of_division(const NextStep& step, const MeasuredSolve& solve);
-/// A scene in which the patches of surfaces are divided, one surface after the other.
-/// @param names SceneInput::divided
-/// @throws InputError where there is no such surface, or memory is too small; Canceled
-std::shared_ptr<const Scene> divided_scene(std::shared_ptr<const Scene> scene,
-                                           const std::vector<std::string>& names,
-                                           const Cancellation& cancellation = {});
 
 }  // namespace transillum

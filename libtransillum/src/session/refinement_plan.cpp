@@ -14,6 +14,7 @@
 #include "base/choice.h"
 #include "base/seconds_since.h"
 #include "scene/build/patch_count.h"
+#include "session/divisions.h"
 #include "session/patch_errors.h"
 #include "transillum/at.h"
 #include "transillum/engine.h"
@@ -48,12 +49,6 @@ std::vector<double> squares_by_jump(const Solution& solution, const Cancellation
   return result;
 }
 
-std::vector<PatchId> all_patches(const Scene& scene) {
-  std::vector<PatchId> patches(scene.patches().size());
-  std::iota(patches.begin(), patches.end(), PatchId{0});
-  return patches;
-}
-
 /// The worst patches, as many as make no more than `most` patches of all.
 std::vector<PatchId> worst(const Scene& scene, const std::vector<double>& squares,
                            std::int64_t most) {
@@ -76,17 +71,23 @@ std::vector<PatchId> worst(const Scene& scene, const std::vector<double>& square
   return chosen;
 }
 
-/// The scene divided at its worst patches, with no more than `most`; null where nothing is left.
-/// Patches on the same points are divided together: fewer are chosen where that makes too many.
-std::shared_ptr<const Scene> divide_worst(const Scene& scene, std::vector<double> squares,
-                                          std::int64_t most, const Cancellation& cancellation) {
+/// A scene divided at its worst patches.
+struct FinerScene {
+  std::shared_ptr<const Scene> scene;  ///< null where nothing is left
+  std::vector<PatchId> chosen;         ///< the patches, worst first
+};
+
+/// Divides the worst patches, into no more than `most` patches of all. Patches on the same points
+/// are divided together: fewer are chosen where that makes too many.
+FinerScene divide_worst(const Scene& scene, std::vector<double> squares, std::int64_t most,
+                        const Cancellation& cancellation) {
   for (std::vector<PatchId> chosen = worst(scene, squares, most); !chosen.empty();) {
     const DividedScene divided = divide(scene, chosen, cancellation);
     const PatchId count = divided.scene->patch_count();
     if (count > most) {
       chosen.resize(chosen.size() / 2);
     } else if (count > scene.patch_count()) {
-      return divided.scene;
+      return {divided.scene, std::move(chosen)};
     } else {  // all were too thin
       for (const PatchId i : chosen) {
         at(squares, i) = 0;
@@ -94,7 +95,7 @@ std::shared_ptr<const Scene> divide_worst(const Scene& scene, std::vector<double
       chosen = worst(scene, squares, most);
     }
   }
-  return nullptr;
+  return {};
 }
 
 using Clock = std::chrono::steady_clock;
@@ -146,6 +147,14 @@ RefinementPlan::RefinementPlan(std::shared_ptr<const Scene> scene, const SolveOp
   }
 }
 
+std::vector<std::string> RefinementPlan::divisions() const {
+  std::vector<std::string> names = divisions_;
+  if (scene_ != refined_) {
+    names.emplace_back(all_patches_name);
+  }
+  return names;
+}
+
 void RefinementPlan::begin_round(const Cancellation& cancellation) {
   const auto start = Clock::now();
   const auto check = [this](std::int64_t patches) {
@@ -191,11 +200,14 @@ bool RefinementPlan::divide_worst(const Cancellation& cancellation) {
   }
   const auto most = std::min(
       refine_.patches, static_cast<std::int64_t>(std::ceil(growth * refined_->patch_count())) + 3);
-  const auto finer = transillum::divide_worst(*refined_, squares_, most, cancellation);
-  if (finer) {
-    refined_ = finer;
+  FinerScene finer = transillum::divide_worst(*refined_, squares_, most, cancellation);
+  if (finer.scene) {
+    std::sort(finer.chosen.begin(), finer.chosen.end());
+    divisions_.push_back(division_by_numbers(finer.chosen));
+    refined_ = finer.scene;
   }
-  if (!finer || (refine_.by == RefineBy::jump && refined_->patch_count() >= refine_.patches)) {
+  if (!finer.scene ||
+      (refine_.by == RefineBy::jump && refined_->patch_count() >= refine_.patches)) {
     finish();
     return false;
   }

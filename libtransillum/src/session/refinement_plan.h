@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "transillum/cancellation.h"
@@ -33,6 +34,8 @@ class RefinementPlan {
   const std::shared_ptr<const Scene>& refined() const { return refined_; }
   /// Criterion and limits.
   const RefineOptions& options() const { return refine_; }
+  /// The divisions that make scene() from the scene to start from: SceneInput::divided.
+  std::vector<std::string> divisions() const;
   /// The finished rounds, in order.
   const std::vector<RefinementRound>& rounds() const { return rounds_; }
 
@@ -60,6 +63,7 @@ class RefinementPlan {
   double seconds_ = 0;           ///< time of dividing, before the solve
   bool finished_ = false;
   std::vector<RefinementRound> rounds_;
+  std::vector<std::string> divisions_;  ///< the divisions that make refined_
 };
 
 }  // namespace transillum

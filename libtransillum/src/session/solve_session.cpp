@@ -279,6 +279,10 @@ const std::shared_ptr<const Scene>& SolveSession::refined_scene() const {
   return impl_->rounds ? impl_->rounds->refined() : impl_->scene;
 }
 
+std::vector<std::string> SolveSession::divisions() const {
+  return impl_->rounds ? impl_->rounds->divisions() : std::vector<std::string>();
+}
+
 std::optional<AccuracyReport> SolveSession::accuracy() const {
   return impl_->plan ? std::optional(impl_->plan->report()) : std::nullopt;
 }

@@ -15,6 +15,7 @@
 #include "radiosity/state_archive.h"
 #include "scene/build/division.h"
 #include "scene/build/patch_count.h"
+#include "session/divisions.h"
 #include "session/next_steps.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -117,6 +118,16 @@ TotalPlan::TotalPlan(SolveRequest request, const TotalGoal& goal)
     throw InputError(fmt::format("total error: {} is not above 0 and below 1", goal.total));
   }
   request_.options.goal.accuracy = std::max(directions_fraction * goal.total, first_directions);
+}
+
+std::vector<std::string> TotalPlan::divisions() const {
+  std::vector<std::string> names;
+  for (const std::vector<PatchId>& chosen : divisions_) {
+    if (!chosen.empty()) {
+      names.push_back(division_by_numbers(chosen));
+    }
+  }
+  return names;
 }
 
 void TotalPlan::assess(const SolveSession& session, const Cancellation& cancellation,

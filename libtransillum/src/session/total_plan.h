@@ -71,6 +71,8 @@ class TotalPlan {
 
   /// The solve of the present stage.
   const SolveRequest& stage() const { return request_; }
+  /// The divisions that make the scene of stage() from the one of the request: SceneInput::divided.
+  std::vector<std::string> divisions() const;
   /// Whether no stage is left.
   bool finished() const { return finished_; }
   /// Whether outcome() has a solve.

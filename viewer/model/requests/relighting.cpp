@@ -29,15 +29,16 @@ Relighting::Relighting(QUndoStack& undo, QObject* parent)
 
 RelightResult Relighting::relit(const Request& request, const Cancellation& cancellation) {
   RelightOptions options;
-  options.tolerance = request.tolerance;
-  options.start = request.start;
-  options.start_linear_terms = request.start_linear_terms;
-  options.sky_irradiance = request.sky;
-  options.sky_linear_terms = request.sky_linear_terms;
-  options.basis = request.basis;
-  options.shot = request.shot.get();
+  const SolverSnapshot& solved = *request.snapshot;
+  options.tolerance = solved.options.tolerance;
+  options.start = request.start ? request.start->radiosity : solved.radiosity;
+  options.start_linear_terms = request.start ? request.start->linear_terms : solved.linear_terms;
+  options.sky_irradiance = solved.sky_irradiance;
+  options.sky_linear_terms = solved.sky_linear_terms;
+  options.basis = solved.options.basis;
+  options.shot = solved.shot.get();
   options.patch_materials = request.materials->of_patch;
-  return relight(*request.scene, *request.form_factors, request.materials->materials, options,
+  return relight(*solved.loaded->scene, *solved.form_factors, request.materials->materials, options,
                  cancellation);
 }
 
@@ -126,16 +127,7 @@ void Relighting::request_light() {
     return;
   }
   used_ = snapshot_->form_factors;
-  relighter_.request({.scene = snapshot_->loaded->scene,
-                      .form_factors = used_,
-                      .shot = snapshot_->shot,
-                      .materials = edits_.materials(),
-                      .start = light_ ? light_->radiosity : snapshot_->radiosity,
-                      .start_linear_terms = light_ ? light_->linear_terms : snapshot_->linear_terms,
-                      .sky = snapshot_->sky_irradiance,
-                      .sky_linear_terms = snapshot_->sky_linear_terms,
-                      .basis = snapshot_->options.basis,
-                      .tolerance = snapshot_->options.tolerance});
+  relighter_.request({.snapshot = snapshot_, .materials = edits_.materials(), .start = light_});
 }
 
 std::shared_ptr<const SolverSnapshot> Relighting::lit(

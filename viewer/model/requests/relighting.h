@@ -55,16 +55,9 @@ class Relighting : public QObject {
 
  private:
   struct Request {
-    std::shared_ptr<const Scene> scene;
-    std::shared_ptr<const FormFactors> form_factors;
-    std::shared_ptr<const DirectLight> shot;  ///< may be null
+    std::shared_ptr<const SolverSnapshot> snapshot;  ///< with form factors
     std::shared_ptr<const PatchMaterials> materials;
-    std::vector<Rgb> start;                      ///< initial B, W/m², one per patch
-    std::vector<LinearTerm> start_linear_terms;  ///< terms of `start`; empty with Basis::constant
-    std::vector<Rgb> sky;  ///< light that the patches receive from the sky, W/m²; may be empty
-    std::vector<LinearTerm> sky_linear_terms;  ///< terms of `sky`; empty with Basis::constant
-    Basis basis = Basis::constant;
-    double tolerance = 1e-6;
+    std::shared_ptr<const RelightResult> start;  ///< null to start with the snapshot's light
   };
   bool awaits_light() const;
   static RelightResult relit(const Request& request, const Cancellation& cancellation);

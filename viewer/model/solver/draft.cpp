@@ -2,8 +2,9 @@
 #include "model/solver/draft.h"
 
 #include <utility>
+#include <vector>
 
-#include "transillum/errors.h"
+#include "transillum/glossy.h"
 
 namespace transillum::viewer {
 
@@ -14,16 +15,36 @@ constexpr int draft_directions = 64;
 constexpr int least_ratio = 4;
 constexpr PatchId most_patches = 20'000;
 /// Bound of the light that is not propagated yet: far below the error of so few directions.
-constexpr double draft_tolerance = 1e-3;
+constexpr double draft_tolerance = 5e-3;
+/// Points of a first shot of its own, whose error is below that of the directions, too.
+constexpr int draft_points = 4;
 
-std::optional<SolveOptions> draft_of(const SolveSession& session) {
-  SolveOptions options = session.options();
+std::shared_ptr<const DirectLight> shoot_few_points(const SolveOptions& options, const Scene& scene,
+                                                    const Cancellation& cancellation) {
+  if (!options.used_first_shot()) {
+    return nullptr;
+  }
+  const std::vector<PatchId> sources = first_shot_sources(
+      scene, *options.first_shot, options.directions, options.basis, cancellation);
+  ShotOptions shot = shot_options(options);
+  shot.points = draft_points;
+  return sources.empty()
+             ? nullptr
+             : std::make_shared<const DirectLight>(shoot(scene, sources, shot, cancellation));
+}
+
+}  // namespace
+
+bool can_be_drafted(const SolveOptions& options, const Scene& scene) {
   const bool is_large = options.goal.is_set() || traits_of(options.scheme).renews_directions ||
                         options.directions >= least_ratio * draft_directions;
-  if (!is_large || session.diffuse() == nullptr || !takes_directions(options.engine) ||
-      session.scene()->patch_count() > most_patches) {
-    return std::nullopt;
-  }
+  return is_large && !(options.glossy && has_lobes(scene)) && takes_directions(options.engine) &&
+         scene.patch_count() <= most_patches;
+}
+
+SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
+                           std::shared_ptr<const DirectLight> shot,
+                           const Cancellation& cancellation) {
   options.goal = {};
   options.directions = draft_directions;
   options.replicas = 1;
@@ -31,39 +52,24 @@ std::optional<SolveOptions> draft_of(const SolveSession& session) {
   options.burn_in.reset();
   options.iterations = options.averaged_iterations = 0;
   options.tolerance = draft_tolerance;
-  options.first_shot = first_shot_where_it_pays;
-  return options;
-}
-
-}  // namespace
-
-std::optional<Solution> make_draft(const SolveSession& session,
-                                   const std::function<bool()>& continues,
-                                   const Cancellation& cancellation) {
-  const std::optional<SolveOptions> options = draft_of(session);
-  if (!options) {
-    return std::nullopt;
+  if (!options.first_shot) {
+    options.first_shot = first_shot_where_it_pays;
   }
-  try {
-    SolveSession draft({.scene = session.scene(), .options = *options, .tree = session.tree()},
-                       cancellation);
-    draft.advance(SolveSession::Until::finished, [&](const SolveSession&) { return continues(); });
-    return draft.finished() ? std::optional(draft.solution()) : std::nullopt;
-  } catch (const InputError&) {
-    return std::nullopt;  // some options go with many directions only
-  } catch (const NotConvergent&) {
-    return std::nullopt;
+  options.validate();
+  if (!shot) {
+    shot = shoot_few_points(options, *loaded.scene, cancellation);
   }
+  SolveSession draft({.scene = loaded.scene,
+                      .options = std::move(options),
+                      .tree = loaded.tree,
+                      .shot = std::move(shot)},
+                     cancellation);
+  draft.prepare();
+  return draft;
 }
 
 void show_light_of(const Solution& solution, SolverSnapshot& snapshot) {
-  snapshot.radiosity = solution.radiosity;
-  snapshot.linear_terms = solution.linear_terms;
-  snapshot.irradiance = solution.irradiance;
-  snapshot.sky_fractions = solution.sky_fractions;
-  snapshot.sky_irradiance = solution.sky_irradiance;
-  snapshot.sky_linear_terms = solution.sky_linear_terms;
-  snapshot.form_factor_sums = solution.form_factor_sums;
+  static_cast<SolvedLight&>(snapshot) = solution;
   snapshot.of_draft = true;
 }
 

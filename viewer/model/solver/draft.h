@@ -4,23 +4,32 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "model/snapshot.h"
+#include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
+#include "transillum/first_shot.h"
 #include "transillum/solve_session.h"
 
 namespace transillum::viewer {
 
-/// A finished solve with the same functions on patches as `session`, but few directions.
-/// @param session  prepared, of which no pass has been made
-/// @param continues  false ends the draft
-/// @returns nothing where a draft would take a large part of the solve's time, or long, or was
-/// ended
-/// @throws Canceled
-std::optional<Solution> make_draft(const SolveSession& session,
-                                   const std::function<bool()>& continues,
-                                   const Cancellation& cancellation);
+/// Whether a draft of a solve takes a small part of the solve's time, and is not long.
+/// @param options of the solve
+/// @param scene   what is solved
+bool can_be_drafted(const SolveOptions& options, const Scene& scene);
+
+/// A solve, not finished, with the same functions on patches, but few directions.
+/// @param options  of the solve
+/// @param loaded   what is solved, and its tree
+/// @param shot     the direct light of the solve's first shot; null for one of few points, where it
+///                 pays
+/// @returns prepared
+/// @throws InputError where some options need many directions; Canceled
+SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
+                           std::shared_ptr<const DirectLight> shot,
+                           const Cancellation& cancellation);
 
 /// Replaces the light of a snapshot by the light of another solve of the same patches. The progress
 /// of its own solve stays.

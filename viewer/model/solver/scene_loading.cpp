@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scene/build/patch_count.h"
-#include "session/next_steps.h"
+#include "session/divisions.h"
 #include "transillum/files.h"
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
@@ -88,7 +88,8 @@ void examine(LoadedScene& loaded, const Cancellation& cancellation) {
 }  // namespace
 
 std::function<void(Preparation, double)> phase_reporter(LoadProgress progress) {
-  constexpr qint64 report_interval_ms = 50;
+  // Without a GPU, whatever changes in the window takes as long as a picture of all of it.
+  constexpr qint64 report_interval_ms = 250;
   return [progress = std::move(progress), since_report = QElapsedTimer()](Preparation what,
                                                                           double fraction) mutable {
     if (fraction > 0 && since_report.isValid() && since_report.elapsed() < report_interval_ms) {
@@ -135,6 +136,7 @@ std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, RunOpti
 }
 
 std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
+                                                   const std::vector<std::string>& divisions,
                                                    const std::shared_ptr<const LoadedScene>& start,
                                                    const Cancellation& cancellation) {
   if (session.scene() == start->scene) {
@@ -149,7 +151,8 @@ std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
   loaded->seconds_load = start->seconds_load;
   loaded->seconds_bsp = session.statistics().seconds_bsp;
   loaded->whole = whole_of(start);
-  loaded->divided = std::nullopt;
+  loaded->divided = start->divided;
+  loaded->divided.insert(loaded->divided.end(), divisions.begin(), divisions.end());
   examine(*loaded, cancellation);
   return loaded;
 }

@@ -33,9 +33,11 @@ std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, RunOpti
                                                 const Cancellation& cancellation);
 
 /// The scene of a session with its tree, which must be prepared.
+/// @param divisions that made its patches from those of `start`, as in SceneInput::divided
 /// @param start  the scene before patches were divided; it is returned if none were
 /// @throws Canceled
 std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
+                                                   const std::vector<std::string>& divisions,
                                                    const std::shared_ptr<const LoadedScene>& start,
                                                    const Cancellation& cancellation);
 

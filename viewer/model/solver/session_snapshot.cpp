@@ -18,21 +18,16 @@ SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const Lo
   const RadiositySolver* diffuse = session.diffuse();
   Solution solution = diffuse != nullptr ? diffuse->solution() : session.glossy()->solution();
   solution.statistics = session.statistics();
-  snapshot.glossy = std::move(solution.glossy);
+  const std::shared_ptr<const GlossyLight> glossy = solution.glossy;
   if (snapshot.of_file) {
     solution = *snapshot.loaded->stored;
   } else {
     snapshot.uncertain_patches = std::ssize(uncertain_patches(solution));
   }
   snapshot.statistics = std::move(solution.statistics);
-  snapshot.radiosity = std::move(solution.radiosity);
-  snapshot.linear_terms = std::move(solution.linear_terms);
-  snapshot.irradiance = std::move(solution.irradiance);
   snapshot.error = std::move(solution.error);
-  snapshot.form_factor_sums = std::move(solution.form_factor_sums);
-  snapshot.sky_fractions = std::move(solution.sky_fractions);
-  snapshot.sky_irradiance = std::move(solution.sky_irradiance);
-  snapshot.sky_linear_terms = std::move(solution.sky_linear_terms);
+  static_cast<SolvedLight&>(snapshot) = std::move(solution);
+  snapshot.glossy = glossy;
   // Empty before the first pass.
   snapshot.form_factor_sums.resize(snapshot.radiosity.size());
   if (!snapshot.of_file) {

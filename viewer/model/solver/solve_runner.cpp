@@ -179,11 +179,12 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
 void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellation) {
   post_state(RunState::loading);
   try {
+    const bool runs_on = request.then.kind == Goal::Kind::finished;
     SolveWorker::Prepared prepared =
-        request.earlier
-            ? worker_.prepare(request.earlier, SolveWorker::choice_of(request.options),
-                              cancellation)
-            : worker_.load(request.spec, request.options, request.first_look, cancellation);
+        request.earlier ? worker_.prepare(request.earlier, SolveWorker::choice_of(request.options),
+                                          cancellation)
+                        : worker_.load(request.spec, request.options, request.first_look,
+                                       cancellation, runs_on);
     {
       const std::lock_guard lock(mutex_);
       cancellation.throw_if_canceled();
@@ -193,6 +194,7 @@ void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellat
       choice_ = prepared.choice;
       relight_request_.reset();
       replace_goal(request.then);
+      worker_.interrupt(false);  // a draft is part of what follows
     }
     worker_.open(std::move(prepared));
   } catch (...) {

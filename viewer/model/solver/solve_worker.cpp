@@ -11,7 +11,7 @@
 #include "model/measured_errors.h"
 #include "model/solver/draft.h"
 #include "model/solver/session_snapshot.h"
-#include "scene/build/division.h"
+#include "session/divisions.h"
 
 namespace transillum::viewer {
 
@@ -19,7 +19,7 @@ namespace {
 
 /// Whether the scene as it was read gives light in a solve.
 bool is_lit(const Scene& scene, const SolveOptions& options) {
-  return options.sky.is_set() || scene.has_light();
+  return options.why_dark(scene.has_light()).empty();
 }
 
 /// The solve that makes the form factors of a scene without light, where B shows no accuracy.
@@ -31,17 +31,32 @@ SolveOptions without_goal(SolveOptions options) {
   return options;
 }
 
+/// The divisions that make the present patches of a run from those that it began with.
+std::vector<std::string> divisions_of(const SolveWorker::Choice& choice,
+                                      const SolveSession& session,
+                                      const std::optional<TotalPlan>& total) {
+  std::vector<std::string> names;
+  if (!choice.division.empty()) {
+    names.push_back(choice.division);
+  }
+  const auto made = total ? total->divisions() : session.divisions();
+  names.insert(names.end(), made.begin(), made.end());
+  return names;
+}
+
 }  // namespace
 
 SolveWorker::Prepared SolveWorker::load(const std::string& spec, RunOptions options,
-                                        bool first_look, const Cancellation& cancellation) {
+                                        bool first_look, const Cancellation& cancellation,
+                                        bool runs_on) {
   options.solve.validate();
   const auto loaded = loaded_scene(spec, options, first_look, report_, cancellation);
-  return prepare(loaded, choice_of(options), cancellation);
+  return prepare(loaded, choice_of(options), cancellation, runs_on);
 }
 
 SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& start,
-                                           Choice choice, const Cancellation& cancellation) {
+                                           Choice choice, const Cancellation& cancellation,
+                                           bool drafted_first) {
   if (start->stored && !start->description) {
     choice.refine = {};
     choice.total = false;
@@ -50,8 +65,8 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
   SolveRequest request{.scene = start->scene,
                        .options = lit ? choice.solve : without_goal(choice.solve),
                        .tree = start->tree};
-  if (!choice.divided.empty()) {
-    request.scene = divide(*start->scene, choice.divided, cancellation).scene;
+  if (!choice.division.empty()) {
+    request.scene = divided_scene(start->scene, {choice.division}, cancellation);
     request.tree = nullptr;
   }
   if (choice.refine.is_set() && lit) {
@@ -76,14 +91,12 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
   SolveSession session(std::move(request), cancellation);
   saved.scene = saved.total ? saved.scene : session.scene();
   checkpoints_.resume(session, saved);
-  session.prepare();
-  auto loaded = with_patches_of(session, start, cancellation);
-  if (!choice.division.empty() && !choice.refine.is_set() && !saved.total && start->divided) {
-    auto named = std::make_shared<LoadedScene>(*loaded);
-    named->divided = start->divided;
-    named->divided->push_back(choice.division);
-    loaded = std::move(named);
+  const bool is_whole = choice.division.empty() && !choice.refine.is_set() && !saved.total;
+  if (!(drafted_first && drafts_ && lit && is_whole && !start->stored && !session.is_prepared() &&
+        can_be_drafted(choice.solve, *start->scene))) {
+    session.prepare();
   }
+  auto loaded = with_patches_of(session, divisions_of(choice, session, total), start, cancellation);
   return {std::move(choice), std::move(loaded), std::move(session),
           cancellation,      std::move(total),  std::move(saved)};
 }
@@ -94,6 +107,10 @@ void SolveWorker::open(Prepared prepared) {
   patches_to_announce_ = false;
   replace_session(std::move(prepared));
   messages_.post_scene(loaded_);
+  if (!session_->is_prepared()) {
+    begin_with_draft();
+    prepare_stage();
+  }
   post_snapshot();
 }
 
@@ -106,10 +123,10 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool ru
   // Another scene may have been opened since.
   if (choice.from && whole_of(choice.from) != whole_of(loaded_)) {
     choice.from = nullptr;
-    choice.divided.clear();
+    choice.division.clear();
   }
-  const auto begun = choice.from ? choice.from : whole_of(loaded_);
-  Prepared prepared = prepare(begun, std::move(choice), cancellation);
+  const auto from = begun(choice);
+  Prepared prepared = prepare(from, std::move(choice), cancellation);
   if (prepared.session.glossy() != nullptr && materials_) {
     set_materials(prepared.session);
   }
@@ -120,8 +137,13 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool ru
   }
 }
 
+/// The patches that a run begins with.
+std::shared_ptr<const LoadedScene> SolveWorker::begun(const Choice& choice) const {
+  return choice.from ? choice.from : whole_of(loaded_);
+}
+
 void SolveWorker::replace_session(Prepared prepared) {
-  history_ = SolveHistory(prepared.session);
+  history_ = prepared.session.is_prepared() ? SolveHistory(prepared.session) : SolveHistory();
   checkpoints_.begin(std::move(prepared.saved));
   choice_ = std::move(prepared.choice);
   total_ = std::move(prepared.total);
@@ -197,16 +219,34 @@ void SolveWorker::advance(const Goal& goal) {
 
 /// Posts a whole picture of few directions, where drafts are wanted and no pass has been made.
 void SolveWorker::begin_with_draft() {
-  if (!drafts_ || !is_ready() || loaded_->stored || session_->in_rounds() || total_ ||
-      session_->passes_done() > 0 || !is_lit(*loaded_->scene, choice_.solve)) {
+  const bool prepared = session_->is_prepared();
+  if (!drafts_ || whole_ || (prepared && (!is_ready() || session_->passes_done() > 0)) ||
+      loaded_->stored || session_->in_rounds() || total_ ||
+      !is_lit(*loaded_->scene, choice_.solve) || !can_be_drafted(choice_.solve, *loaded_->scene)) {
     return;
   }
   try {
-    whole_ = make_draft(
-        *session_, [this] { return !interrupted_; }, cancellation_);
-    if (whole_ && !interrupted_) {
-      post_snapshot();
+    SolveSession draft =
+        prepare_draft(choice_.solve, *loaded_,
+                      prepared ? session_->diffuse()->direct_light() : nullptr, cancellation_);
+    SolverSnapshot start = snapshot_of(draft, loaded_);
+    SolveHistory(draft).write_to(start);
+    draft.advance(SolveSession::Until::finished,
+                  [this](const SolveSession&) { return !interrupted_; });
+    if (!draft.finished() || interrupted_) {
+      return;
     }
+    whole_ = draft.solution();
+    if (prepared) {
+      post_snapshot();
+      return;
+    }
+    start.options = choice_.solve;
+    if (!start.options.goal.is_set()) {
+      start.progress.passes = start.options.directions;
+    }
+    show_light_of(*whole_, start);
+    messages_.post_snapshot(std::make_shared<const SolverSnapshot>(std::move(start)));
   } catch (...) {
     whole_.reset();  // the solve itself meets the same problem, and tells it
   }
@@ -305,7 +345,8 @@ void SolveWorker::prepare_stage() {
   }
   session_->prepare();
   if (is_round()) {
-    take_patches(with_patches_of(*session_, whole_of(loaded_), cancellation_));
+    take_patches(with_patches_of(*session_, divisions_of(choice_, *session_, total_),
+                                 begun(choice_), cancellation_));
     if (!total_) {
       checkpoints_.begin({loaded_->scene, choice_.solve});
     }

@@ -35,8 +35,7 @@ class SolveWorker {
     RefineChoice refine = {};
     /// The patches to begin with; null for the scene as it was read.
     std::shared_ptr<const LoadedScene> from = nullptr;
-    std::vector<PatchId> divided = {};  ///< patches of `from` that are divided first
-    std::string division = {};          ///< name_of_division() of these; empty if there is none
+    std::string division = {};  ///< name_of_division() of what is divided in `from` first, or empty
     /// The accuracy of `solve` is about all errors; refine.patches limits the patches.
     bool total = false;
   };
@@ -60,14 +59,17 @@ class SolveWorker {
   /// Loads a scene and prepares its solve; the open scene stays.
   /// @param spec file or built-in
   /// @param first_look  as for loaded_scene()
+  /// @param runs_on  the solve is advanced to its end next
   /// @throws InputError, Canceled
   Prepared load(const std::string& spec, RunOptions options, bool first_look,
-                const Cancellation& cancellation);
+                const Cancellation& cancellation, bool runs_on);
   /// Prepares a solve of a scene that was loaded before.
+  /// @param drafted_first  the session is not prepared where a draft comes before
   /// @throws InputError, Canceled
   Prepared prepare(const std::shared_ptr<const LoadedScene>& start, Choice choice,
-                   const Cancellation& cancellation);
-  /// Replaces the open scene.
+                   const Cancellation& cancellation, bool drafted_first = false);
+  /// Replaces the open scene, and makes a draft of it if its session is not prepared.
+  /// @throws Canceled
   void open(Prepared prepared);
   /// Replaces the solve of the open scene by a new one, whose session is canceled already.
   /// @throws InputError, Canceled: advance() then tries again; the old picture stays.
@@ -98,6 +100,7 @@ class SolveWorker {
  private:
   void replace_session(Prepared prepared);
   void prepare_stage();
+  std::shared_ptr<const LoadedScene> begun(const Choice& choice) const;
   void begin_with_draft();
   bool advance_stage(const Goal& goal);
   void end_stage_of_total();

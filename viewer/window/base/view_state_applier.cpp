@@ -62,6 +62,7 @@ ViewStateApplier::ViewStateApplier(const WindowFrame& frame, DockLayouts& docks,
 
 void ViewStateApplier::show(const ViewState& state) {
   before_lesson_.reset();
+  follow_layout();
   frame_.page.sharp()->action()->setEnabled(true);
   apply(state);
   for (const std::string& panel : state.panels) {
@@ -84,7 +85,13 @@ void ViewStateApplier::enter_lesson() {
     before_lesson_->layout = docks_.current();
     // Lessons are about patches, and what few directions do to them.
     frame_.page.sharp()->action()->setEnabled(false);
+    follow_layout();
   }
+}
+
+void ViewStateApplier::follow_layout() {
+  frame_.page.scene_view()->set_direction_followed(in_lesson() ||
+                                                   docks_.current() != Layout::inspect);
 }
 
 void ViewStateApplier::set_option(const std::string& name, const std::string& value) {
@@ -247,6 +254,7 @@ void ViewStateApplier::restore_appearance() {
       docks_.choose(before_lesson_->layout == Layout::debug ? Layout::debug : Layout::inspect);
     }
     before_lesson_.reset();
+    follow_layout();
   }
   frame_.state.colors.set_automatic_exposure(true);
   frame_.state.focus.set_following(true);
@@ -332,7 +340,7 @@ void ViewStateApplier::apply_view() {
   frame_.page.show_scene();
   SceneView* view = frame_.page.scene_view();
   if (requested_.camera) {
-    view->set_view_point(*requested_.camera);
+    view->set_square_view(*requested_.camera);
   } else {
     view->reset_view();
   }
@@ -445,7 +453,7 @@ ViewState ViewStateApplier::state() const {
   }
   state.materials = frame_.state.relighting.edits().changes();
   read_patches(state);
-  state.camera = frame_.page.scene_view()->view_point();
+  state.camera = frame_.page.scene_view()->square_view();
   state.outlines = frame_.page.color_controls()->outlines();
   state.layout = docks_.current();
   return state;

@@ -35,6 +35,8 @@ class ViewStateApplier : public QObject {
   void leave_lesson();
   /// Whether a page has been shown, and leave_lesson() not called since.
   bool in_lesson() const { return before_lesson_ && !leaving_; }
+  /// Shows the newest direction in lessons and in layouts that are about directions.
+  void follow_layout();
   /// Reads the file of the open scene again, and shows it in the same state.
   void reload();
   /// Reads the open scene again with other options and solves it. Camera, colors and changed

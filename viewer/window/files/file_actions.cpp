@@ -162,6 +162,7 @@ void FileActions::on_scene_shown() {
   const QString spec = QString::fromStdString(frame_.state.scene.spec());
   if (QFileInfo::exists(spec)) {
     remember(spec);
+    propose_folder(QFileInfo(spec).absolutePath());
   }
   show_reading();
   show_first_look();

@@ -17,26 +17,28 @@ CommandActions::CommandActions(const WindowFrame& frame) : QObject(&frame.window
   const auto add = [this](const char* name, const QString& text, const char* key,
                           const QString& tip) {
     auto* action = make_action(this, name, text, tip, QKeySequence(QString::fromLatin1(key)));
-    action->setEnabled(false);
+    enable_if(*action, false, tr("No scene is solved yet"));
     return action;
   };
   solve_ = add("copy_solve", tr("Copy the solve as a command"), "Ctrl+Shift+C",
                tr("Copy a shell command that makes this solve with the program transillum"));
   map_ = add("copy_map", tr("Copy the map as a command"), "Ctrl+Shift+M",
-             tr("Copy a shell command that writes the map of this direction; add --out FILE"));
+             tr("Copy a shell command that writes the map of this direction"));
   step_ = add("copy_step", tr("Copy the step as a command"), "Ctrl+Alt+M",
-              tr("Copy a shell command that writes V at this step and phase; add --out FILE"));
+              tr("Copy a shell command that writes V at this step and phase"));
   connect(step_, &QAction::triggered, this, &CommandActions::copy_step);
   connect(solve_, &QAction::triggered, this, &CommandActions::copy_solve);
   connect(map_, &QAction::triggered, this, [this] { copy_map({}); });
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] {
     // The commands read scenes, not results.
-    solve_->setEnabled(frame_.state.scene.loaded()->description != nullptr);
+    enable_if(*solve_, frame_.state.scene.loaded()->description != nullptr,
+              tr("A result file does not say how it was made"));
   });
   connect(&frame_.state.focus, &Focus::moved, this, [this] {
     const bool any = solve_->isEnabled() && frame_.state.focus.map();
-    map_->setEnabled(any);
-    step_->setEnabled(any);
+    for (QAction* action : {map_, step_}) {
+      enable_if(*action, any, tr("No direction is shown yet"));
+    }
   });
 }
 
@@ -48,12 +50,8 @@ RunOptions CommandActions::options() const {
 }
 
 void CommandActions::copy_solve() {
-  const SolverSnapshot& shown = *frame_.state.scene.snapshot();
-  std::string command = solve_command(frame_.state.scene.spec(), options(),
-                                      frame_.state.relighting.edits().changes());
-  if (!shown.loaded->divided && !shown.refine.is_set() && !shown.total) {
-    command += "  # without the divisions that were chosen in Errors";  // no option says them
-  }
+  const std::string command = solve_command(frame_.state.scene.spec(), options(),
+                                            frame_.state.relighting.edits().changes());
   QApplication::clipboard()->setText(QString::fromStdString(command));
 }
 

@@ -3,15 +3,22 @@
 
 #include <QAction>
 #include <QCoreApplication>
+#include <QFile>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QRegularExpression>
+#include <QTextBrowser>
 
 #include "options/option_table.h"
 #include "support/number_text.h"
 #include "widgets/dialogs.h"
+#include "widgets/markdown.h"
 #include "widgets/theme.h"
+
+// The resources of a static library must be initialized explicitly.
+static void init_documents() { Q_INIT_RESOURCE(documents); }
 
 namespace transillum::viewer {
 
@@ -19,7 +26,51 @@ namespace {
 
 QString tr(const char* text) { return QCoreApplication::translate("HelpDialogs", text); }
 
+QString file_of(const QUrl& page) { return QLatin1Char(':') + page.path(); }
+
+/// A document in Markdown without its pictures, and without the links to documents that are not
+/// part of the program.
+QString document_text(const QUrl& page) {
+  QFile file(file_of(page));
+  if (!file.open(QIODevice::ReadOnly)) {
+    return {};
+  }
+  static const QRegularExpression picture(QStringLiteral("!\\[[^\\]]*\\]\\([^)]*\\)"));
+  static const QRegularExpression link(QStringLiteral("\\[([^\\]]*)\\]\\(([^)#]+)[^)]*\\)"));
+  QString text = QString::fromUtf8(file.readAll()).remove(picture);
+  int from = 0;
+  for (auto match = link.match(text); match.hasMatch(); match = link.match(text, from)) {
+    const bool leads = QFile::exists(file_of(page.resolved(QUrl(match.captured(2)))));
+    from = leads ? match.capturedEnd() : match.capturedStart() + match.capturedLength(1);
+    if (!leads) {
+      text.replace(match.capturedStart(), match.capturedLength(), match.captured(1));
+    }
+  }
+  return text;
+}
+
 }  // namespace
+
+void show_guide(QWidget& parent) {
+  init_documents();
+  auto* dialog = new PageDialog("guide", tr("User guide"), {}, parent);
+  auto* browser = dialog->findChild<QTextBrowser*>();
+  browser->setOpenLinks(false);
+  const auto show = [browser](const QUrl& page) {
+    const QUrl whole = browser->property("page").toUrl().resolved(page);
+    const QString text = document_text(whole);
+    if (!text.isEmpty()) {
+      browser->setProperty("page", whole);
+      browser->setMarkdown(text);
+      constexpr double margin = 16;
+      browser->document()->setDocumentMargin(margin);
+      spread_paragraphs(*browser->document());
+    }
+  };
+  QObject::connect(browser, &QTextBrowser::anchorClicked, browser, show);
+  show(QUrl(QStringLiteral("qrc:/documents/viewer/USER_GUIDE.md")));
+  dialog->show();
+}
 
 void show_about(QWidget* parent) {
   QMessageBox::about(
@@ -49,7 +100,7 @@ QString setting_page() {
 }
 
 void show_settings(QWidget& parent) {
-  (new PageDialog("settings_page", PageDialog::tr("Settings"), setting_page(), parent))->show();
+  (new PageDialog("settings_page", PageDialog::tr("All settings"), setting_page(), parent))->show();
 }
 
 namespace {

@@ -14,6 +14,9 @@ namespace transillum::viewer {
 /// Shows name, version, authors of the method and license, until it is closed.
 void show_about(QWidget* parent);
 
+/// Shows the user guide in a non-modal dialog; its links lead to its pages and to the glossary.
+void show_guide(QWidget& parent);
+
 /// All settings of a solve with type, default and description, as a page of HTML.
 QString setting_page();
 /// Shows that page in a non-modal dialog.

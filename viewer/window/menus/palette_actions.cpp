@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/menus/palette_actions.h"
 
+#include <QCoreApplication>
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QMenu>
@@ -9,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "colors/quantity.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
 #include "window/base/dock_layouts.h"
@@ -80,6 +82,7 @@ std::vector<PaletteEntry> PaletteActions::entries() {
     }
   }
   add_panels(entries);
+  add_quantities(entries);
   add_surfaces(entries);
   return entries;
 }
@@ -91,6 +94,17 @@ void PaletteActions::add_panels(std::vector<PaletteEntry>& entries) {
     entries.push_back({dock->windowTitle(), tr("Panel"), {}, true, [this, panel] {
                          docks_.bring_to_front(panel);
                        }});
+  }
+}
+
+void PaletteActions::add_quantities(std::vector<PaletteEntry>& entries) {
+  for (const QuantityTraits& traits : quantity_traits()) {
+    entries.push_back(
+        {tr("Show %1").arg(QCoreApplication::translate("Quantity", traits.name)),
+         tr("Quantity"),
+         {},
+         frame_.state.scene.loaded() != nullptr,
+         [this, quantity = traits.quantity] { frame_.state.colors.set_quantity(quantity); }});
   }
 }
 

@@ -27,6 +27,7 @@ class PaletteActions : public QObject {
   void show();
   std::vector<PaletteEntry> entries();
   void add_panels(std::vector<PaletteEntry>& entries);
+  void add_quantities(std::vector<PaletteEntry>& entries);
   void add_surfaces(std::vector<PaletteEntry>& entries);
   std::vector<PaletteEntry> patch_of(const QString& query);
 

@@ -2,8 +2,10 @@
 #include "window/menus/projector_mode.h"
 
 #include <QDockWidget>
+#include <QEvent>
 #include <QMainWindow>
 #include <QTimer>
+#include <algorithm>
 
 #include "lessons/lesson_panel.h"
 #include "stepping/timeline_bar.h"
@@ -30,6 +32,15 @@ ProjectorMode::ProjectorMode(const WindowFrame& frame, DockLayouts& docks, Lesso
   connect(&full_screen_, &FullScreen::ended, this, [this] { docks_.hold(false); });
   connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
   connect(&lessons_, &LessonPanel::page_shown, this, &ProjectorMode::follow_page);
+  frame_.window.installEventFilter(this);
+}
+
+// A window manager gives the window the size of the screen some time after it was asked.
+bool ProjectorMode::eventFilter(QObject* watched, QEvent* event) {
+  if (projecting_ && watched == &frame_.window && event->type() == QEvent::Resize) {
+    QTimer::singleShot(0, this, &ProjectorMode::arrange);
+  }
+  return QObject::eventFilter(watched, event);
 }
 
 void ProjectorMode::follow_appearance() {
@@ -56,12 +67,23 @@ QDockWidget* ProjectorMode::dock(const std::string& panel) const {
 
 QList<QWidget*> ProjectorMode::views() const {
   QList<QWidget*> views{dock("timeline")};
+  QWidget* scene = frame_.window.centralWidget();
   if (lessons_.lesson() < 0) {
-    return views << frame_.window.centralWidget();
+    return views << scene;
   }
-  const auto& pages = at(lessons_.lessons(), lessons_.lesson()).pages;
-  QWidget* large = dock(at(pages, lessons_.page()).large);
-  return views << dock("lesson") << (large ? large : frame_.window.centralWidget());
+  views << dock("lesson");
+  const Lesson::Page& page = at(at(lessons_.lessons(), lessons_.lesson()).pages, lessons_.page());
+  if (QWidget* large = dock(page.large)) {
+    return views << large;
+  }
+  views << scene;
+  const auto panel =
+      std::find_if(page.state.panels.begin(), page.state.panels.end(),
+                   [](const std::string& name) { return name != "timeline" && name != "lesson"; });
+  if (page.large.empty() && panel != page.state.panels.end()) {
+    views << dock(*panel);
+  }
+  return views;
 }
 
 void ProjectorMode::project(bool on) {
@@ -86,14 +108,16 @@ void ProjectorMode::arrange() {
   if (!projecting_) {
     return;
   }
-  constexpr double page_fraction = 0.46;
+  // Beside the page there is one view, or the scene and a panel.
+  constexpr double usual_page = 0.46, narrow_page = 0.36, panel_fraction = 0.37;
   const int width = frame_.window.width();
-  const int page_width = static_cast<int>(page_fraction * width);
+  const bool scene_and_panel = projected_.size() > 3;
+  const double page_fraction = scene_and_panel ? narrow_page : usual_page;
   QList<QDockWidget*> docks{dock("lesson")};
-  QList<int> widths{page_width};
-  if (auto* large = qobject_cast<QDockWidget*>(projected_.value(2))) {
-    docks << large;
-    widths << width - page_width;
+  QList<int> widths{static_cast<int>(page_fraction * width)};
+  if (auto* beside = qobject_cast<QDockWidget*>(projected_.value(scene_and_panel ? 3 : 2))) {
+    docks << beside;
+    widths << static_cast<int>((scene_and_panel ? panel_fraction : 1 - page_fraction) * width);
   }
   frame_.window.resizeDocks(docks, widths, Qt::Horizontal);
   const int height = timeline_.minimumSizeHint().height();

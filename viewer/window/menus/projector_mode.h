@@ -16,8 +16,8 @@ class AppearanceActions;
 class FullScreen;
 class TimelineBar;
 
-/// Projector mode: the page of the lesson, if there is one, one view and a thin timeline on the
-/// whole screen. While the whole screen shows some views only, layouts stay as they are.
+/// Projector mode: the page of the lesson, if there is one, what the page shows and a thin timeline
+/// on the whole screen. While the whole screen shows some views only, layouts stay as they are.
 class ProjectorMode : public QObject {
   Q_OBJECT
 
@@ -31,12 +31,16 @@ class ProjectorMode : public QObject {
   /// Gives the timeline the height that it needs now.
   void follow_timeline();
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   void project(bool on);
   void follow_page();
   void arrange();
   QDockWidget* dock(const std::string& panel) const;
-  /// Arranges the view that the page wants to be large, or the scene, and the panels beside it.
+  /// The timeline, the page, and beside it the view that the page wants to be large, or the scene
+  /// and the first panel that the page needs.
   QList<QWidget*> views() const;
 
   WindowFrame frame_;

@@ -14,7 +14,6 @@
 
 #include "base/base64.h"
 #include "io/png_text.h"
-#include "io/results/light_map.h"
 #include "io/results/result_writers.h"
 #include "io/srgb.h"
 #include "transillum/at.h"
@@ -80,12 +79,12 @@ class PatchColors {
 /// Texture coordinates of a point of a patch.
 using TexturePlace = std::function<std::array<float, 2>(PatchId, const Vec3&)>;
 
-std::array<float, 2> sharp_place(const SharpLightMap& map, PatchId i, const Vec3& point) {
+std::array<float, 2> place_in(const LightMap& map, PatchId i, const Vec3& point) {
   const auto [x, y] = map.place(i, point);
   return {static_cast<float>(x / map.width()), static_cast<float>(y / map.height())};
 }
 
-std::string sharp_png(const SharpLightMap& map, double exposure) {
+std::string png_of_map(const LightMap& map, double exposure) {
   std::vector<unsigned char> bytes;
   bytes.reserve(3 * map.radiosity().size());
   for (const auto& b : map.radiosity()) {
@@ -156,23 +155,19 @@ class GltfDocument {
          {"pbrMetallicRoughness",
           {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
          {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
-    std::optional<LightMap> light_map;
+    std::shared_ptr<const LightMap> map = display.light_map ? display.sharp_map : nullptr;
+    if (display.light_map && !map) {
+      map = std::make_shared<const LightMap>(solution);
+    }
     TexturePlace place;
-    if (display.light_map && display.sharp_map) {
-      place = [&](PatchId i, const Vec3& point) {
-        return sharp_place(*display.sharp_map, i, point);
-      };
-    } else if (display.light_map) {
-      light_map.emplace(solution, exposure);
-      place = [&](PatchId i, const Vec3& point) {
-        return light_map->coordinates(light_map->chart(i), point);
-      };
+    if (map) {
+      place = [&](PatchId i, const Vec3& point) { return place_in(*map, i, point); };
     }
     for (const auto& [group, triangles] : triangles_of(solution, exposure, place, origin)) {
       add_mesh(group == no_group ? scene.name() : at(scene.groups(), group), triangles, origin);
     }
-    if (display.light_map) {
-      add_texture(light_map ? light_map->png() : sharp_png(*display.sharp_map, exposure));
+    if (map) {
+      add_texture(png_of_map(*map, exposure));
     }
   }
 

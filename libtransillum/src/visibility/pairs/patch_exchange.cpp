@@ -54,8 +54,12 @@ void for_points_of(Outline polygon, int divisions, Visit&& visit) {
 }
 
 /// Divisions of a cell from which its moments are computed: half of them still have three points,
-/// whose rule is exact for products of two linear functions.
-constexpr int fewest_for_moments = 2;
+/// whose rule is exact for products of two linear functions. With a low density, errors do not
+/// matter.
+int fewest_for_moments(double density) {
+  constexpr double low_density = 4;
+  return density > low_density ? 2 : 1;
+}
 
 /// Adds the moments of an exchange of `area`: the points say where on the receiver it is.
 /// @param half with half the points in a row
@@ -98,6 +102,7 @@ Corners scaled(Corners polygon, double scale) {
 ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellation, double density)
     : scene_(scene),
       density_(density),
+      moment_divisions_(fewest_for_moments(density)),
       scale_(scale_to_one(scene.bounds().diagonal())),
       tolerance_(scale_ *
                  std::max(1e-12 * scene.bounds().diagonal(), 2 * BspTree::thickness(scene))),
@@ -322,6 +327,20 @@ class ExchangeFinder::PointQuadrature {
     return sums;
   }
 
+  /// The largest error where no point of a cell sees the other polygon: the light that its corners
+  /// see may reach to the next points.
+  double unseen(Outline cell, int divisions) {
+    constexpr double off_edges = 1.0 / 64;  // corners often lie on blockers
+    const Vec3 middle = middle_of(cell);
+    double at_corners = 0;
+    for (const Vec3& corner : cell) {
+      at_corners +=
+          view_.form_factor(corner + off_edges * (middle - corner), sampled_.normal, query_.tick);
+    }
+    return at_corners * norm(area_vector(cell)) /
+           (3 * static_cast<double>(cell.size()) * std::max(divisions, 1));
+  }
+
  private:
   /// The form factor from x. Adds its moments times `weight`.
   double see(const Vec3& x, double weight, std::array<double, 2>& moments) {
@@ -373,15 +392,19 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
     if (!query.estimate) {
       return;
     }
+    if (sums.seen == 0) {
+      exchange.error += by_points.unseen(cell, divisions);
+      return;
+    }
     // Half the distance between points leaves a quarter of the error, and takes three quarters
     // away.
     const PointSums half = divisions == 0 ? PointSums() : by_points(cell, divisions / 2);
     exchange.error +=
         divisions == 0 ? cell_size * cell_size * sums.seen : (sums.seen - half.seen) / 3;
     if (query.receiver != nullptr) {
-      if (divisions < fewest_for_moments) {
-        add_moments_of(sums.seen, by_points(cell, fewest_for_moments),
-                       by_points(cell, fewest_for_moments / 2), exchange);
+      if (divisions < moment_divisions_) {
+        add_moments_of(sums.seen, by_points(cell, moment_divisions_),
+                       by_points(cell, moment_divisions_ / 2), exchange);
       } else {
         add_moments_of(sums.seen, sums, half, exchange);
       }
@@ -402,7 +425,7 @@ void ExchangeFinder::add_whole(const FacingPolygons& facing, const Query& query,
   // The values at points have no kinks: half as many in a row are enough.
   const Sampled sampled(facing, tolerance_);
   PointQuadrature by_points(sampled, {}, query, scale_);
-  const int divisions = std::max(divisions_of(sampled.size / 2), fewest_for_moments);
+  const int divisions = std::max(divisions_of(sampled.size / 2), moment_divisions_);
   const PointSums sums = by_points(sampled.small, divisions);
   RefinedCells refined(facing, sampled.p_is_smaller, std::ref(by_points), area);
   if (refined.misses(sums.free, area)) {

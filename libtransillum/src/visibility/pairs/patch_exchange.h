@@ -169,8 +169,9 @@ class ExchangeFinder {
 
   const Scene& scene_;
   double density_;
-  double scale_;      ///< from meters to the finder's unit of length, a power of two
-  double tolerance_;  ///< in that unit
+  int moment_divisions_;  ///< at least, of a cell
+  double scale_;          ///< from meters to the finder's unit of length, a power of two
+  double tolerance_;      ///< in that unit
   std::vector<PatchId> first_sides_;
   std::vector<Blocker> blockers_;
   BoxTree tree_;  ///< tree of blockers_

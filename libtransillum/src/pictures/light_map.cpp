@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Light maps: patches of one plane and material that touch form a chart, a rectangle of texels with
-// a border; charts are put side by side in rows. A texel that no patch covers, but that filtering
-// reads, has the light of the nearest point of a patch.
+// Light maps: charts, rectangles of texels with a border, are put side by side in rows. Where light
+// is computed at points, patches of one plane and material that touch form a chart, and a texel
+// that no patch covers, but that filtering reads, has the light of the nearest point of a patch.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "pictures/plane_points.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/linear_basis.h"
 #include "transillum/picture.h"
 
 namespace transillum {
@@ -97,14 +98,15 @@ std::vector<PatchId> chart_of_patches(const Scene& scene, const PlanePoints& poi
 
 }  // namespace
 
-struct [[gnu::visibility("hidden")]] SharpLightMap::Impl {
+struct [[gnu::visibility("hidden")]] LightMap::Impl {
   int width = 1, height = 1;
   std::vector<std::array<float, 3>> radiosity;
   std::vector<Chart> charts;
   std::vector<std::int32_t> chart_of;  ///< by patch
 
-  Impl(const Scene& scene, const PlanePoints& points, double density) {
-    const std::vector<PatchId> first = chart_of_patches(scene, points);
+  /// @param first by patch, the first patch of its chart
+  /// @param density texels per meter; 0 means two along each side of a chart
+  Impl(const Scene& scene, const std::vector<PatchId>& first, double density) {
     chart_of.assign(first.size(), 0);
     for (PatchId i = 0; i < scene.patch_count(); ++i) {
       if (at(first, i) == i) {
@@ -123,7 +125,9 @@ struct [[gnu::visibility("hidden")]] SharpLightMap::Impl {
       }
     }
     const auto texels = [&](double length) {
-      return static_cast<int>(std::clamp(std::ceil(density * length - 1e-9), 1.0, 1e6));
+      return density > 0
+                 ? static_cast<int>(std::clamp(std::ceil(density * length - 1e-9), 1.0, 1e6))
+                 : 2;
     };
     for (Chart& chart : charts) {
       chart.columns = texels(chart.high_s - chart.low_s);
@@ -162,8 +166,8 @@ struct [[gnu::visibility("hidden")]] SharpLightMap::Impl {
     const double side = std::max(static_cast<double>(widest), std::sqrt(area));
     const auto refuse = [&](double needed) {
       throw InputError(fmt::format(
-          "{}: a light map of {:.0f} texels along a side would be larger than {}; ask for fewer "
-          "texels per meter",
+          "{}: a light map of {:.0f} texels along a side would be larger than {}; it needs fewer "
+          "patches or texels per meter",
           name, needed, largest_side));
     };
     if (side > largest_side) {
@@ -187,6 +191,15 @@ struct [[gnu::visibility("hidden")]] SharpLightMap::Impl {
     }
     height = top + row_height;
     radiosity.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  }
+
+  /// @param n number of the texel in the chart with its border, row by row
+  void set(const Chart& chart, std::size_t n, const Rgb& b) {
+    const std::size_t columns = static_cast<std::size_t>(chart.columns) + 2;
+    const std::size_t row = static_cast<std::size_t>(chart.top) + n / columns,
+                      column = static_cast<std::size_t>(chart.left) + n % columns;
+    radiosity[row * static_cast<std::size_t>(width) + column] = {
+        static_cast<float>(b.r), static_cast<float>(b.g), static_cast<float>(b.b)};
   }
 };
 
@@ -244,38 +257,53 @@ std::vector<Texel> texels_of(const Scene& scene, const PlanePoints& points, cons
 
 }  // namespace
 
-SharpLightMap::SharpLightMap(std::shared_ptr<const Solution> solution, const Options& options,
-                             const Cancellation& cancellation,
-                             const std::function<void(double)>& progress) {
-  const std::shared_ptr<const Scene> scene = solution->scene;
+LightMap::LightMap(const Solution& solution) {
+  const Scene& scene = *solution.scene;
+  std::vector<PatchId> each(scene.patches().size());
+  std::iota(each.begin(), each.end(), 0);
+  auto impl = std::make_unique<Impl>(scene, each, 0);
+  for (const Chart& chart : impl->charts) {
+    const PatchId i = chart.patches.front();
+    const auto columns = static_cast<std::size_t>(chart.columns) + 2;
+    const auto rows = static_cast<std::size_t>(chart.rows) + 2;
+    for (std::size_t n = 0; n < columns * rows; ++n) {
+      Rgb b = at(solution.radiosity, i);
+      if (!solution.linear_terms.empty()) {
+        const Vec3 middle = chart.point_of(static_cast<double>(n % columns) + 0.5,
+                                           static_cast<double>(n / columns) + 0.5);
+        const auto [first, second] = linear_basis(scene, i).at(middle);
+        const LinearTerm& term = at(solution.linear_terms, i);
+        b += first * term.first + second * term.second;
+      }
+      impl->set(chart, n, b);
+    }
+  }
+  impl_ = std::move(impl);
+}
+
+LightMap::LightMap(const Scene& scene, const SurfaceLight& light, const Options& options,
+                   const Cancellation& cancellation, const std::function<void(double)>& progress) {
   if (!(options.density >= 0 && std::isfinite(options.density))) {
     throw InputError(
-        fmt::format("{}: {} texels per meter; it must be above 0", scene->name(), options.density));
+        fmt::format("{}: {} texels per meter; it must be above 0", scene.name(), options.density));
   }
   constexpr double along_diagonal = 1024;
-  const PlanePoints points(*scene);
+  const PlanePoints points(scene);
   auto impl = std::make_unique<Impl>(
-      *scene, points,
-      options.density > 0 ? options.density : along_diagonal / scene->bounds().diagonal());
-  const SurfaceLight light(std::move(solution), 0, cancellation);
+      scene, chart_of_patches(scene, points),
+      options.density > 0 ? options.density : along_diagonal / scene.bounds().diagonal());
   WorkerThreads workers(thread_count(options.threads));
   constexpr std::size_t batch = 4096;
   double done = 0;
   for (const Chart& chart : impl->charts) {
-    const std::vector<Texel> texels = texels_of(*scene, points, chart);
+    const std::vector<Texel> texels = texels_of(scene, points, chart);
     for (std::size_t first = 0; first < texels.size(); first += batch) {
       const std::size_t end = std::min(first + batch, texels.size());
       for_each_index(workers, first, end, [&](std::size_t n) {
         cancellation.throw_if_canceled();
-        if (texels[n].patch == no_patch) {
-          return;
+        if (texels[n].patch != no_patch) {
+          impl->set(chart, n, light.radiosity(texels[n].patch, texels[n].point));
         }
-        const Rgb b = light.radiosity(texels[n].patch, texels[n].point);
-        const std::size_t columns = static_cast<std::size_t>(chart.columns) + 2;
-        const std::size_t row = static_cast<std::size_t>(chart.top) + n / columns,
-                          column = static_cast<std::size_t>(chart.left) + n % columns;
-        impl->radiosity[row * static_cast<std::size_t>(impl->width) + column] = {
-            static_cast<float>(b.r), static_cast<float>(b.g), static_cast<float>(b.b)};
       });
       done += static_cast<double>(end - first);
       if (progress) {
@@ -289,15 +317,13 @@ SharpLightMap::SharpLightMap(std::shared_ptr<const Solution> solution, const Opt
   impl_ = std::move(impl);
 }
 
-SharpLightMap::~SharpLightMap() = default;
+LightMap::~LightMap() = default;
 
-int SharpLightMap::width() const { return impl_->width; }
-int SharpLightMap::height() const { return impl_->height; }
-const std::vector<std::array<float, 3>>& SharpLightMap::radiosity() const {
-  return impl_->radiosity;
-}
+int LightMap::width() const { return impl_->width; }
+int LightMap::height() const { return impl_->height; }
+const std::vector<std::array<float, 3>>& LightMap::radiosity() const { return impl_->radiosity; }
 
-std::array<double, 2> SharpLightMap::place(PatchId patch, const Vec3& point) const {
+std::array<double, 2> LightMap::place(PatchId patch, const Vec3& point) const {
   const Chart& chart = at(impl_->charts, at(impl_->chart_of, patch));
   const auto [x, y] = chart.texel_of(chart.in_plane(point));
   return {chart.left + x, chart.top + y};
