@@ -102,8 +102,8 @@ double size_of(const std::array<Vec3, 4>& corners) {
 struct InterpolatedLight::Cell {
   std::array<Rgb, 4> light{};  ///< at its corners
   bool is_part = false;        ///< whether it is of a divided cell
-  /// The difference of the middle from the mean of the corners if the light is smooth, as a fraction
-  /// of all light: a quarter of the difference in the cell that was divided.
+  /// The difference of the middle from the mean of the corners if the light is smooth, as a
+  /// fraction of all light: a quarter of the difference in the cell that was divided.
   double expected_difference = HUGE_VAL;
   Kept<Division> division;
 };
