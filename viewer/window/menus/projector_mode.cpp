@@ -109,10 +109,9 @@ void ProjectorMode::arrange() {
     return;
   }
   // Beside the page there is one view, or the scene and a panel.
-  constexpr double usual_page = 0.46, narrow_page = 0.36, panel_fraction = 0.37;
+  constexpr double page_fraction = 0.46, panel_fraction = 0.29;
   const int width = frame_.window.width();
   const bool scene_and_panel = projected_.size() > 3;
-  const double page_fraction = scene_and_panel ? narrow_page : usual_page;
   QList<QDockWidget*> docks{dock("lesson")};
   QList<int> widths{static_cast<int>(page_fraction * width)};
   if (auto* beside = qobject_cast<QDockWidget*>(projected_.value(scene_and_panel ? 3 : 2))) {
