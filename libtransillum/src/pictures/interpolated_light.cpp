@@ -200,17 +200,16 @@ std::unique_ptr<const InterpolatedLight::Cell> InterpolatedLight::root_of(const 
   return root;
 }
 
-/// The largest difference of what points between the middle and the corners gather from what is
-/// interpolated there, W/m².
+/// The largest difference of what two points between the middle and the corners gather from what
+/// is interpolated there, W/m².
 double InterpolatedLight::difference_at_quarters(const PatchCells& cells,
                                                  const std::array<Vec3, 4>& corners,
                                                  const Cell& cell) const {
   double largest = 0;
+  // A line through the middle meets at most one of two that are not opposite.
   for (const double s : {0.25, 0.75}) {
-    for (const double t : {0.25, 0.75}) {
-      const Rgb light = light_inside(cells, blend(corners, s, t)).irradiance;
-      largest = std::max(largest, max_abs(light - blend(cell.light, s, t)));
-    }
+    const Rgb light = light_inside(cells, blend(corners, s, 0.25)).irradiance;
+    largest = std::max(largest, max_abs(light - blend(cell.light, s, 0.25)));
   }
   return largest;
 }
@@ -219,7 +218,7 @@ double InterpolatedLight::difference_at_quarters(const PatchCells& cells,
 std::unique_ptr<const InterpolatedLight::Division> InterpolatedLight::division_of(
     const PatchCells& cells, const std::array<Vec3, 4>& corners, const Cell& cell) const {
   constexpr double largest = 1.0 / 12, smallest = 1.0 / 1500, tiny = 1.0 / 300;
-  constexpr double least_tolerance = 0.004, least_contrast = 0.04;
+  constexpr double least_tolerance = 0.004, least_contrast = 0.06;
   const double size = size_of(corners) / diagonal_;
   auto division = std::make_unique<Division>();
   if (size <= tiny && !cell.is_part) {
