@@ -48,6 +48,9 @@ std::unique_ptr<TestWindow> first_window(const QSize& size) {
 
 /// Presses a key where the focus is.
 void press(QWidget& window, int key, Qt::KeyboardModifiers modifiers = {}) {
+  // Without a window manager, no window is active after a menu was closed.
+  window.activateWindow();
+  wait_for([&] { return window.isActiveWindow(); }, 5000);
   QWidget* target = QApplication::focusWidget();
   QTest::keyClick(target ? target : &window, static_cast<Qt::Key>(key), modifiers);
 }
