@@ -11,7 +11,7 @@ namespace transillum::viewer {
 namespace {
 
 // A texel takes about as long as a sample of a pixel, and 12 bytes.
-constexpr double fine_texels = 600'000, coarse_texels = 40'000;
+constexpr double fine_texels = 300'000, coarse_texels = 40'000;
 // Each patch also needs points that gather its reflected light.
 constexpr PatchId most_patches = 20'000;
 

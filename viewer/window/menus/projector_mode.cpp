@@ -109,7 +109,7 @@ void ProjectorMode::arrange() {
     return;
   }
   // Beside the page there is one view, or the scene and a panel.
-  constexpr double page_fraction = 0.46, panel_fraction = 0.29;
+  constexpr double page_fraction = 0.46, panel_fraction = 0.265;
   const int width = frame_.window.width();
   const bool scene_and_panel = projected_.size() > 3;
   QList<QDockWidget*> docks{dock("lesson")};
