@@ -247,7 +247,7 @@ class FirstMinutesTest : public QObject {
     }));
     QVERIFY(comes_to_rest(*window));
 
-    // What lights this patch?
+    // The light paths of a patch, from its menu.
     auto* view = window->findChild<SceneView*>();
     const QPoint place = place_of_a_patch(*view);
     QVERIFY(place.x() >= 0);

@@ -16,7 +16,8 @@ constexpr int least_ratio = 4;
 constexpr PatchId most_patches = 20'000;
 /// Bound of the light that is not propagated yet: far below the error of so few directions.
 constexpr double draft_tolerance = 5e-3;
-/// Points of a first shot of its own, whose error is below that of the directions, too.
+/// ShotOptions::points of a draft that makes its own first shot: the error of the shot is then
+/// still below the error of the few directions.
 constexpr int draft_points = 4;
 
 std::shared_ptr<const DirectLight> shoot_few_points(const SolveOptions& options, const Scene& scene,

@@ -33,7 +33,8 @@ std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, RunOpti
                                                 const Cancellation& cancellation);
 
 /// The scene of a session with its tree, which must be prepared.
-/// @param divisions that made its patches from those of `start`, as in SceneInput::divided
+/// @param divisions the divisions that make the session's patches from the patches of `start`, as
+/// in SceneInput::divided
 /// @param start  the scene before patches were divided; it is returned if none were
 /// @throws Canceled
 std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
