@@ -3,12 +3,10 @@
 // A whole picture before the solve that was asked for: few passes and all iterations.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 
 #include "model/snapshot.h"
-#include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
 #include "transillum/first_shot.h"
 #include "transillum/solve_session.h"
