@@ -27,10 +27,22 @@ TEST(CliErrorReport, RefusesInOneLineWhatItCannotMeasure) {
           {{"--error-report", "no-folder/e.json"}, "no-folder"},
           {{"--error-report", "e.json", "--engine", "hemicube"}, "engine hemicube"},
           {{"--error-report", "e.json", "--scheme", "semi-iterative"}, "scheme semi-iterative"},
-          {{"--error-report", "e.json", "--glossy"}, "not available with lobes"},
           {{"--error-report", "e.json", "--stats", "e.json"}, "given twice"},
           {{"--error-report", "e.json", "--shard", "1/2", "-o", "a.tsh"}, "with shards"},
       });
+}
+
+// A scene without lobes is solved as without --glossy, as in the window.
+TEST(CliErrorReport, RefusesOnlyLobesThatTakePart) {
+  const TemporaryFolder folder;
+  const Arguments glossy{"--glossy", "--accuracy", "50%", "--total"};
+  for (const Arguments& options :
+       {glossy, Arguments{"--glossy", "-m", "8", "--error-report", folder / "errors.json"}}) {
+    expect_refused(Arguments{"solve", "gallery"} + options, "not available with lobes");
+    const ProgramResult solved = expect_success(Arguments{"solve", "cornell-box"} + options);
+    EXPECT_THAT(solved.err, HasSubstr("--glossy changes nothing"));
+    EXPECT_THAT(solved.out, HasSubstr("error in all"));
+  }
 }
 
 TEST(CliErrorReport, AddsUpTheFourErrorsOfEachSurface) {
@@ -73,7 +85,6 @@ TEST(CliTotal, RefusesInOneLineWhatItCannotDo) {
           {{"--accuracy", "20%", "--accuracy-of", "rms"}, "an error of surfaces"},
           {{"--accuracy", "20%", "--seconds", "5"}, "no time limit"},
           {{"--accuracy", "20%", "--refine-by", "jump", "--patches", "60"}, "no rounds"},
-          {{"--accuracy", "20%", "--glossy"}, "glossy"},
           {{"--accuracy", "20%", "--series", "a.pvd"}, "an accuracy"},
           {{"--accuracy", "20%", "--shard", "1/2", "-o", "a.tsh"}, "with shards"},
       });

@@ -23,7 +23,7 @@
 
 #include "scene/callout_layer.h"
 #include "scene/camera_style.h"
-#include "scene/shown_hit.h"
+#include "scene/sharp/shown_hit.h"
 #include "scene/window_image.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"

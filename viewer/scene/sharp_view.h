@@ -7,8 +7,8 @@
 #include <atomic>
 #include <optional>
 
-#include "scene/sharp_picture.h"
-#include "scene/surface_map.h"
+#include "scene/sharp/sharp_picture.h"
+#include "scene/sharp/surface_map.h"
 #include "support/request_worker.h"
 #include "widgets/plate.h"
 

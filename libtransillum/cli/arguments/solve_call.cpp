@@ -145,24 +145,23 @@ void check_refinement(const SolveCall& call) {
                 "not available with several processes");
 }
 
+const char* errors_option(const SolveCall& call) {
+  return call.scene.run.total ? "--total" : "--error-report";
+}
+
 /// Refuses errors by cause that cannot be measured.
 void check_errors(const SolveCall& call) {
-  const bool total = call.scene.run.total;
-  if (call.error_report.empty() && !total) {
+  if (!measures_errors(call)) {
     return;
   }
   const CLI::App& command = *call.scene.command;
-  const char* option = total ? "--total" : "--error-report";
+  const char* option = errors_option(call);
   refuse_unless(!processes().sums, command, option, "not available with several processes");
   refuse_unless(call.shards.empty() && !call.share, command, option, "not available with shards");
   refuse_unless(call.factors.empty(), command, option, "not used with --factors");
   refuse_unless(takes_directions(call.options().engine), command, option,
                 fmt::format("not used with engine {}", name_of(call.options().engine)));
-  try {
-    check_measurable(call.options(), call.options().glossy);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", option, error.what()));
-  }
+  check_errors_with(call, false);
   if (call.error_report.empty()) {
     return;
   }
@@ -186,6 +185,20 @@ void check_run(const SolveCall& call) {
 }
 
 }  // namespace
+
+bool measures_errors(const SolveCall& call) {
+  return call.scene.run.total || !call.error_report.empty();
+}
+
+void check_errors_with(const SolveCall& call, bool lobes_take_part) {
+  if (measures_errors(call)) {
+    try {
+      check_measurable(call.options(), lobes_take_part);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", errors_option(call), error.what()));
+    }
+  }
+}
 
 std::vector<std::string> checked_outputs(const SolveCall& call) {
   if (std::count_if(call.out.begin(), call.out.end(), is_standard_output) > 1) {

@@ -46,6 +46,11 @@ std::vector<std::string> checked_outputs(const SolveCall& call);
 /// Sets the defaults that depend on other options, and checks all.
 /// @throws InputError
 void complete(SolveCall& call);
+/// Whether errors by cause are measured: --error-report, --total.
+bool measures_errors(const SolveCall& call);
+/// Checks that these errors can be measured, where they are wanted.
+/// @throws InputError
+void check_errors_with(const SolveCall& call, bool lobes_take_part);
 
 /// Solves and writes the results; returns the exit status.
 int run_solve(SolveCall& call);

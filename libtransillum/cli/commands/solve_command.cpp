@@ -157,6 +157,7 @@ PreparedCall prepare_call(SolveCall& call, const Cancellation& cancellation) {
   complete(call);
   prepared.options = call.options();
   prepared.scene = load_input_scene(call.scene, outputs, cancellation, Light::required);
+  check_errors_with(call, prepared.options.glossy && has_lobes(*prepared.scene));
   check_series(call.colors, prepared.scene->files());
   check_picture_request(pictures_of(call, *prepared.scene), prepared.scene);
   if (!call.colors.series.empty() && is_first_process()) {
@@ -240,24 +241,23 @@ int run_solve(SolveCall& call) {
   std::optional<Checkpoint> checkpoint;
   const RefineChoice& refine = call.scene.run.refine;
   std::optional<MeasuredErrors> errors;
-  const SolveJob job{
-      .scene = prepared.scene,
-      .options = options,
-      .refine = refine.is_set() ? std::optional(refine.options()) : std::nullopt,
-      .cancellation = cancellation,
-      .display = display,
-      .quiet = call.quiet,
-      .factors = call.factors,
-      .form_factors = call.by.has_value(),
-      .has_series = !call.colors.series.empty(),
-      .series = prepared.series ? &*prepared.series : nullptr,
-      .series_every = call.colors.series_every,
-      .checkpoint = call.checkpoint,
-      .checkpoint_every = call.checkpoint_every,
-      .shards = call.shards,
-      .total = total_goal(call.scene.run),
-      .errors = call.error_report.empty() && !call.scene.run.total ? nullptr : &errors,
-      .sums = shared ? processes().sums : nullptr};
+  const SolveJob job{.scene = prepared.scene,
+                     .options = options,
+                     .refine = refine.is_set() ? std::optional(refine.options()) : std::nullopt,
+                     .cancellation = cancellation,
+                     .display = display,
+                     .quiet = call.quiet,
+                     .factors = call.factors,
+                     .form_factors = call.by.has_value(),
+                     .has_series = !call.colors.series.empty(),
+                     .series = prepared.series ? &*prepared.series : nullptr,
+                     .series_every = call.colors.series_every,
+                     .checkpoint = call.checkpoint,
+                     .checkpoint_every = call.checkpoint_every,
+                     .shards = call.shards,
+                     .total = total_goal(call.scene.run),
+                     .errors = measures_errors(call) ? &errors : nullptr,
+                     .sums = shared ? processes().sums : nullptr};
   say_of_lobes(call, options, *prepared.scene);
   Solution solution = run_job(job, checkpoint);
   display.clear();

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/sharp_layer.h"
+#include "scene/sharp/sharp_layer.h"
 
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLQuadHelper.h>

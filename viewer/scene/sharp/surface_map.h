@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "scene/sharp_picture.h"
+#include "scene/sharp/sharp_picture.h"
 #include "transillum/picture.h"
 
 namespace transillum::viewer {

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/surface_map.h"
+#include "scene/sharp/surface_map.h"
 
 #include <QCoreApplication>
 #include <cmath>

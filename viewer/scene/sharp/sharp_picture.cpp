@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/sharp_picture.h"
+#include "scene/sharp/sharp_picture.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "model/snapshot_values.h"
 #include "pictures/visit_pixels.h"
-#include "scene/shown_hit.h"
+#include "scene/sharp/shown_hit.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
