@@ -77,6 +77,8 @@ struct FocusOn : Focus {
   }
 };
 
+RunPosition nowhere() { return {}; }
+
 std::vector<std::int32_t> steps_where(const MapHistory& history, const Breakpoint& breakpoint) {
   Breakpoints breakpoints;
   breakpoints.add(breakpoint);
@@ -131,13 +133,24 @@ class BreakpointsTest : public QObject {
         smallest = std::min(smallest, history.step(k).smallest);
       }
     }
-    QVERIFY(steps_where(history, {Kind::large_map, 0, 0, static_cast<double>(largest)}).empty());
-    // The breakpoint holds at each step where V passes the bound, not while V stays above it.
-    for (const std::int32_t k : steps_where(history, {Kind::large_map, 0, 0, largest / 2.0})) {
-      QVERIFY(history.step(k).map_size > largest / 2.0);
-      QVERIFY(k == 0 || history.step(k - 1).map_size <= largest / 2.0);
+    for (const Kind kind : {Kind::large_map, Kind::growing_map}) {
+      QVERIFY(steps_where(history, {kind, 0, 0, static_cast<double>(largest)}).empty());
+      QVERIFY(!steps_where(history, {kind, 0, 0, largest - 1.0}).empty());
     }
-    QVERIFY(!steps_where(history, {Kind::large_map, 0, 0, largest - 1.0}).empty());
+    // A large map is a state: it holds at each step. Growing is the step that passes the bound.
+    const auto large = steps_where(history, {Kind::large_map, 0, 0, largest / 2.0});
+    std::vector<std::int32_t> passing;
+    std::size_t above = 0;
+    for (std::int32_t k = 0; k < history.step_count(); ++k) {
+      const bool is_above = history.step(k).map_size > largest / 2.0;
+      above += is_above ? 1 : 0;
+      QCOMPARE(std::binary_search(large.begin(), large.end(), k), is_above);
+      if (is_above && (k == 0 || history.step(k - 1).map_size <= largest / 2.0)) {
+        passing.push_back(k);
+      }
+    }
+    QVERIFY(above > passing.size() && !passing.empty());
+    QCOMPARE(steps_where(history, {Kind::growing_map, 0, 0, largest / 2.0}), passing);
     QVERIFY(steps_where(history, {Kind::small_fragment, 0, 0, smallest}).empty());
     QVERIFY(!steps_where(history, {Kind::small_fragment, 0, 0, smallest + 1e-9}).empty());
   }
@@ -200,7 +213,7 @@ class BreakpointsTest : public QObject {
     QVERIFY(tried > 0);
     QCOMPARE(text_of({{Kind::patch, 3},
                       true,
-                      {{true, {Kind::cut, 7}}, {false, {Kind::large_map, 0, 0, 50}}},
+                      {{true, {Kind::cut, 7}}, {false, {Kind::growing_map, 0, 0, 50}}},
                       4}),
              QString("Patch 3 takes part, or patch 7 is cut and V grows beyond 50 polygons (stop "
                      "at hit 4)"));
@@ -224,18 +237,55 @@ class BreakpointsTest : public QObject {
     breakpoints.add({{Kind::cut, busy}, true, {}, 1000});
     breakpoints.add({{Kind::patch, 5}, false});
     const auto hits = std::make_shared<HitCounts>();
-    const StepFinder run = breakpoints.run_finder(hits);
+    const StepFinder run = breakpoints.run_finder(hits, nowhere);
     QCOMPARE(run(history, -1, StepOrder::forward), steps[2]);
     const auto passed = [&](std::int32_t end) {
       return std::count_if(cuts.begin(), cuts.end(), [end](std::int32_t k) { return k <= end; });
     };
-    QVERIFY((*hits == HitCounts{3, passed(steps[2]), 0}));
+    const auto counts = [&] {
+      std::vector<std::int64_t> numbers;
+      for (const BreakpointHits& found : *hits) {
+        numbers.push_back(found.steps);
+      }
+      return numbers;
+    };
+    QCOMPARE(counts(), (std::vector<std::int64_t>{3, passed(steps[2]), 0}));
+    QCOMPARE(hits->front().first->step, steps[0]);
     // A run back from there stops at the third hit before it; a run back from the third hit stops
     // nowhere.
-    QCOMPARE(breakpoints.run_finder(hits)(history, steps[5], StepOrder::backward), steps[2]);
-    QCOMPARE(breakpoints.run_finder(hits)(history, steps[2], StepOrder::backward),
+    QCOMPARE(breakpoints.run_finder(hits, nowhere)(history, steps[5], StepOrder::backward),
+             steps[2]);
+    QCOMPARE(breakpoints.run_finder(hits, nowhere)(history, steps[2], StepOrder::backward),
              MapHistory::none);
-    QCOMPARE((*hits)[0], 2);
+    QCOMPARE((*hits)[0].steps, 2);
+  }
+
+  // Patch 20 and more than 50 polygons: both at one step, though V has grown before.
+  void a_state_is_joined_by_and_where_it_lasts() {
+    const Direction d("cornell-box");
+    const MapHistory& history = d.history();
+    const PatchId last = history.step(history.step_count() - 1).patch;
+    const double half = history.step(history.step_count() - 1).map_size / 2.0;
+    const Breakpoint both{{Kind::patch, last}, true, {{false, {Kind::large_map, 0, 0, half}}}};
+    QVERIFY(!steps_where(history, both).empty());
+    const Breakpoint never{{Kind::patch, last}, true, {{false, {Kind::large_map, 0, 0, 500}}}};
+    Breakpoints breakpoints;
+    breakpoints.add(both);
+    breakpoints.add(never);
+    const auto hits = std::make_shared<HitCounts>();
+    const RunPosition searched{.direction = 6};
+    const StepFinder run = breakpoints.run_finder(hits, [&] { return searched; });
+    for (std::int32_t k = run(history, -1, StepOrder::forward); k != MapHistory::none;) {
+      k = run(history, k, StepOrder::forward);
+    }
+    QVERIFY(text_of_miss(both, (*hits)[0]).isEmpty());
+    const auto steps = steps_where(history, {Kind::patch, last});
+    QCOMPARE(text_of_miss(never, (*hits)[1]),
+             QString("Patch %1 takes part: first in direction 7, step %2; %3 in all\n"
+                     "V has more than 500 polygons: never")
+                 .arg(last)
+                 .arg(steps.front() + 1)
+                 .arg(steps.size()));
   }
 
   void a_run_that_comes_back_counts_no_step_twice() {
@@ -250,14 +300,14 @@ class BreakpointsTest : public QObject {
     const std::int32_t middle = d.history().step_count() / 2;
     for (const StepOrder order : {StepOrder::forward, StepOrder::backward}) {
       const auto hits = std::make_shared<HitCounts>();
-      const StepFinder run = breakpoints.run_finder(hits);
+      const StepFinder run = breakpoints.run_finder(hits, nowhere);
       const auto from = [&](const MapHistory& history) {
         return order == StepOrder::forward ? -1 : history.step_count();
       };
       QCOMPARE(run(d.history(), middle, order), MapHistory::none);
       QCOMPARE(run(other.history(), from(other.history()), order), MapHistory::none);
       QCOMPARE(run(d.history(), from(d.history()), order), MapHistory::none);
-      QCOMPARE((*hits)[0], total);
+      QCOMPARE((*hits)[0].steps, total);
     }
   }
 
@@ -553,7 +603,7 @@ class BreakpointsTest : public QObject {
     QCOMPARE(undo.undoText(), QString("remove breakpoint: Patch 3 takes part"));
     undo.undo();
     QVERIFY(breakpoints.list() == before);
-    QCOMPARE(undo.undoText(), QString("disable breakpoint: V grows beyond 50 polygons"));
+    QCOMPARE(undo.undoText(), QString("disable breakpoint: V has more than 50 polygons"));
     undo.undo();
     QVERIFY(breakpoints.list()[1].enabled);
     undo.undo();

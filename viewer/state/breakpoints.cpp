@@ -4,6 +4,7 @@
 #include "state/breakpoints.h"
 
 #include <QSettings>
+#include <QStringList>
 #include <algorithm>
 #include <utility>
 
@@ -25,6 +26,7 @@ constexpr Name<Kind> breakpoint_names[] = {
     {"small-fragment", Kind::small_fragment},
     {"open-receiver", Kind::open_receiver},
     {"large-map", Kind::large_map},
+    {"growing-map", Kind::growing_map},
 };
 
 bool exchanges_with(const MapHistory& history, std::int32_t k, PatchId one, PatchId other) {
@@ -65,7 +67,9 @@ bool holds(const Condition& condition, const MapHistory& history, std::int32_t k
       return step.row != MapRecord::no_row && step.smallest < condition.value;
     case Kind::open_receiver:
       return step.front_facing && step.open_fraction() > condition.value;
-    case Kind::large_map: {
+    case Kind::large_map:
+      return step.map_size > condition.value;
+    case Kind::growing_map: {
       const double before = k > 0 ? history.step(k - 1).map_size : 0;
       return before <= condition.value && step.map_size > condition.value;
     }
@@ -97,6 +101,8 @@ QString text_of(const Condition& b) {
     case Kind::open_receiver:
       return Breakpoints::tr("A receiver's open part is above %1").arg(number_text(b.value));
     case Kind::large_map:
+      return Breakpoints::tr("V has more than %1 polygons").arg(number_text(b.value));
+    case Kind::growing_map:
       return Breakpoints::tr("V grows beyond %1 polygons").arg(number_text(b.value));
   }
   return {};
@@ -113,6 +119,24 @@ QString text_of(const Breakpoint& b) {
   }
   return b.stop_at == 1 ? text
                         : Breakpoints::tr("%1 (stop at hit %2)").arg(text, count_text(b.stop_at));
+}
+
+QString text_of_miss(const Breakpoint& breakpoint, const BreakpointHits& hits) {
+  if (hits.steps > 0 || breakpoint.further.empty() || hits.conditions.empty()) {
+    return {};
+  }
+  QStringList parts;
+  for (std::size_t c = 0; c < hits.conditions.size(); ++c) {
+    const Condition& condition =
+        c == 0 ? breakpoint.condition : breakpoint.further[c - 1].condition;
+    const HitCount& alone = hits.conditions[c];
+    parts << (alone.first ? Breakpoints::tr("%1: %2 steps, first direction %3, step %4")
+                                .arg(text_of(condition), count_text(alone.steps),
+                                     count_text(alone.first->direction + 1),
+                                     count_text(alone.first->step + 1))
+                          : Breakpoints::tr("%1: never").arg(text_of(condition)));
+  }
+  return parts.join(QLatin1Char('\n'));
 }
 
 const char* name_of(Kind kind) { return name_in_file(breakpoint_names, kind); }
@@ -194,9 +218,13 @@ namespace {
 /// Counts the hits of one run, which begins after a step and visits whole directions from then on.
 class HitCounter {
  public:
-  HitCounter(std::vector<Breakpoint> list, std::shared_ptr<HitCounts> hits)
-      : list_(std::move(list)), hits_(std::move(hits)) {
-    hits_->assign(list_.size(), 0);
+  HitCounter(std::vector<Breakpoint> list, std::shared_ptr<HitCounts> hits,
+             std::function<RunPosition()> searched)
+      : list_(std::move(list)), hits_(std::move(hits)), searched_(std::move(searched)) {
+    hits_->assign(list_.size(), {});
+    for (std::size_t b = 0; b < list_.size(); ++b) {
+      (*hits_)[b].conditions.resize(1 + list_[b].further.size());
+    }
   }
 
   std::int32_t operator()(const MapHistory& history, std::int32_t from, StepOrder order) {
@@ -222,22 +250,41 @@ class HitCounter {
   bool count(const MapHistory& history, std::int32_t k) {
     bool stops = false;
     for (std::size_t b = 0; b < list_.size(); ++b) {
-      if (list_[b].enabled && holds(list_[b], history, k)) {
-        stops = ++(*hits_)[b] == list_[b].stop_at || stops;
+      const Breakpoint& breakpoint = list_[b];
+      if (!breakpoint.enabled) {
+        continue;
+      }
+      BreakpointHits& found = (*hits_)[b];
+      for (std::size_t c = 0; c < found.conditions.size(); ++c) {
+        add(holds(c == 0 ? breakpoint.condition : breakpoint.further[c - 1].condition, history, k),
+            k, found.conditions[c]);
+      }
+      if (add(holds(breakpoint, history, k), k, found)) {
+        stops = found.steps == breakpoint.stop_at || stops;
       }
     }
     return stops;
   }
 
+  bool add(bool held, std::int32_t k, HitCount& count) const {
+    if (held && ++count.steps == 1) {
+      count.first = searched_();
+      count.first->step = k;
+    }
+    return held;
+  }
+
   std::vector<Breakpoint> list_;
   std::shared_ptr<HitCounts> hits_;
+  std::function<RunPosition()> searched_;
   std::optional<std::pair<Vec3, std::int32_t>> begin_;  ///< direction and step
 };
 
 }  // namespace
 
-StepFinder Breakpoints::run_finder(std::shared_ptr<HitCounts> hits) const {
-  return HitCounter(list_, std::move(hits));
+StepFinder Breakpoints::run_finder(std::shared_ptr<HitCounts> hits,
+                                   std::function<RunPosition()> searched) const {
+  return HitCounter(list_, std::move(hits), std::move(searched));
 }
 
 std::vector<std::int32_t> Breakpoints::steps_in(const MapHistory& history) const {

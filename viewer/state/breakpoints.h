@@ -3,12 +3,14 @@
 
 #include <QObject>
 #include <QString>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "state/focus.h"
 #include "state/step_events.h"
 
 class QSettings;
@@ -24,7 +26,8 @@ struct Condition {
     pair,            ///< `patch` and `other` exchange light, either way
     small_fragment,  ///< the step makes a fragment smaller than `value` m²
     open_receiver,   ///< the closure defect of the step's receiver exceeds `value`, 0 to 1
-    large_map,       ///< V grows beyond `value` polygons
+    large_map,       ///< V has more than `value` polygons
+    growing_map,     ///< the step makes V have more than `value` polygons, which it had not before
   };
   Kind kind = Kind::patch;
   PatchId patch = 0, other = 0;
@@ -63,8 +66,22 @@ QString text_of(const Breakpoint& breakpoint);
 const char* name_of(Condition::Kind kind);
 std::optional<Condition::Kind> breakpoint_kind(const std::string& name);
 
-/// The number of steps of a run at which each breakpoint of the list held.
-using HitCounts = std::vector<std::int64_t>;
+/// The steps of a run at which something held.
+struct HitCount {
+  std::int64_t steps = 0;
+  std::optional<RunPosition> first = {};  ///< the first that the run came to
+};
+
+/// What a run found of a breakpoint.
+struct BreakpointHits : HitCount {
+  std::vector<HitCount> conditions = {};  ///< each by itself
+};
+/// By breakpoint of the list.
+using HitCounts = std::vector<BreakpointHits>;
+
+/// When each condition of a breakpoint that never held was true; empty for one that held, or that
+/// has one condition.
+QString text_of_miss(const Breakpoint& breakpoint, const BreakpointHits& hits);
 
 /// The list of breakpoints of the open scene: patches of another scene have the same numbers. The
 /// lists of all scenes are saved in the settings between runs of the program.
@@ -98,7 +115,9 @@ class Breakpoints : public QObject {
   /// The finder for one run: it finds where an enabled breakpoint has the hit at which it stops. A
   /// step is counted once, even if the search comes back to its direction.
   /// @param hits  receives the counts of the run so far; the finder keeps it
-  StepFinder run_finder(std::shared_ptr<HitCounts> hits) const;
+  /// @param searched  the position whose direction is searched; its step is not used
+  StepFinder run_finder(std::shared_ptr<HitCounts> hits,
+                        std::function<RunPosition()> searched) const;
   /// All steps of a direction where a breakpoint holds, ascending.
   std::vector<std::int32_t> steps_in(const MapHistory& history) const;
 

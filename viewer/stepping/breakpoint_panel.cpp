@@ -40,6 +40,7 @@ constexpr Choice choices[] = {
      "1e-9"},
     {Kind::open_receiver, QT_TRANSLATE_NOOP("BreakpointPanel", "open part above"), "", "1e-10"},
     {Kind::large_map, QT_TRANSLATE_NOOP("BreakpointPanel", "polygons of V above"), "", "1000"},
+    {Kind::growing_map, QT_TRANSLATE_NOOP("BreakpointPanel", "V grows beyond"), "", "1000"},
 };
 
 }  // namespace
@@ -62,6 +63,7 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
     show_list();
   });
   connect(&focus_, &Focus::moved, this, &BreakpointPanel::show_state);
+  connect(&focus_, &Focus::seek_ended, this, &BreakpointPanel::mark_current);
   connect(&focus_, &Focus::target_changed, this, &BreakpointPanel::mark_current);
   connect(&selection_, &Selection::changed, this, [this](PatchId patch) {
     if (patch != no_patch) {
@@ -272,8 +274,10 @@ QString BreakpointPanel::text_of_row(int row) const {
   if (!hits_ || !at(breakpoints_.list(), row).enabled) {
     return text;
   }
-  const std::int64_t hits = at(*hits_, row);
-  return hits == 1 ? tr("%1: 1 hit").arg(text) : tr("%1: %2 hits").arg(text, count_text(hits));
+  const std::int64_t hits = at(*hits_, row).steps;
+  text = hits == 1 ? tr("%1: 1 hit").arg(text) : tr("%1: %2 hits").arg(text, count_text(hits));
+  const QString miss = text_of_miss(at(breakpoints_.list(), row), at(*hits_, row));
+  return focus_.seeking() || miss.isEmpty() ? text : text + '\n' + miss;
 }
 
 void BreakpointPanel::mark_current() {
@@ -317,7 +321,7 @@ void BreakpointPanel::remove_current() {
 
 void BreakpointPanel::run(StepOrder order) {
   hits_ = std::make_shared<HitCounts>();
-  focus_.seek(breakpoints_.run_finder(hits_), order);
+  focus_.seek(breakpoints_.run_finder(hits_, [this] { return focus_.target(); }), order);
 }
 
 }  // namespace transillum::viewer
