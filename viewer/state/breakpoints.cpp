@@ -130,10 +130,9 @@ QString text_of_miss(const Breakpoint& breakpoint, const BreakpointHits& hits) {
     const Condition& condition =
         c == 0 ? breakpoint.condition : breakpoint.further[c - 1].condition;
     const HitCount& alone = hits.conditions[c];
-    parts << (alone.first ? Breakpoints::tr("%1: %2 steps, first direction %3, step %4")
-                                .arg(text_of(condition), count_text(alone.steps),
-                                     count_text(alone.first->direction + 1),
-                                     count_text(alone.first->step + 1))
+    parts << (alone.first ? Breakpoints::tr("%1: first in direction %2, step %3; %4 in all")
+                                .arg(text_of(condition), count_text(alone.first->direction + 1),
+                                     count_text(alone.first->step + 1), count_text(alone.steps))
                           : Breakpoints::tr("%1: never").arg(text_of(condition)));
   }
   return parts.join(QLatin1Char('\n'));
