@@ -241,8 +241,8 @@ class WorkspacesTest : public QObject {
     const auto* scene = window->findChild<SceneView*>();
     QVERIFY(wait_for([&] { return map->isVisible() && page->width() > scene->width(); }));
     QVERIFY(scene->isVisible() && !window->findChild<QWidget*>("settings_dock")->isVisible());
-    constexpr int least = 240;  // px
-    QVERIFY2(wait_for([&] { return map->width() > least && scene->width() > least; }, 20000),
+    const auto is_wide = [&](const QWidget& view) { return view.width() > 0.25 * window->width(); };
+    QVERIFY2(wait_for([&] { return is_wide(*map) && is_wide(*scene); }, 20000),
              qPrintable(QString("%1 %2").arg(map->width()).arg(scene->width())));
     save_picture(*window, "projector-panel");
     QTest::keyClick(window.get(), Qt::Key_PageDown);  // this page wants a large map

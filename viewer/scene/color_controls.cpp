@@ -107,6 +107,15 @@ bool ColorControls::eventFilter(QObject* watched, QEvent* event) {
 
 void ColorControls::add_tool(QWidget* tool) { layout()->addWidget(tool); }
 
+void ColorControls::set_thin(bool thin) {
+  for (int k = 0; k < layout()->count(); ++k) {
+    QWidget* tool = layout()->itemAt(k)->widget();
+    if (tool != nullptr && tool != quantity_ && tool != show_) {
+      tool->setVisible(!thin);
+    }
+  }
+}
+
 void ColorControls::fill_quantities() {
   // Separators between groups.
   for (const QuantityTraits& traits : quantity_traits()) {

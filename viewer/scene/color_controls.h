@@ -32,6 +32,8 @@ class ColorControls : public QWidget {
   ShowMenu* show_menu() const { return show_; }
   /// Adds a tool at the right end.
   void add_tool(QWidget* tool);
+  /// Shows the quantity and the Show menu only, for a narrow scene.
+  void set_thin(bool thin);
 
  signals:
   void direction_toggled(bool shown);

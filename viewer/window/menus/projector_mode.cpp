@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "lessons/lesson_panel.h"
+#include "scene/color_controls.h"
 #include "stepping/timeline_bar.h"
 #include "stepping/timeline_lanes.h"
 #include "transillum/at.h"
@@ -86,16 +87,18 @@ QList<QWidget*> ProjectorMode::views() const {
   return views;
 }
 
+bool ProjectorMode::shows_scene_and_panel() const { return projected_.size() > 3; }
+
 void ProjectorMode::project(bool on) {
   projecting_ = on;
   timeline_.lanes()->set_thin(on);
   timeline_.setMaximumHeight(QWIDGETSIZE_MAX);
   full_screen_.show_all();
-  projected_.clear();
+  projected_ = on ? views() : QList<QWidget*>();
+  frame_.window.findChild<ColorControls*>()->set_thin(shows_scene_and_panel());
   if (!on) {
     return;
   }
-  projected_ = views();
   full_screen_.show_only(projected_);
   for (QWidget* view : projected_) {
     view->show();
@@ -111,7 +114,7 @@ void ProjectorMode::arrange() {
   // Beside the page there is one view, or the scene and a panel.
   constexpr double page_fraction = 0.46, panel_fraction = 0.265;
   const int width = frame_.window.width();
-  const bool scene_and_panel = projected_.size() > 3;
+  const bool scene_and_panel = shows_scene_and_panel();
   QList<QDockWidget*> docks{dock("lesson")};
   QList<int> widths{static_cast<int>(page_fraction * width)};
   if (auto* beside = qobject_cast<QDockWidget*>(projected_.value(scene_and_panel ? 3 : 2))) {

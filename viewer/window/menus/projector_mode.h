@@ -42,6 +42,7 @@ class ProjectorMode : public QObject {
   /// The timeline, the page, and beside it the view that the page wants to be large, or the scene
   /// and the first panel that the page needs.
   QList<QWidget*> views() const;
+  bool shows_scene_and_panel() const;
 
   WindowFrame frame_;
   DockLayouts& docks_;
