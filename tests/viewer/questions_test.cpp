@@ -20,6 +20,7 @@
 #include "lessons/question_box.h"
 #include "scene/error_view.h"
 #include "solved_window.h"
+#include "stepping/play_control.h"
 #include "test_files.h"
 #include "transillum/at.h"
 
@@ -300,6 +301,9 @@ class QuestionsTest : public QObject {
 
   void a_patch_is_clicked() {
     Class room;
+    std::vector<Callout> callouts;
+    QObject::connect(room.panel, &LessonPanel::callouts_shown, room.panel,
+                     [&](const std::vector<Callout>& shown) { callouts = shown; });
     room.open_built_in(1, 2);
     QVERIFY(!is_given(*at(room.panel->lessons(), 0).pages[1].question, room.box->answer()));
     // The lamp is drawn somewhere in the scene: found by its pixels, as a student would.
@@ -322,10 +326,34 @@ class QuestionsTest : public QObject {
     QVERIFY(room.text("question_result").contains("Right"));
     QVERIFY(room.settles());
     QVERIFY(room.window->colors.quantity() == Quantity::radiosity);  // the page reveals it
-    QCOMPARE(room.window->selection.patch(), PatchId{12});
+    // Sphere and text are about the patch of the page; a callout names the answer.
+    QCOMPARE(room.window->selection.patch(), PatchId{16});
+    const auto marks = [&](PatchId patch) {
+      return std::any_of(callouts.begin(), callouts.end(), [&](const Callout& callout) {
+        return callout.text == "the answer" && callout.patch == patch;
+      });
+    };
+    QVERIFY(marks(12));
     room.action("question_reveal")->trigger();
     QVERIFY(room.settles());
     QVERIFY(room.window->colors.quantity() == Quantity::reflectance);
+    QVERIFY(!marks(12));
+    room.window->selection.select(3);
+    room.reveal();
+    QVERIFY(room.text("question_result").contains("Not this time"));
+    QVERIFY(room.text("question_result").contains("Patch 3 has 0 W/m²."));
+    QCOMPARE(room.window->selection.patch(), PatchId{16});
+    QVERIFY(marks(12));
+  }
+
+  void a_page_stops_the_play() {
+    Class room;
+    room.open_built_in(4, 3);
+    PlayControl& play = *room.window->findChild<PlayControl*>();
+    play.action()->trigger();
+    QVERIFY(play.playing());
+    room.open_built_in(4, 2);
+    QVERIFY(!play.playing() && !play.action()->isChecked());
   }
 
   void no_board_is_first() {
@@ -349,6 +377,7 @@ class QuestionsTest : public QObject {
     QVERIFY(wait_for([&] { return room.box->solved() != nullptr; }));
     QVERIFY(room.text("question_result").contains("Not this time"));
     QVERIFY(room.text("question_result").contains("100 %"));
+    QVERIFY(room.text("question_result").contains("Your number is 0.8 times this."));
     room.action("question_reveal")->trigger();
     // The number has a decimal comma.
     QTest::keyClicks(number, "104,5");

@@ -62,6 +62,11 @@ void ControlWidget::make_slider() {
   layout()->addWidget(slider_);
   layout()->addWidget(value_);
   connect(slider_, &QSlider::sliderPressed, this, [this] { edits_.begin_drag(); });
+  connect(slider_, &QSlider::actionTriggered, this, [this](int action) {
+    if (action != QAbstractSlider::SliderMove) {  // by a key or the wheel
+      edits_.begin_drag();
+    }
+  });
   connect(slider_, &QSlider::valueChanged, this, &ControlWidget::moved);
 }
 

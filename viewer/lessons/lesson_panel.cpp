@@ -62,7 +62,10 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focu
   layout->addWidget(question_);
   layout->addLayout(make_buttons());
   connect(question_, &QuestionBox::revealed, this, &LessonPanel::page_shown);
-  connect(question_, &QuestionBox::then_shown, this, &LessonPanel::show_state);
+  connect(question_, &QuestionBox::then_shown, this, [this] {
+    show_state();
+    point_at({});
+  });
   connect(question_, &QuestionBox::sketched, this, &LessonPanel::sketched);
   connect(question_, &QuestionBox::failed, this, &LessonPanel::failed);
   connect(question_, &QuestionBox::values_hidden, this, &LessonPanel::values_hidden);
@@ -198,6 +201,9 @@ void LessonPanel::point_at(const QString& link) {
   std::vector<Callout> callouts = at(at(lessons_, lesson_).pages, page_).callouts;
   for (Callout& callout : callouts_of_symbol(link, focus_, selection_)) {
     callouts.push_back(std::move(callout));
+  }
+  if (const std::optional<PatchId> right = question_->right_patch()) {
+    callouts.push_back({tr("the answer").toStdString(), Callout::Anchor::patch, *right, {}});
   }
   emit callouts_shown(callouts);
   emit symbol_pointed(link.section(':', 1));

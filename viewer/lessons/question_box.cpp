@@ -13,6 +13,7 @@
 #include <QToolButton>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -20,6 +21,7 @@
 #include "support/failure_text.h"
 #include "support/list_change.h"
 #include "support/number_text.h"
+#include "transillum/at.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
 
@@ -291,19 +293,30 @@ void QuestionBox::show_solved(const Solved& solved) {
   emit then_shown();
 }
 
-// The window shows the state that the file sets for Reveal, with the right patch selected.
+// The window shows the state that the file sets for Reveal. The patch that the page is about is
+// selected again, since its panels and texts are about it; a callout marks the right patch. Where
+// the page selects none, the right patch is selected.
 void QuestionBox::select_right() {
   const Question& question = *page_->question;
-  const bool of_patches = question.kind == Question::Kind::patch && !solved_->right.empty();
+  const std::optional<PatchId> right = right_patch();
+  const PatchId of_page = page_->state.selection;
+  const PatchId shown = right && of_page == no_patch ? *right : of_page;
   if (question.reveal) {
     ViewState state = *question.reveal;
-    if (of_patches) {
-      state.selection = solved_->right.front();
+    if (right) {
+      state.selection = shown;
     }
     emit revealed(state);
-  } else if (of_patches && !is_right(question, *solved_, answer_)) {
-    selection_.select(solved_->right.front());
+  } else if (right) {
+    selection_.select(shown);
   }
+}
+
+std::optional<PatchId> QuestionBox::right_patch() const {
+  if (!solved_ || page_->question->kind != Question::Kind::patch || solved_->right.empty()) {
+    return std::nullopt;
+  }
+  return solved_->right.front();
 }
 
 void QuestionBox::ask_again() {
@@ -378,6 +391,27 @@ QString QuestionBox::verdict_text() const {
                                                : colored(tr("✗ Not this time."), theme::warm);
 }
 
+/// What the given answer is, where it is wrong.
+QString QuestionBox::reason_text() const {
+  const Question& question = *page_->question;
+  if (!is_given(question, answer_) || is_right(question, *solved_, answer_)) {
+    return {};
+  }
+  if (question.kind == Question::Kind::patch) {
+    const double value = has_index(solved_->values, answer_.patch)
+                             ? at(solved_->values, answer_.patch)
+                             : std::numeric_limits<double>::quiet_NaN();
+    return ' ' + (std::isfinite(value)
+                      ? tr("Patch %1 has %2.").arg(answer_.patch).arg(value_text(value))
+                      : tr("Patch %1 has no such value.").arg(answer_.patch));
+  }
+  if (question.kind == Question::Kind::number && solved_->value != 0) {
+    return ' ' + tr("Your number is %1 times this.")
+                     .arg(QString::number(*answer_.number / solved_->value, 'g', 2));
+  }
+  return {};
+}
+
 QString QuestionBox::result_text() const {
   const Question& question = *page_->question;
   const QString verdict = verdict_text() + ' ';
@@ -387,13 +421,16 @@ QString QuestionBox::result_text() const {
                  ? verdict + tr("The program computes %1.").arg(value_text(solved_->value))
                  : verdict;
     case Question::Kind::number:
-      return verdict + tr("The program computes %1.").arg(value_text(solved_->value));
+      return verdict + tr("The program computes %1.").arg(value_text(solved_->value)) +
+             reason_text();
     case Question::Kind::patch:
       return solved_->right.empty()
                  ? verdict
-                 : verdict + tr("The right answer is patch %1, with %2.")
-                                 .arg(solved_->right.front())
-                                 .arg(value_text(at(solved_->values, solved_->right.front())));
+                 : verdict +
+                       tr("The right answer is patch %1, with %2.")
+                           .arg(solved_->right.front())
+                           .arg(value_text(at(solved_->values, solved_->right.front()))) +
+                       reason_text();
     case Question::Kind::area:
       break;
   }

@@ -57,6 +57,8 @@ class QuestionBox : public QFrame {
   bool hides_values() const { return hides_values_; }
   /// The result of Reveal; null before Reveal.
   const Solved* solved() const { return solved_ ? &*solved_ : nullptr; }
+  /// The answer to a question for a patch, after Reveal.
+  std::optional<PatchId> right_patch() const;
 
  signals:
   /// The answer is shown; the window is to show `state`.
@@ -90,6 +92,7 @@ class QuestionBox : public QFrame {
   QString label_of(const Question::Choice& choice) const;
   QString value_text(double value) const;
   QString verdict_text() const;
+  QString reason_text() const;
   QString result_text() const;
   QString tally_text(const AnswerCounts& counts) const;
   void show_state();

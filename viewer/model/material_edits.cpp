@@ -215,6 +215,11 @@ void MaterialEdits::restore() {
   undo_.push(command.release());
 }
 
+void MaterialEdits::begin_drag() {
+  ++drag_;
+  emit begun();
+}
+
 std::vector<MaterialChange> MaterialEdits::changes() const {
   return any_ ? changes_ : std::vector<MaterialChange>();
 }

@@ -65,7 +65,7 @@ class MaterialEdits : public QObject {
   void set_reflectance(const std::string& target, const Rgb& reflectance);
   /// Sets the lobe of a target, which only glossy runs use.
   void set_lobe(const std::string& target, const Lobe& lobe);
-  void begin_drag() { ++drag_; }
+  void begin_drag();
   /// Discards all changes, as one undoable change.
   void restore();
   /// The changes, materials first and faces last; empty if no face differs from the scene.
@@ -79,6 +79,7 @@ class MaterialEdits : public QObject {
   void end_macro() { undo_.endMacro(); }
 
  signals:
+  void begun();  ///< begin_drag()
   void changed();
 
  private:

@@ -18,6 +18,14 @@ struct PatchMaterials {
 
   /// Material of patch i.
   const Material& of(PatchId i) const { return at(materials, at(of_patch, i)); }
+  /// The largest reflectance of a patch.
+  double rho_max() const {
+    double largest = 0;
+    for (const std::int32_t material : of_patch) {
+      largest = std::max(largest, max_abs(at(materials, material).reflectance));
+    }
+    return largest;
+  }
   /// Whether a patch emits.
   bool has_light() const {
     return std::any_of(of_patch.begin(), of_patch.end(), [this](std::int32_t material) {

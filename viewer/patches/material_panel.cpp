@@ -100,7 +100,8 @@ QWidget* MaterialPanel::make_sliders() {
 
 void MaterialPanel::connect_edits() {
   MaterialEdits& edits = relighting_.edits();
-  connect(gloss_, &GlossSlider::drag_began, this, &MaterialPanel::hold_exposure);
+  // Sliders of lessons change materials too.
+  connect(&edits, &MaterialEdits::begun, this, &MaterialPanel::hold_exposure);
   connect(gloss_, &GlossSlider::drag_began, &edits, &MaterialEdits::begin_drag);
   connect(gloss_, &GlossSlider::moved, this, [this, &edits](double value) {
     Lobe lobe = edits.values_of(target()).lobe;
@@ -113,7 +114,6 @@ void MaterialPanel::connect_edits() {
     edits.set_lobe(target(), lobe);
   });
   for (ChannelSliders* sliders : {reflectance_, lobe_, exitance_}) {
-    connect(sliders, &ChannelSliders::drag_began, this, &MaterialPanel::hold_exposure);
     connect(sliders, &ChannelSliders::drag_began, &edits, &MaterialEdits::begin_drag);
   }
   connect(reflectance_, &ChannelSliders::moved, this,

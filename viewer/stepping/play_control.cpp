@@ -97,6 +97,8 @@ void PlayControl::toggle(bool on) {
   show_state();
 }
 
+void PlayControl::stop() { action_->setChecked(false); }
+
 void PlayControl::show_state() {
   enable_if(*action_, action_->isChecked() || (focus_.passes() > 0 && focus_.map()),
             tr("No direction is shown yet"));

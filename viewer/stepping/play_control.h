@@ -39,6 +39,7 @@ class PlayControl : public QObject {
   double speed() const { return per_second_; }
   /// Whether another picture follows.
   bool playing() const { return timer_.isActive(); }
+  void stop();
   /// Waits with the next picture while `may_go_on` returns false.
   void set_gate(std::function<bool()> may_go_on) { may_go_on_ = std::move(may_go_on); }
 

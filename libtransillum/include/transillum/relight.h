@@ -10,6 +10,7 @@
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
+#include "transillum/solution.h"
 
 namespace TRANSILLUM_API transillum {
 
@@ -41,6 +42,8 @@ struct RelightResult {
   std::vector<Rgb> radiosity;   ///< B, W/m², one per patch
   std::vector<Rgb> irradiance;  ///< H, W/m², one per patch
   int iterations = 0;           ///< iterations of eq. 11
+  /// One per iteration, as of a solve where RelightOptions::start is empty.
+  std::vector<IterationRecord> iteration_records = {};
   /// Linear parts of B, W/m², one per patch; empty with Basis::constant.
   std::vector<LinearTerm> linear_terms = {};
 };

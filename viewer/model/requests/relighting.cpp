@@ -27,12 +27,25 @@ Relighting::Relighting(QUndoStack& undo, QObject* parent)
   connect(&edits_, &MaterialEdits::changed, this, &Relighting::request_light);
 }
 
+namespace {
+
+/// Whether the light is iterated from E on, so that charts show how fast it converges. The former
+/// light is a better start, which larger scenes need.
+bool shows_iterations(const SolverSnapshot& solved) {
+  constexpr std::size_t most = 2'000'000;
+  return solved.form_factors->value.size() <= most && solved.options.scheme == Scheme::fixed;
+}
+
+}  // namespace
+
 RelightResult Relighting::relit(const Request& request, const Cancellation& cancellation) {
   RelightOptions options;
   const SolverSnapshot& solved = *request.snapshot;
   options.tolerance = solved.options.tolerance;
-  options.start = request.start ? request.start->radiosity : solved.radiosity;
-  options.start_linear_terms = request.start ? request.start->linear_terms : solved.linear_terms;
+  if (!shows_iterations(solved)) {
+    options.start = request.start ? request.start->radiosity : solved.radiosity;
+    options.start_linear_terms = request.start ? request.start->linear_terms : solved.linear_terms;
+  }
   options.sky_irradiance = solved.sky_irradiance;
   options.sky_linear_terms = solved.sky_linear_terms;
   options.basis = solved.options.basis;
@@ -151,6 +164,12 @@ std::shared_ptr<const SolverSnapshot> Relighting::lit(
   lit->radiosity = light_->radiosity;
   lit->linear_terms = light_->linear_terms;
   lit->irradiance = light_->irradiance;
+  lit->statistics.iteration_records = light_->iteration_records;
+  const double rho_max = materials_->rho_max();
+  if (lit->statistics.rho_max > 0) {
+    lit->statistics.predicted_contraction *= rho_max / lit->statistics.rho_max;
+    lit->statistics.rho_max = rho_max;
+  }
   lit->materials = materials_;
   return lit;
 }

@@ -224,7 +224,8 @@ RelightResult relight(const Scene& scene, const FormFactors& form_factors,
     linear_terms = linear_terms_of(iteration.b);
   }
   return {means_of(std::move(iteration.b), per_patch), means_of(std::move(iteration.h), per_patch),
-          static_cast<int>(iteration.records.size()), std::move(linear_terms)};
+          static_cast<int>(iteration.records.size()), std::move(iteration.records),
+          std::move(linear_terms)};
 }
 
 }  // namespace transillum
