@@ -116,6 +116,8 @@ class LessonHtmlTest : public QObject {
     QVERIFY(html.contains("<title>Two &lt;pages&gt;</title>"));
     QCOMPARE(count(html, "<img [^>]*src=\"data:image/png;base64,"), 2);
     QCOMPARE(count(html, "class=\"stepper\""), 1);  // the second page has no direction
+    // Scene and map stand side by side.
+    QCOMPARE(count(html, "<div class=\"views\">\\s*<img [^>]*>\\s*<div class=\"stepper\">"), 1);
     QVERIFY(html.contains("max=\"12\" value=\"4\""));
     // Nothing is loaded from elsewhere, and no link leads into the program.
     QCOMPARE(count(html, "(src|href)=\"(?!data:)"), 0);

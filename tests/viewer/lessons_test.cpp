@@ -204,13 +204,14 @@ class LessonsTest : public QObject {
         wait_for([&] { return std::abs(taught.window->snapshot()->radiosity[0].r - 1) < 1e-9; }));
     taught.trigger("undo");
     QTRY_COMPARE(rho->value(), 63);
-    // In the furnace B = E / (1 - rho), and rho is the factor of the changes.
+    // In the furnace B = E / (1 - rho), and rho is the factor of the changes; both up to the error of
+    // 16 directions.
     QVERIFY(taught.window->colors.exposure_is_automatic());
     QTest::keyClick(rho, Qt::Key_End);
     QVERIFY(
-        wait_for([&] { return std::abs(taught.window->snapshot()->radiosity[0].r - 5) < 1e-4; }));
+        wait_for([&] { return std::abs(taught.window->snapshot()->radiosity[0].r - 5) < 0.02; }));
     const SolveStatistics& statistics = taught.window->snapshot()->statistics;
-    QVERIFY(std::abs(statistics.iteration_records.back().contraction - 0.8) < 1e-6);
+    QVERIFY(std::abs(statistics.iteration_records.back().contraction - 0.8) < 1e-3);
     QVERIFY(std::abs(statistics.rho_max - 0.8) < 1e-12);
     QVERIFY(!taught.window->colors.exposure_is_automatic());  // what one sees is the light
   }

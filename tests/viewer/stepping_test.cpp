@@ -70,10 +70,15 @@ class SteppingTest : public QObject {
     const Stepping s("furnace");
     QVERIFY(s.ready);
     QVERIFY(s.focus.following());
+    // Nobody chose this step, so it is said why it is shown; the tool tip has the whole text.
+    const auto tells_why = [text = s.window->findChild<QLabel*>("timeline_text")] {
+      return text->toolTip().contains("at its fullest step");
+    };
+    QVERIFY(tells_why());
     const int count = s.steps() + 1;
     QTest::mousePress(s.lanes, Qt::LeftButton, {}, s.place(Lane::steps, 0, count));
     QCOMPARE(s.focus.position().step, -1);
-    QVERIFY(!s.focus.following());
+    QVERIFY(!s.focus.following() && !tells_why());
     QVERIFY(s.settles());
     QCOMPARE(s.map_view->canvas()->polygon_count(), std::size_t{0});
     for (const int k : {1, 3, count - 1, 2}) {

@@ -24,9 +24,12 @@ constexpr double map_width = 560;  // user units of the SVG
 
 const char* const style_sheet = R"(
 :root { color-scheme: light dark; }
-body { font: 17px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 0 auto; padding: 1rem; }
+body { font: 17px/1.5 system-ui, sans-serif; max-width: 76rem; margin: 0 auto; padding: 1rem; }
+p, ul, .question { max-width: 44rem; }
+.views { display: flex; flex-wrap: wrap; gap: 1rem; align-items: flex-start; margin: .5rem 0; }
+.views > * { flex: 1 1 24rem; min-width: 0; }
 section { border-top: 1px solid #8888; margin-top: 2rem; padding-top: .5rem; }
-img, svg.map { max-width: 100%; height: auto; display: block; margin: .5rem 0; }
+img, svg.map { width: 100%; height: auto; display: block; }
 svg.map { background: #1d2127; }
 svg.map polygon { stroke: #1d2127; stroke-width: .6; }
 svg.map polygon.back { fill: url(#hatch); }
@@ -253,7 +256,7 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
   for (const ShownPage& shown : pages) {
     html += QStringLiteral("<section><h2>%1</h2>\n")
                 .arg(QString::fromStdString(shown.page.title).toHtmlEscaped());
-    html += html_of(text_of(shown.page));
+    html += html_of(text_of(shown.page)) + QStringLiteral("<div class=\"views\">\n");
     if (!shown.picture.isEmpty()) {
       html += QStringLiteral("<img alt=\"%1\" src=\"data:image/png;base64,%2\">\n")
                   .arg(tr("The scene"), QString::fromLatin1(shown.picture.toBase64()));
@@ -261,6 +264,7 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
     if (shown.map) {
       html += map_html(shown);
     }
+    html += QStringLiteral("</div>\n");
     if (shown.page.question) {
       html += question_html(shown);
     }

@@ -138,8 +138,12 @@ void TimelineBar::show_position() {
           : tr("%1; it cuts %2 pieces of V").arg(facing.arg(step.patch), count_text(step.cut));
   const QString size = step.map_size == 1 ? tr("V has 1 polygon")
                                           : tr("V has %1 polygons").arg(count_text(step.map_size));
-  text_->set_clauses(
-      {cuts, tr("exchanges light with %1 of them").arg(count_text(step.exchanges)), size});
+  QStringList clauses{cuts, tr("exchanges light with %1 of them").arg(count_text(step.exchanges)),
+                      size};
+  if (focus_.following()) {
+    clauses.prepend(tr("Newest direction, at its fullest step"));
+  }
+  text_->set_clauses(clauses);
 }
 
 }  // namespace transillum::viewer
