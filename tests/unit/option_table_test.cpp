@@ -67,6 +67,31 @@ TEST(OptionTable, ReadsZeroOfFormerFilesWhereItMeansNothing) {
   EXPECT_EQ(read.solve.rotation, 0U);
 }
 
+TEST(OptionTable, DividesLargeFacesInTheWindowUnlessToldHow) {
+  using Differences = std::vector<std::pair<std::string, std::string>>;
+  RunOptions run;
+  EXPECT_TRUE(set_window_defaults(run, 2000));
+  EXPECT_EQ(differences_from_default(run), (Differences{{"basis", "linear"}, {"patches", "2000"}}));
+  RunOptions without_moments;
+  without_moments.solve.engine = Engine::painter;
+  EXPECT_TRUE(set_window_defaults(without_moments, 2000));
+  EXPECT_EQ(without_moments.solve.basis, Basis::constant);
+  EXPECT_EQ(without_moments.input.patches, 2000);
+  RunOptions small_faces;
+  EXPECT_FALSE(set_window_defaults(small_faces, 0));
+  EXPECT_EQ(small_faces, RunOptions{});
+  for (const auto& [name, value] : {std::pair{"patches", "9"},
+                                    {"max-patch-area", "1"},
+                                    {"refine-by", "jump"},
+                                    {"total", "yes"}}) {
+    RunOptions told;
+    option(name).parse(told, value);
+    const RunOptions before = told;
+    EXPECT_FALSE(set_window_defaults(told, 2000)) << name;
+    EXPECT_EQ(told, before) << name;
+  }
+}
+
 TEST(OptionTable, MakesARunOfItsDifferences) {
   RunOptions run;
   run.solve.engine = Engine::painter;

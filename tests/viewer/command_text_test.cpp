@@ -20,6 +20,8 @@
 #include "solved_window.h"
 #include "test_files.h"
 #include "transillum/at.h"
+#include "transillum/files.h"
+#include "transillum/scene.h"
 #include "window/base/dock_layouts.h"
 
 namespace transillum::viewer::command_text_test {
@@ -90,6 +92,21 @@ class CommandTextTest : public QObject {
     const auto window = make_window(options.solve);
     window->scene.open("cornell-box", options, {Goal::Kind::finished});
     QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    expect_same_bits(*window);
+  }
+
+  /// Faces are divided unasked, with linear functions: the preset of the window.
+  void a_copied_first_look_has_the_same_bits() {
+    const QTemporaryDir folder;
+    const std::string file = folder.filePath("room.obj").toStdString();
+    write_obj(file, describe_scene("cornell-box"));
+    const auto window = make_window(16);
+    window->files().set_divides(true);
+    window->files().try_open(QString::fromStdString(file));
+    QVERIFY(wait_for([&] { return window->snapshot() && window->snapshot()->progress.finished; }) &&
+            comes_to_rest(*window));
+    QVERIFY(window->snapshot()->options.basis == Basis::linear);
+    QVERIFY(window->snapshot()->radiosity.size() > 1000);
     expect_same_bits(*window);
   }
 

@@ -84,9 +84,20 @@ class ResponsivenessTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void the_window_responds_while_the_solver_runs_data() {
+    QTest::addColumn<QString>("scene");
+    QTest::addColumn<double>("max_patch_area");
+    QTest::newRow("20,000 patches") << "sphere-flake" << 0.0;
+    QTest::newRow("100,000 patches") << "cornell-box" << 2.5e-5;
+  }
+  // The goal is 250 ms, on an idle machine.
   void the_window_responds_while_the_solver_runs() {
-    const auto window = make_window(100000);
-    window->open("sphere-flake", {Goal::Kind::finished});
+    QFETCH(const QString, scene);
+    QFETCH(const double, max_patch_area);
+    const auto window = make_window(SolveOptions{.directions = 100000, .first_shot = {}});
+    window->set_options({.directions = 100000, .first_shot = {}},
+                        {.max_patch_area = max_patch_area});
+    window->open(scene, {Goal::Kind::finished});
     QVERIFY(
         wait_for([&] { return window->snapshot() && window->snapshot()->progress.direction > 2; },
                  long_enough));
@@ -110,10 +121,10 @@ class ResponsivenessTest : public QObject {
     std::vector<double> gaps = measured.later;
     std::sort(gaps.begin(), gaps.end());
     qInfo(
-        "event loop, ms between iterations: 99 %% below %.1f, longest %.1f; in the first second "
-        "%.1f; "
-        "longest without waiting for a processor %.1f; %d passes",
-        gaps[gaps.size() * 99 / 100], gaps.back(),
+        "%d patches: event loop, ms between iterations: 99 %% below %.1f, longest %.1f; in the "
+        "first "
+        "second %.1f; longest without waiting for a processor %.1f; %d passes",
+        window->snapshot()->loaded->scene->patch_count(), gaps[gaps.size() * 99 / 100], gaps.back(),
         *std::max_element(measured.first.begin(), measured.first.end()),
         measured.longest_without_waiting, passes());
     QTest::setBenchmarkResult(gaps.back(), QTest::WalltimeMilliseconds);

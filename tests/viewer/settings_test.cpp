@@ -77,12 +77,12 @@ class SettingsTest : public QObject {
     const auto part = [&](const char* name) { return panel.findChild<QPushButton*>(name); };
     const auto checked = [&] {
       QStringList names;
-      for (const char* name : {"draft", "normal", "fine"}) {
+      for (const char* name : {"draft", "normal", "fine", "by_number"}) {
         names << (part(name)->isChecked() ? QStringList{name} : QStringList{});
       }
       return names.join(' ');
     };
-    QCOMPARE(checked(), QString());  // 1024 directions
+    QCOMPARE(checked(), QString("by_number"));
     part("normal")->click();
     QCOMPARE(panel.solve_options().goal.accuracy, 0.01);
     QCOMPARE(checked(), QString("normal"));
@@ -98,9 +98,23 @@ class SettingsTest : public QObject {
     QVERIFY(panel.solve_options() == SolveOptions{.directions = 64});
     QCOMPARE(checked(), QString("draft"));
     panel.findChild<QSpinBox*>("directions")->setValue(65);
-    QCOMPARE(checked(), QString());
-    panel.findChild<QLineEdit*>("accuracy")->setText("1");
+    QCOMPARE(checked(), QString("by_number"));
+    auto* accuracy = panel.findChild<QLineEdit*>("accuracy");
+    accuracy->setText("1");
     QCOMPARE(checked(), QString("normal"));
+    accuracy->setText("0.7");
+    QVERIFY(checked().isEmpty() && accuracy->property("chosen").toBool());
+    part("by_number")->click();
+    QVERIFY(panel.solve_options() == SolveOptions{.directions = 65});
+    QVERIFY(checked() == "by_number" && !accuracy->property("chosen").toBool());
+    SolveOptions timed;
+    timed.goal.seconds = 30;
+    panel.set_options(timed, {});
+    const auto* note = panel.findChild<QLabel*>("quality_note");
+    QVERIFY2(checked().isEmpty() && note->text().contains("30 s"), qPrintable(note->text()));
+    part("draft")->click();
+    QVERIFY(panel.solve_options() == SolveOptions{.directions = 64});
+    QCOMPARE(checked(), QString("draft"));
   }
 
   void without_effect_are_not_shown() {

@@ -256,6 +256,7 @@ inline void save_picture(QWidget& window, const QString& name) {
 template <class Test>
 int run_as_viewer(int argc, char** argv) {
   QStandardPaths::setTestModeEnabled(true);
+  QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);  // tests enter names in Qt's
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
   QApplication application(argc, argv);
   use_decimal_point();

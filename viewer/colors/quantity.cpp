@@ -173,7 +173,7 @@ constexpr QuantityTraits all_traits[] = {
      .symbol = "F i→j",
      .meaning =
          QT_TRANSLATE_NOOP("Quantity",
-                           "F_ij from the selected patch i to each patch j: fraction of the light "
+                           "Fᵢⱼ from the selected patch i to each patch j: fraction of the light "
                            "leaving i that reaches j"),
      .section = "2",
      .of_selection = true,
@@ -192,7 +192,7 @@ constexpr QuantityTraits all_traits[] = {
      .name = QT_TRANSLATE_NOOP("Quantity", "Sum of form factors"),
      .symbol = "Σ F",
      .meaning =
-         QT_TRANSLATE_NOOP("Quantity", "Sum over j of F_ij for each patch i; 1 in a closed scene"),
+         QT_TRANSLATE_NOOP("Quantity", "Sum over j of Fᵢⱼ for each patch i; 1 in a closed scene"),
      .section = "6.1"},
     {.quantity = Quantity::sky_fraction,
      .name = QT_TRANSLATE_NOOP("Quantity", "Fraction of sky"),
@@ -203,12 +203,12 @@ constexpr QuantityTraits all_traits[] = {
      .section = "6.8"},
     {.quantity = Quantity::origin,
      .name = QT_TRANSLATE_NOOP("Quantity", "What lights the selection"),
-     .symbol = "B_i from j",
+     .symbol = "Bᵢ from j",
      .unit = "W/m²",
      .meaning = QT_TRANSLATE_NOOP("Quantity",
                                   "Fraction of the radiosity of the selected patch i that comes "
                                   "from the emission of each patch "
-                                  "j, by all light paths; the parts sum to B_i"),
+                                  "j, by all light paths; the parts sum to Bᵢ"),
      .section = "6.7",
      .has_channels = true,
      .of_selection = true,
@@ -216,7 +216,7 @@ constexpr QuantityTraits all_traits[] = {
      .by_response = true},
     {.quantity = Quantity::response,
      .name = QT_TRANSLATE_NOOP("Quantity", "What would light the selection"),
-     .symbol = "ΔB_i per W",
+     .symbol = "ΔBᵢ per W",
      .unit = "1/m²",
      .meaning = QT_TRANSLATE_NOOP(
          "Quantity",

@@ -204,7 +204,9 @@ StartPage::StartPage(QWidget* parent) : QScrollArea(parent) {
   page_->setRowStretch(4, 1);
   for (const BuiltInScene& scene : built_in_scenes()) {
     const QString name = QString::fromStdString(scene.name);
-    const QString summary = QString::fromStdString(scene.summary);
+    // The first sentence; others are about parameters.
+    const QString summary =
+        QString::fromStdString(scene.summary).section(QStringLiteral(". "), 0, 0);
     auto* card = named("built_in_" + name,
                        new StartCard(StartCard::Look::picture_above, name, summary,
                                      QPixmap(QStringLiteral(":/pictures/scene-%1.png").arg(name))),

@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSpinBox>
+#include <QStyle>
 #include <utility>
 
 #include "solve/setting_tips.h"
@@ -43,12 +44,12 @@ QualityControls::QualityControls(QWidget* parent) : QWidget(parent) {
   directions_->setRange(1, 1 << 24);
   directions_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   directions_->setGroupSeparatorShown(false);
+  QSizePolicy policy = directions_->sizePolicy();
+  policy.setRetainSizeWhenHidden(true);  // the button beside it keeps its width
+  directions_->setSizePolicy(policy);
   passes_ = new QWidget;
-  auto* label = new QLabel(tr("Directions M"));
-  label->setToolTip(directions_->toolTip());
-  label->setBuddy(directions_);
-  auto* passes = make_row(passes_, {}, 8);
-  passes->addWidget(label);
+  auto* passes = make_row(passes_, {}, 3);
+  passes->addWidget(by_number_, 1);
   passes->addWidget(directions_, 1);
   note_ = named("quality_note", note_label());
   note_->hide();
@@ -76,13 +77,16 @@ void QualityControls::add_buttons() {
   connect(draft_, &QPushButton::clicked, this, &QualityControls::choose_draft);
   connect(normal_, &QPushButton::clicked, this, [this] { choose(normal_percent); });
   connect(fine_, &QPushButton::clicked, this, [this] { choose(fine_percent); });
+  by_number_ = segment("by_number", tr("Directions M"),
+                       tr("The number of directions, whatever error it leaves"));
+  connect(by_number_, &QPushButton::clicked, this, &QualityControls::choose_number);
   accuracy_ = named("accuracy", new QLineEdit, setting_tip("accuracy"));
   auto* percent = new QDoubleValidator(0, 99, 6, accuracy_);
   percent->setLocale(QLocale::c());
   accuracy_->setValidator(percent);
-  accuracy_->setPlaceholderText(tr("None"));
+  accuracy_->setPlaceholderText(tr("Other"));
   accuracy_->setAlignment(Qt::AlignRight);
-  accuracy_->setMinimumWidth(accuracy_->fontMetrics().horizontalAdvance(tr("None")) + 14);
+  accuracy_->setMinimumWidth(accuracy_->fontMetrics().horizontalAdvance(tr("Other")) + 14);
 }
 
 void QualityControls::add_accuracy_of() {
@@ -105,12 +109,17 @@ void QualityControls::choose(double percent) {
 }
 
 void QualityControls::choose_draft() {
+  directions_->setValue(draft_passes);
+  emit draft_chosen();
+  choose_number();
+}
+
+void QualityControls::choose_number() {
+  base_ = {};
   {
     const QSignalBlocker quiet(accuracy_);
     accuracy_->clear();
   }
-  directions_->setValue(draft_passes);
-  emit draft_chosen();
   emit changed();
 }
 
@@ -119,6 +128,12 @@ void QualityControls::mark_choice() {
   draft_->setChecked(!goal.is_set() && directions_->value() == draft_passes);
   normal_->setChecked(accuracy_->text() == exact_digits(normal_percent));
   fine_->setChecked(accuracy_->text() == exact_digits(fine_percent));
+  by_number_->setChecked(!goal.is_set() && !draft_->isChecked());
+  // The style sheet shows another accuracy like a pressed button.
+  accuracy_->setProperty("chosen",
+                         goal.accuracy > 0 && !normal_->isChecked() && !fine_->isChecked());
+  style()->unpolish(accuracy_);
+  style()->polish(accuracy_);
 }
 
 AccuracyGoal QualityControls::goal() const {
@@ -165,7 +180,8 @@ void QualityControls::write_to(SolveOptions& solve) const {
 
 void QualityControls::show_state(bool takes_directions, const QString& conflict) {
   const bool chosen = goal().is_set();
-  passes_->setVisible(takes_directions && !chosen);
+  passes_->setVisible(takes_directions);
+  directions_->setVisible(!chosen);
   for (QWidget* widget : {static_cast<QWidget*>(draft_), static_cast<QWidget*>(normal_),
                           static_cast<QWidget*>(fine_), static_cast<QWidget*>(accuracy_)}) {
     enable_if(*widget, takes_directions || (chosen && widget == accuracy_),
@@ -173,7 +189,9 @@ void QualityControls::show_state(bool takes_directions, const QString& conflict)
   }
   note_->setText(!conflict.isEmpty() ? capitalized(conflict)
                  : !takes_directions ? tr("This engine has no directions to choose")
-                                     : QString());
+                 : goal().seconds > 0 && goal().accuracy == 0
+                     ? tr("As many directions as fit into %1").arg(duration_text(goal().seconds))
+                     : QString());
   note_->setVisible(!note_->text().isEmpty());
   mark_choice();
 }

@@ -48,16 +48,18 @@ class QualityControls : public QWidget {
   void add_accuracy_of();
   void choose(double percent);
   void choose_draft();
+  void choose_number();
   void mark_choice();
   AccuracyGoal goal() const;
 
   AccuracyGoal base_;  ///< with all digits of what the controls show
   QPushButton *draft_, *normal_, *fine_;
-  QLineEdit* accuracy_;  ///< percent; empty if not asked for
+  QPushButton* by_number_;  ///< pressed where neither a draft nor an accuracy is asked for
+  QLineEdit* accuracy_;     ///< percent; empty if not asked for
   QComboBox* accuracy_of_;
   QSpinBox* directions_;
   QLabel* note_;
-  QWidget* passes_;  ///< the row of directions_
+  QWidget* passes_;  ///< the row of by_number_ and directions_
 };
 
 }  // namespace transillum::viewer

@@ -29,9 +29,19 @@ QLabel* heading(const QString& text) {
   return label;
 }
 
+// The text with indices below and above the line, which it writes as "B_i" and "T^ab".
+QString typeset(const QString& text) {
+  static const QRegularExpression lower(QStringLiteral("_([a-z]+)")),
+      upper(QStringLiteral("\\^([a-z]+)"));
+  return text.toHtmlEscaped()
+      .replace(lower, QStringLiteral("<sub>\\1</sub>"))
+      .replace(upper, QStringLiteral("<sup>\\1</sup>"));
+}
+
 // Wrapped lines keep their indentation.
 QLabel* code_line(const QString& text, int indent) {
-  auto* label = new QLabel(text);
+  auto* label = new QLabel(typeset(text));
+  label->setTextFormat(Qt::RichText);
   label->setWordWrap(true);
   label->setContentsMargins(14 + 16 * indent, 1, 8, 1);
   return label;
@@ -133,12 +143,13 @@ QWidget* AlgorithmView::make_local_values() {
                  "5.1"));
   j_->setObjectName("value_j");
   weight_ = values_->add_row(
-      tr("J_d, M"), {},
+      typeset(tr("J_d, M")), {},
       symbol_tip(tr("Weight and number of directions; a two-way pass counts as two"), "6"));
-  radiosity_ = values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
+  radiosity_ =
+      values_->add_row(typeset(tr("B_j(n)")), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
   gathered_ = values_->add_row(
       tr("Σ"), tr("W/m²"),
-      symbol_tip(tr("Amount that the step adds to B_i(n+1), by eq. 11, before row normalization"),
+      symbol_tip(tr("Amount that the step adds to Bᵢ(n+1), by eq. 11, before row normalization"),
                  "2"));
   gathered_->setObjectName("value_gathered");
   for (QLabel* value : {i_, radiosity_, gathered_}) {
@@ -146,7 +157,7 @@ QWidget* AlgorithmView::make_local_values() {
   }
   moments_grid_ = new ValueGrid;
   moments_ = moments_grid_->add_row(
-      tr("T^ab"), tr("m²"),
+      typeset(tr("T^ab")), tr("m²"),
       symbol_tip(
           tr("Moments of the area that i sees of j: ∫ φ_a(x) φ_b(y) dp over A(j), where x and y "
              "are the points of i and j.\nRows: function a of i; columns: function b of j. "
@@ -184,10 +195,10 @@ QWidget* AlgorithmView::make_region_values() {
       tr("j, Σ A(R)"), tr("m²"),
       tr("The next patch j above i, and the area of j that i sees in all regions"));
   region_j_->setObjectName("value_region_j");
-  region_radiosity_ =
-      region_values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
+  region_radiosity_ = region_values_->add_row(typeset(tr("B_j(n)")), tr("W/m²"),
+                                              tr("Radiosity of j: red, green, blue"));
   region_gathered_ = region_values_->add_row(
-      tr("+="), tr("W/m²"), tr("Amount that R adds to B_i(n+1), before row normalization"));
+      tr("+="), tr("W/m²"), tr("Amount that R adds to Bᵢ(n+1), before row normalization"));
   region_gathered_->setObjectName("value_region_gathered");
   for (QLabel* value : {region_radiosity_, region_gathered_}) {
     value->setWordWrap(true);
@@ -242,7 +253,7 @@ void AlgorithmView::show_position() {
     const bool on = std::find(current.begin(), current.end(), line) != current.end();
     const QString style = on ? QStringLiteral("background: %1; color: %2; font-weight: bold;")
                                    .arg(theme::processed.name(), theme::on_yellow.name())
-                          : names(lines_[k]->text(), pointed_)
+                          : names(algorithm_code()[k].text, pointed_)
                               ? QStringLiteral("background: %1; color: %2;")
                                     .arg(theme::region.name(), theme::on_yellow.name())
                               : QString();

@@ -68,6 +68,11 @@ class SolveSession {
   /// @throws InputError, Canceled, std::runtime_error where there is too little memory. Of
   /// several processes all must call it.
   void prepare();
+  /// The same, where it may be interrupted and called again.
+  /// @param interruption checked in place of the cancellation of the session, which ends it for
+  /// good.
+  /// @throws Canceled, and as above
+  void prepare(const Cancellation& interruption);
   /// Whether prepare() has been called for the present stage: the functions below that return what
   /// the solver has require it.
   bool is_prepared() const;

@@ -65,6 +65,21 @@ void set_dependent_defaults(RunOptions& options, const std::set<std::string>& gi
   }
 }
 
+bool set_window_defaults(RunOptions& options, std::int64_t patches) {
+  const bool is_chosen = options.input.patches > 0 || options.scene.max_patch_area > 0 ||
+                         options.refine.is_set() || options.total;
+  if (is_chosen || patches == 0) {
+    return false;
+  }
+  options.input.patches = patches;
+  RunOptions linear = options;
+  linear.solve.basis = Basis::linear;
+  if (first_conflict(linear).empty()) {
+    options = linear;
+  }
+  return true;
+}
+
 std::vector<std::pair<std::string, std::string>> differences_from_default(const RunOptions& asked) {
   RunOptions options = asked;
   if (!options.refine.is_set() && !options.total) {

@@ -42,6 +42,11 @@ std::string first_conflict(const RunOptions& options);
 /// the iterations in the mean.
 /// @param given names of the options that were given. With "accuracy" there is no default accuracy.
 void set_dependent_defaults(RunOptions& options, const std::set<std::string>& given);
+/// The preset of the window for scenes of few large faces, where set_dependent_defaults() keeps the
+/// faces: about `patches` patches, with linear functions unless another option excludes them.
+/// @param patches usual_patches() of the scene; 0 where its faces are no larger than usual.
+/// @returns whether the preset is set: not where options say how faces become patches
+bool set_window_defaults(RunOptions& options, std::int64_t patches);
 /// The name and the value, as text, of each option that must be given to get `options` from the
 /// defaults, by parse() and then set_dependent_defaults(). Options without effect are omitted.
 std::vector<std::pair<std::string, std::string>> differences_from_default(

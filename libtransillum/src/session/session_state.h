@@ -56,7 +56,7 @@ struct [[gnu::visibility("hidden")]] SolveSession::Impl {
   double seconds() const;
   /// Begins the solve of a scene.
   void begin(const std::shared_ptr<const Scene>& solved);
-  void prepare();
+  void prepare(const Cancellation& interruption);
   /// Advances the solver of the stage.
   /// @returns whether it is to be called again for this stage
   bool advance_stage(RadiositySolver::Until until, const std::function<bool()>& observer);
@@ -66,8 +66,8 @@ struct [[gnu::visibility("hidden")]] SolveSession::Impl {
 
  private:
   void make_solver();
-  void build_tree();
-  void shoot_first();
+  void build_tree(const Cancellation& interruption);
+  void shoot_first(const Cancellation& interruption);
 };
 
 }  // namespace transillum

@@ -63,7 +63,7 @@ void SolveSession::Impl::begin(const std::shared_ptr<const Scene>& solved) {
   }
 }
 
-void SolveSession::Impl::build_tree() {
+void SolveSession::Impl::build_tree(const Cancellation& interruption) {
   if (tree) {
     return;
   }
@@ -73,11 +73,11 @@ void SolveSession::Impl::build_tree() {
     report = [this](double fraction) { request.preparing(Preparation::tree, fraction); };
     report(0);
   }
-  tree = std::make_shared<const BspTree>(*scene, cancellation, report, request.options.threads);
+  tree = std::make_shared<const BspTree>(*scene, interruption, report, request.options.threads);
   seconds_bsp = seconds_since(start);
 }
 
-void SolveSession::Impl::shoot_first() {
+void SolveSession::Impl::shoot_first(const Cancellation& interruption) {
   const SolveOptions& options = plan ? plan->stage() : request.options;
   const int points = options.engine_options.points;
   if (!options.used_first_shot() || (shot && shot_points == points)) {
@@ -89,7 +89,7 @@ void SolveSession::Impl::shoot_first() {
     report = [this](double fraction) { request.preparing(Preparation::first_shot, fraction); };
     report(0);
   }
-  shot = std::make_shared<const DirectLight>(first_shot(*scene, options, cancellation, report));
+  shot = std::make_shared<const DirectLight>(first_shot(*scene, options, interruption, report));
   shot_points = points;
   seconds_first_shot = seconds_since(start);
 }
@@ -110,16 +110,16 @@ void SolveSession::Impl::make_solver() {
   }
 }
 
-void SolveSession::Impl::prepare() {
+void SolveSession::Impl::prepare(const Cancellation& interruption) {
   if (solver) {
     return;
   }
   request.sums->agree([&] {
-    cancellation.throw_if_canceled();
+    interruption.throw_if_canceled();
     check_memory(scene->name(), scene->patch_count(), request.options.replicas,
                  request.options.basis == Basis::linear ? 3 : 1);
-    build_tree();
-    shoot_first();
+    build_tree(interruption);
+    shoot_first(interruption);
   });
   make_solver();
 }
@@ -186,9 +186,11 @@ SolveSession::~SolveSession() = default;
 SolveSession::SolveSession(SolveSession&&) noexcept = default;
 SolveSession& SolveSession::operator=(SolveSession&&) noexcept = default;
 
-void SolveSession::prepare() {
+void SolveSession::prepare() { prepare(impl_->cancellation); }
+
+void SolveSession::prepare(const Cancellation& interruption) {
   const Impl::Call call(*impl_);
-  impl_->prepare();
+  impl_->prepare(interruption);
 }
 
 bool SolveSession::is_prepared() const { return impl_->solver.has_value(); }
@@ -201,7 +203,7 @@ bool SolveSession::advance(Until until, const Observer& observer) {
                                                         : SolverUntil::finished;
   bool going = true;
   while (going && !s.finished) {
-    s.prepare();
+    s.prepare(s.cancellation);
     const auto watch = [&] { return going = !observer || observer(*this); };
     if (s.advance_stage(where, watch)) {
       return true;

@@ -61,24 +61,6 @@ SceneDescription describe(const std::string& spec, const SceneInput& input,
   return description;
 }
 
-/// Asks for the usual number of patches, with linear functions, where the scene has few faces and
-/// nothing else is chosen. @returns whether faces are to be divided
-bool choose_first_look(const SceneDescription& description, RunOptions& options) {
-  const bool is_chosen = options.input.patches > 0 || options.scene.max_patch_area > 0 ||
-                         options.refine.is_set() || options.total;
-  const std::int64_t patches = usual_patches(description.face_count());
-  if (is_chosen || patches == 0) {
-    return false;
-  }
-  options.input.patches = patches;
-  RunOptions linear = options;
-  linear.solve.basis = Basis::linear;
-  if (first_conflict(linear).empty()) {
-    options = linear;
-  }
-  return true;
-}
-
 /// Sets the members that follow from the patches.
 void examine(LoadedScene& loaded, const Cancellation& cancellation) {
   loaded.picker = std::make_shared<const Picker>(loaded.scene, cancellation);
@@ -116,8 +98,9 @@ std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, RunOpti
   } else {
     loaded->description = std::make_shared<const SceneDescription>(
         describe(spec, options.input, progress, cancellation));
-    if (first_look && choose_first_look(*loaded->description, options)) {
-      loaded->divided_faces = loaded->description->face_count();
+    const std::size_t faces = loaded->description->face_count();
+    if (first_look && set_window_defaults(options, usual_patches(faces))) {
+      loaded->divided_faces = faces;
     }
     loaded->scene = make_scene(*loaded->description, options, cancellation);
   }

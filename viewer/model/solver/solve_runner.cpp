@@ -67,6 +67,7 @@ void SolveRunner::open(OpenRequest request) {
     load_cancellation_.cancel();
   }
   open_request_ = std::move(request);
+  restart_is_older_ = restart_request_.has_value();
   worker_.interrupt();
   wake_.notify_one();
 }
@@ -81,7 +82,7 @@ void SolveRunner::stop() {
   }
   if (loading_) {
     load_cancellation_.cancel();
-  } else {
+  } else if (!worker_.is_preparing()) {  // else there is nothing to discard
     solve_cancellation_.cancel();
     if (!restart_request_) {
       restart_request_ = choice_;
@@ -96,6 +97,7 @@ void SolveRunner::restart(SolveWorker::Choice choice, Goal then) {
     solve_cancellation_.cancel();
   }
   restart_request_ = std::move(choice);
+  restart_is_older_ = false;
   relight_request_.reset();
   replace_goal(then);
 }
@@ -153,10 +155,11 @@ void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
     solve_cancellation_ = Cancellation();
     choice_ = *std::exchange(restart_request_, std::nullopt);
     const bool runs_on = goal_.kind == Goal::Kind::finished;
+    const std::uint64_t number = goal_number_;
     run_unlocked(lock, *this, [&, run = choice_, cancellation = solve_cancellation_] {
       worker_.start(run, cancellation, runs_on);
     });
-    if (!worker_.has_started() && !open_request_ && !restart_request_) {
+    if (!worker_.has_started() && number == goal_number_ && !open_request_) {
       goal_ = {};
     }
   } else if (relight_request_) {
@@ -182,7 +185,7 @@ void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellat
     const bool runs_on = request.then.kind == Goal::Kind::finished;
     SolveWorker::Prepared prepared =
         request.earlier ? worker_.prepare(request.earlier, SolveWorker::choice_of(request.options),
-                                          cancellation)
+                                          cancellation, cancellation)
                         : worker_.load(request.spec, request.options, request.first_look,
                                        cancellation, runs_on);
     {
@@ -192,6 +195,9 @@ void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellat
       solve_cancellation_ = cancellation;
       loading_ = false;
       choice_ = prepared.choice;
+      if (restart_is_older_) {
+        restart_request_.reset();
+      }
       relight_request_.reset();
       replace_goal(request.then);
       worker_.interrupt(false);  // a draft is part of what follows

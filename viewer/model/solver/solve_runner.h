@@ -47,7 +47,8 @@ class SolveRunner : public SolveMessages {
   void pause() { set_goal({Goal::Kind::pause}); }
   void advance_one_direction() { set_goal({Goal::Kind::direction}); }
   void advance_one_iteration() { set_goal({Goal::Kind::iteration}); }
-  /// Cancels loading; or discards the solve and returns to the first direction.
+  /// Cancels loading, or what comes before the first pass, which run() begins again; or discards
+  /// the solve and returns to the first direction.
   void stop();
   /// Solves for other materials with the kept transfers of a glossy run, which the snapshots then
   /// have; newer ones replace these. Nothing happens in other runs.
@@ -92,6 +93,7 @@ class SolveRunner : public SolveMessages {
   std::condition_variable wake_;
   std::optional<OpenRequest> open_request_;
   std::optional<SolveWorker::Choice> restart_request_;
+  bool restart_is_older_ = false;  // than the newest open_request_, which replaces it
   std::optional<std::shared_ptr<const PatchMaterials>> relight_request_;
   bool form_factors_requested_ = false;
   Goal goal_;

@@ -51,12 +51,12 @@ SolveWorker::Prepared SolveWorker::load(const std::string& spec, RunOptions opti
                                         bool runs_on) {
   options.solve.validate();
   const auto loaded = loaded_scene(spec, options, first_look, report_, cancellation);
-  return prepare(loaded, choice_of(options), cancellation, runs_on);
+  return prepare(loaded, choice_of(options), cancellation, cancellation, runs_on);
 }
 
 SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedScene>& start,
                                            Choice choice, const Cancellation& cancellation,
-                                           bool drafted_first) {
+                                           const Cancellation& preparing, bool drafted_first) {
   if (start->stored && !start->description) {
     choice.refine = {};
     choice.total = false;
@@ -94,7 +94,7 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
   const bool is_whole = choice.division.empty() && !choice.refine.is_set() && !saved.total;
   if (!(drafted_first && drafts_ && lit && is_whole && !start->stored && !session.is_prepared() &&
         can_be_drafted(choice.solve, *start->scene))) {
-    session.prepare();
+    session.prepare(preparing);
   }
   auto loaded = with_patches_of(session, divisions_of(choice, session, total), start, cancellation);
   return {std::move(choice), std::move(loaded), std::move(session),
@@ -108,10 +108,40 @@ void SolveWorker::open(Prepared prepared) {
   replace_session(std::move(prepared));
   messages_.post_scene(loaded_);
   if (!session_->is_prepared()) {
-    begin_with_draft();
-    prepare_stage();
+    try {
+      begin_with_draft();
+      prepare_stage();
+    } catch (const Canceled&) {
+      post_emission();
+      return;
+    }
   }
   post_snapshot();
+}
+
+/// Posts the state before the first shot, where a new scene would otherwise have none.
+void SolveWorker::post_emission() {
+  if (whole_) {
+    return;
+  }
+  SolveOptions options = choice_.solve;
+  options.goal = {};
+  options.first_shot.reset();
+  SolveSession unlit(
+      {.scene = loaded_->scene, .options = std::move(options), .tree = loaded_->tree});
+  unlit.prepare();
+  messages_.post_snapshot(std::make_shared<const SolverSnapshot>(snapshot_at_start(unlit)));
+}
+
+/// What is shown before the session is prepared: a snapshot of another solve of its patches.
+SolverSnapshot SolveWorker::snapshot_at_start(const SolveSession& other) const {
+  SolverSnapshot start = snapshot_of(other, loaded_);
+  SolveHistory(other).write_to(start);
+  start.options = choice_.solve;
+  if (!start.options.goal.is_set()) {
+    start.progress.passes = start.options.directions;
+  }
+  return start;
 }
 
 void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool runs_on) {
@@ -126,7 +156,8 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool ru
     choice.division.clear();
   }
   const auto from = begun(choice);
-  Prepared prepared = prepare(from, std::move(choice), cancellation);
+  const Preparing preparing(*this);
+  Prepared prepared = prepare(from, std::move(choice), cancellation, interruption());
   if (prepared.session.glossy() != nullptr && materials_) {
     set_materials(prepared.session);
   }
@@ -225,12 +256,12 @@ void SolveWorker::begin_with_draft() {
       !is_lit(*loaded_->scene, choice_.solve) || !can_be_drafted(choice_.solve, *loaded_->scene)) {
     return;
   }
+  const Preparing preparing(*this);
   try {
     SolveSession draft =
         prepare_draft(choice_.solve, *loaded_,
-                      prepared ? session_->diffuse()->direct_light() : nullptr, cancellation_);
-    SolverSnapshot start = snapshot_of(draft, loaded_);
-    SolveHistory(draft).write_to(start);
+                      prepared ? session_->diffuse()->direct_light() : nullptr, interruption());
+    SolverSnapshot start = snapshot_at_start(draft);
     draft.advance(SolveSession::Until::finished,
                   [this](const SolveSession&) { return !interrupted_; });
     if (!draft.finished() || interrupted_) {
@@ -240,10 +271,6 @@ void SolveWorker::begin_with_draft() {
     if (prepared) {
       post_snapshot();
       return;
-    }
-    start.options = choice_.solve;
-    if (!start.options.goal.is_set()) {
-      start.progress.passes = start.options.directions;
     }
     show_light_of(*whole_, start);
     messages_.post_snapshot(std::make_shared<const SolverSnapshot>(std::move(start)));
@@ -297,25 +324,27 @@ bool SolveWorker::advance_stage(const Goal& goal) {
 void SolveWorker::interrupt(bool interrupted) {
   interrupted_ = interrupted;
   if (interrupted) {
-    const std::lock_guard lock(measuring_mutex_);
-    measuring_.cancel();
+    const std::lock_guard lock(interruption_mutex_);
+    interruption_.cancel();
   }
+}
+
+/// What the next interrupt() cancels.
+Cancellation SolveWorker::interruption() {
+  const std::lock_guard lock(interruption_mutex_);
+  interruption_ = Cancellation();
+  if (interrupted_) {
+    interruption_.cancel();
+  }
+  return interruption_;
 }
 
 /// Measures the errors of the finished solve, and begins the next one for a total error, if the
 /// measurement is not interrupted.
 void SolveWorker::end_stage_of_total() {
   post_snapshot();
-  Cancellation measuring;
-  {
-    const std::lock_guard lock(measuring_mutex_);
-    measuring_ = measuring;
-  }
-  if (interrupted_) {
-    return;
-  }
   try {
-    total_->assess(*session_, measuring, by_percent([this](Measurement what, int percent) {
+    total_->assess(*session_, interruption(), by_percent([this](Measurement what, int percent) {
       report_(text_of(what), 0.01 * percent);
     }));
   } catch (const Canceled&) {
@@ -343,7 +372,12 @@ void SolveWorker::prepare_stage() {
   if (is_round() && !total_) {
     checkpoints_.resume(*session_, {session_->scene(), choice_.solve});
   }
-  session_->prepare();
+  {
+    const bool is_first =
+        !session_->has_result() && session_->rounds().empty() && !(total_ && total_->has_result());
+    const auto preparing = is_first ? std::make_optional<Preparing>(*this) : std::nullopt;
+    session_->prepare(interruption());
+  }
   if (is_round()) {
     take_patches(with_patches_of(*session_, divisions_of(choice_, *session_, total_),
                                  begun(choice_), cancellation_));

@@ -24,9 +24,9 @@ namespace transillum::viewer {
 /// The open scene and its solve. It advances the solve toward goals and makes snapshots at
 /// intervals.
 ///
-/// Threads: interrupt(), set_refresh_interval(), set_drafts(), request_form_factors() and
-/// checkpoints() may be called by any thread; the others belong to one thread, and may throw
-/// exceptions, which their caller has to report.
+/// Threads: interrupt(), is_preparing(), set_refresh_interval(), set_drafts(),
+/// request_form_factors() and checkpoints() may be called by any thread; the others belong to one
+/// thread, and may throw exceptions, which their caller has to report.
 class SolveWorker {
  public:
   /// The options of a run.
@@ -64,12 +64,14 @@ class SolveWorker {
   Prepared load(const std::string& spec, RunOptions options, bool first_look,
                 const Cancellation& cancellation, bool runs_on);
   /// Prepares a solve of a scene that was loaded before.
+  /// @param preparing  checked before the first pass, in place of `cancellation`
   /// @param drafted_first  the session is not prepared where a draft comes before
   /// @throws InputError, Canceled
   Prepared prepare(const std::shared_ptr<const LoadedScene>& start, Choice choice,
-                   const Cancellation& cancellation, bool drafted_first = false);
-  /// Replaces the open scene, and makes a draft of it if its session is not prepared.
-  /// @throws Canceled
+                   const Cancellation& cancellation, const Cancellation& preparing,
+                   bool drafted_first = false);
+  /// Replaces the open scene. If its session is not prepared, it makes a draft and prepares it,
+  /// until interrupt().
   void open(Prepared prepared);
   /// Replaces the solve of the open scene by a new one, whose session is canceled already.
   /// @throws InputError, Canceled: advance() then tries again; the old picture stays.
@@ -86,8 +88,11 @@ class SolveWorker {
   /// The state between two calls.
   RunState state() const;
 
-  /// Whether advance() pauses after the current pass; a measurement of errors begins again then.
+  /// Whether advance() pauses after the current pass. A draft, what comes before the first pass and
+  /// a measurement of errors are left at once; advance() begins them again.
   void interrupt(bool interrupted = true);
+  /// Whether the present work comes before the first pass of a solve.
+  bool is_preparing() const { return preparing_; }
   /// The least time between two snapshots, ms.
   void set_refresh_interval(int milliseconds) { refresh_interval_ = milliseconds; }
   /// Whether a solve to its end shows whole pictures only: first of a draft of few directions.
@@ -98,7 +103,22 @@ class SolveWorker {
   CheckpointKeeper& checkpoints() { return checkpoints_; }
 
  private:
+  /// The time in which is_preparing().
+  class Preparing {
+   public:
+    explicit Preparing(SolveWorker& worker) : worker_(worker) { worker_.preparing_ = true; }
+    ~Preparing() { worker_.preparing_ = false; }
+    Preparing(const Preparing&) = delete;
+    Preparing& operator=(const Preparing&) = delete;
+
+   private:
+    SolveWorker& worker_;
+  };
+
+  Cancellation interruption();
   void replace_session(Prepared prepared);
+  void post_emission();
+  SolverSnapshot snapshot_at_start(const SolveSession& other) const;
   void prepare_stage();
   std::shared_ptr<const LoadedScene> begun(const Choice& choice) const;
   void begin_with_draft();
@@ -118,7 +138,7 @@ class SolveWorker {
   };
   CheckpointKeeper checkpoints_;
   KeptFormFactors form_factors_;
-  std::atomic<bool> interrupted_ = false;
+  std::atomic<bool> interrupted_ = false, preparing_ = false;
   std::atomic<bool> drafts_ = false;
   std::atomic<int> refresh_interval_ = 66;
 
@@ -132,8 +152,8 @@ class SolveWorker {
   bool failed_ = false;                           // session_ cannot be continued
   std::optional<TotalPlan> total_;                // where session_ is a stage of it
   std::shared_ptr<const MeasuredErrors> errors_;  // errors of session_; null if not known
-  std::mutex measuring_mutex_;                    // guards measuring_
-  Cancellation measuring_;                        // cancels a measurement of errors
+  std::mutex interruption_mutex_;                 // guards interruption_
+  Cancellation interruption_;                     // cancels work other than passes
   SolveHistory history_;                          // history of the present stage
   /// The end of the last stage, if the goal has a time limit.
   std::shared_ptr<const SolverSnapshot> stage_result_;
