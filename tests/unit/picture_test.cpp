@@ -15,6 +15,7 @@
 #include "support/glossy_scenes.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
+#include "support/stopping.h"
 #include "transillum/at.h"
 #include "transillum/point_sensors.h"
 #include "transillum/solve_session.h"
@@ -324,6 +325,43 @@ TEST(Picture, LampsPastTheMostPowerfulAreGathered) {
   }
 }
 
+/// Two boxes that touch on a floor; the other sides of the room emit like a sky, as divisions²
+/// faces each.
+std::shared_ptr<const Scene> boxes_under_sides(int divisions) {
+  Sketch sketch("boxes under sides");
+  const int gray = sketch.material(0.6, 0), warm = sketch.material(0, 1.2),
+            cool = sketch.material(0, 0.5);
+  const auto side = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
+    sketch.grid(corner, u, v, divisions, [&](double s, double) { return s < 0.5 ? warm : cool; });
+  };
+  sketch.grid({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 10, [&](double, double) { return gray; });
+  sketch.box({0.3, 0.4, 0}, {0.6, 0.6, 0.4}, false, gray);
+  sketch.box({0.2, 0.4, 0}, {0.3, 0.6, 0.2}, false, gray);
+  side({0, 1, 1}, {1, 0, 0}, {0, -1, 0});
+  side({0, 0, 0}, {0, 1, 0}, {0, 0, 1});
+  side({1, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  side({0, 0, 0}, {0, 0, 1}, {1, 0, 0});
+  side({0, 1, 0}, {1, 0, 0}, {0, 0, 1});
+  return sketch.scene();
+}
+
+TEST(Picture, ManyFacesThatAreNotBrightAreGatheredWithoutNoise) {
+  const auto few = boxes_under_sides(2), many = boxes_under_sides(8);
+  const SurfaceLight exact(solved(few, 512)), gathered(solved(many, 512));
+  EXPECT_EQ(exact.gathered_lamps(), 0);
+  EXPECT_EQ(gathered.gathered_lamps(), 5 * 8 * 8);
+  double squares = 0, all = 0;
+  for (const auto& [patch, x] : points_of(*few, 500)) {
+    if (max_abs(few->reflectance(patch)) > 0) {  // the same patch in both
+      EXPECT_EQ(gathered.direct_irradiance(patch, x), Rgb());
+      const Rgb expected = exact.radiosity(patch, x);
+      squares += std::pow(max_abs(gathered.radiosity(patch, x) - expected), 2);
+      all += std::pow(max_abs(expected), 2);
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / all), 0.004);
+}
+
 TEST(Picture, HasTheSameBitsForAnyNumberOfThreads) {
   const auto solution = solved(cornell_box(0.02), 64);
   const Camera camera{{0.278, 0.273, 0.05}, {0.278, 0.2, 0.5}, Vec3{0, 1, 0}};
@@ -422,6 +460,62 @@ TEST(Picture, IsCanceledAtOnce) {
                    }),
       Canceled);
   EXPECT_LT(done, 0.01);
+}
+
+/// A room of 1 m of 4,356 patches on each side, with 484 bright lamps in its ceiling.
+std::shared_ptr<const Scene> room_of_small_lamps() {
+  Sketch sketch("room of small lamps");
+  const int gray = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
+  constexpr int cells = 66;
+  const auto all_gray = [&](double, double) { return gray; };
+  sketch.grid({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, cells, all_gray);
+  sketch.grid({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, cells, all_gray);
+  sketch.grid({1, 0, 0}, {0, 0, 1}, {0, 1, 0}, cells, all_gray);
+  sketch.grid({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, cells, all_gray);
+  sketch.grid({0, 1, 0}, {1, 0, 0}, {0, 0, 1}, cells, all_gray);
+  sketch.grid({0, 1, 1}, {1, 0, 0}, {0, -1, 0}, cells, [&](double s, double t) {
+    const auto middle = [](double x) { return static_cast<int>(x * cells) % 3 == 1; };
+    return middle(s) && middle(t) ? lamp : gray;
+  });
+  return sketch.scene();
+}
+
+/// The light of one point takes minutes: of all patches that it sees, the light of all lamps.
+TEST(Picture, AQueryIsCanceledAtOnceAndEndsNoOther) {
+  const auto solution = solved(room_of_small_lamps(), 4);
+  const Cancellation of_light;
+  const SurfaceLight light(solution, 0, of_light);
+  of_light.cancel();
+  EXPECT_EQ(light.gathered_lamps(), 0);
+  const Vec3 x{0.31, 0.42, 0}, above = x + Vec3{0, 0, 0.5}, down{0, 0, -1};
+  constexpr double in_one_patch = 0.002, in_many = 0.2;
+  for (const double delay : {in_one_patch, in_many}) {
+    for (const auto& query : std::vector<std::function<void(const Cancellation&)>>{
+             [&](const Cancellation& own) { (void)light.radiosity(0, x, own); },
+             [&](const Cancellation& own) { (void)light.radiance(above, down, 1, own); },
+             [&](const Cancellation& own) { (void)light.irradiance(above, down, 1, own); },
+             [&](const Cancellation& own) {
+               (void)LightMap(*solution->scene, light, {.threads = 1}, own);
+             }}) {
+      EXPECT_LT(seconds_to_stop(query, delay).value_or(HUGE_VAL), longest_stop) << delay;
+    }
+  }
+  EXPECT_THROW((void)light.direct_irradiance(0, x, canceled()), Canceled);
+  EXPECT_EQ(light.direct_irradiance(0, x), SurfaceLight(solution).direct_irradiance(0, x));
+}
+
+TEST(Picture, CanceledQueriesDoNotChangeTheLight) {
+  const auto solution = solved(cornell_box(0.02), 64);
+  const SurfaceLight light(solution), never_canceled(solution);
+  const std::vector<SurfacePoint> points = points_of(*solution->scene, 20);
+  for (const SurfacePoint& point : points) {
+    const auto query = [&](const Cancellation& own) {
+      (void)light.radiosity(point.patch, point.position, own);
+    };
+    (void)seconds_to_stop(query, 0.001);
+    EXPECT_EQ(light.radiosity(point.patch, point.position),
+              never_canceled.radiosity(point.patch, point.position));
+  }
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ void write_pictures(const PictureRequest& request, std::shared_ptr<const Solutio
                               options.samples, options.samples == 1 ? "" : "s",
                               seconds_since(start), exposure));
     if (picture.gathered_lamps > 0) {
-      print_message(fmt::format("the light of the {} weakest emitting faces was gathered by rays",
+      print_message(fmt::format("the light of {} weak or dim emitting faces was gathered by rays",
                                 picture.gathered_lamps));
     }
   }

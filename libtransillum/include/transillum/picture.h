@@ -71,14 +71,16 @@ struct Picture {
   /// left to right.
   std::vector<Rgb> radiance;
   /// Emitting faces whose light was gathered by rays, with their noise: the weakest, past the
-  /// number that can be treated exactly, and those without a ten-thousandth of all power.
+  /// number that can be treated exactly, and those without a ten-thousandth of all power; of more
+  /// than 64 faces also the dim, whose exitance is at most four times the mean irradiance.
   int gathered_lamps = 0;
 };
 
 /// The light that points of a result's surfaces receive and send, computed when it is asked for;
 /// what is computed for one query serves the next.
 ///
-/// Threads: any number may query; a value does not depend on the order of queries.
+/// Threads: any number may query; a value does not depend on the order of queries. A query may take
+/// seconds; each checks its own cancellation, and what a canceled one has computed serves the next.
 class SurfaceLight {
  public:
   /// @param solution with its scene; B of another solve's materials gives their light.
@@ -94,16 +96,23 @@ class SurfaceLight {
 
   /// B at a point of a patch, W/m²: E + rho H, with the reflectance of lobes in a glossy solve.
   /// @param point on the patch, m.
-  Rgb radiosity(PatchId patch, const Vec3& point) const;
+  /// @throws Canceled
+  Rgb radiosity(PatchId patch, const Vec3& point, const Cancellation& cancellation = {}) const;
   /// Irradiance by sources alone at a point of a patch, W/m², exact but for a sky.
-  Rgb direct_irradiance(PatchId patch, const Vec3& point) const;
+  /// @throws Canceled
+  Rgb direct_irradiance(PatchId patch, const Vec3& point,
+                        const Cancellation& cancellation = {}) const;
   /// Radiance that arrives at `origin` from `direction`, W/(m² sr). Backs are transparent; where
   /// nothing is met it is the sky's.
   /// @param direction of any length but 0.
   /// @param salt makes the sequences of rays differ between samples of a pixel.
-  Rgb radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt = 0) const;
+  /// @throws Canceled
+  Rgb radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt = 0,
+               const Cancellation& cancellation = {}) const;
   /// Irradiance of what radiance() meets, W/m²; 0 where nothing is met.
-  Rgb irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt = 0) const;
+  /// @throws Canceled
+  Rgb irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt = 0,
+                 const Cancellation& cancellation = {}) const;
   /// Picture::gathered_lamps
   int gathered_lamps() const;
 
@@ -148,8 +157,9 @@ struct SampleRay {
 /// All samples of a pixel are spread evenly about its middle.
 SampleRay sample_ray(const CameraRays& rays, const PixelSample& sample);
 /// The mean radiance of `count` samples of a pixel, W/(m² sr).
+/// @throws Canceled
 Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, int column, int row,
-                   int count);
+                   int count, const Cancellation& cancellation = {});
 
 /// The radiosity of a result on grids of points of its surfaces, as one picture for linear
 /// filtering.
@@ -192,14 +202,15 @@ class LightMap {
 };
 
 /// Checks that the eye is not inside a solid: that backs of faces do not surround it.
-/// @throws InputError
-void check_eye(const std::shared_ptr<const Scene>& scene, const Camera& camera);
+/// @throws InputError, Canceled
+void check_eye(const std::shared_ptr<const Scene>& scene, const Camera& camera,
+               const Cancellation& cancellation = {});
 
 /// Makes a picture.
 /// @param solution B of all patches, of any kind of solve.
 /// @param camera the camera.
 /// @param options size and samples.
-/// @param cancellation checked at every row of a tile.
+/// @param cancellation checked all the time.
 /// @param progress if set, called at intervals with the fraction done, in [0,1], on this thread.
 /// @throws InputError, Canceled
 Picture make_picture(std::shared_ptr<const Solution> solution, const Camera& camera,

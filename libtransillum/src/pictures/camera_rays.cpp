@@ -122,11 +122,12 @@ CameraRays::Ray CameraRays::at(double column, double row) const {
   return {eye_, forward_ + x * right_ + y * above_};
 }
 
-void check_eye(const std::shared_ptr<const Scene>& scene, const Camera& camera) {
+void check_eye(const std::shared_ptr<const Scene>& scene, const Camera& camera,
+               const Cancellation& cancellation) {
   if (camera.projection == CameraProjection::orthographic) {
     return;
   }
-  const Picker picker(scene);
+  const Picker picker(scene, cancellation);
   constexpr int rays = 64;
   int backs = 0;
   for (int k = 0; k < rays; ++k) {

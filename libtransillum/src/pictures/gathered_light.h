@@ -31,7 +31,9 @@ class GatheredLight {
   /// @param x on a surface, m
   /// @param normal unit
   /// @param salt names one of many sequences of rays (`Salt`)
-  Gathered at_point(const Vec3& x, const Vec3& normal, std::uint64_t salt) const;
+  /// @throws Canceled
+  Gathered at_point(const Vec3& x, const Vec3& normal, std::uint64_t salt,
+                    const Cancellation& cancellation) const;
 
   /// The light of a ray.
   struct Arriving {
@@ -40,22 +42,14 @@ class GatheredLight {
     Vec3 place;    ///< where a surface is met, m
   };
   /// @param direction unit
-  Arriving arriving(const Vec3& x, const Vec3& normal, const Vec3& direction) const;
+  /// @throws Canceled
+  Arriving arriving(const Vec3& x, const Vec3& normal, const Vec3& direction,
+                    const Cancellation& cancellation) const;
 
  private:
-  static constexpr std::size_t packet = 16;  ///< rays at a time
-  /// A half-line, in Embree's coordinates.
-  struct Line {
-    Vec3 start, direction;
-  };
-  struct Met {
-    PatchId patch = no_patch;  ///< no_patch: nothing is met
-    bool is_lit = false;
-    Vec3 point;  ///< m
-  };
-  Met met_at(const Line& line, unsigned triangle, float distance) const;
-  Rgb brought(const Met& met, const Vec3& direction) const;
-  Rgb brought(const Vec3& start, std::span<const Vec3> directions) const;
+  Rgb brought(const Met& met, const Vec3& direction, const Cancellation& cancellation) const;
+  Rgb brought(const Vec3& start, std::span<const Vec3> directions,
+              const Cancellation& cancellation) const;
 
   const Solution& solution_;
   const Scene& scene_;

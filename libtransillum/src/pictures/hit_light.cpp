@@ -7,11 +7,12 @@
 
 #include "pictures/surface_rays.h"
 #include "transillum/at.h"
-#include "transillum/glossy.h"
 
 namespace transillum {
 namespace {
 
+/// Part of all power from which on sources that are gathered are found at points of patches.
+constexpr double least_gathered = 0.01;
 constexpr int term_count = 6;
 using Terms = Eigen::Matrix<double, term_count, 1>;
 
@@ -121,12 +122,12 @@ std::array<Rgb, 3> terms_of(const Eigen::Matrix3d& gram, const std::array<Rgb, 3
 
 /// The light on the open part of a patch: all of it, or what no solid covers that stands on it.
 struct HitLight::PatchLight {
-  std::array<Rgb, term_count> lamps;     ///< coefficients of a quadratic function
-  Rgb low, high;                         ///< limits of its exact values
-  std::array<Rgb, 3> lamps_in_solution;  ///< its mean and linear terms, which the solution has
-  std::array<Rgb, 3> solution;           ///< B without the exitance of lamps: mean, linear terms
-  std::array<double, 2> center{};        ///< middle in the basis
-  Vec3 middle;                           ///< centroid, m
+  std::array<Rgb, term_count> sources;     ///< coefficients of a quadratic function
+  Rgb low, high;                           ///< limits of its values
+  std::array<Rgb, 3> sources_in_solution;  ///< its mean and linear terms, which the solution has
+  std::array<Rgb, 3> solution;             ///< B without the exitance of lamps: mean, linear terms
+  std::array<double, 2> center{};          ///< middle in the basis
+  Vec3 middle;                             ///< centroid, m
 };
 
 HitLight::HitLight(const Solution& solution, const EmbreeScene& embree, const PlanePoints& points,
@@ -136,6 +137,7 @@ HitLight::HitLight(const Solution& solution, const EmbreeScene& embree, const Pl
       embree_(embree),
       points_(points),
       lamps_(lamps),
+      has_gathered_sources_(solution.sky.is_set() || lamps.gathered_part() > least_gathered),
       is_lamp_(scene_.patches().size(), 0),
       bases_(linear_bases(scene_)),
       light_(scene_.patches().size()),
@@ -151,13 +153,35 @@ Rgb HitLight::exitance(PatchId patch) const {
   return at(is_lamp_, patch) != 0 ? scene_.exitance(patch) : Rgb();
 }
 
-Rgb HitLight::reflectance(PatchId patch) const {
-  const Rgb& diffuse = scene_.reflectance(patch);
-  return solution_.glossy ? diffuse + used_lobe(scene_.material(patch)).reflectance : diffuse;
-}
-
 bool HitLight::is_open(PatchId patch, const Vec3& x) const {
   return !is_covered(embree_, x, scene_.patch(patch).normal, !solution_.sky.is_set());
+}
+
+/// Irradiance by lamps, and by rays that meet other sources.
+Rgb HitLight::sources_at(PatchId patch, const Vec3& x, const Cancellation& cancellation) const {
+  const Rgb by_lamps = lamps_.at_point(patch, x, cancellation);
+  if (!has_gathered_sources_) {
+    return by_lamps;
+  }
+  static const std::vector<Vec3> table = cosine_directions(128, 0, 0)[0];
+  const Vec3& normal = scene_.patch(patch).normal;
+  const TangentFrame frame(normal);
+  const Vec3 start = start_of_rays(embree_, x, normal);
+  std::array<Vec3, ray_packet> directions;
+  Rgb sum;
+  for (std::size_t first = 0; first < table.size(); first += ray_packet) {
+    std::transform(&table[first], &table[first] + ray_packet, directions.begin(),
+                   [&](const Vec3& local) { return frame.turned(local); });
+    const std::array<Met, ray_packet> met = met_by(embree_, start, directions);
+    for (std::size_t k = 0; k < ray_packet; ++k) {
+      if (met[k].is_lit) {
+        sum += scene_.exitance(met[k].patch) - exitance(met[k].patch);
+      } else if (met[k].patch == no_patch && solution_.sky.is_set()) {
+        sum += solution_.sky.relative_radiance(directions[k]) * solution_.sky.exitance;
+      }
+    }
+  }
+  return by_lamps + 1 / static_cast<double>(table.size()) * sum;
 }
 
 bool HitLight::is_partly_open(PatchId patch) const {
@@ -173,14 +197,15 @@ bool HitLight::is_partly_open(PatchId patch) const {
 
 /// The solution has the mean of a whole patch. If a part is covered, it is dark, and no ray meets
 /// it: the rest has all light.
-std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(PatchId patch) const {
+std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(
+    PatchId patch, const Cancellation& cancellation) const {
   const bool is_partial = is_partly_open(patch);
   const LinearBasis& basis = at(bases_, patch);
   Fit fit;
   Vec3 middle;
   const auto add = [&](const Vec3& x, double weight) {
     if (!is_partial || is_open(patch, x)) {
-      const Rgb light = lamps_.at_point(patch, x);
+      const Rgb light = sources_at(patch, x, cancellation);
       fit.add(basis.at(x), weight, light);
       fit.add_moments(basis.at(x), weight, light);
       middle = middle + weight * x;
@@ -196,13 +221,13 @@ std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(PatchId patch) co
       constexpr double part = 1.0 / 20;
       const Vec3& x = at(points_.points(), points_.of_corner(k, c)).place;
       if (!is_partial || is_open(patch, x)) {
-        fit.add(basis.at(x), part * scene_.patch(patch).area, lamps_.at_point(patch, x));
+        fit.add(basis.at(x), part * scene_.patch(patch).area, sources_at(patch, x, cancellation));
       }
     }
   }
   auto light = std::make_unique<PatchLight>();
   light->middle = basis.center;
-  light->lamps = fit.coefficients();
+  light->sources = fit.coefficients();
   light->low = fit.low;
   light->high = fit.high;
   const bool is_linear = !solution_.linear_terms.empty();
@@ -213,7 +238,7 @@ std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(PatchId patch) co
   }
   if (!is_partial) {
     for (std::size_t k = 0; k < (is_linear ? 3 : 1); ++k) {
-      light->lamps_in_solution[k] = 1 / fit.gram(0, 0) * fit.moments[k];
+      light->sources_in_solution[k] = 1 / fit.gram(0, 0) * fit.moments[k];
     }
     return light;
   }
@@ -221,7 +246,7 @@ std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(PatchId patch) co
   constexpr double least_determinant = 1e-3;
   const double area = scene_.patch(patch).area;
   const int count = is_linear && (fit.gram / area).determinant() > least_determinant ? 3 : 1;
-  light->lamps_in_solution = terms_of(fit.gram, fit.moments, count);
+  light->sources_in_solution = terms_of(fit.gram, fit.moments, count);
   // Lamps that are gathered emit from all of the part.
   const Rgb emitted = scene_.exitance(patch) - exitance(patch);
   light->solution[0] = light->solution[0] - emitted;
@@ -232,17 +257,18 @@ std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(PatchId patch) co
   return light;
 }
 
-const HitLight::PatchLight& HitLight::light_on(PatchId patch) const {
-  return at(light_, patch).get([&] { return light_of(patch); });
+const HitLight::PatchLight& HitLight::light_on(PatchId patch,
+                                               const Cancellation& cancellation) const {
+  return at(light_, patch).get([&] { return light_of(patch, cancellation); });
 }
 
-/// The mean irradiance of a patch by what is not a lamp.
-Rgb HitLight::rest_on(PatchId patch) const {
-  const PatchLight& light = light_on(patch);
+/// The mean irradiance of a patch by what reflects.
+Rgb HitLight::rest_on(PatchId patch, const Cancellation& cancellation) const {
+  const PatchLight& light = light_on(patch, cancellation);
   const Rgb sent = light.solution[0] + exitance(patch) - scene_.exitance(patch);
-  const Rgb reflected = reflectance(patch), direct = light.lamps_in_solution[0];
-  const auto rest = [](double b, double rho, double lamps) {
-    return rho > 0 ? std::max(b / rho - lamps, 0.0) : 0;
+  const Rgb reflected = reflectance_of(solution_, patch), direct = light.sources_in_solution[0];
+  const auto rest = [](double b, double rho, double sources) {
+    return rho > 0 ? std::max(b / rho - sources, 0.0) : 0;
   };
   return {rest(sent.r, reflected.r, direct.r), rest(sent.g, reflected.g, direct.g),
           rest(sent.b, reflected.b, direct.b)};
@@ -250,10 +276,11 @@ Rgb HitLight::rest_on(PatchId patch) const {
 
 /// By least squares from the patches of the same plane that touch it; limited to their difference
 /// and to half of the patch's own light, so that a dark room stays dark beside a lit one.
-HitLight::Slope HitLight::slope_by_neighbors(PatchId patch) const {
+HitLight::Slope HitLight::slope_by_neighbors(PatchId patch,
+                                             const Cancellation& cancellation) const {
   const LinearBasis& basis = at(bases_, patch);
-  const Rgb own = rest_on(patch);
-  const std::array<double, 2>& center = light_on(patch).center;
+  const Rgb own = rest_on(patch, cancellation);
+  const std::array<double, 2>& center = light_on(patch, cancellation).center;
   Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, 2, 3> right = Eigen::Matrix<double, 2, 3>::Zero();
   Rgb low = own, high = own;
@@ -270,11 +297,11 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch) const {
   std::sort(neighbors.begin(), neighbors.end());
   neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
   for (const PatchId j : neighbors) {
-    if (j == patch || max_abs(reflectance(j)) == 0) {
+    if (j == patch || max_abs(reflectance_of(solution_, j)) == 0) {
       continue;
     }
-    const auto [a, b] = basis.at(light_on(j).middle);
-    const Rgb other = rest_on(j), change = other - own;
+    const auto [a, b] = basis.at(light_on(j, cancellation).middle);
+    const Rgb other = rest_on(j, cancellation), change = other - own;
     const Eigen::Vector2d apart(a - center[0], b - center[1]);
     const double weight = 1 / apart.squaredNorm();
     matrix += weight * apart * apart.transpose();
@@ -297,26 +324,25 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch) const {
   return {{r.first, g.first, b.first}, {r.second, g.second, b.second}};
 }
 
-Rgb HitLight::at_point(PatchId patch, const Vec3& x) const {
-  const auto [a, b] = at(bases_, patch).at(x);
-  const PatchLight& on_patch = light_on(patch);
-  const auto& s = on_patch.solution;
-  Rgb light = s[0] + a * s[1] + b * s[2];
-  const Rgb reflected = reflectance(patch);
-  if (max_abs(reflected) > 0) {
-    const auto& c = on_patch.lamps;
-    const auto& known = on_patch.lamps_in_solution;
-    const Rgb value = c[0] + a * (c[1] + b * c[3] + a * c[4]) + b * (c[2] + b * c[5]);
-    Rgb change =
-        limited(value, on_patch.low, on_patch.high) - known[0] - a * known[1] - b * known[2];
-    if (solution_.linear_terms.empty()) {
-      const auto& [first, second] = at(slopes_, patch).get([&] {
-        return std::make_unique<const Slope>(slope_by_neighbors(patch));
-      });
-      change += (a - on_patch.center[0]) * first + (b - on_patch.center[1]) * second;
-    }
-    light += reflected * change;
+Rgb HitLight::at_point(PatchId patch, const Vec3& x, const Cancellation& cancellation) const {
+  const Rgb reflected = reflectance_of(solution_, patch);
+  if (max_abs(reflected) == 0) {
+    return scene_.exitance(patch) - exitance(patch);
   }
+  const auto [a, b] = at(bases_, patch).at(x);
+  const PatchLight& on_patch = light_on(patch, cancellation);
+  const auto& s = on_patch.solution;
+  const auto& c = on_patch.sources;
+  const auto& known = on_patch.sources_in_solution;
+  const Rgb value = c[0] + a * (c[1] + b * c[3] + a * c[4]) + b * (c[2] + b * c[5]);
+  Rgb change = limited(value, on_patch.low, on_patch.high) - known[0] - a * known[1] - b * known[2];
+  if (solution_.linear_terms.empty()) {
+    const auto& [first, second] = at(slopes_, patch).get([&] {
+      return std::make_unique<const Slope>(slope_by_neighbors(patch, cancellation));
+    });
+    change += (a - on_patch.center[0]) * first + (b - on_patch.center[1]) * second;
+  }
+  const Rgb light = s[0] + a * s[1] + b * s[2] + reflected * change;
   return {std::max(light.r, 0.0), std::max(light.g, 0.0), std::max(light.b, 0.0)};
 }
 

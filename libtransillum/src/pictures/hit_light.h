@@ -15,9 +15,10 @@
 namespace transillum {
 
 /// The radiosity of a solution at points that rays meet. To the functions of the solution, which
-/// are constant or linear, it adds how the light of lamps differs from them within a patch: a
-/// quadratic function through exact values. To constants it also adds the slope of the other light,
-/// by the patches around it. Neither changes what the patch sends as a whole.
+/// are constant or linear, it adds how the light of sources differs from them within a patch: a
+/// quadratic function through values at points, of lamps exact ones. To constants it also adds the
+/// slope of the other light, by the patches around it. Neither changes what the patch sends as a
+/// whole.
 ///
 /// Threads: any number may query; a value does not depend on the order of queries.
 class HitLight {
@@ -31,11 +32,10 @@ class HitLight {
 
   /// B without the exitance of lamps, W/m².
   /// @param x on the patch, m
-  Rgb at_point(PatchId patch, const Vec3& x) const;
+  /// @throws Canceled
+  Rgb at_point(PatchId patch, const Vec3& x, const Cancellation& cancellation) const;
   /// The exitance of a lamp, W/m²; 0 if the patch is none that LampLight treats.
   Rgb exitance(PatchId patch) const;
-  /// The fraction that a patch reflects, by its lobe too if the solve has lobes.
-  Rgb reflectance(PatchId patch) const;
 
  private:
   struct PatchLight;
@@ -46,17 +46,19 @@ class HitLight {
   };
 
   bool is_open(PatchId patch, const Vec3& x) const;
+  Rgb sources_at(PatchId patch, const Vec3& x, const Cancellation& cancellation) const;
   bool is_partly_open(PatchId patch) const;
-  const PatchLight& light_on(PatchId patch) const;
-  std::unique_ptr<const PatchLight> light_of(PatchId patch) const;
-  Slope slope_by_neighbors(PatchId patch) const;
-  Rgb rest_on(PatchId patch) const;
+  const PatchLight& light_on(PatchId patch, const Cancellation& cancellation) const;
+  std::unique_ptr<const PatchLight> light_of(PatchId patch, const Cancellation& cancellation) const;
+  Slope slope_by_neighbors(PatchId patch, const Cancellation& cancellation) const;
+  Rgb rest_on(PatchId patch, const Cancellation& cancellation) const;
 
   const Solution& solution_;
   const Scene& scene_;
   const EmbreeScene& embree_;
   const PlanePoints& points_;
   const LampLight& lamps_;
+  bool has_gathered_sources_;
   std::vector<std::uint8_t> is_lamp_;
   std::vector<LinearBasis> bases_;
   std::vector<Kept<PatchLight>> light_;  ///< by patch

@@ -158,16 +158,17 @@ std::unique_ptr<const InterpolatedLight::PatchCells> InterpolatedLight::cells_of
   return cells;
 }
 
-Rgb InterpolatedLight::light_of(std::int32_t n) const {
+Rgb InterpolatedLight::light_of(std::int32_t n, const Cancellation& cancellation) const {
   return at(light_, n).get([&] {
     const PlanePoint& point = at(points_.points(), n);
-    return std::make_unique<const Rgb>(gathered_.at_point(point.place, point.normal, 0).irradiance);
+    return std::make_unique<const Rgb>(
+        gathered_.at_point(point.place, point.normal, 0, cancellation).irradiance);
   });
 }
 
 /// The light at a point of a patch that is no point of the scene.
-GatheredLight::Gathered InterpolatedLight::light_inside(const PatchCells& cells,
-                                                        const Vec3& x) const {
+GatheredLight::Gathered InterpolatedLight::light_inside(const PatchCells& cells, const Vec3& x,
+                                                        const Cancellation& cancellation) const {
   // A point that two cells compute differs by rounding: the place that it is rounded to is lit.
   const double step = 0x1p-36 * diagonal_;
   const Vec3 from_low = x - scene_.bounds().low;
@@ -184,18 +185,19 @@ GatheredLight::Gathered InterpolatedLight::light_inside(const PatchCells& cells,
                                                          static_cast<double>(place[2])};
   const Patch& patch = scene_.patch(cells.patch);
   const GatheredLight::Gathered light =
-      gathered_.at_point(points_.inward(rounded, patch.center), patch.normal, 0);
+      gathered_.at_point(points_.inward(rounded, patch.center), patch.normal, 0, cancellation);
   const std::lock_guard lock(cells.mutex);
   return cells.light.emplace(place, light).first->second;
 }
 
-std::unique_ptr<const InterpolatedLight::Cell> InterpolatedLight::root_of(const PatchCells& cells,
-                                                                          std::size_t q) const {
+std::unique_ptr<const InterpolatedLight::Cell> InterpolatedLight::root_of(
+    const PatchCells& cells, std::size_t q, const Cancellation& cancellation) const {
   auto root = std::make_unique<Cell>();
   const Quad& quad = cells.quads[q];
   for (std::size_t c = 0; c < 4; ++c) {
-    root->light[c] = quad.node[c] >= 0 ? light_of(quad.node[c])
-                                       : light_inside(cells, quad.corners[c]).irradiance;
+    root->light[c] = quad.node[c] >= 0
+                         ? light_of(quad.node[c], cancellation)
+                         : light_inside(cells, quad.corners[c], cancellation).irradiance;
   }
   return root;
 }
@@ -204,11 +206,12 @@ std::unique_ptr<const InterpolatedLight::Cell> InterpolatedLight::root_of(const 
 /// is interpolated there, W/m².
 double InterpolatedLight::difference_at_quarters(const PatchCells& cells,
                                                  const std::array<Vec3, 4>& corners,
-                                                 const Cell& cell) const {
+                                                 const Cell& cell,
+                                                 const Cancellation& cancellation) const {
   double largest = 0;
   // A line through the middle meets at most one of two that are not opposite.
   for (const double s : {0.25, 0.75}) {
-    const Rgb light = light_inside(cells, blend(corners, s, 0.25)).irradiance;
+    const Rgb light = light_inside(cells, blend(corners, s, 0.25), cancellation).irradiance;
     largest = std::max(largest, max_abs(light - blend(cell.light, s, 0.25)));
   }
   return largest;
@@ -216,7 +219,8 @@ double InterpolatedLight::difference_at_quarters(const PatchCells& cells,
 
 /// Decides whether a cell is divided, and divides it.
 std::unique_ptr<const InterpolatedLight::Division> InterpolatedLight::division_of(
-    const PatchCells& cells, const std::array<Vec3, 4>& corners, const Cell& cell) const {
+    const PatchCells& cells, const std::array<Vec3, 4>& corners, const Cell& cell,
+    const Cancellation& cancellation) const {
   constexpr double largest = 1.0 / 12, smallest = 1.0 / 1500, tiny = 1.0 / 300;
   constexpr double least_tolerance = 0.004, least_contrast = 0.06;
   const double size = size_of(corners) / diagonal_;
@@ -225,22 +229,22 @@ std::unique_ptr<const InterpolatedLight::Division> InterpolatedLight::division_o
     return division;
   }
   const Vec3 center = blend(corners, 0.5, 0.5);
-  const auto [middle, noise] = light_inside(cells, center);
-  const Rgb all = middle + lamps_.at_point(cells.patch, center);
+  const auto [middle, noise] = light_inside(cells, center, cancellation);
+  const Rgb all = middle + lamps_.at_point(cells.patch, center, cancellation);
   const double unit = std::max(max_abs(all), std::numeric_limits<double>::min());
   double difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) / unit;
   const double tolerance = std::max(least_tolerance, 2 * max_abs(noise) / unit);
   // The edge of a shadow through the middle has the mean of the corners there.
   if (size <= largest && size > smallest && difference <= tolerance &&
       cell.expected_difference > tolerance && contrast_of(cell.light) > least_contrast * unit) {
-    difference = difference_at_quarters(cells, corners, cell) / unit;
+    difference = difference_at_quarters(cells, corners, cell, cancellation) / unit;
   }
   if (size <= largest && (difference <= tolerance || size <= smallest)) {
     division->is_unclear = difference > 4 * tolerance;
     return division;
   }
   const auto edge = [&](double s, double t) {
-    return light_inside(cells, blend(corners, s, t)).irradiance;
+    return light_inside(cells, blend(corners, s, t), cancellation).irradiance;
   };
   const Rgb bottom = edge(0.5, 0), right = edge(1, 0.5), top = edge(0.5, 1), left = edge(0, 0.5);
   division->parts = std::make_unique<Cell[]>(4);
@@ -255,7 +259,8 @@ std::unique_ptr<const InterpolatedLight::Division> InterpolatedLight::division_o
   return division;
 }
 
-Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x) const {
+Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x,
+                                const Cancellation& cancellation) const {
   const PatchCells& cells = at(cells_, patch).get([&] { return cells_of(patch); });
   const Vec3& normal = scene_.patch(patch).normal;
   std::size_t q = 0;
@@ -270,12 +275,12 @@ Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x) const {
   }
   std::array<Vec3, 4> corners = cells.quads[q].corners;
   auto [s, t] = coordinates_in(corners, normal, x);
-  const Cell* cell = &cells.roots[q].get([&] { return root_of(cells, q); });
+  const Cell* cell = &cells.roots[q].get([&] { return root_of(cells, q, cancellation); });
   while (true) {
     const Division& division =
-        cell->division.get([&] { return division_of(cells, corners, *cell); });
+        cell->division.get([&] { return division_of(cells, corners, *cell, cancellation); });
     if (!division.parts) {
-      return division.is_unclear ? gathered_.at_point(x, normal, 0).irradiance
+      return division.is_unclear ? gathered_.at_point(x, normal, 0, cancellation).irradiance
                                  : blend(cell->light, s, t);
     }
     const bool is_right = s >= 0.5, is_upper = t >= 0.5;

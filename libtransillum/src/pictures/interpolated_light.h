@@ -27,7 +27,8 @@ class InterpolatedLight {
   InterpolatedLight& operator=(const InterpolatedLight&) = delete;
 
   /// Irradiance by what is not a lamp, W/m².
-  Rgb at_point(PatchId patch, const Vec3& x) const;
+  /// @throws Canceled
+  Rgb at_point(PatchId patch, const Vec3& x, const Cancellation& cancellation) const;
 
  private:
   struct Cell;
@@ -38,14 +39,16 @@ class InterpolatedLight {
     std::array<std::int32_t, 4> node;  ///< index of a PlanePoint; -1: no point of the scene
   };
   std::unique_ptr<const PatchCells> cells_of(PatchId patch) const;
-  Rgb light_of(std::int32_t n) const;
-  GatheredLight::Gathered light_inside(const PatchCells& cells, const Vec3& x) const;
-  std::unique_ptr<const Cell> root_of(const PatchCells& cells, std::size_t q) const;
+  Rgb light_of(std::int32_t n, const Cancellation& cancellation) const;
+  GatheredLight::Gathered light_inside(const PatchCells& cells, const Vec3& x,
+                                       const Cancellation& cancellation) const;
+  std::unique_ptr<const Cell> root_of(const PatchCells& cells, std::size_t q,
+                                      const Cancellation& cancellation) const;
   double difference_at_quarters(const PatchCells& cells, const std::array<Vec3, 4>& corners,
-                                const Cell& cell) const;
+                                const Cell& cell, const Cancellation& cancellation) const;
   std::unique_ptr<const Division> division_of(const PatchCells& cells,
-                                              const std::array<Vec3, 4>& corners,
-                                              const Cell& cell) const;
+                                              const std::array<Vec3, 4>& corners, const Cell& cell,
+                                              const Cancellation& cancellation) const;
 
   const Scene& scene_;
   const PlanePoints& points_;

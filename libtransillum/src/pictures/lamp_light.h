@@ -9,27 +9,34 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
-#include "transillum/scene.h"
+#include "transillum/solution.h"
 #include "visibility/pairs/patch_exchange.h"
 
 namespace transillum {
 
-/// The light of lamps at points of surfaces: the visible part of each lamp in closed form.
+/// The fraction that a patch reflects, by its lobe too if the solve has lobes.
+Rgb reflectance_of(const Solution& solution, PatchId patch);
+
+/// The light of lamps at points of surfaces: the visible part of each lamp in closed form. Lamps
+/// are emitting faces: the most powerful, and where there are many, those that are brighter than
+/// what reflects.
 ///
 /// Threads: any number may query.
 class LampLight {
  public:
-  /// Keeps `scene` alive.
+  /// Keeps the scene of `solution` alive.
   /// @throws Canceled
-  LampLight(std::shared_ptr<const Scene> scene, const Cancellation& cancellation);
+  LampLight(const Solution& solution, const Cancellation& cancellation);
 
-  /// The patches whose exitance it treats, ascending: of the brightest faces.
+  /// The patches whose exitance it treats, ascending.
   const std::vector<PatchId>& patches() const { return patches_; }
-  /// Number of emitting faces that are none of them.
+  /// Number of emitting faces that are none of them, and their part of all power.
   int gathered_count() const { return gathered_count_; }
+  double gathered_part() const { return gathered_part_; }
   /// Irradiance by all lamps at a point of a patch, W/m².
   /// @param x on the patch, m
-  Rgb at_point(PatchId patch, const Vec3& x) const;
+  /// @throws Canceled
+  Rgb at_point(PatchId patch, const Vec3& x, const Cancellation& cancellation) const;
 
  private:
   /// The view of one lamp from a patch.
@@ -40,13 +47,14 @@ class LampLight {
   using Views = std::vector<View>;
   using ViewsByPatch = std::unordered_map<PatchId, Views>;
 
-  Views& views_of(PatchId patch) const;
+  Views& views_of(PatchId patch, const Cancellation& cancellation) const;
 
   std::shared_ptr<const Scene> scene_;
   ExchangeFinder finder_;
   std::vector<LampPolygon> lamps_;
   std::vector<PatchId> patches_;
   int gathered_count_ = 0;
+  double gathered_part_ = 0;
   mutable oneapi::tbb::enumerable_thread_specific<ViewsByPatch> views_;
 };
 

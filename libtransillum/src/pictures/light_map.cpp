@@ -71,7 +71,8 @@ Vec3 nearest_in(const Corners& polygon, const Vec3& normal, const Vec3& x) {
 }
 
 /// By patch, the first patch of its chart: patches of one material that share points of a plane.
-std::vector<PatchId> chart_of_patches(const Scene& scene, const PlanePoints& points) {
+std::vector<PatchId> chart_of_patches(const Scene& scene, const PlanePoints& points,
+                                      const Cancellation& cancellation) {
   std::vector<PatchId> first(scene.patches().size());
   std::iota(first.begin(), first.end(), 0);
   const auto root = [&](PatchId i) {
@@ -81,6 +82,7 @@ std::vector<PatchId> chart_of_patches(const Scene& scene, const PlanePoints& poi
     return i;
   };
   for (const PlanePoint& point : points.points()) {
+    cancellation.throw_if_canceled();
     for (const PatchId i : point.patches) {
       for (const PatchId j : point.patches) {
         if (i < j && scene.patch(i).material == scene.patch(j).material) {
@@ -106,9 +108,11 @@ struct [[gnu::visibility("hidden")]] LightMap::Impl {
 
   /// @param first by patch, the first patch of its chart
   /// @param density texels per meter; 0 means two along each side of a chart
-  Impl(const Scene& scene, const std::vector<PatchId>& first, double density) {
+  Impl(const Scene& scene, const std::vector<PatchId>& first, double density,
+       const Cancellation& cancellation = {}) {
     chart_of.assign(first.size(), 0);
     for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      cancellation.throw_if_canceled();
       if (at(first, i) == i) {
         at(chart_of, i) = static_cast<std::int32_t>(charts.size());
         charts.push_back(frame_of(scene, i));
@@ -207,7 +211,8 @@ namespace {
 
 /// The texels of a chart, row by row with its border: of those that no patch covers, only those
 /// beside a covered one have a patch.
-std::vector<Texel> texels_of(const Scene& scene, const PlanePoints& points, const Chart& chart) {
+std::vector<Texel> texels_of(const Scene& scene, const PlanePoints& points, const Chart& chart,
+                             const Cancellation& cancellation) {
   const int columns = chart.columns + 2, rows = chart.rows + 2;
   const auto index = [&](int column, int row) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -238,6 +243,7 @@ std::vector<Texel> texels_of(const Scene& scene, const PlanePoints& points, cons
   // Beyond the edge of a patch, up to the texel that filtering reads there.
   std::vector<double> distances(texels.size(), HUGE_VAL);
   for (const PolygonOfPatch& part : parts) {
+    cancellation.throw_if_canceled();
     for (int row = std::max(part.box[2], 0); row <= std::min(part.box[3], rows - 1); ++row) {
       for (int column = std::max(part.box[0], 0); column <= std::min(part.box[1], columns - 1);
            ++column) {
@@ -288,21 +294,22 @@ LightMap::LightMap(const Scene& scene, const SurfaceLight& light, const Options&
         fmt::format("{}: {} texels per meter; it must be above 0", scene.name(), options.density));
   }
   constexpr double along_diagonal = 1024;
-  const PlanePoints points(scene);
+  const PlanePoints points(scene, cancellation);
   auto impl = std::make_unique<Impl>(
-      scene, chart_of_patches(scene, points),
-      options.density > 0 ? options.density : along_diagonal / scene.bounds().diagonal());
+      scene, chart_of_patches(scene, points, cancellation),
+      options.density > 0 ? options.density : along_diagonal / scene.bounds().diagonal(),
+      cancellation);
   WorkerThreads workers(thread_count(options.threads));
   constexpr std::size_t batch = 4096;
   double done = 0;
   for (const Chart& chart : impl->charts) {
-    const std::vector<Texel> texels = texels_of(scene, points, chart);
+    const std::vector<Texel> texels = texels_of(scene, points, chart, cancellation);
     for (std::size_t first = 0; first < texels.size(); first += batch) {
       const std::size_t end = std::min(first + batch, texels.size());
       for_each_index(workers, first, end, [&](std::size_t n) {
         cancellation.throw_if_canceled();
         if (texels[n].patch != no_patch) {
-          impl->set(chart, n, light.radiosity(texels[n].patch, texels[n].point));
+          impl->set(chart, n, light.radiosity(texels[n].patch, texels[n].point, cancellation));
         }
       });
       done += static_cast<double>(end - first);

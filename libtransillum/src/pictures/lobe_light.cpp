@@ -48,6 +48,7 @@ struct LobeLight::Query {
   const LobeFunction& function;
   Vec3 x, normal, toward, mirror;
   TangentFrame frame;  ///< about the mirror direction, or the normal
+  const Cancellation& cancellation;
 
   double reflected(const Vec3& direction) const {
     return function.value(toward, direction, normal) * dot(direction, normal);
@@ -108,7 +109,8 @@ Rgb LobeLight::by_lobe(const Query& query, double u, double v) const {
   if (!(dot(direction, query.normal) > 0 && density > 0)) {
     return {};
   }
-  const auto [light, lamp, place] = gathered_.arriving(query.x, query.normal, direction);
+  const auto [light, lamp, place] =
+      gathered_.arriving(query.x, query.normal, direction, query.cancellation);
   Rgb sum = 1 / (rays_ * density) * light;
   if (lamp != no_patch) {
     sum += weight_of(query, direction, lamp, place) * scene_.exitance(lamp);
@@ -132,7 +134,8 @@ Rgb LobeLight::by_lamps(const Query& query, double u, double v) const {
     return {};
   }
   constexpr double rounding = 1e-4;
-  const auto [light, lamp, place] = gathered_.arriving(query.x, query.normal, direction);
+  const auto [light, lamp, place] =
+      gathered_.arriving(query.x, query.normal, direction, query.cancellation);
   if (lamp == no_patch || std::abs(norm(place - query.x) - distance) > rounding * distance) {
     return {};
   }
@@ -150,8 +153,8 @@ double LobeLight::weight_of(const Query& query, const Vec3& direction, PatchId l
               lamp_rays_ * by_area * dot(to, to) / std::max(cosine, 1e-12));
 }
 
-Rgb LobeLight::at_point(PatchId patch, const Vec3& x, const Vec3& toward,
-                        std::uint64_t salt) const {
+Rgb LobeLight::at_point(PatchId patch, const Vec3& x, const Vec3& toward, std::uint64_t salt,
+                        const Cancellation& cancellation) const {
   const auto& [lobe, function] = at(lobes_, scene_.patch(patch).material);
   if (!function) {
     return {};
@@ -164,7 +167,8 @@ Rgb LobeLight::at_point(PatchId patch, const Vec3& x, const Vec3& toward,
                     normal,
                     toward,
                     mirror,
-                    TangentFrame(lobe.shape == LobeShape::phong ? mirror : normal)};
+                    TangentFrame(lobe.shape == LobeShape::phong ? mirror : normal),
+                    cancellation};
   const auto [pixel, number] = split(salt);
   Rgb sum;
   for (int k = 0; k < rays_; ++k) {

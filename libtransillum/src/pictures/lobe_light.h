@@ -25,7 +25,9 @@ class LobeLight {
   /// pi times the radiance that the lobe of a patch sends from x, W/m²; 0 without a lobe.
   /// @param toward unit, away from the surface
   /// @param salt names one of many sequences of rays
-  Rgb at_point(PatchId patch, const Vec3& x, const Vec3& toward, std::uint64_t salt) const;
+  /// @throws Canceled
+  Rgb at_point(PatchId patch, const Vec3& x, const Vec3& toward, std::uint64_t salt,
+               const Cancellation& cancellation) const;
 
  private:
   struct Used {

@@ -34,9 +34,9 @@ SampleRay sample_ray(const CameraRays& rays, const PixelSample& sample) {
 }
 
 Rgb pixel_radiance(const SurfaceLight& light, const CameraRays& rays, int column, int row,
-                   int count) {
+                   int count, const Cancellation& cancellation) {
   return mean_of_samples(rays, column, row, count, [&](const SampleRay& sample) {
-    return light.radiance(sample.ray.origin, sample.ray.direction, sample.salt);
+    return light.radiance(sample.ray.origin, sample.ray.direction, sample.salt, cancellation);
   });
 }
 
@@ -45,7 +45,7 @@ Picture make_picture(std::shared_ptr<const Solution> solution, const Camera& cam
                      const std::function<void(double)>& progress) {
   options.validate();
   const CameraRays rays(*solution->scene, camera, options.width, options.height);
-  check_eye(solution->scene, camera);
+  check_eye(solution->scene, camera, cancellation);
   const SurfaceLight light(std::move(solution), options.gather, cancellation);
   Picture picture{options.width, options.height, {}, light.gathered_lamps()};
   picture.radiance.resize(static_cast<std::size_t>(options.width) *
@@ -58,9 +58,9 @@ Picture make_picture(std::shared_ptr<const Solution> solution, const Camera& cam
                               [&](const SampleRay& sample) {
                                 return 1 / std::numbers::pi *
                                        light.irradiance(sample.ray.origin, sample.ray.direction,
-                                                        sample.salt);
+                                                        sample.salt, cancellation);
                               })
-            : pixel_radiance(light, rays, column, row, options.samples);
+            : pixel_radiance(light, rays, column, row, options.samples, cancellation);
   };
   visit_pixels({options.width, options.height}, options.threads, cancellation, visit, progress);
   return picture;

@@ -7,7 +7,8 @@
 #include <tuple>
 
 namespace transillum {
-PlanePoints::PlanePoints(const Scene& scene)
+
+PlanePoints::PlanePoints(const Scene& scene, const Cancellation& cancellation)
     : scene_(scene), step_(1e-4 * scene.bounds().diagonal()) {
   constexpr double steps = 1 << 20;  // in a component of a normal
   const auto rounded = [](double x) { return std::lround(steps * x); };
@@ -16,6 +17,7 @@ PlanePoints::PlanePoints(const Scene& scene)
   std::vector<double> counts;
   const std::vector<Piece>& pieces = scene.pieces();
   for (std::size_t k = 0; k < pieces.size(); ++k) {
+    cancellation.throw_if_canceled();
     while (first_piece_.size() <= static_cast<std::size_t>(pieces[k].patch)) {
       first_piece_.push_back(k);
     }

@@ -7,6 +7,7 @@
 
 #include "geometry/form_factor.h"
 #include "transillum/at.h"
+#include "transillum/cancellation.h"
 #include "transillum/scene.h"
 
 namespace transillum {
@@ -24,7 +25,8 @@ struct PlanePoint {
 class PlanePoints {
  public:
   /// Keeps a reference to `scene`.
-  explicit PlanePoints(const Scene& scene);
+  /// @throws Canceled
+  explicit PlanePoints(const Scene& scene, const Cancellation& cancellation = {});
 
   const std::vector<PlanePoint>& points() const { return points_; }
   /// Index into points() of a corner of a piece.

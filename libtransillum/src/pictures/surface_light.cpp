@@ -42,8 +42,8 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
         scene(*solution->scene),
         is_interpolated(gather == 0),
         embree(scene, cancellation),
-        points(scene),
-        lamps(solution->scene, cancellation),
+        points(scene, cancellation),
+        lamps(*solution, cancellation),
         hits(*solution, embree, points, lamps),
         gathered(*solution, embree, hits, gather > 0 ? gather : interpolated_rays(scene)),
         interpolated(scene, points, gathered, lamps),
@@ -54,16 +54,19 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
     }
   }
 
-  Rgb irradiance(PatchId patch, const Vec3& x, std::uint64_t salt) const {
-    return lamps.at_point(patch, x) +
-           (is_interpolated ? interpolated.at_point(patch, x)
-                            : gathered.at_point(x, scene.patch(patch).normal, salt).irradiance);
+  Rgb irradiance(PatchId patch, const Vec3& x, std::uint64_t salt,
+                 const Cancellation& cancellation) const {
+    return lamps.at_point(patch, x, cancellation) +
+           (is_interpolated
+                ? interpolated.at_point(patch, x, cancellation)
+                : gathered.at_point(x, scene.patch(patch).normal, salt, cancellation).irradiance);
   }
   /// E and what `reflectance` makes of H.
-  Rgb radiosity(PatchId patch, const Vec3& x, const Rgb& reflectance, std::uint64_t salt) const {
+  Rgb radiosity(PatchId patch, const Vec3& x, const Rgb& reflectance, std::uint64_t salt,
+                const Cancellation& cancellation) const {
     return max_abs(reflectance) == 0
                ? scene.exitance(patch)
-               : scene.exitance(patch) + reflectance * irradiance(patch, x, salt);
+               : scene.exitance(patch) + reflectance * irradiance(patch, x, salt, cancellation);
   }
 };
 
@@ -74,23 +77,27 @@ SurfaceLight::~SurfaceLight() = default;
 SurfaceLight::SurfaceLight(SurfaceLight&&) noexcept = default;
 SurfaceLight& SurfaceLight::operator=(SurfaceLight&&) noexcept = default;
 
-Rgb SurfaceLight::radiosity(PatchId patch, const Vec3& point) const {
-  return impl_->radiosity(patch, point, impl_->hits.reflectance(patch), 0);
+Rgb SurfaceLight::radiosity(PatchId patch, const Vec3& point,
+                            const Cancellation& cancellation) const {
+  return impl_->radiosity(patch, point, reflectance_of(*impl_->solution, patch), 0, cancellation);
 }
 
-Rgb SurfaceLight::direct_irradiance(PatchId patch, const Vec3& point) const {
-  return impl_->lamps.at_point(patch, point);
+Rgb SurfaceLight::direct_irradiance(PatchId patch, const Vec3& point,
+                                    const Cancellation& cancellation) const {
+  return impl_->lamps.at_point(patch, point, cancellation);
 }
 
-Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt) const {
+Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt,
+                           const Cancellation& cancellation) const {
   const Vec3 along = normalized(direction);
   const auto hit = impl_->picker.first_lit_hit(origin, along);
   const Sky& sky = impl_->solution->sky;
   Rgb light;
   if (hit) {
-    light = impl_->radiosity(hit->patch, hit->point, impl_->scene.reflectance(hit->patch), salt);
+    light = impl_->radiosity(hit->patch, hit->point, impl_->scene.reflectance(hit->patch), salt,
+                             cancellation);
     if (impl_->lobes) {
-      light += impl_->lobes->at_point(hit->patch, hit->point, -along, salt);
+      light += impl_->lobes->at_point(hit->patch, hit->point, -along, salt, cancellation);
     }
   } else if (sky.is_set()) {
     light = sky.relative_radiance(along) * sky.exitance;
@@ -98,9 +105,10 @@ Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint6
   return 1 / std::numbers::pi * light;
 }
 
-Rgb SurfaceLight::irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt) const {
+Rgb SurfaceLight::irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt,
+                             const Cancellation& cancellation) const {
   const auto hit = impl_->picker.first_lit_hit(origin, direction);
-  return hit ? impl_->irradiance(hit->patch, hit->point, salt) : Rgb();
+  return hit ? impl_->irradiance(hit->patch, hit->point, salt, cancellation) : Rgb();
 }
 
 int SurfaceLight::gathered_lamps() const { return impl_->lamps.gathered_count(); }

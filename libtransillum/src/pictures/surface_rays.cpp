@@ -24,6 +24,19 @@ std::uint32_t interleaved(std::uint32_t a, std::uint32_t b) {
   return bits;
 }
 
+/// A half-line, in Embree's coordinates.
+struct Line {
+  const Vec3 &start, &direction;
+};
+
+/// The meeting of a ray with a triangle that Embree has found.
+Met met_at(const EmbreeScene& scene, const Line& line, unsigned triangle, float distance) {
+  const PatchId hit = scene.patch_of(triangle);
+  const PatchId lit = scene.lit_at(hit, line.start, line.direction, distance);
+  return {lit == no_patch ? hit : lit, lit != no_patch,
+          scene.outside(line.start + static_cast<double>(distance) * line.direction)};
+}
+
 }  // namespace
 
 TangentFrame::TangentFrame(const Vec3& normal)
@@ -54,6 +67,39 @@ std::array<std::vector<Vec3>, 2> cosine_directions(int count, double shift_u, do
 
 Vec3 start_of_rays(const EmbreeScene& scene, const Vec3& x, const Vec3& normal) {
   return scene.inside(x) + lift * normal;
+}
+
+Met met_by(const EmbreeScene& scene, const Vec3& start, const Vec3& direction) {
+  RTCRayHit ray = make_ray(start, direction);
+  scene.first_hit(ray, false);
+  return has_hit(ray) ? met_at(scene, {start, direction}, ray.hit.primID, ray.ray.tfar) : Met();
+}
+
+std::array<Met, ray_packet> met_by(const EmbreeScene& scene, const Vec3& start,
+                                   std::span<const Vec3> directions) {
+  alignas(64) std::array<int, ray_packet> valid{};
+  RTCRayHit16 rays{};
+  for (std::size_t k = 0; k < ray_packet; ++k) {
+    const Vec3& direction = directions[std::min(k, directions.size() - 1)];
+    valid[k] = k < directions.size() ? -1 : 0;
+    rays.ray.org_x[k] = static_cast<float>(start.x);
+    rays.ray.org_y[k] = static_cast<float>(start.y);
+    rays.ray.org_z[k] = static_cast<float>(start.z);
+    rays.ray.dir_x[k] = static_cast<float>(direction.x);
+    rays.ray.dir_y[k] = static_cast<float>(direction.y);
+    rays.ray.dir_z[k] = static_cast<float>(direction.z);
+    rays.ray.tfar[k] = HUGE_VALF;
+    rays.ray.mask[k] = ~0U;
+    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  scene.first_hits(valid.data(), rays);
+  std::array<Met, ray_packet> met;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    if (rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID) {
+      met[k] = met_at(scene, {start, directions[k]}, rays.hit.primID[k], rays.ray.tfar[k]);
+    }
+  }
+  return met;
 }
 
 bool is_covered(const EmbreeScene& scene, const Vec3& x, const Vec3& normal, bool dark_sky) {

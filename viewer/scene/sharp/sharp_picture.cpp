@@ -37,10 +37,12 @@ constexpr std::size_t first_fine_pass = 3;
 /// The pixels of one picture.
 class Pixels {
  public:
-  Pixels(const SharpSubject& subject, const SurfaceLight& light, const CameraRays& rays)
+  Pixels(const SharpSubject& subject, const SurfaceLight& light, const CameraRays& rays,
+         const Cancellation& cancellation)
       : subject_(subject),
         light_(light),
         rays_(rays),
+        cancellation_(cancellation),
         width_(subject.size.width()),
         height_(subject.size.height()),
         image_(subject.size, QImage::Format_RGBA8888),
@@ -66,7 +68,7 @@ class Pixels {
       const PatchId patch = seen(ray);
       Rgb color = background_;
       if (patch != no_patch) {
-        const Rgb radiance = light_.radiance(ray.origin, ray.direction, salt);
+        const Rgb radiance = light_.radiance(ray.origin, ray.direction, salt, cancellation_);
         // The mean of what is shown: the edge of a lamp that is much too bright is smooth.
         color = subject_.scale.exposed(subject_.by_eye ? radiance : std::numbers::pi * radiance);
       }
@@ -178,6 +180,7 @@ class Pixels {
   const SharpSubject& subject_;
   const SurfaceLight& light_;
   const CameraRays& rays_;
+  const Cancellation& cancellation_;
   int width_, height_;
   QImage image_;
   std::uint8_t* bytes_;
@@ -228,7 +231,7 @@ void SharpRenderer::render(const SharpSubject& subject, bool begins_fine,
                       .field_of_view = subject.view.view_angle};
   const QSize& size = subject.size;
   const CameraRays rays(*light->scene, camera, size.width(), size.height());
-  Pixels pixels(subject, light->light, rays);
+  Pixels pixels(subject, light->light, rays, cancellation);
   auto delivered = std::chrono::steady_clock::now();
   double done = 0;
   for (const Pass& pass : std::span(passes).subspan(begins_fine ? first_fine_pass : 0)) {

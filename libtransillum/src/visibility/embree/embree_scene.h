@@ -32,6 +32,8 @@ class EmbreeScene {
 
   /// A point of the scene in Embree's coordinates.
   Vec3 inside(const Vec3& p) const { return scale_ * (p - center_); }
+  /// The point of the scene at Embree's coordinates.
+  Vec3 outside(const Vec3& p) const { return center_ + (1 / scale_) * p; }
   /// Embree's units per meter.
   double scale() const { return scale_; }
   PatchId patch_of(unsigned triangle) const { return patches_[triangle]; }
