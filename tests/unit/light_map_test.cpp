@@ -150,6 +150,8 @@ TEST(LightMap, RefusesWhatIsTooLarge) {
               HasSubstr("it needs fewer patches or texels per meter"));
   EXPECT_THAT(refusal([&] { exact_map(solution, {.density = -1}); }),
               HasSubstr("-1 texels per meter"));
+  EXPECT_THAT(refusal([&] { exact_map(solution, {.density = 40, .tolerance = 0}); }),
+              HasSubstr("a tolerance of 0"));
 }
 
 }  // namespace

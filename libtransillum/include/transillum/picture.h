@@ -76,6 +76,16 @@ struct Picture {
   int gathered_lamps = 0;
 };
 
+/// How precisely reflected light is interpolated. More precise queries use what others have
+/// computed.
+struct Interpolation {
+  /// Least size of structures that are asked for, m; 0 means all.
+  double detail = 0;
+  /// Largest difference that is accepted between gathered and interpolated light where both are
+  /// compared, as a fraction of all light there, > 0; more where that is only noise.
+  double tolerance = 0.004;
+};
+
 /// The light that points of a result's surfaces receive and send, computed when it is asked for;
 /// what is computed for one query serves the next.
 ///
@@ -97,7 +107,8 @@ class SurfaceLight {
   /// B at a point of a patch, W/m²: E + rho H, with the reflectance of lobes in a glossy solve.
   /// @param point on the patch, m.
   /// @throws Canceled
-  Rgb radiosity(PatchId patch, const Vec3& point, const Cancellation& cancellation = {}) const;
+  Rgb radiosity(PatchId patch, const Vec3& point, const Cancellation& cancellation = {},
+                const Interpolation& precision = {}) const;
   /// Irradiance by sources alone at a point of a patch, W/m², exact but for a sky.
   /// @throws Canceled
   Rgb direct_irradiance(PatchId patch, const Vec3& point,
@@ -174,6 +185,7 @@ class LightMap {
   struct Options {
     /// Texels per meter, > 0; 0 means 1,024 along the diagonal of the scene's bounding box.
     double density = 0;
+    double tolerance = Interpolation().tolerance;  ///< Interpolation::tolerance
     int threads = 0;  ///< 0 uses all cores; the result does not depend on it
   };
 

@@ -18,6 +18,12 @@
 namespace transillum {
 namespace {
 
+/// Sizes over the diagonal of the scene: larger cells are always divided, smaller ones never, and a
+/// tiny patch is one cell.
+constexpr double largest = 1.0 / 12, smallest = 1.0 / 1500, tiny = 1.0 / 300;
+/// Tolerances from which on points of a smallest cell gather.
+constexpr double unclear = 4;
+
 using Place = std::array<std::int64_t, 3>;  ///< a position in steps
 
 struct PlaceHash {
@@ -98,20 +104,41 @@ double size_of(const std::array<Vec3, 4>& corners) {
 
 }  // namespace
 
+/// The light of a cell's middle, compared with the mean of its corners.
+struct InterpolatedLight::Check {
+  GatheredLight::Gathered middle;
+  double unit = 0;        ///< all light there, W/m²
+  double difference = 0;  ///< from the mean or what is interpolated, over all light
+  double tolerance = 0;   ///< the largest accepted difference at the default tolerance
+
+  double excess() const { return difference / tolerance; }
+};
+
 /// A part of a quadrilateral, a square of its coordinates.
 struct InterpolatedLight::Cell {
-  std::array<Rgb, 4> light{};  ///< at its corners
-  bool is_part = false;        ///< whether it is of a divided cell
+  std::array<Rgb, 4> light{};     ///< at its corners
+  std::array<double, 4> noise{};  ///< there, W/m²
+  bool is_part = false;           ///< whether it is of a divided cell
   /// The difference of the middle from the mean of the corners if the light is smooth, as a
   /// fraction of all light: a quarter of the difference in the cell that was divided.
   double expected_difference = HUGE_VAL;
-  Kept<Division> division;
-};
+  /// The largest difference of a middle in the divided cell, of its edges, too, over the tolerance.
+  double roughness = HUGE_VAL;
+  Kept<Check> check;
+  Kept<std::array<Cell, 4>> parts;
 
-/// A cell is interpolated, or divided, or its points gather.
-struct InterpolatedLight::Division {
-  std::unique_ptr<Cell[]> parts = nullptr;  ///< four
-  bool is_unclear = false;
+  void set(std::size_t corner, const GatheredLight::Gathered& gathered) {
+    light[corner] = gathered.irradiance;
+    noise[corner] = max_abs(gathered.noise);
+  }
+  /// RMS over the corners and the middle, W/m²: one value may be small by chance.
+  double noise_with(const Rgb& middle) const {
+    double square = std::pow(max_abs(middle), 2);
+    for (const double at_corner : noise) {
+      square += at_corner * at_corner;
+    }
+    return std::sqrt(square / 5);
+  }
 };
 
 struct InterpolatedLight::PatchCells {
@@ -158,11 +185,12 @@ std::unique_ptr<const InterpolatedLight::PatchCells> InterpolatedLight::cells_of
   return cells;
 }
 
-Rgb InterpolatedLight::light_of(std::int32_t n, const Cancellation& cancellation) const {
+const GatheredLight::Gathered& InterpolatedLight::light_of(std::int32_t n,
+                                                           const Cancellation& cancellation) const {
   return at(light_, n).get([&] {
     const PlanePoint& point = at(points_.points(), n);
-    return std::make_unique<const Rgb>(
-        gathered_.at_point(point.place, point.normal, 0, cancellation).irradiance);
+    return std::make_unique<const GatheredLight::Gathered>(
+        gathered_.at_point(point.place, point.normal, 0, cancellation));
   });
 }
 
@@ -195,9 +223,8 @@ std::unique_ptr<const InterpolatedLight::Cell> InterpolatedLight::root_of(
   auto root = std::make_unique<Cell>();
   const Quad& quad = cells.quads[q];
   for (std::size_t c = 0; c < 4; ++c) {
-    root->light[c] = quad.node[c] >= 0
-                         ? light_of(quad.node[c], cancellation)
-                         : light_inside(cells, quad.corners[c], cancellation).irradiance;
+    root->set(c, quad.node[c] >= 0 ? light_of(quad.node[c], cancellation)
+                                   : light_inside(cells, quad.corners[c], cancellation));
   }
   return root;
 }
@@ -217,49 +244,58 @@ double InterpolatedLight::difference_at_quarters(const PatchCells& cells,
   return largest;
 }
 
-/// Decides whether a cell is divided, and divides it.
-std::unique_ptr<const InterpolatedLight::Division> InterpolatedLight::division_of(
+std::unique_ptr<const InterpolatedLight::Check> InterpolatedLight::check_of(
     const PatchCells& cells, const std::array<Vec3, 4>& corners, const Cell& cell,
     const Cancellation& cancellation) const {
-  constexpr double largest = 1.0 / 12, smallest = 1.0 / 1500, tiny = 1.0 / 300;
-  constexpr double least_tolerance = 0.004, least_contrast = 0.06;
+  constexpr double least_contrast = 0.06;
   const double size = size_of(corners) / diagonal_;
-  auto division = std::make_unique<Division>();
-  if (size <= tiny && !cell.is_part) {
-    return division;
-  }
   const Vec3 center = blend(corners, 0.5, 0.5);
-  const auto [middle, noise] = light_inside(cells, center, cancellation);
+  auto check = std::make_unique<Check>();
+  check->middle = light_inside(cells, center, cancellation);
+  const Rgb& middle = check->middle.irradiance;
   const Rgb all = middle + lamps_.at_point(cells.patch, center, cancellation);
   const double unit = std::max(max_abs(all), std::numeric_limits<double>::min());
-  double difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) / unit;
-  const double tolerance = std::max(least_tolerance, 2 * max_abs(noise) / unit);
+  check->unit = unit;
+  check->difference = max_abs(middle - blend(cell.light, 0.5, 0.5)) / unit;
+  check->tolerance =
+      std::max(Interpolation().tolerance, 2 * cell.noise_with(check->middle.noise) / unit);
   // The edge of a shadow through the middle has the mean of the corners there.
-  if (size <= largest && size > smallest && difference <= tolerance &&
-      cell.expected_difference > tolerance && contrast_of(cell.light) > least_contrast * unit) {
-    difference = difference_at_quarters(cells, corners, cell, cancellation) / unit;
+  if (size <= largest && size > smallest && check->excess() <= 1 &&
+      cell.expected_difference > check->tolerance &&
+      contrast_of(cell.light) > least_contrast * unit) {
+    check->difference = difference_at_quarters(cells, corners, cell, cancellation) / unit;
   }
-  if (size <= largest && (difference <= tolerance || size <= smallest)) {
-    division->is_unclear = difference > 4 * tolerance;
-    return division;
-  }
-  const auto edge = [&](double s, double t) {
-    return light_inside(cells, blend(corners, s, t), cancellation).irradiance;
-  };
-  const Rgb bottom = edge(0.5, 0), right = edge(1, 0.5), top = edge(0.5, 1), left = edge(0, 0.5);
-  division->parts = std::make_unique<Cell[]>(4);
-  division->parts[0].light = {cell.light[0], bottom, middle, left};
-  division->parts[1].light = {bottom, cell.light[1], right, middle};
-  division->parts[2].light = {middle, right, cell.light[2], top};
-  division->parts[3].light = {left, middle, top, cell.light[3]};
-  for (std::size_t k = 0; k < 4; ++k) {
-    division->parts[k].is_part = true;
-    division->parts[k].expected_difference = difference / 4;
-  }
-  return division;
+  return check;
 }
 
-Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x,
+std::unique_ptr<const std::array<InterpolatedLight::Cell, 4>> InterpolatedLight::parts_of(
+    const PatchCells& cells, const std::array<Vec3, 4>& corners, const Cell& cell,
+    const Check& check, const Cancellation& cancellation) const {
+  auto parts = std::make_unique<std::array<Cell, 4>>();
+  double largest_difference = check.difference;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = (k + 1) % 4;
+    const GatheredLight::Gathered light =
+        light_inside(cells, 0.5 * (corners[k] + corners[next]), cancellation);
+    const Rgb mean = 0.5 * (cell.light[k] + cell.light[next]);
+    largest_difference =
+        std::max(largest_difference, max_abs(light.irradiance - mean) / check.unit);
+    (*parts)[k].set(next, light);
+    (*parts)[next].set(k, light);
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    Cell& part = (*parts)[k];
+    part.light[k] = cell.light[k];
+    part.noise[k] = cell.noise[k];
+    part.set((k + 2) % 4, check.middle);
+    part.is_part = true;
+    part.expected_difference = check.difference / 4;
+    part.roughness = largest_difference / check.tolerance;
+  }
+  return parts;
+}
+
+Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x, const Interpolation& precision,
                                 const Cancellation& cancellation) const {
   const PatchCells& cells = at(cells_, patch).get([&] { return cells_of(patch); });
   const Vec3& normal = scene_.patch(patch).normal;
@@ -276,21 +312,35 @@ Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x,
   std::array<Vec3, 4> corners = cells.quads[q].corners;
   auto [s, t] = coordinates_in(corners, normal, x);
   const Cell* cell = &cells.roots[q].get([&] { return root_of(cells, q, cancellation); });
-  while (true) {
-    const Division& division =
-        cell->division.get([&] { return division_of(cells, corners, *cell, cancellation); });
-    if (!division.parts) {
-      return division.is_unclear ? gathered_.at_point(x, normal, 0, cancellation).irradiance
-                                 : blend(cell->light, s, t);
+  const double looseness = precision.tolerance / Interpolation().tolerance;
+  // If no middle of a cell differs by more than the tolerance, its parts need no check.
+  constexpr double smooth = 1;
+  while (size_of(corners) > precision.detail) {
+    const double size = size_of(corners) / diagonal_;
+    if ((size <= tiny && !cell->is_part) ||
+        (size <= largest && cell->roughness <= smooth * looseness)) {
+      break;
     }
+    const Check& check =
+        cell->check.get([&] { return check_of(cells, corners, *cell, cancellation); });
+    const double excess = check.excess() / looseness;
+    if (size <= largest && (excess <= 1 || size <= smallest)) {
+      if (excess > unclear) {
+        return gathered_.at_point(x, normal, 0, cancellation).irradiance;
+      }
+      break;
+    }
+    const auto& parts =
+        cell->parts.get([&] { return parts_of(cells, corners, *cell, check, cancellation); });
     const bool is_right = s >= 0.5, is_upper = t >= 0.5;
-    cell = &division.parts[is_upper ? (is_right ? 2 : 3) : (is_right ? 1 : 0)];
+    cell = &parts[is_upper ? (is_right ? 2 : 3) : (is_right ? 1 : 0)];
     const double low_s = is_right ? 0.5 : 0, low_t = is_upper ? 0.5 : 0;
     corners = {blend(corners, low_s, low_t), blend(corners, low_s + 0.5, low_t),
                blend(corners, low_s + 0.5, low_t + 0.5), blend(corners, low_s, low_t + 0.5)};
     s = 2 * (s - low_s);
     t = 2 * (t - low_t);
   }
+  return blend(cell->light, s, t);
 }
 
 }  // namespace transillum

@@ -9,6 +9,7 @@
 #include "pictures/gathered_light.h"
 #include "pictures/lamp_light.h"
 #include "pictures/plane_points.h"
+#include "transillum/picture.h"
 
 namespace transillum {
 
@@ -28,35 +29,39 @@ class InterpolatedLight {
 
   /// Irradiance by what is not a lamp, W/m².
   /// @throws Canceled
-  Rgb at_point(PatchId patch, const Vec3& x, const Cancellation& cancellation) const;
+  Rgb at_point(PatchId patch, const Vec3& x, const Interpolation& precision,
+               const Cancellation& cancellation) const;
 
  private:
   struct Cell;
-  struct Division;
+  struct Check;
   struct PatchCells;
   struct Quad {
     std::array<Vec3, 4> corners;
     std::array<std::int32_t, 4> node;  ///< index of a PlanePoint; -1: no point of the scene
   };
   std::unique_ptr<const PatchCells> cells_of(PatchId patch) const;
-  Rgb light_of(std::int32_t n, const Cancellation& cancellation) const;
+  const GatheredLight::Gathered& light_of(std::int32_t n, const Cancellation& cancellation) const;
   GatheredLight::Gathered light_inside(const PatchCells& cells, const Vec3& x,
                                        const Cancellation& cancellation) const;
   std::unique_ptr<const Cell> root_of(const PatchCells& cells, std::size_t q,
                                       const Cancellation& cancellation) const;
   double difference_at_quarters(const PatchCells& cells, const std::array<Vec3, 4>& corners,
                                 const Cell& cell, const Cancellation& cancellation) const;
-  std::unique_ptr<const Division> division_of(const PatchCells& cells,
-                                              const std::array<Vec3, 4>& corners, const Cell& cell,
-                                              const Cancellation& cancellation) const;
+  std::unique_ptr<const Check> check_of(const PatchCells& cells, const std::array<Vec3, 4>& corners,
+                                        const Cell& cell, const Cancellation& cancellation) const;
+  std::unique_ptr<const std::array<Cell, 4>> parts_of(const PatchCells& cells,
+                                                      const std::array<Vec3, 4>& corners,
+                                                      const Cell& cell, const Check& check,
+                                                      const Cancellation& cancellation) const;
 
   const Scene& scene_;
   const PlanePoints& points_;
   const GatheredLight& gathered_;
   const LampLight& lamps_;
   double diagonal_;
-  std::vector<Kept<Rgb>> light_;         ///< by PlanePoint
-  std::vector<Kept<PatchCells>> cells_;  ///< by patch
+  std::vector<Kept<GatheredLight::Gathered>> light_;  ///< by PlanePoint
+  std::vector<Kept<PatchCells>> cells_;               ///< by patch
 };
 
 }  // namespace transillum

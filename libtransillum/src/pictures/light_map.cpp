@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -293,14 +294,20 @@ LightMap::LightMap(const Scene& scene, const SurfaceLight& light, const Options&
     throw InputError(
         fmt::format("{}: {} texels per meter; it must be above 0", scene.name(), options.density));
   }
+  if (!(options.tolerance > 0)) {
+    throw InputError(
+        fmt::format("{}: a tolerance of {}; it must be above 0", scene.name(), options.tolerance));
+  }
   constexpr double along_diagonal = 1024;
   const PlanePoints points(scene, cancellation);
-  auto impl = std::make_unique<Impl>(
-      scene, chart_of_patches(scene, points, cancellation),
-      options.density > 0 ? options.density : along_diagonal / scene.bounds().diagonal(),
-      cancellation);
+  const double texel =
+      options.density > 0 ? 1 / options.density : scene.bounds().diagonal() / along_diagonal;
+  auto impl = std::make_unique<Impl>(scene, chart_of_patches(scene, points, cancellation),
+                                     1 / texel, cancellation);
   WorkerThreads workers(thread_count(options.threads));
   constexpr std::size_t batch = 4096;
+  // The diagonal of a texel.
+  const Interpolation precision{std::numbers::sqrt2 * texel, options.tolerance};
   double done = 0;
   for (const Chart& chart : impl->charts) {
     const std::vector<Texel> texels = texels_of(scene, points, chart, cancellation);
@@ -309,7 +316,8 @@ LightMap::LightMap(const Scene& scene, const SurfaceLight& light, const Options&
       for_each_index(workers, first, end, [&](std::size_t n) {
         cancellation.throw_if_canceled();
         if (texels[n].patch != no_patch) {
-          impl->set(chart, n, light.radiosity(texels[n].patch, texels[n].point, cancellation));
+          impl->set(chart, n,
+                    light.radiosity(texels[n].patch, texels[n].point, cancellation, precision));
         }
       });
       done += static_cast<double>(end - first);

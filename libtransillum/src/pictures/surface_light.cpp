@@ -54,19 +54,23 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
     }
   }
 
-  Rgb irradiance(PatchId patch, const Vec3& x, std::uint64_t salt,
-                 const Cancellation& cancellation) const {
-    return lamps.at_point(patch, x, cancellation) +
+  struct Query {
+    const Cancellation& cancellation;
+    std::uint64_t salt = 0;
+    Interpolation precision = {};
+  };
+  Rgb irradiance(PatchId patch, const Vec3& x, const Query& query) const {
+    return lamps.at_point(patch, x, query.cancellation) +
            (is_interpolated
-                ? interpolated.at_point(patch, x, cancellation)
-                : gathered.at_point(x, scene.patch(patch).normal, salt, cancellation).irradiance);
+                ? interpolated.at_point(patch, x, query.precision, query.cancellation)
+                : gathered.at_point(x, scene.patch(patch).normal, query.salt, query.cancellation)
+                      .irradiance);
   }
   /// E and what `reflectance` makes of H.
-  Rgb radiosity(PatchId patch, const Vec3& x, const Rgb& reflectance, std::uint64_t salt,
-                const Cancellation& cancellation) const {
+  Rgb radiosity(PatchId patch, const Vec3& x, const Rgb& reflectance, const Query& query) const {
     return max_abs(reflectance) == 0
                ? scene.exitance(patch)
-               : scene.exitance(patch) + reflectance * irradiance(patch, x, salt, cancellation);
+               : scene.exitance(patch) + reflectance * irradiance(patch, x, query);
   }
 };
 
@@ -77,9 +81,10 @@ SurfaceLight::~SurfaceLight() = default;
 SurfaceLight::SurfaceLight(SurfaceLight&&) noexcept = default;
 SurfaceLight& SurfaceLight::operator=(SurfaceLight&&) noexcept = default;
 
-Rgb SurfaceLight::radiosity(PatchId patch, const Vec3& point,
-                            const Cancellation& cancellation) const {
-  return impl_->radiosity(patch, point, reflectance_of(*impl_->solution, patch), 0, cancellation);
+Rgb SurfaceLight::radiosity(PatchId patch, const Vec3& point, const Cancellation& cancellation,
+                            const Interpolation& precision) const {
+  return impl_->radiosity(patch, point, reflectance_of(*impl_->solution, patch),
+                          {cancellation, 0, precision});
 }
 
 Rgb SurfaceLight::direct_irradiance(PatchId patch, const Vec3& point,
@@ -94,8 +99,8 @@ Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint6
   const Sky& sky = impl_->solution->sky;
   Rgb light;
   if (hit) {
-    light = impl_->radiosity(hit->patch, hit->point, impl_->scene.reflectance(hit->patch), salt,
-                             cancellation);
+    light = impl_->radiosity(hit->patch, hit->point, impl_->scene.reflectance(hit->patch),
+                             {cancellation, salt});
     if (impl_->lobes) {
       light += impl_->lobes->at_point(hit->patch, hit->point, -along, salt, cancellation);
     }
@@ -108,7 +113,7 @@ Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint6
 Rgb SurfaceLight::irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt,
                              const Cancellation& cancellation) const {
   const auto hit = impl_->picker.first_lit_hit(origin, direction);
-  return hit ? impl_->irradiance(hit->patch, hit->point, salt, cancellation) : Rgb();
+  return hit ? impl_->irradiance(hit->patch, hit->point, {cancellation, salt}) : Rgb();
 }
 
 int SurfaceLight::gathered_lamps() const { return impl_->lamps.gathered_count(); }

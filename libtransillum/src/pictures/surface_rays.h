@@ -26,19 +26,19 @@ std::array<std::vector<Vec3>, 2> cosine_directions(int count, double shift_u, do
 /// @param normal unit
 Vec3 start_of_rays(const EmbreeScene& scene, const Vec3& x, const Vec3& normal);
 
-/// What a ray meets first.
+/// The first meeting of a ray.
 struct Met {
   PatchId patch = no_patch;  ///< no_patch: nothing is met
   bool is_lit = false;       ///< on its front
   Vec3 place;                ///< m
 };
-/// What one ray meets.
+/// The first meeting of one ray.
 /// @param start in Embree's coordinates
 /// @param direction unit
 Met met_by(const EmbreeScene& scene, const Vec3& start, const Vec3& direction);
 /// Number of rays that Embree follows at a time.
 constexpr std::size_t ray_packet = 16;
-/// What up to ray_packet similar rays from a point meet.
+/// The first meetings of up to ray_packet similar rays from a point.
 std::array<Met, ray_packet> met_by(const EmbreeScene& scene, const Vec3& start,
                                    std::span<const Vec3> directions);
 

@@ -12,6 +12,8 @@ namespace {
 
 // A texel takes about as long as a sample of a pixel, and 12 bytes.
 constexpr double fine_texels = 300'000, coarse_texels = 40'000;
+// In motion: a difference of a level or two of a screen.
+constexpr double tolerance = 0.016;
 // Each patch also needs points that gather its reflected light.
 constexpr PatchId most_patches = 20'000;
 
@@ -36,7 +38,7 @@ void make_map(const SnapshotLight& light, const Cancellation& cancellation,
   for (const Patch& patch : light.scene->patches()) {
     area += patch.area;
   }
-  LightMap::Options options{.threads = light.snapshot->options.threads};
+  LightMap::Options options{.tolerance = tolerance, .threads = light.snapshot->options.threads};
   for (const double texels : {coarse_texels, fine_texels}) {
     options.density = std::sqrt(texels / area);
     deliver({light.snapshot,
