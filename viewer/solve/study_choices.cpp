@@ -38,12 +38,6 @@ bool is_valid(const SolveOptions& options) {
   }
 }
 
-/// The text of a value in the settings.
-template <class Value>
-QString label_of(Value value) {
-  return QString::fromStdString(choices_of<Value>().labels[static_cast<std::size_t>(value)]);
-}
-
 }  // namespace
 
 StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
@@ -55,7 +49,7 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
     const bool on = sampling == Sampling::random || sampling == Sampling::hammersley ||
                     sampling == default_sampling(true);
     const QString name = QString::fromStdString(name_of(sampling));
-    layout->addWidget(add_box(samplings_, name, label_of(sampling), static_cast<int>(k), on));
+    layout->addWidget(add_box(samplings_, name, name, static_cast<int>(k), on));
   }
   layout->addSpacing(10);
 
@@ -74,8 +68,8 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
       continue;  // their error does not depend on M
     }
     const QString name = QString::fromStdString(name_of(engine));
-    QCheckBox* box = add_box(engines_, QStringLiteral("engine_") + name, engine_label(engine),
-                             static_cast<int>(k), engine == solve_.engine);
+    QCheckBox* box = add_box(engines_, QStringLiteral("engine_") + name, name, static_cast<int>(k),
+                             engine == solve_.engine);
     box->setToolTip(engine_sentence(engine));
     const int place = static_cast<int>(engines_.size()) - 1;
     engines->addWidget(box, place / 2, place % 2);
@@ -151,7 +145,8 @@ std::vector<Engine> StudyChoices::engines() const {
 
 void StudyChoices::show_solve() {
   fixed_settings_->setText(tr("From the current solve: normalization %1, scheme %2")
-                               .arg(label_of(solve_.normalize), label_of(solve_.scheme)));
+                               .arg(QString::fromStdString(name_of(solve_.normalize)),
+                                    QString::fromStdString(name_of(solve_.scheme))));
   show_cost();
 }
 

@@ -128,42 +128,6 @@ class ScaledStyle : public QProxyStyle {
       QProxyStyle::drawPrimitive(element, option, painter, widget);
     }
   }
-
-  // Fusion's arrow of a button with a menu is too small to be seen.
-  void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
-                          QPainter* painter, const QWidget* widget) const override {
-    const auto* button = qstyleoption_cast<const QStyleOptionToolButton*>(option);
-    if (control != CC_ToolButton || !button || !has_menu_mark(*button)) {
-      QProxyStyle::drawComplexControl(control, option, painter, widget);
-      return;
-    }
-    QStyleOptionToolButton without = *button;
-    without.features &= ~QStyleOptionToolButton::HasMenu;
-    QProxyStyle::drawComplexControl(control, &without, painter, widget);
-    QStyleOption arrow = *button;
-    const int size = scaled(menu_mark_size);
-    arrow.rect =
-        QRect(button->rect.right() - size - 3, button->rect.center().y() - size / 2, size, size);
-    arrow.state &= ~(State_On | State_Sunken);
-    drawPrimitive(PE_IndicatorArrowDown, &arrow, painter, widget);
-  }
-
-  QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& contents,
-                         const QWidget* widget) const override {
-    const QSize size = QProxyStyle::sizeFromContents(type, option, contents, widget);
-    const auto* button = qstyleoption_cast<const QStyleOptionToolButton*>(option);
-    const bool marked = type == CT_ToolButton && button && has_menu_mark(*button);
-    return marked ? size + QSize(scaled(menu_mark_size), 0) : size;
-  }
-
- private:
-  static constexpr int menu_mark_size = 9;
-
-  /// Whether a click anywhere on the button opens its menu.
-  static bool has_menu_mark(const QStyleOptionToolButton& button) {
-    return (button.features & QStyleOptionToolButton::HasMenu) &&
-           !(button.features & QStyleOptionToolButton::MenuButtonPopup);
-  }
 };
 
 // The files of icons/, in the order of enum Icon.
