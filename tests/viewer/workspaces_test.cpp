@@ -139,6 +139,18 @@ class WorkspacesTest : public QObject {
     QVERIFY2(height >= 240, qPrintable(QString::number(height)));
   }
 
+  // A map of 100,000 patches takes a second and 180 MB.
+  void maps_are_recorded_only_where_a_panel_shows_them() {
+    const auto window = make_window(16);
+    window->views().docks.arrange(Layout::inspect);
+    window->scene.open("furnace", window->views().settings.options(), {Goal::Kind::finished});
+    QVERIFY(wait_for([&] { return window->runner.state() == RunState::finished; }) &&
+            comes_to_rest(*window));
+    QVERIFY(!window->focus.map());
+    window->views().docks.bring_to_front("map");
+    QVERIFY(wait_for([&] { return window->focus.map() != nullptr; }));
+  }
+
   void a_stack_has_at_most_four_tabs() {
     const auto window = window_of(small_screen);
     for (const char* layout : {"layout_teach", "layout_inspect", "layout_debug"}) {

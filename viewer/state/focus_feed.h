@@ -33,7 +33,7 @@ class FocusFeed : public QObject {
 
   Focus& focus_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
-  bool watched_ = true;
+  bool watched_ = false;  ///< until a view is shown
   NewestResult<MapRequest, RecordedMap> recorder_;
 };
 
