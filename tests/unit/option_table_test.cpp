@@ -70,6 +70,7 @@ TEST(OptionTable, ReadsZeroOfFormerFilesWhereItMeansNothing) {
 TEST(OptionTable, DividesLargeFacesInTheWindowUnlessToldHow) {
   using Differences = std::vector<std::pair<std::string, std::string>>;
   RunOptions run;
+  set_dependent_defaults(run, {});
   EXPECT_TRUE(set_window_defaults(run, 2000));
   EXPECT_EQ(differences_from_default(run), (Differences{{"basis", "linear"}, {"patches", "2000"}}));
   RunOptions without_moments;

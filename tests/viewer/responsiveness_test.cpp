@@ -118,7 +118,6 @@ class ResponsivenessTest : public QObject {
     QTest::newRow("20,000 patches") << "sphere-flake" << 0.0;
     QTest::newRow("100,000 patches") << "cornell-box" << 2.5e-5;
   }
-  // The goal is 250 ms, on an idle machine.
   void the_window_responds_while_the_solver_runs() {
     QFETCH(const QString, scene);
     QFETCH(const double, max_patch_area);
@@ -156,8 +155,8 @@ class ResponsivenessTest : public QObject {
         *std::max_element(measured.first.begin(), measured.first.end()),
         measured.longest_without_waiting, passes());
     QTest::setBenchmarkResult(gaps.back(), QTest::WalltimeMilliseconds);
-    // On an idle machine it is a few dozen ms. The bound is for slow machines without a GPU.
-    QVERIFY(measured.longest_without_waiting < 1000);
+    // On an idle machine it is a few dozen ms.
+    QVERIFY(measured.longest_without_waiting < 250);
 
     QElapsedTimer closing;
     closing.start();

@@ -190,7 +190,7 @@ void QualityControls::show_state(bool takes_directions, const QString& conflict)
   note_->setText(!conflict.isEmpty() ? capitalized(conflict)
                  : !takes_directions ? tr("This engine has no directions to choose")
                  : goal().seconds > 0 && goal().accuracy == 0
-                     ? tr("As many directions as fit into %1").arg(duration_text(goal().seconds))
+                     ? tr("The directions that fit into %1").arg(duration_text(goal().seconds))
                      : QString());
   note_->setVisible(!note_->text().isEmpty());
   mark_choice();

@@ -133,7 +133,7 @@ void SolveWorker::post_emission() {
   messages_.post_snapshot(std::make_shared<const SolverSnapshot>(snapshot_at_start(unlit)));
 }
 
-/// What is shown before the session is prepared: a snapshot of another solve of its patches.
+/// The state to show before the session is prepared: a snapshot of another solve of its patches.
 SolverSnapshot SolveWorker::snapshot_at_start(const SolveSession& other) const {
   SolverSnapshot start = snapshot_of(other, loaded_);
   SolveHistory(other).write_to(start);
@@ -329,7 +329,7 @@ void SolveWorker::interrupt(bool interrupted) {
   }
 }
 
-/// What the next interrupt() cancels.
+/// A cancellation that the next interrupt() sets.
 Cancellation SolveWorker::interruption() {
   const std::lock_guard lock(interruption_mutex_);
   interruption_ = Cancellation();
