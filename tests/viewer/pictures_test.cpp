@@ -151,18 +151,27 @@ class PicturesTest : public QObject {
     keep(compare->grab().toImage(), "compare.png", {480, 640});
   }
 
+  void first_pages_of_lessons_data() {
+    QTest::addColumn<int>("lesson");
+    const int lessons = folder().isEmpty() ? 1 : static_cast<int>(built_in_lessons().size());
+    for (int lesson = 0; lesson < lessons; ++lesson) {
+      QTest::newRow(std::to_string(lesson + 1).c_str()) << lesson;
+    }
+  }
   void first_pages_of_lessons() {
+    QFETCH(int, lesson);
     PictureWindow window;
     auto* panel = window.findChild<LessonPanel*>();
-    const int lessons = static_cast<int>(panel->lessons().size());
-    for (int lesson = 0; lesson < (folder().isEmpty() ? 1 : lessons); ++lesson) {
-      panel->show_page(lesson, 0);
-      QVERIFY(settles(window));
-      keep(whole(window), QStringLiteral("lesson-%1.png").arg(lesson + 1), {960, 600});
-      keep_card(window, *panel, lesson);
-    }
-    // The Teach layout at a step with an exchange.
-    panel->show_page(2, 1);
+    panel->show_page(lesson, 0);
+    QVERIFY(settles(window));
+    keep(whole(window), QStringLiteral("lesson-%1.png").arg(lesson + 1), {960, 600});
+    keep_card(window, *panel, lesson);
+  }
+
+  // At a step with an exchange.
+  void the_teach_layout() {
+    PictureWindow window;
+    window.findChild<LessonPanel*>()->show_page(2, 1);
     QVERIFY(settles(window));
     keep(whole(window), "layout-teach.png", {960, 600});
   }
@@ -211,37 +220,41 @@ class PicturesTest : public QObject {
     keep(study->grab().toImage(), "study.png", {860, 600});
   }
 
-  void built_in_scenes_alone() {
+  void built_in_scenes_alone_data() {
+    QTest::addColumn<QString>("name");
     for (const BuiltInScene& scene : built_in_scenes()) {
-      const QString name = QString::fromStdString(scene.name);
-      if (folder().isEmpty() && name != "boards") {
-        continue;
+      if (!folder().isEmpty() || scene.name == "boards") {
+        QTest::newRow(scene.name.c_str()) << QString::fromStdString(scene.name);
       }
-      PictureWindow window;
-      SolveOptions options;
-      options.directions = name == "sphere-flake" ? 128 : 1024;
-      SceneOptions refined;
-      if (has_first_look(scene.name)) {  // like the first look, with less noise
-        options.basis = Basis::linear;
-        options.directions = 4096;
-        refined.max_patch_area = max_patch_area_for(*load_scene(scene.name), 3000);
-      } else {
-        options.first_shot = first_shot_where_it_pays;
-      }
-      window.set_options(options, refined);
-      window.open(name, {Goal::Kind::finished});
-      QVERIFY(settles(window));
-      auto* view = window.findChild<SceneView*>();
-      view->set_outlines_shown(name == "furnace");
-      QVERIFY(settles(window));
-      const QImage picture = view->picture(1);
-      // The center, cropped to the aspect ratio of the card.
-      const int height = std::min(picture.height(), picture.width() * 5 / 8);
-      const int width = height * 8 / 5;
-      keep(picture.copy((picture.width() - width) / 2, (picture.height() - height) / 2, width,
-                        height),
-           QStringLiteral("scene-%1.png").arg(name), {480, 300});
     }
+  }
+  void built_in_scenes_alone() {
+    QFETCH(QString, name);
+    PictureWindow window;
+    SolveOptions options;
+    options.directions = name == "sphere-flake" ? 128 : 1024;
+    SceneOptions refined;
+    if (has_first_look(name.toStdString())) {  // like the first look
+      options.basis = Basis::linear;
+      refined.max_patch_area = max_patch_area_for(*load_scene(name.toStdString()), 3000);
+    } else {
+      options.first_shot = first_shot_where_it_pays;
+    }
+    options.glossy = name == "gallery";  // as it opens
+    window.set_options(options, refined);
+    window.colors.show_lobes(options.glossy);
+    window.open(name, {Goal::Kind::finished});
+    QVERIFY(settles(window));
+    auto* view = window.findChild<SceneView*>();
+    view->set_outlines_shown(name == "furnace");
+    QVERIFY(settles(window));
+    const QImage picture = view->picture(1);
+    // The center, cropped to the aspect ratio of the card.
+    const int height = std::min(picture.height(), picture.width() * 5 / 8);
+    const int width = height * 8 / 5;
+    keep(
+        picture.copy((picture.width() - width) / 2, (picture.height() - height) / 2, width, height),
+        QStringLiteral("scene-%1.png").arg(name), {480, 300});
   }
 };
 
