@@ -63,8 +63,33 @@ struct PictureWindow : TestWindow {
 
 QImage whole(TestWindow& window) { return window.grab().toImage(); }
 
-/// The picture of a lesson on the first page: the map of the page that enlarges it, cropped to its
-/// middle, or else all of the scene of the last page.
+/// The part of a picture of the scene that has something in it, in the shape of `size`; the middle
+/// where it is as wide as the picture.
+QRect part_in_shape(const QImage& picture, const QSize& size) {
+  QRect part;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      if (picture.pixelColor(x, y) != theme::scene_background) {
+        part |= QRect(x, y, 1, 1);
+      }
+    }
+  }
+  const bool is_wide = part.width() == picture.width();
+  const QSize shape = is_wide ? size.scaled(part.size(), Qt::KeepAspectRatio)
+                              : size.scaled(1.05 * part.size(), Qt::KeepAspectRatioByExpanding);
+  return QRect(part.center() - QRect(QPoint(), shape).center(), shape);
+}
+
+/// A part of a picture, also beyond its edges, scaled.
+QImage cropped(const QImage& picture, const QRect& part, const QSize& size) {
+  QImage result(part.size(), QImage::Format_RGB888);
+  result.fill(theme::scene_background);
+  QPainter(&result).drawImage(-part.topLeft(), picture);
+  return result.scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+}
+
+/// The picture of a lesson on the first page: the map of the page that enlarges it, or else the
+/// scene of the last page, cropped.
 void keep_card(TestWindow& window, LessonPanel& panel, int lesson) {
   const auto& pages = at(panel.lessons(), lesson).pages;
   const auto large = std::find_if(pages.begin(), pages.end(),
@@ -75,13 +100,11 @@ void keep_card(TestWindow& window, LessonPanel& panel, int lesson) {
   const QImage picture = of_map ? window.findChild<MapView*>()->canvas()->grab().toImage()
                                 : window.views().page.scene_view()->picture(1);
   constexpr QSize size(192, 120);
-  const QImage scaled =
-      picture.scaled(size, of_map ? Qt::KeepAspectRatioByExpanding : Qt::KeepAspectRatio,
-                     Qt::SmoothTransformation);
-  QImage card(size, QImage::Format_RGB888);
-  card.fill(theme::scene_background);
-  QPainter(&card).drawImage(QRect(QPoint(), size).center() - scaled.rect().center(), scaled);
-  keep(card, QStringLiteral("card-%1.png").arg(lesson + 1), size);
+  const QSize middle = size.scaled(picture.size(), Qt::KeepAspectRatio);
+  const QRect part = of_map
+                         ? QRect(picture.rect().center() - QRect(QPoint(), middle).center(), middle)
+                         : part_in_shape(picture, size);
+  keep(cropped(picture, part, size), QStringLiteral("card-%1.png").arg(lesson + 1), size);
 }
 
 }  // namespace
@@ -117,9 +140,9 @@ class PicturesTest : public QObject {
     // The map of each engine, side by side.
     auto* map_dock = window.findChild<QDockWidget*>("map_dock");
     map_dock->setFloating(true);
-    map_dock->resize(460, 400);
+    map_dock->resize(600, 420);
     constexpr int columns = 3;
-    const QSize each(320, 270);
+    const QSize each(320, 224);
     QImage all(columns * each.width(), 2 * each.height(), QImage::Format_RGB888);
     all.fill(Qt::white);
     QPainter painter(&all);
@@ -193,25 +216,29 @@ class PicturesTest : public QObject {
     PictureWindow window;
     QVERIFY(window.shows_the_box());
     window.selection.select(16);
-    const auto keep_panel = [&](const char* layout, const char* panel, const char* name) {
+    const auto keep_panel = [&](const char* layout, const char* panel, const char* name,
+                                const QSize& size) {
       window.findChild<QAction*>(layout)->trigger();
       window.views().docks.bring_to_front(panel);
       auto* dock = window.findChild<QDockWidget*>(QString(panel) + "_dock");
+      dock->setFloating(true);
+      dock->resize(size);
       QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }));
       QVERIFY(settles(window));
       const QImage picture = dock->grab().toImage();
       keep(picture, QStringLiteral("panel-%1.png").arg(name), picture.size());
+      dock->setFloating(false);
     };
     window.focus.go_to({0, 9, 11});
-    keep_panel("layout_teach", "tree", "tree");
+    keep_panel("layout_teach", "tree", "tree", {480, 424});
     if (folder().isEmpty()) {
       return;
     }
     window.findChild<QTabWidget*>("tree_tabs")->setCurrentIndex(1);
-    keep_panel("layout_teach", "tree", "whole-tree");
-    keep_panel("layout_debug", "received", "received");
-    keep_panel("layout_inspect", "material", "materials");
-    keep_panel("layout_inspect", "table", "patches");
+    keep_panel("layout_teach", "tree", "whole-tree", {480, 424});
+    keep_panel("layout_debug", "received", "received", {600, 240});
+    keep_panel("layout_inspect", "material", "materials", {340, 356});
+    keep_panel("layout_inspect", "table", "patches", {560, 324});
     window.findChild<QAction*>("study")->trigger();
     auto* study = window.findChild<StudyDialog*>();
     study->findChild<QPushButton*>("study_run")->click();
@@ -240,7 +267,7 @@ class PicturesTest : public QObject {
     } else {
       options.first_shot = first_shot_where_it_pays;
     }
-    options.glossy = name == "gallery";  // as it opens
+    options.glossy = name == "gallery";  // which opens with lobes
     window.set_options(options, refined);
     window.colors.show_lobes(options.glossy);
     window.open(name, {Goal::Kind::finished});
@@ -249,12 +276,9 @@ class PicturesTest : public QObject {
     view->set_outlines_shown(name == "furnace");
     QVERIFY(settles(window));
     const QImage picture = view->picture(1);
-    // The center, cropped to the aspect ratio of the card.
-    const int height = std::min(picture.height(), picture.width() * 5 / 8);
-    const int width = height * 8 / 5;
-    keep(
-        picture.copy((picture.width() - width) / 2, (picture.height() - height) / 2, width, height),
-        QStringLiteral("scene-%1.png").arg(name), {480, 300});
+    constexpr QSize size(480, 300);
+    keep(cropped(picture, part_in_shape(picture, size), size),
+         QStringLiteral("scene-%1.png").arg(name), size);
   }
 };
 
