@@ -63,8 +63,33 @@ struct PictureWindow : TestWindow {
 
 QImage whole(TestWindow& window) { return window.grab().toImage(); }
 
-/// The picture of a lesson on the first page: the map of the page that enlarges it, cropped to its
-/// middle, or else all of the scene of the last page.
+/// The part of a picture of the scene that has something in it, in the shape of `size`; the middle
+/// where it is as wide as the picture.
+QRect part_in_shape(const QImage& picture, const QSize& size) {
+  QRect part;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      if (picture.pixelColor(x, y) != theme::scene_background) {
+        part |= QRect(x, y, 1, 1);
+      }
+    }
+  }
+  const bool is_wide = part.width() == picture.width();
+  const QSize shape = is_wide ? size.scaled(part.size(), Qt::KeepAspectRatio)
+                              : size.scaled(1.05 * part.size(), Qt::KeepAspectRatioByExpanding);
+  return QRect(part.center() - QRect(QPoint(), shape).center(), shape);
+}
+
+/// A part of a picture, also beyond its edges, scaled.
+QImage cropped(const QImage& picture, const QRect& part, const QSize& size) {
+  QImage result(part.size(), QImage::Format_RGB888);
+  result.fill(theme::scene_background);
+  QPainter(&result).drawImage(-part.topLeft(), picture);
+  return result.scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+}
+
+/// The picture of a lesson on the first page: the map of the page that enlarges it, or else the
+/// scene of the last page, cropped.
 void keep_card(TestWindow& window, LessonPanel& panel, int lesson) {
   const auto& pages = at(panel.lessons(), lesson).pages;
   const auto large = std::find_if(pages.begin(), pages.end(),
@@ -75,13 +100,11 @@ void keep_card(TestWindow& window, LessonPanel& panel, int lesson) {
   const QImage picture = of_map ? window.findChild<MapView*>()->canvas()->grab().toImage()
                                 : window.views().page.scene_view()->picture(1);
   constexpr QSize size(192, 120);
-  const QImage scaled =
-      picture.scaled(size, of_map ? Qt::KeepAspectRatioByExpanding : Qt::KeepAspectRatio,
-                     Qt::SmoothTransformation);
-  QImage card(size, QImage::Format_RGB888);
-  card.fill(theme::scene_background);
-  QPainter(&card).drawImage(QRect(QPoint(), size).center() - scaled.rect().center(), scaled);
-  keep(card, QStringLiteral("card-%1.png").arg(lesson + 1), size);
+  const QSize middle = size.scaled(picture.size(), Qt::KeepAspectRatio);
+  const QRect part = of_map
+                         ? QRect(picture.rect().center() - QRect(QPoint(), middle).center(), middle)
+                         : part_in_shape(picture, size);
+  keep(cropped(picture, part, size), QStringLiteral("card-%1.png").arg(lesson + 1), size);
 }
 
 }  // namespace
@@ -117,9 +140,9 @@ class PicturesTest : public QObject {
     // The map of each engine, side by side.
     auto* map_dock = window.findChild<QDockWidget*>("map_dock");
     map_dock->setFloating(true);
-    map_dock->resize(460, 400);
+    map_dock->resize(600, 420);
     constexpr int columns = 3;
-    const QSize each(320, 270);
+    const QSize each(320, 224);
     QImage all(columns * each.width(), 2 * each.height(), QImage::Format_RGB888);
     all.fill(Qt::white);
     QPainter painter(&all);
@@ -151,18 +174,27 @@ class PicturesTest : public QObject {
     keep(compare->grab().toImage(), "compare.png", {480, 640});
   }
 
+  void first_pages_of_lessons_data() {
+    QTest::addColumn<int>("lesson");
+    const int lessons = folder().isEmpty() ? 1 : static_cast<int>(built_in_lessons().size());
+    for (int lesson = 0; lesson < lessons; ++lesson) {
+      QTest::newRow(std::to_string(lesson + 1).c_str()) << lesson;
+    }
+  }
   void first_pages_of_lessons() {
+    QFETCH(int, lesson);
     PictureWindow window;
     auto* panel = window.findChild<LessonPanel*>();
-    const int lessons = static_cast<int>(panel->lessons().size());
-    for (int lesson = 0; lesson < (folder().isEmpty() ? 1 : lessons); ++lesson) {
-      panel->show_page(lesson, 0);
-      QVERIFY(settles(window));
-      keep(whole(window), QStringLiteral("lesson-%1.png").arg(lesson + 1), {960, 600});
-      keep_card(window, *panel, lesson);
-    }
-    // The Teach layout at a step with an exchange.
-    panel->show_page(2, 1);
+    panel->show_page(lesson, 0);
+    QVERIFY(settles(window));
+    keep(whole(window), QStringLiteral("lesson-%1.png").arg(lesson + 1), {960, 600});
+    keep_card(window, *panel, lesson);
+  }
+
+  // At a step with an exchange.
+  void the_teach_layout() {
+    PictureWindow window;
+    window.findChild<LessonPanel*>()->show_page(2, 1);
     QVERIFY(settles(window));
     keep(whole(window), "layout-teach.png", {960, 600});
   }
@@ -184,25 +216,29 @@ class PicturesTest : public QObject {
     PictureWindow window;
     QVERIFY(window.shows_the_box());
     window.selection.select(16);
-    const auto keep_panel = [&](const char* layout, const char* panel, const char* name) {
+    const auto keep_panel = [&](const char* layout, const char* panel, const char* name,
+                                const QSize& size) {
       window.findChild<QAction*>(layout)->trigger();
       window.views().docks.bring_to_front(panel);
       auto* dock = window.findChild<QDockWidget*>(QString(panel) + "_dock");
+      dock->setFloating(true);
+      dock->resize(size);
       QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }));
       QVERIFY(settles(window));
       const QImage picture = dock->grab().toImage();
       keep(picture, QStringLiteral("panel-%1.png").arg(name), picture.size());
+      dock->setFloating(false);
     };
     window.focus.go_to({0, 9, 11});
-    keep_panel("layout_teach", "tree", "tree");
+    keep_panel("layout_teach", "tree", "tree", {480, 424});
     if (folder().isEmpty()) {
       return;
     }
     window.findChild<QTabWidget*>("tree_tabs")->setCurrentIndex(1);
-    keep_panel("layout_teach", "tree", "whole-tree");
-    keep_panel("layout_debug", "received", "received");
-    keep_panel("layout_inspect", "material", "materials");
-    keep_panel("layout_inspect", "table", "patches");
+    keep_panel("layout_teach", "tree", "whole-tree", {480, 424});
+    keep_panel("layout_debug", "received", "received", {600, 240});
+    keep_panel("layout_inspect", "material", "materials", {340, 356});
+    keep_panel("layout_inspect", "table", "patches", {560, 324});
     window.findChild<QAction*>("study")->trigger();
     auto* study = window.findChild<StudyDialog*>();
     study->findChild<QPushButton*>("study_run")->click();
@@ -211,37 +247,38 @@ class PicturesTest : public QObject {
     keep(study->grab().toImage(), "study.png", {860, 600});
   }
 
-  void built_in_scenes_alone() {
+  void built_in_scenes_alone_data() {
+    QTest::addColumn<QString>("name");
     for (const BuiltInScene& scene : built_in_scenes()) {
-      const QString name = QString::fromStdString(scene.name);
-      if (folder().isEmpty() && name != "boards") {
-        continue;
+      if (!folder().isEmpty() || scene.name == "boards") {
+        QTest::newRow(scene.name.c_str()) << QString::fromStdString(scene.name);
       }
-      PictureWindow window;
-      SolveOptions options;
-      options.directions = name == "sphere-flake" ? 128 : 1024;
-      SceneOptions refined;
-      if (has_first_look(scene.name)) {  // like the first look, with less noise
-        options.basis = Basis::linear;
-        options.directions = 4096;
-        refined.max_patch_area = max_patch_area_for(*load_scene(scene.name), 3000);
-      } else {
-        options.first_shot = first_shot_where_it_pays;
-      }
-      window.set_options(options, refined);
-      window.open(name, {Goal::Kind::finished});
-      QVERIFY(settles(window));
-      auto* view = window.findChild<SceneView*>();
-      view->set_outlines_shown(name == "furnace");
-      QVERIFY(settles(window));
-      const QImage picture = view->picture(1);
-      // The center, cropped to the aspect ratio of the card.
-      const int height = std::min(picture.height(), picture.width() * 5 / 8);
-      const int width = height * 8 / 5;
-      keep(picture.copy((picture.width() - width) / 2, (picture.height() - height) / 2, width,
-                        height),
-           QStringLiteral("scene-%1.png").arg(name), {480, 300});
     }
+  }
+  void built_in_scenes_alone() {
+    QFETCH(QString, name);
+    PictureWindow window;
+    SolveOptions options;
+    options.directions = name == "sphere-flake" ? 128 : 1024;
+    SceneOptions refined;
+    if (has_first_look(name.toStdString())) {  // like the first look
+      options.basis = Basis::linear;
+      refined.max_patch_area = max_patch_area_for(*load_scene(name.toStdString()), 3000);
+    } else {
+      options.first_shot = first_shot_where_it_pays;
+    }
+    options.glossy = name == "gallery";  // which opens with lobes
+    window.set_options(options, refined);
+    window.colors.show_lobes(options.glossy);
+    window.open(name, {Goal::Kind::finished});
+    QVERIFY(settles(window));
+    auto* view = window.findChild<SceneView*>();
+    view->set_outlines_shown(name == "furnace");
+    QVERIFY(settles(window));
+    const QImage picture = view->picture(1);
+    constexpr QSize size(480, 300);
+    keep(cropped(picture, part_in_shape(picture, size), size),
+         QStringLiteral("scene-%1.png").arg(name), size);
   }
 };
 

@@ -379,6 +379,40 @@ class SharpTest : public QObject {
     QVERIFY(background < 10);  // pixels at edges
   }
 
+  void an_eye_inside_a_solid_is_told() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    const auto* label = shown.window->findChild<QLabel*>("sharp_label");
+    QVERIFY(label->isHidden());
+    const ViewPoint outside = shown.scene_view->view_point();
+    ViewPoint inside = outside;
+    inside.eye = {0.185, 0.08, 0.169};  // in the low block
+    shown.scene_view->set_view_point(inside);
+    QVERIFY(shown.becomes_sharp());
+    QVERIFY(label->isVisible());
+    QVERIFY2(label->text().contains("inside a solid"), qPrintable(label->text()));
+    // Its backs are transparent, as on the surfaces.
+    const Compared compared = compare(shown.scene_view->sharp(), ShownLight(shown.subject()));
+    QVERIFY2(compared.pixels > 100, qPrintable(QString::number(compared.pixels)));
+    QCOMPARE(compared.different, 0);
+    save_picture(*shown.window, "sharp-inside");
+    shown.scene_view->set_view_point(outside);
+    QVERIFY(shown.becomes_sharp());
+    QVERIFY(label->isHidden());
+  }
+
+  void a_change_ends_the_picture_that_is_saved_with_a_message() {
+    const SharpWindow shown;
+    QVERIFY(shown.becomes_sharp());
+    QTimer::singleShot(0, shown.window.get(), [&] {
+      shown.window->relighting.edits().set_reflectance("material:white", {0.3, 0.3, 0.3});
+    });
+    QVERIFY(!shown.sharp->make(8, shown.window.get()));
+    const QString text = shown.window->banner_text();
+    QVERIFY2(text.contains("has changed: the picture was not made"), qPrintable(text));
+    QVERIFY(shown.becomes_sharp());
+  }
+
   void a_picture_that_is_saved_is_sharp_at_its_size() {
     const SharpWindow shown;
     QVERIFY(shown.becomes_sharp());

@@ -6,6 +6,7 @@
 #include <QProgressDialog>
 #include <utility>
 
+#include "pictures/inside_solid.h"
 #include "scene/scene_view.h"
 #include "widgets/build.h"
 
@@ -125,7 +126,8 @@ void SharpView::stop() {
   label_->hide();
   view_.set_sharp({});
   if (enlarges_) {
-    emit progressed(0, true);  // make() gets none
+    emit failed(tr("The scene, its light or its view has changed: the picture was not made"));
+    emit progressed(0, true);
   }
 }
 
@@ -138,6 +140,8 @@ void SharpView::start() {
     return;
   }
   begun_ = true;
+  is_inside_ = subject_->hidden.empty() && !subject_->half &&
+               is_inside_solid(*subject_->loaded->picker, subject_->view.eye);
   request(*subject_);
   show_progress({});
 }
@@ -187,8 +191,9 @@ void SharpView::receive(const QImage& picture, const SharpProgress& progress) {
 }
 
 void SharpView::show_progress(const SharpProgress& progress) {
-  label_->setVisible(!progress.finished);
-  label_->setText(tr("sharp %1 %").arg(qRound(100 * progress.fraction)));
+  label_->setVisible(!progress.finished || is_inside_);
+  label_->setText(progress.finished ? tr("The eye is inside a solid: backs are not drawn")
+                                    : tr("sharp %1 %").arg(qRound(100 * progress.fraction)));
   label_->adjustSize();
   label_->move(label_distance, view_.canvas()->height() - label_->height() - label_distance);
 }

@@ -36,7 +36,8 @@ class SharpView : public QObject {
   /// Whether the light map is finished, or none is made.
   bool has_map() const { return !map_requested_ || map_finished_; }
   /// Makes the sharp picture with `scale` times as many pixels a side, behind a dialog.
-  /// @returns null where none is shown; nothing where the user canceled or it failed
+  /// @returns null where none is shown; nothing where the user canceled, or where it failed or the
+  /// subject has changed, which failed() tells
   std::optional<QImage> make(int scale, QWidget* window);
 
  signals:
@@ -73,6 +74,7 @@ class SharpView : public QObject {
   std::optional<SharpSubject> subject_;  ///< the subject to be shown; none without a sharp picture
   bool finished_ = false;                ///< its picture is shown at its final quality
   bool begun_ = false;
+  bool is_inside_ = false;            ///< the eye is inside a solid
   QImage enlarged_;                   ///< the finished picture of make()
   quint64 number_ = 0;                ///< number of the newest request
   bool enlarges_ = false;             ///< the newest request is of make()

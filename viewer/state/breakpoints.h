@@ -72,7 +72,7 @@ struct HitCount {
   std::optional<RunPosition> first = {};  ///< the first that the run came to
 };
 
-/// What a run found of a breakpoint.
+/// The hits of a breakpoint in a run.
 struct BreakpointHits : HitCount {
   std::vector<HitCount> conditions = {};  ///< each by itself
 };

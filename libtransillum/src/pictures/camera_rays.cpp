@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pictures/inside_solid.h"
 #include "pictures/sequences.h"
 #include "transillum/errors.h"
 #include "transillum/picture.h"
@@ -122,30 +123,29 @@ CameraRays::Ray CameraRays::at(double column, double row) const {
   return {eye_, forward_ + x * right_ + y * above_};
 }
 
-void check_eye(const std::shared_ptr<const Scene>& scene, const Camera& camera,
-               const Cancellation& cancellation) {
-  if (camera.projection == CameraProjection::orthographic) {
-    return;
-  }
-  const Picker picker(scene, cancellation);
+bool is_inside_solid(const Picker& picker, const Vec3& eye) {
   constexpr int rays = 64;
   int backs = 0;
   for (int k = 0; k < rays; ++k) {
     const double z = 1 - (2 * k + 1.0) / rays;
     const double angle = 2 * std::numbers::pi * mirrored_bits(static_cast<std::uint32_t>(k));
     const double radius = std::sqrt(1 - z * z);
-    const auto hit =
-        picker.first_hit(camera.eye, {radius * std::cos(angle), radius * std::sin(angle), z});
+    const auto hit = picker.first_hit(eye, {radius * std::cos(angle), radius * std::sin(angle), z});
     backs += hit && !hit->lit_side ? 1 : 0;
   }
   // Outside of a room, no more than half of the rays meet it. Solids often have no bottom.
-  if (4 * backs <= 3 * rays) {
-    return;
+  return 4 * backs > 3 * rays;
+}
+
+void check_eye(const std::shared_ptr<const Scene>& scene, const Camera& camera,
+               const Cancellation& cancellation) {
+  if (camera.projection != CameraProjection::orthographic &&
+      is_inside_solid(Picker(scene, cancellation), camera.eye)) {
+    throw InputError(
+        fmt::format("{}: the eye of the picture, {} {} {}, is inside a wall or a solid: backs of "
+                    "faces surround it",
+                    scene->name(), camera.eye.x, camera.eye.y, camera.eye.z));
   }
-  throw InputError(
-      fmt::format("{}: the eye of the picture, {} {} {}, is inside a wall or a solid: backs of "
-                  "faces surround it",
-                  scene->name(), camera.eye.x, camera.eye.y, camera.eye.z));
 }
 
 }  // namespace transillum

@@ -270,8 +270,8 @@ def write(name, batches, samples, mask):
     length = np.linalg.norm(mean, axis=-1)
     noise = np.divide(error, length, out=np.zeros_like(error), where=length > 0)
     seen = ((mask & 5) == 0) & (length > 0)
-    # Rounding is a tenth of the noise.
-    steps = 2.0 ** np.ceil(np.log2(2 / np.median(noise[seen]))).clip(0, 11)
+    # Rounding is an eighth of the noise, or less.
+    steps = 2.0 ** np.ceil(np.log2(1.6 / np.median(noise[seen]))).clip(0, 11)
     least = max(mean[mean > 0].min(), mean.max() * 2 ** (-65000 / steps))
     np.savez_compressed(
         FOLDER / f"{name}.npz",

@@ -28,6 +28,7 @@
 #include "transillum/errors.h"
 #include "transillum/map_files.h"
 #include "transillum/material_changes.h"
+#include "transillum/picture.h"
 #include "widgets/build.h"
 #include "widgets/dialogs.h"
 #include "window/base/notifier.h"
@@ -36,6 +37,8 @@
 namespace transillum::viewer {
 
 namespace {
+
+constexpr int largest_scale = 8;  ///< pixels of a picture along one of the screen
 
 void write_whole(const QString& path, const QByteArray& bytes) {
   QSaveFile file(path);
@@ -298,16 +301,35 @@ void ExportActions::write_chosen(const QString& title, const QString& filter,
   }
 }
 
+std::optional<int> ExportActions::ask_scale() const {
+  const QWidget* canvas = frame_.page.scene_view()->canvas();
+  const QSize size = canvas->size() * canvas->devicePixelRatioF();
+  const int largest = std::clamp(
+      PictureOptions::largest_size / std::max({size.width(), size.height(), 1}), 1, largest_scale);
+  QInputDialog dialog(&frame_.window);
+  dialog.setWindowTitle(tr("Picture of the scene"));
+  dialog.setInputMode(QInputDialog::IntInput);
+  const auto tell_size = [&](int scale) {
+    dialog.setLabelText(tr("Scale, 1 to %1: pixels for each pixel of the screen.\n"
+                           "The picture will have %2 × %3 pixels.")
+                            .arg(largest)
+                            .arg(scale * size.width())
+                            .arg(scale * size.height()));
+  };
+  connect(&dialog, &QInputDialog::intValueChanged, &dialog, tell_size);
+  dialog.setIntRange(1, largest);
+  dialog.setIntValue(std::min(2, largest));
+  tell_size(dialog.intValue());
+  return dialog.exec() == QDialog::Accepted ? std::optional(dialog.intValue()) : std::nullopt;
+}
+
 void ExportActions::choose_scene() {
-  bool go_on = false;
-  const int scale =
-      QInputDialog::getInt(&frame_.window, tr("Picture of the scene"),
-                           tr("Scale (pixels per screen pixel):"), 2, 1, 8, 1, &go_on);
+  const std::optional<int> scale = ask_scale();
   const auto sharp =
-      go_on ? frame_.page.sharp()->make(scale, &frame_.window) : std::optional<QImage>();
+      scale ? frame_.page.sharp()->make(*scale, &frame_.window) : std::optional<QImage>();
   if (sharp) {
     write_chosen(tr("Picture of the scene"), tr("Pictures (*.png)"), name_with(".png"),
-                 [&](const QString& path) { write_scene(path, scale, *sharp); });
+                 [&](const QString& path) { write_scene(path, *scale, *sharp); });
   }
 }
 

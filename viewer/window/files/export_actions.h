@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QString>
 #include <functional>
+#include <optional>
 #include <variant>
 
 #include "support/newest_result.h"
@@ -72,6 +73,9 @@ class ExportActions : public QObject {
  private:
   void add(const char* name, const QString& text, const QString& tip,
            void (ExportActions::*what)());
+  /// Asks how many pixels the picture of the scene has for each of the screen, along a side.
+  /// @returns nothing if the user cancels
+  std::optional<int> ask_scale() const;
   void choose_scene();
   void choose_result();
   void choose_scene_file();
