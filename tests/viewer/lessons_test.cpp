@@ -213,7 +213,7 @@ class LessonsTest : public QObject {
     const SolveStatistics& statistics = taught.window->snapshot()->statistics;
     QVERIFY(std::abs(statistics.iteration_records.back().contraction - 0.8) < 1e-3);
     QVERIFY(std::abs(statistics.rho_max - 0.8) < 1e-12);
-    QVERIFY(!taught.window->colors.exposure_is_automatic());  // what one sees is the light
+    QVERIFY(!taught.window->colors.exposure_is_automatic());  // else the picture would not change
   }
 
   void a_control_of_the_step_moves_the_focus_and_follows_it() {

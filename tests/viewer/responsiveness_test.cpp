@@ -23,7 +23,7 @@ namespace {
 /// The times that threads were ready to run but waited for a processor.
 class ProcessorWaits {
  public:
-  /// Of this thread, and of those by which Mesa draws without a GPU: this thread waits for them.
+  /// Watches this thread, and those by which Mesa draws without a GPU: this thread waits for them.
   ProcessorWaits() {
     for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
       std::string name;

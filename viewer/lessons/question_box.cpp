@@ -391,7 +391,7 @@ QString QuestionBox::verdict_text() const {
                                                : colored(tr("✗ Not this time."), theme::warm);
 }
 
-/// What the given answer is, where it is wrong.
+/// Tells the value of a wrong answer.
 QString QuestionBox::reason_text() const {
   const Question& question = *page_->question;
   if (!is_given(question, answer_) || is_right(question, *solved_, answer_)) {
