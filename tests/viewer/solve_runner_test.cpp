@@ -132,6 +132,31 @@ class SolveRunnerTest : public QObject {
     QVERIFY2(worst < 0.05, qPrintable(QString::number(worst)));
   }
 
+  // The draft has constant functions; what makes it smooth are the slopes of direct light.
+  void a_draft_of_linear_functions_is_smooth() {
+    Watched watched;
+    watched.runner.set_drafts(true);
+    std::shared_ptr<const SolverSnapshot> draft;
+    QObject::connect(&watched.runner, &SolveRunner::snapshot_ready, &watched.runner,
+                     [&](const std::shared_ptr<const SolverSnapshot>& snapshot) {
+                       draft = draft || !snapshot->of_draft ? draft : snapshot;
+                     });
+    watched.runner.open({"cornell-box",
+                         {{.directions = 2048, .basis = Basis::linear}, {false, 0.005}},
+                         {Goal::Kind::finished}});
+    QVERIFY(watched.reaches(RunState::finished) && draft);
+    const auto& terms = draft->linear_terms;
+    const auto& expected = watched.snapshot->linear_terms;
+    QVERIFY(draft->bases && terms.size() == expected.size() && !terms.empty());
+    double errors = 0, all = 0;
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      errors += std::pow(max_abs(terms[i].first - expected[i].first), 2) +
+                std::pow(max_abs(terms[i].second - expected[i].second), 2);
+      all += std::pow(max_abs(expected[i].first), 2) + std::pow(max_abs(expected[i].second), 2);
+    }
+    QVERIFY2(errors < 0.25 * all, qPrintable(QString::number(std::sqrt(errors / all))));
+  }
+
   // A killed program leaves its checkpoint. The next one continues from there.
   void goes_on_with_the_checkpoint_of_another_program() {
     const QTemporaryDir folder;

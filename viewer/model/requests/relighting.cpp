@@ -32,8 +32,10 @@ namespace {
 /// Whether the light is iterated from E on, so that charts show how fast it converges. The former
 /// light is a better start, which larger scenes need.
 bool shows_iterations(const SolverSnapshot& solved) {
-  constexpr std::size_t most = 2'000'000;
-  return solved.form_factors->value.size() <= most && solved.options.scheme == Scheme::fixed;
+  constexpr std::size_t most = 2'000'000, per_moments = 9;
+  const FormFactors& f = *solved.form_factors;
+  return f.value.size() + per_moments * f.moments.size() <= most &&
+         solved.options.scheme == Scheme::fixed;
 }
 
 }  // namespace

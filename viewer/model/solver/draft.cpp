@@ -44,9 +44,8 @@ bool can_be_drafted(const SolveOptions& options, const Scene& scene) {
          scene.patch_count() <= most_patches;
 }
 
-SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
-                           std::shared_ptr<const DirectLight> shot,
-                           const Cancellation& cancellation) {
+Draft prepare_draft(SolveOptions options, const LoadedScene& loaded,
+                    std::shared_ptr<const DirectLight> shot, const Cancellation& cancellation) {
   options.goal = {};
   options.directions = draft_directions;
   options.replicas = 1;
@@ -61,17 +60,42 @@ SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
   if (!shot) {
     shot = shoot_few_points(options, *loaded.scene, cancellation);
   }
-  SolveSession draft({.scene = loaded.scene,
-                      .options = std::move(options),
-                      .tree = loaded.tree,
-                      .shot = std::move(shot)},
-                     cancellation);
-  draft.prepare();
+  std::vector<LinearTerm> slopes;
+  if (shot && !shot->linear_terms.empty()) {
+    options.basis = Basis::constant;
+    auto constant = std::make_shared<DirectLight>(*shot);
+    slopes = std::exchange(constant->linear_terms, {});
+    constant->linear_term_errors.clear();
+    for (DirectLight::Contribution& contribution : constant->contributions) {
+      contribution.linear_terms.clear();
+    }
+    shot = std::move(constant);
+  }
+  Draft draft{SolveSession({.scene = loaded.scene,
+                            .options = std::move(options),
+                            .tree = loaded.tree,
+                            .shot = std::move(shot)},
+                           cancellation),
+              std::move(slopes)};
+  draft.session.prepare();
   return draft;
+}
+
+Solution Draft::solution() const {
+  Solution light = session.solution();
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    const Rgb& rho = session.scene()->reflectance(static_cast<PatchId>(i));
+    light.linear_terms.push_back({rho * slopes[i].first, rho * slopes[i].second});
+  }
+  return light;
 }
 
 void show_light_of(const Solution& solution, SolverSnapshot& snapshot) {
   static_cast<SolvedLight&>(snapshot) = solution;
+  if (!snapshot.linear_terms.empty() && !snapshot.bases) {
+    snapshot.bases =
+        std::make_shared<const std::vector<LinearBasis>>(linear_bases(*snapshot.loaded->scene));
+  }
   snapshot.of_draft = true;
 }
 

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "model/snapshot.h"
 #include "transillum/cancellation.h"
@@ -18,16 +19,25 @@ namespace transillum::viewer {
 /// @param scene   what is solved
 bool can_be_drafted(const SolveOptions& options, const Scene& scene);
 
-/// A solve, not finished, with the same functions on patches, but few directions.
+/// A solve of few directions, prepared and not finished. Linear functions would take most of its
+/// time: where there is direct light, the functions are constant, and the light of the result has
+/// the slopes of direct light.
+struct Draft {
+  SolveSession session;
+  /// Linear terms of H by direct light; empty with the functions of the solve.
+  std::vector<LinearTerm> slopes = {};
+
+  /// The light of the finished session.
+  Solution solution() const;
+};
+
 /// @param options  of the solve
 /// @param loaded   what is solved, and its tree
 /// @param shot     the direct light of the solve's first shot; null for one of few points, where it
 ///                 pays
-/// @returns prepared
 /// @throws InputError where some options need many directions; Canceled
-SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
-                           std::shared_ptr<const DirectLight> shot,
-                           const Cancellation& cancellation);
+Draft prepare_draft(SolveOptions options, const LoadedScene& loaded,
+                    std::shared_ptr<const DirectLight> shot, const Cancellation& cancellation);
 
 /// Replaces the light of a snapshot by the light of another solve of the same patches. The progress
 /// of its own solve stays.

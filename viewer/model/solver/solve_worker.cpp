@@ -258,13 +258,13 @@ void SolveWorker::begin_with_draft() {
   }
   const Preparing preparing(*this);
   try {
-    SolveSession draft =
+    Draft draft =
         prepare_draft(choice_.solve, *loaded_,
                       prepared ? session_->diffuse()->direct_light() : nullptr, interruption());
-    SolverSnapshot start = snapshot_at_start(draft);
-    draft.advance(SolveSession::Until::finished,
-                  [this](const SolveSession&) { return !interrupted_; });
-    if (!draft.finished() || interrupted_) {
+    SolverSnapshot start = snapshot_at_start(draft.session);
+    draft.session.advance(SolveSession::Until::finished,
+                          [this](const SolveSession&) { return !interrupted_; });
+    if (!draft.session.finished() || interrupted_) {
       return;
     }
     whole_ = draft.solution();
