@@ -169,7 +169,7 @@ class ResponsivenessTest : public QObject {
     const auto window = make_window(512);
     SolveOptions options{.directions = 512};
     options.basis = Basis::linear;
-    window->set_options(options, {.max_patch_area = 1e-3});
+    window->set_options(options, {.max_patch_area = 1.3e-3});
     window->views().docks.arrange(Layout::inspect);
     Timings whole, draft, plain;
     const auto solve_in_window = [&] {
