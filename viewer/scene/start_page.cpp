@@ -103,7 +103,8 @@ class StartCard : public QAbstractButton {
         height = picture_height(width) + 2 * line + padding;
         break;
       case Look::picture_left:
-        height = std::max(theme::scaled(small_picture_height) + 2, 3 * line + padding / 2);
+        height = std::max(theme::scaled(small_picture_height) + 2,
+                          2 * line + fontMetrics().height() + padding / 2);
         break;
     }
     setFixedSize(std::max(width, 1), height);
@@ -152,7 +153,8 @@ class StartCard : public QAbstractButton {
     const int note_line = fontMetrics().lineSpacing();
     const int lines = look_ == Look::picture_left ? 2 : 1;
     // The tool tip has the whole name.
-    const QString name = shortened(text(), painter.fontMetrics(), room.width(), lines * line);
+    const int most = (lines - 1) * line + painter.fontMetrics().height();  // taller than a line
+    const QString name = shortened(text(), painter.fontMetrics(), room.width(), most);
     const int used = height_of(name, painter.fontMetrics(), room.width());
     const QRect title(room.left(), room.center().y() - (used + note_line) / 2 + 1, room.width(),
                       used);
