@@ -70,7 +70,7 @@ class SteppingTest : public QObject {
     const Stepping s("furnace");
     QVERIFY(s.ready);
     QVERIFY(s.focus.following());
-    // Nobody chose this step, so it is said why it is shown; the tool tip has the whole text.
+    // The window tells why it shows a step that was not chosen; the tool tip has the whole text.
     const auto tells_why = [text = s.window->findChild<QLabel*>("timeline_text")] {
       return text->toolTip().contains("at its fullest step");
     };

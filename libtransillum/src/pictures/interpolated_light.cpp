@@ -314,11 +314,9 @@ Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x, const Interpolatio
   const Cell* cell = &cells.roots[q].get([&] { return root_of(cells, q, cancellation); });
   const double looseness = precision.tolerance / Interpolation().tolerance;
   // If no middle of a cell differs by more than the tolerance, its parts need no check.
-  constexpr double smooth = 1;
   while (size_of(corners) > precision.detail) {
     const double size = size_of(corners) / diagonal_;
-    if ((size <= tiny && !cell->is_part) ||
-        (size <= largest && cell->roughness <= smooth * looseness)) {
+    if ((size <= tiny && !cell->is_part) || (size <= largest && cell->roughness <= looseness)) {
       break;
     }
     const Check& check =
