@@ -107,6 +107,15 @@ std::array<float, 3> weights_of(const ColorScale& scale) {
           static_cast<float>(scale.value({0, 0, 1}))};
 }
 
+std::array<float, 4> tuple_of(const Rgb& value, bool dimmed) {
+  const float dim = dimmed ? 1 : 0;
+  if (std::isnan(value.r)) {
+    return {0, 0, 0, dim + 2};
+  }
+  return {static_cast<float>(value.r), static_cast<float>(value.g), static_cast<float>(value.b),
+          dim};
+}
+
 void set_scale(vtkUniforms& uniforms, const ColorScale& scale) {
   uniforms.SetUniformi("lightTrueColor", scale.mode == ColorMode::true_color ? 1 : 0);
   uniforms.SetUniformf("lightFactor", static_cast<float>(std::exp2(scale.exposure)));
@@ -220,21 +229,17 @@ void LinearSurface::make_points() {
 
 void LinearSurface::show(const ColorChoice& colors, const std::vector<bool>& dimmed) {
   show(colors.scale(), [&](PatchId patch, const Vec3& point) {
-    const float dim = !dimmed.empty() && at(dimmed, patch) ? 1 : 0;
-    Rgb value = colors.value_at(patch, point);
-    const bool is_omitted = std::isnan(value.r);
-    if (is_omitted) {
-      value = {};
-    }
-    return Tuple{static_cast<float>(value.r), static_cast<float>(value.g),
-                 static_cast<float>(value.b), dim + (is_omitted ? 2.0F : 0.0F)};
+    return tuple_of(colors.value_at(patch, point), !dimmed.empty() && at(dimmed, patch));
   });
 }
 
-void LinearSurface::show(const ColorScale& scale, std::shared_ptr<const LightMap> map,
-                         double factor) {
+void LinearSurface::show(const ColorChoice& colors, std::shared_ptr<const LightMap> map,
+                         double factor, const std::function<bool(PatchId)>& without_map) {
   load(std::move(map));
-  show(scale, [&](PatchId patch, const Vec3& point) {
+  show(colors.scale(), [&](PatchId patch, const Vec3& point) {
+    if (without_map(patch)) {
+      return tuple_of(colors.value_at(patch, point), false);
+    }
     const auto [x, y] = map_->place(patch, point);
     return Tuple{static_cast<float>(x / map_->width()), static_cast<float>(y / map_->height()),
                  static_cast<float>(factor), 4};

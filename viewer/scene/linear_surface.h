@@ -39,8 +39,10 @@ class LinearSurface {
   /// Shows the values of `colors`, which are linear.
   /// @param dimmed  whether a patch is dimmed, one per patch; empty if none is
   void show(const ColorChoice& colors, const std::vector<bool>& dimmed);
-  /// Shows `factor` times the values of a map of the scene.
-  void show(const ColorScale& scale, std::shared_ptr<const LightMap> map, double factor);
+  /// Shows `factor` times the values of a map of the scene, and the values of `colors` on patches
+  /// for which `without_map` holds.
+  void show(const ColorChoice& colors, std::shared_ptr<const LightMap> map, double factor,
+            const std::function<bool(PatchId)>& without_map);
   void hide() { actor_->VisibilityOff(); }
 
  private:

@@ -94,10 +94,10 @@ void PatchSurface::color(const ColorChoice& colors, std::span<const Color8> patc
   }
 }
 
-void PatchSurface::color(const ColorScale& scale, std::shared_ptr<const LightMap> map,
-                         double factor) {
+void PatchSurface::color(const ColorChoice& colors, std::shared_ptr<const LightMap> map,
+                         double factor, const std::function<bool(PatchId)>& without_map) {
   actor_->VisibilityOff();
-  linear_->show(scale, std::move(map), factor);
+  linear_->show(colors, std::move(map), factor, without_map);
 }
 
 }  // namespace transillum::viewer

@@ -39,7 +39,9 @@ class PatchSurface {
   void color(const ColorChoice& colors, std::span<const Color8> patch_colors,
              const std::vector<bool>& dimmed);
   /// Shows a light map, `factor` times its B, until color() is called.
-  void color(const ColorScale& scale, std::shared_ptr<const LightMap> map, double factor);
+  /// @param without_map  whether a patch shows its value of `colors` all the same
+  void color(const ColorChoice& colors, std::shared_ptr<const LightMap> map, double factor,
+             const std::function<bool(PatchId)>& without_map);
   bool outlined() const;
   /// Whether edges of patches are drawn, with the surfaces or in their place.
   bool draws_edges() const;

@@ -340,7 +340,10 @@ void SceneView::recolor() {
   }
   if (map_.light && map_.snapshot == lit_snapshot()) {
     const bool by_eye = colors_.quantity() == Quantity::eye_radiance;
-    surface_->color(colors_.scale(), map_.light, by_eye ? 1 / std::numbers::pi : 1);
+    const GlossyLight* glossy = map_.snapshot->glossy.get();
+    // The light of a lobe depends on the eye, and is no part of the map.
+    surface_->color(colors_, map_.light, by_eye ? 1 / std::numbers::pi : 1,
+                    [&](PatchId patch) { return glossy != nullptr && glossy->is_glossy(patch); });
   } else {
     surface_->color(colors_, patch_colors_, dimmed);
   }

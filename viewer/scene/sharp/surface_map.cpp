@@ -21,10 +21,6 @@ constexpr PatchId most_patches = 20'000;
 
 QString why_no_map(const SolverSnapshot& snapshot) {
   const auto tr = [](const char* text) { return QCoreApplication::translate("SurfaceMap", text); };
-  if (snapshot.glossy) {
-    return tr(
-        "While the camera moves, patches are shown: the light of lobes depends on the camera");
-  }
   if (snapshot.loaded->scene->patch_count() > most_patches) {
     return tr("While the camera moves, patches are shown: light maps are made for up to %1 patches")
         .arg(most_patches);
