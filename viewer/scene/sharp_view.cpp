@@ -53,10 +53,12 @@ SharpView::SharpView(SceneView& view, QObject* parent)
             };
             QMetaObject::invokeMethod(this, report, Qt::QueuedConnection);
           }) {
-  action_ = make_key_action(this, "sharp", tr("Sharp"),
-                            tr("Once the scene rests, compute its light in every pixel, with exact "
-                               "shadows of lamps.\nIf this is off, the colors of the patches stay"),
-                            QKeySequence(Qt::Key_S));
+  action_ = make_key_action(
+      this, "sharp", tr("Sharp"),
+      tr("Once the scene rests, compute its light in every pixel, with exact "
+         "shadows of lamps.\nPatches keep their colors if this is off, and while their "
+         "outlines, a step, or anything but light in true color is shown"),
+      QKeySequence(Qt::Key_S));
   usual_tip_ = action_->toolTip();
   action_->setCheckable(true);
   action_->setChecked(true);
