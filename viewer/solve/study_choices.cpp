@@ -68,8 +68,8 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
       continue;  // their error does not depend on M
     }
     const QString name = QString::fromStdString(name_of(engine));
-    QCheckBox* box = add_box(engines_, QStringLiteral("engine_") + name, name, static_cast<int>(k),
-                             engine == solve_.engine);
+    QCheckBox* box = add_box(engines_, QStringLiteral("engine_") + name, engine_label(engine),
+                             static_cast<int>(k), engine == solve_.engine);
     box->setToolTip(engine_sentence(engine));
     const int place = static_cast<int>(engines_.size()) - 1;
     engines->addWidget(box, place / 2, place % 2);
