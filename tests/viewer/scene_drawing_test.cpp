@@ -346,6 +346,21 @@ class SceneDrawingTest : public QObject {
     }
   }
 
+  void a_wall_is_first_seen_from_its_front() {
+    for (const Vec3& normal : {Vec3{0, 0, -1}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}, Vec3{1, 0, 0}}) {
+      const Vec3 across{normal.y, normal.z, normal.x}, along = cross(normal, across);
+      SceneDescription description;
+      description.name = "wall";
+      description.materials = {{"white", {0.5, 0.5, 0.5}, {}}};
+      description.points = {-across - along, across - along, across + along, along - across};
+      description.add_face(std::vector<PointId>{0, 1, 2, 3}, 0);
+      const Scene wall(description);
+      QVERIFY(dot(normal, wall.patch(0).normal) > 0.99);
+      QVERIFY(dot(normal, initial_view(wall, 1.5).eye) > 0.3);
+      QVERIFY(dot(normal, initial_view(wall, 1.5, Vec3{0, 0, 1}).eye) > 0.3);
+    }
+  }
+
   void saved_views_restore_the_camera() {
     const Inspected shown("rooms");
     QVERIFY(shown.ready);

@@ -51,11 +51,33 @@ Pose upright_pose(const Vec3& up) {
   return pose;
 }
 
-const Pose& pose_of(const Scene& scene) {
-  const std::string name = scene.name().substr(0, scene.name().find(':'));
-  const auto* found = std::find_if(std::begin(poses), std::end(poses),
-                                   [&](const Pose& pose) { return pose.scene == name; });
-  return found == std::end(poses) ? file_pose : *found;
+/// The area of the fronts that face a direction, projected along it, m².
+double fronts_toward(const Scene& scene, const Vec3& direction) {
+  double area = 0;
+  for (const Patch& patch : scene.patches()) {
+    area += patch.area * std::max(0.0, dot(patch.normal, direction));
+  }
+  return area;
+}
+
+/// Turns a pose to where the scene shows its fronts, if it shows less than half of them: a single
+/// wall, or a room whose front side is open. Closed surfaces show as much from everywhere.
+Pose turned_to_fronts(const Scene& scene, const Pose& pose) {
+  const Vec3 above = dot(pose.toward_eye, pose.up) * pose.up;
+  const Vec3 aside = pose.toward_eye - above, across = cross(pose.up, aside);
+  const double first = fronts_toward(scene, normalized(pose.toward_eye));
+  double most = 2 * first;
+  Pose result = pose;
+  for (const double height : {1.0, -1.0}) {
+    for (const Vec3& toward : {aside, across, -across, -aside}) {
+      const Vec3 toward_eye = toward + height * above;
+      if (const double area = fronts_toward(scene, normalized(toward_eye)); area > most) {
+        most = area;
+        result.toward_eye = toward_eye;
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -89,9 +111,14 @@ ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up
 }
 
 ViewPoint initial_view(const Scene& scene, double aspect, const std::optional<Vec3>& up) {
-  Pose pose = pose_of(scene);
+  const std::string name = scene.name().substr(0, scene.name().find(':'));
+  const Pose* const known = std::ranges::find(poses, name, &Pose::scene);
+  Pose pose = known == std::end(poses) ? file_pose : *known;
   if (up && !(*up == pose.up)) {
     pose = upright_pose(*up);
+  }
+  if (known == std::end(poses)) {
+    pose = turned_to_fronts(scene, pose);
   }
   ViewPoint view = view_of_all(scene, pose.toward_eye, pose.up, pose.view_angle, aspect);
   if (pose.radius_fraction < 1) {
