@@ -37,10 +37,12 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(1);
-  auto* heading = new QLabel(title);
+  // A unit is not broken at its slash.
+  auto* heading = new QLabel(QString(title).replace('/', QStringLiteral("\u2060/\u2060")));
   QFont bold = heading->font();
   bold.setBold(true);
   heading->setFont(bold);
+  heading->setWordWrap(true);
   together_ = named(part("together"), new QCheckBox(tr("together")),
                     tr("Keeps the proportions of red, green and blue, and so the hue"));
   together_->setChecked(true);
