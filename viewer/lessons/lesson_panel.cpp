@@ -189,6 +189,7 @@ void LessonPanel::show_page(int lesson, int page) {
 }
 
 void LessonPanel::leave_scene() {
+  question_->leave_scene();
   emit callouts_shown({});
   emit errors_wanted({});
   emit values_hidden(false);

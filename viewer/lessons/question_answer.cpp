@@ -87,6 +87,12 @@ bool is_given(const Question& question, const GivenAnswer& answer) {
 
 Solved solve_question(const Question& question, ComputedValues& computed) {
   Solved solved;
+  computed.expect(question.wanted);
+  for (const Question::Choice& choice : question.choices) {
+    if (choice.value) {
+      computed.expect(*choice.value);
+    }
+  }
   if (question.kind == Question::Kind::patch) {
     solved.values = computed.of_patches(question.wanted);
     solved.right = best_of(solved.values, question.rule, 0);

@@ -283,6 +283,8 @@ void MainWindow::connect_views() {
           &AlgorithmView::set_values_hidden);
   connect(lesson_panel_, &LessonPanel::enlarged, &docks_, &DockLayouts::enlarge);
   connect(lesson_panel_, &LessonPanel::sketched, map_view_->canvas(), &MapCanvas::show_sketch);
+  connect(&state_.runner, &SolveRunner::state_changed, &lesson_panel_->question(),
+          &QuestionBox::show_run);
   connect(&state_.breakpoints, &Breakpoints::changed, timeline_->lanes(),
           &TimelineLanes::count_columns);
   connect(&state_.runner, &SolveRunner::load_progressed, progress_, &ProgressLine::show_loading);
