@@ -272,6 +272,23 @@ class QuestionsTest : public QObject {
     const Solved& result = *room.box->solved();
     QVERIFY(result.region.size() == 1 && result.value > 0);
     save_picture(*room.window, "question-area");
+    const auto hatched = [canvas](const QColor& color) {
+      return fraction_of(canvas->grab().toImage(), color) > 1e-3;
+    };
+    QVERIFY(!hatched(theme::difference));
+    // Moved by 0.3 of an edge, it lacks a strip and has one too much.
+    room.action("question_reveal")->trigger();
+    const Vec2 edge{corners[1].x - corners[0].x, corners[1].y - corners[0].y};
+    for (const Vec2& p : corners) {
+      click({p.x + 0.3 * edge.x, p.y + 0.3 * edge.y});
+    }
+    QTRY_COMPARE(room.box->answer().outline.size(), corners.size());
+    QVERIFY(!hatched(theme::selection) && !hatched(theme::difference));
+    room.reveal();
+    QVERIFY(room.text("question_result").contains("Not this time"));
+    QVERIFY(room.text("question_result").contains("are missing"));
+    QVERIFY(hatched(theme::selection) && hatched(theme::difference));
+    save_picture(*room.window, "question-area-wrong");
   }
 
   // This one takes thousands of passes.
