@@ -168,7 +168,7 @@ class LessonLayoutsTest : public QObject {
           return checks == 3;
         };
         const QString name = QString("%1.%2").arg(lesson + 1).arg(page + 1);
-        if (!wait_for(fits, 1500)) {
+        if (!wait_for(fits, 10000)) {
           found << name + ": " + room.faults.join(", ");
         }
         save_picture(*room.window,
