@@ -46,6 +46,17 @@ bool holds(const std::vector<PatchId>& list, PatchId patch) {
   return std::find(list.begin(), list.end(), patch) != list.end();
 }
 
+SolveOptions with_linear_basis(SolveOptions options) {
+  options.basis = Basis::linear;
+  return options;
+}
+
+SolveOptions reference_options_of(const LessonValue& wanted) {
+  SolveOptions options = reference_options(wanted.reference);
+  options.first_shot = first_shot_where_it_pays;
+  return options;
+}
+
 ErrorEstimate estimate_of(const RadiositySolver& solver) {
   ErrorEstimate estimate = solver.error_estimate();
   if (estimate.replicas == 0) {
@@ -56,10 +67,64 @@ ErrorEstimate estimate_of(const RadiositySolver& solver) {
 
 }  // namespace
 
-ComputedValues::ComputedValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation)
-    : loaded_(std::move(loaded)), cancellation_(std::move(cancellation)) {}
+ComputedValues::ComputedValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation,
+                               std::function<void(double fraction)> progress)
+    : loaded_(std::move(loaded)),
+      cancellation_(std::move(cancellation)),
+      progress_(std::move(progress)) {}
 
 ComputedValues::~ComputedValues() = default;
+
+double ComputedValues::work_of(const SolveOptions& options, double patch_area) const {
+  const Scene& scene = *loaded_->scene;
+  double area = 0;
+  for (PatchId i = 0; patch_area > 0 && i < scene.patch_count(); ++i) {
+    area += scene.patch(i).area;
+  }
+  return options.directions * (patch_area > 0 ? area / patch_area : scene.patch_count());
+}
+
+void ComputedValues::expect_solve(const SolveOptions& options, double patch_area) {
+  const std::pair solve(options, patch_area);
+  if (std::find(expected_.begin(), expected_.end(), solve) == expected_.end()) {
+    expected_.push_back(solve);
+    expected_work_ += work_of(options, patch_area);
+  }
+}
+
+void ComputedValues::expect(const LessonValue& wanted) {
+  switch (wanted.kind) {
+    case LessonValueKind::constant:
+    case LessonValueKind::patches:
+    case LessonValueKind::fragments:
+    case LessonValueKind::area:
+    case LessonValueKind::exitance:
+    case LessonValueKind::reflectance:
+      return;
+    case LessonValueKind::ratio:
+      std::for_each(wanted.of.begin(), wanted.of.end(), [this](const auto& of) { expect(of); });
+      return;
+    case LessonValueKind::function_error:
+      expect_solve(with_linear_basis(wanted.solve), wanted.reference_area);
+      expect_solve(wanted.solve, wanted.patch_area);
+      return;
+    case LessonValueKind::rms_error:
+    case LessonValueKind::covered:
+      expect_solve(reference_options_of(wanted));
+      [[fallthrough]];
+    default:
+      if (!is_of_direction(wanted.kind)) {
+        expect_solve(wanted.solve);
+      }
+  }
+}
+
+void ComputedValues::tell(double work, const SolveProgress& now) const {
+  const double fraction = now.iteration > 0 ? 1 : 1.0 * now.direction / std::max(1, now.passes);
+  if (progress_ && expected_work_ > 0) {
+    progress_(std::min(1.0, (done_work_ + fraction * work) / expected_work_));
+  }
+}
 
 void ComputedValues::check_patch(PatchId patch) const {
   const PatchId patches = loaded_->scene->patch_count();
@@ -84,7 +149,12 @@ ComputedValues::Run& ComputedValues::run_of(const SolveOptions& options) {
 const RadiositySolver& ComputedValues::solved(const SolveOptions& options) {
   Run& run = run_of(options);
   if (!run.solver.progress().finished) {
-    run.solver.advance(RadiositySolver::Until::finished);
+    const double work = work_of(options);
+    run.solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& solver) {
+      tell(work, solver.progress());
+      return true;
+    });
+    done_work_ += work;
   }
   return run.solver;
 }
@@ -111,7 +181,12 @@ const Solution* ComputedValues::solved_with_lobes(const SolveOptions& options,
   }
   GlossySolver solver(scene, options, {.tree = changes.empty() ? loaded_->tree : nullptr},
                       cancellation_);
-  solver.solve();
+  const double work = work_of(options);
+  solver.solve([&](const SolveProgress& now) {
+    tell(work, now);
+    return true;
+  });
+  done_work_ += work;
   known.emplace_back(changes, solver.solution());
   return &known.back().second;
 }
@@ -156,9 +231,12 @@ const MapHistory& ComputedValues::history_of(const LessonValue& wanted) {
 const std::vector<Rgb>& ComputedValues::reference_of(const LessonValue& wanted) {
   auto& reference = references_[wanted.reference];
   if (reference.empty()) {
-    SolveOptions options = reference_options(wanted.reference);
-    options.first_shot = first_shot_where_it_pays;
-    reference = solve_reference(loaded_->scene, loaded_->tree, options, {}, cancellation_);
+    const SolveOptions options = reference_options_of(wanted);
+    const double work = work_of(options);
+    reference = solve_reference(
+        loaded_->scene, loaded_->tree, options, [&](const SolveProgress& now) { tell(work, now); },
+        cancellation_);
+    done_work_ += work;
   }
   return reference;
 }
@@ -205,7 +283,13 @@ const Solution& ComputedValues::divided(double patch_area, const SolveOptions& o
   scene_options.max_patch_area = patch_area;
   const auto scene =
       std::make_shared<const Scene>(*loaded_->description, scene_options, cancellation_);
-  Solution solution = solve(scene, options, {}, cancellation_);
+  const double work = work_of(options, patch_area);
+  const auto observer = [&](const SolveSession& session) {
+    tell(work, session.progress());
+    return true;
+  };
+  Solution solution = solve(scene, options, observer, cancellation_);
+  done_work_ += work;
   cancellation_.throw_if_canceled();
   return divided_
       .emplace_back(std::make_unique<Divided>(Divided{patch_area, options, std::move(solution)}))
@@ -213,9 +297,7 @@ const Solution& ComputedValues::divided(double patch_area, const SolveOptions& o
 }
 
 double ComputedValues::function_error(const LessonValue& wanted) {
-  SolveOptions options = wanted.solve;
-  options.basis = Basis::linear;
-  const Solution& reference = divided(wanted.reference_area, options);
+  const Solution& reference = divided(wanted.reference_area, with_linear_basis(wanted.solve));
   return compare_functions(reference, divided(wanted.patch_area, wanted.solve)).l2;
 }
 

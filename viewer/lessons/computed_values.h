@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <utility>
@@ -20,9 +21,14 @@ namespace transillum::viewer {
 class ComputedValues {
  public:
   /// @param cancellation  checked in solves and maps
-  ComputedValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation);
+  /// @param progress  if set, called with the finished fraction of the values that are expected; on
+  /// any thread, but never on two at once
+  ComputedValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation,
+                 std::function<void(double fraction)> progress = {});
   ~ComputedValues();
 
+  /// Adds the solves of a value that will be asked for to those that the progress is about.
+  void expect(const LessonValue& wanted);
   /// @throws InputError where the value names a patch or direction that does not exist, or needs
   /// replicas that the run does not have; Canceled; what a solve throws
   double value(const LessonValue& wanted);
@@ -56,7 +62,16 @@ class ComputedValues {
   void check_patch(PatchId patch) const;
 
   std::shared_ptr<const LoadedScene> loaded_;
+  /// The work of a solve of the scene, or of patches of at most `patch_area`: passes times patches.
+  double work_of(const SolveOptions& options, double patch_area = 0) const;
+  void expect_solve(const SolveOptions& options, double patch_area = 0);
+  /// Reports what a solve, which has this work in all, has done.
+  void tell(double work, const SolveProgress& now) const;
+
   Cancellation cancellation_;
+  std::function<void(double)> progress_;
+  std::vector<std::pair<SolveOptions, double>> expected_;  ///< solves: options, and area of patches
+  double expected_work_ = 0, done_work_ = 0;
   std::vector<std::unique_ptr<Run>> runs_;
   std::vector<std::pair<Vec3, MapHistory>> histories_;
   std::map<int, std::vector<Rgb>> references_;  ///< B of the reference, by its number of passes

@@ -13,11 +13,11 @@
 #include <QToolButton>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "lessons/computed_values.h"
+#include "lessons/result_text.h"
 #include "support/failure_text.h"
 #include "support/list_change.h"
 #include "support/number_text.h"
@@ -35,9 +35,20 @@ QLabel* wrapped_label(const char* name) {
   return label;
 }
 
-QString colored(const QString& text, const QColor& color) {
-  return QStringLiteral("<b style='color: %1'>%2</b>").arg(color.name(), text);
-}
+/// The text of a choice, which a radio button would not wrap; a click chooses it.
+class ChoiceText : public QLabel {
+ public:
+  ChoiceText(const QString& text, QRadioButton& button) : QLabel(text), button_(button) {
+    setTextFormat(Qt::PlainText);
+    setWordWrap(true);
+  }
+
+ protected:
+  void mouseReleaseEvent(QMouseEvent*) override { button_.click(); }
+
+ private:
+  QRadioButton& button_;
+};
 
 int total_of(const AnswerCounts& counts) {
   return std::accumulate(counts.begin(), counts.end(), 0,
@@ -52,17 +63,15 @@ QuestionBox::QuestionBox(Selection& selection, Focus& focus, QWidget* parent)
       focus_(focus),
       solver_(*this, [this](const QuestionRequest&, const std::shared_ptr<const Solved>& solved,
                             const QString& error) {
-        if (solved) {
-          show_solved(*solved);
-          return;
-        }
-        show_state();
-        emit failed(error);
+        computed_ = solved;
+        failure_ = error;
+        show_computed();
       }) {
   setObjectName("question");
   setFrameShape(QFrame::StyledPanel);
   make_actions();
   make_widgets();
+  connect(&progress_timer_, &QTimer::timeout, this, &QuestionBox::show_progress);
   connect(&selection_, &Selection::changed, this, &QuestionBox::take_patch);
   connect(&focus_, &Focus::probed, this, &QuestionBox::take_point);
   hide();
@@ -91,9 +100,14 @@ void QuestionBox::make_widgets() {
   result_->setTextFormat(Qt::RichText);
   counts_ = wrapped_label("question_counts");
   counts_->setForegroundRole(QPalette::PlaceholderText);
+  progress_ = named("question_progress", new QProgressBar);
+  progress_->setRange(0, 1000);
+  progress_->setTextVisible(false);
+  progress_->setFixedHeight(theme::scaled(8));
   layout_ = make_column(this, {10, 8, 10, 8}, 6);
   layout_->addWidget(ask_);
   layout_->addWidget(result_);
+  layout_->addWidget(progress_);
   layout_->addWidget(counts_);
   layout_->addWidget(make_buttons());
 }
@@ -118,7 +132,7 @@ void QuestionBox::show_page(std::shared_ptr<const Lesson::Page> page, int number
   page_ = asks ? std::move(page) : nullptr;
   page_number_ = number;
   tally_ = std::move(tally);
-  solver_.clear();
+  cancel();
   solved_.reset();
   answer_ = {};
   delete std::exchange(answers_, nullptr);
@@ -133,6 +147,12 @@ void QuestionBox::show_page(std::shared_ptr<const Lesson::Page> page, int number
   }
   show_state();
   send_sketch();
+  // The call is made after the window has applied the page.
+  QTimer::singleShot(0, this, [this] {
+    if (!runs_) {
+      compute();
+    }
+  });
 }
 
 void QuestionBox::set_text_font(const QFont& font) {
@@ -178,11 +198,12 @@ void QuestionBox::fill_answers() {
 
 void QuestionBox::add_choice(int k) {
   auto* grid = static_cast<QGridLayout*>(answers_->layout());
-  auto* button = named(QStringLiteral("choice_%1").arg(k + 1),
-                       new QRadioButton(label_of(at(page_->question->choices, k))),
+  auto* button = named(QStringLiteral("choice_%1").arg(k + 1), new QRadioButton,
                        tr("Predict this (arrow keys move between the answers)"));
+  const QString label = label_of(at(page_->question->choices, k));
+  button->setAccessibleName(label);
   choices_->addButton(button, k);
-  ChoiceRow row{new QLabel, new QLabel, new QProgressBar};
+  ChoiceRow row{new QLabel, new ChoiceText(label, *button), new QLabel, new QProgressBar};
   row.mark->setFixedWidth(theme::scaled(16));
   row.bar->setTextVisible(false);
   row.bar->setFixedSize(theme::scaled(70), theme::scaled(10));
@@ -190,9 +211,10 @@ void QuestionBox::add_choice(int k) {
   row.value->setForegroundRole(QPalette::PlaceholderText);
   grid->addWidget(row.mark, k, 0);
   grid->addWidget(button, k, 1);
-  grid->addWidget(row.value, k, 2);
-  grid->addWidget(row.bar, k, 3);
-  grid->setColumnStretch(1, 1);
+  grid->addWidget(row.text, k, 2);
+  grid->addWidget(row.value, k, 3);
+  grid->addWidget(row.bar, k, 4);
+  grid->setColumnStretch(2, 1);
   rows_.push_back(row);
 }
 
@@ -268,18 +290,71 @@ void QuestionBox::reveal() {
   if (!page_) {
     return;
   }
-  if (solver_.busy()) {
-    solver_.clear();
-    show_state();
+  if (std::exchange(waits_, false)) {
+    show_state();  // the computation continues
     return;
   }
-  const auto loaded = scene_ ? scene_(page_->state) : nullptr;
-  if (!loaded) {
+  compute();
+  if (!computed_ && !solver_.busy() && failure_.isEmpty()) {
     emit failed(tr("The scene of this page is not open. Show the page again (Ctrl+L)."));
     return;
   }
-  solver_.request({loaded, *page_->question});
+  waits_ = true;
+  show_computed();
+}
+
+void QuestionBox::show_run(RunState run) {
+  runs_ = run == RunState::running || run == RunState::loading;
+  if (!runs_) {
+    compute();
+  }
+}
+
+void QuestionBox::compute() {
+  const auto loaded = page_ && scene_ ? scene_(page_->state) : nullptr;
+  if (loaded && !computed_ && !solver_.busy() && failure_.isEmpty()) {
+    done_ = std::make_shared<std::atomic<double>>(0.0);
+    time_.start();
+    solver_.request({loaded, *page_->question, done_});
+  }
+}
+
+void QuestionBox::cancel() {
+  solver_.clear();
+  computed_ = nullptr;
+  failure_.clear();
+  waits_ = false;
+}
+
+void QuestionBox::leave_scene() {
+  cancel();
   show_state();
+}
+
+// The answer, or why there is none, is told only when the user asks for it.
+void QuestionBox::show_computed() {
+  if (!waits_ || solver_.busy()) {
+    show_state();
+    return;
+  }
+  waits_ = false;
+  if (computed_) {
+    show_solved(*computed_);
+    return;
+  }
+  show_state();
+  emit failed(std::exchange(failure_, QString()));
+}
+
+void QuestionBox::show_progress() {
+  constexpr double least_to_tell = 0.05;
+  const double done = *done_;
+  progress_->setValue(static_cast<int>(done * progress_->maximum()));
+  const double left =
+      done > 0 ? 1e-3 * static_cast<double>(time_.elapsed()) * (1 - done) / done : 0;
+  result_->setText(done < least_to_tell
+                       ? tr("The program computes the answer…")
+                       : tr("The program computes the answer: %1 left").arg(duration_text(left)));
 }
 
 void QuestionBox::show_solved(const Solved& solved) {
@@ -361,7 +436,7 @@ std::string QuestionBox::label_of_answer() const {
     case Question::Kind::patch:
       return tr("patch %1").arg(answer_.patch).toStdString();
     case Question::Kind::number:
-      return value_text(*answer_.number).toStdString();
+      return value_text(*page_->question, *answer_.number).toStdString();
     case Question::Kind::area:
       break;
   }
@@ -371,76 +446,8 @@ std::string QuestionBox::label_of_answer() const {
 
 QString QuestionBox::label_of(const Question::Choice& choice) const {
   return choice.text.empty() && choice.value && !is_computed(*choice.value)
-             ? value_text(choice.value->number)
+             ? value_text(*page_->question, choice.value->number)
              : QString::fromStdString(choice.text);
-}
-
-QString QuestionBox::value_text(double value) const {
-  const Question& question = *page_->question;
-  const QString unit = QString::fromStdString(question.unit);
-  const QString number = number_text(question.percent ? 100 * value : value);
-  return unit.isEmpty() ? number : number + QStringLiteral(" ") + unit;
-}
-
-QString QuestionBox::verdict_text() const {
-  const Question& question = *page_->question;
-  if (!is_given(question, answer_)) {
-    return {};
-  }
-  return is_right(question, *solved_, answer_) ? colored(tr("✓ Right."), theme::good)
-                                               : colored(tr("✗ Not this time."), theme::warm);
-}
-
-/// Tells the value of a wrong answer.
-QString QuestionBox::reason_text() const {
-  const Question& question = *page_->question;
-  if (!is_given(question, answer_) || is_right(question, *solved_, answer_)) {
-    return {};
-  }
-  if (question.kind == Question::Kind::patch) {
-    const double value = has_index(solved_->values, answer_.patch)
-                             ? at(solved_->values, answer_.patch)
-                             : std::numeric_limits<double>::quiet_NaN();
-    return ' ' + (std::isfinite(value)
-                      ? tr("Patch %1 has %2.").arg(answer_.patch).arg(value_text(value))
-                      : tr("Patch %1 has no such value.").arg(answer_.patch));
-  }
-  if (question.kind == Question::Kind::number && solved_->value != 0) {
-    return ' ' + tr("Your number is %1 times this.")
-                     .arg(QString::number(*answer_.number / solved_->value, 'g', 2));
-  }
-  return {};
-}
-
-QString QuestionBox::result_text() const {
-  const Question& question = *page_->question;
-  const QString verdict = verdict_text() + ' ';
-  switch (question.kind) {
-    case Question::Kind::choice:
-      return question.rule == Question::Rule::nearest
-                 ? verdict + tr("The program computes %1.").arg(value_text(solved_->value))
-                 : verdict;
-    case Question::Kind::number:
-      return verdict + tr("The program computes %1.").arg(value_text(solved_->value)) +
-             reason_text();
-    case Question::Kind::patch:
-      return solved_->right.empty()
-                 ? verdict
-                 : verdict +
-                       tr("The right answer is patch %1, with %2.")
-                           .arg(solved_->right.front())
-                           .arg(value_text(at(solved_->values, solved_->right.front()))) +
-                       reason_text();
-    case Question::Kind::area:
-      break;
-  }
-  const QString area = tr("The program's region has %1.").arg(value_text(solved_->value));
-  if (!is_given(question, answer_)) {
-    return verdict + area;
-  }
-  const int percent =
-      static_cast<int>(std::lround(100 * overlap(solved_->region, answer_.outline)));
-  return verdict + area + ' ' + tr("Your area overlaps it by %1 %.").arg(percent);
 }
 
 QString QuestionBox::tally_text(const AnswerCounts& counts) const {
@@ -472,9 +479,10 @@ void QuestionBox::show_state() {
   const bool given = asks && is_given(*page_->question, answer_);
   const AnswerCounts counts =
       asks && tally_ ? tally_->of(page_number_, *page_->question) : AnswerCounts();
-  reveal_->setText(solver_.busy() ? tr("Stop")
-                   : solved_      ? tr("Ask again")
-                                  : tr("Reveal the answer"));
+  reveal_->setText(waits_ ? tr("Stop") : solved_ ? tr("Ask again") : tr("Reveal the answer"));
+  progress_->setVisible(waits_);
+  constexpr int period = 100;
+  waits_ ? progress_timer_.start(period) : progress_timer_.stop();
   enable_if(*reveal_, asks, tr("This page asks no question"));
   enable_if(*count_, given && !solved_ && page_->question->kind != Question::Kind::area,
             solved_ ? tr("The answer is shown")
@@ -485,14 +493,12 @@ void QuestionBox::show_state() {
     return;
   }
   ask_->setText(QString::fromStdString(page_->question->ask));
-  QString result;
-  if (solver_.busy()) {
-    result = tr("The program computes the answer…");
-  } else if (solved_) {
-    result = result_text().trimmed();
+  result_->setText(solved_ ? result_text(*page_->question, *solved_, answer_).trimmed()
+                           : QString());
+  result_->setVisible(waits_ || !result_->text().isEmpty());
+  if (waits_) {
+    show_progress();
   }
-  result_->setText(result);
-  result_->setVisible(!result.isEmpty());
   const QString tally = tally_text(counts);
   counts_->setText(tally);
   counts_->setVisible(!tally.isEmpty());
@@ -522,11 +528,12 @@ void QuestionBox::show_choices(const AnswerCounts& counts) {
     row.bar->setToolTip(tr("%1 of %2 answers").arg(row.bar->value()).arg(total_of(counts)));
     row.bar->setVisible(solved_ && total_of(counts) > 0);
     enable_if(*choices_->button(k), !solved_, tr("The answer is shown"));
+    row.text->setEnabled(!solved_);
     const bool right =
         solved_ && std::binary_search(solved_->right.begin(), solved_->right.end(), k);
     row.mark->setText(right ? colored(QStringLiteral("✓"), theme::good) : QString());
     const bool computed = solved_ && choice.value && is_computed(*choice.value);
-    row.value->setText(computed ? value_text(at(solved_->values, k)) : QString());
+    row.value->setText(computed ? value_text(*page_->question, at(solved_->values, k)) : QString());
   }
 }
 

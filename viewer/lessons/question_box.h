@@ -1,7 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QFrame>
+#include <QTimer>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -46,6 +49,14 @@ class QuestionBox : public QFrame {
   void show_page(std::shared_ptr<const Lesson::Page> page, int number,
                  std::shared_ptr<Tally> tally);
 
+  /// When the run of the page is over, the answer is computed while the page is read. Turning the
+  /// page cancels that.
+  void show_run(RunState run);
+  /// To be called after a change of the tally.
+  void refresh() { show_state(); }
+  /// To be called when another scene is opened: cancels the computation.
+  void leave_scene();
+
   /// The font of the question and its answers; buttons keep theirs. To be called after a change of
   /// the appearance.
   void set_text_font(const QFont& font);
@@ -55,6 +66,8 @@ class QuestionBox : public QFrame {
   const GivenAnswer& answer() const { return answer_; }
   /// The argument of the last values_hidden().
   bool hides_values() const { return hides_values_; }
+  /// Whether the answer has been computed, for Reveal to show at once.
+  bool ready() const { return computed_ != nullptr; }
   /// The result of Reveal; null before Reveal.
   const Solved* solved() const { return solved_ ? &*solved_ : nullptr; }
   /// The answer to a question for a patch, after Reveal.
@@ -83,6 +96,11 @@ class QuestionBox : public QFrame {
   void set_answer(GivenAnswer answer);
   void clear_answer();
   void reveal();
+  /// Nothing happens if it has begun, or if the scene of the page is not open.
+  void compute();
+  void cancel();
+  void show_computed();
+  void show_progress();
   void ask_again();
   void show_solved(const Solved& solved);
   void select_right();
@@ -90,10 +108,6 @@ class QuestionBox : public QFrame {
   void set_counts(const AnswerCounts& counts, const QString& what);
   std::string label_of_answer() const;
   QString label_of(const Question::Choice& choice) const;
-  QString value_text(double value) const;
-  QString verdict_text() const;
-  QString reason_text() const;
-  QString result_text() const;
   QString tally_text(const AnswerCounts& counts) const;
   void show_state();
   void show_choices(const AnswerCounts& counts);
@@ -113,9 +127,9 @@ class QuestionBox : public QFrame {
   QLabel *ask_, *result_, *counts_;
   QWidget* answers_ = nullptr;
   QButtonGroup* choices_ = nullptr;
-  /// The widgets beside a choice that are shown after Reveal.
+  /// The widgets beside the button of a choice; all but the text are shown after Reveal.
   struct ChoiceRow {
-    QLabel *mark, *value;
+    QLabel *mark, *text, *value;
     QProgressBar* bar;
   };
   std::vector<ChoiceRow> rows_;
@@ -124,6 +138,14 @@ class QuestionBox : public QFrame {
   QToolButton* drop_ = nullptr;
   QAction *reveal_, *count_, *reset_;
   bool hides_values_ = false;
+  QProgressBar* progress_;
+  QTimer progress_timer_;
+  QElapsedTimer time_;                         ///< since the computation began
+  std::shared_ptr<std::atomic<double>> done_;  ///< its finished fraction
+  std::shared_ptr<const Solved> computed_;     ///< before and after Reveal
+  QString failure_;                            ///< why the computation failed
+  bool runs_ = false;                          ///< a run is loading or running
+  bool waits_ = false;                         ///< Reveal waits for the computation
   QuestionSolver solver_;
 };
 

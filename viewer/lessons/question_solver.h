@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "lessons/computed_values.h"
@@ -14,6 +15,8 @@ namespace transillum::viewer {
 struct QuestionRequest {
   std::shared_ptr<const LoadedScene> loaded;
   Question question;
+  /// The finished fraction, 0 to 1; null if nobody asks.
+  std::shared_ptr<std::atomic<double>> done = nullptr;
 };
 
 /// Computes what is right, on a thread of its own.
@@ -24,7 +27,12 @@ class QuestionSolver : public NewestResult<QuestionRequest, Solved> {
       : NewestResult(
             owner,
             [](const QuestionRequest& request, const Cancellation& cancellation) {
-              ComputedValues computed(request.loaded, cancellation);
+              ComputedValues computed(request.loaded, cancellation,
+                                      [done = request.done](double fraction) {
+                                        if (done) {
+                                          *done = fraction;
+                                        }
+                                      });
               return solve_question(request.question, computed);
             },
             std::move(deliver)) {}

@@ -1,0 +1,92 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "lessons/result_text.h"
+
+#include <QColor>
+#include <QCoreApplication>
+#include <cmath>
+#include <limits>
+
+#include "support/has_index.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("ResultText", text); }
+
+QString verdict_text(const Question& question, const Solved& solved, const GivenAnswer& answer) {
+  if (!is_given(question, answer)) {
+    return {};
+  }
+  return is_right(question, solved, answer) ? colored(tr("✓ Right."), theme::good)
+                                            : colored(tr("✗ Not this time."), theme::warm);
+}
+
+/// Tells the value of a wrong answer.
+QString reason_text(const Question& question, const Solved& solved, const GivenAnswer& answer) {
+  if (!is_given(question, answer) || is_right(question, solved, answer)) {
+    return {};
+  }
+  if (question.kind == Question::Kind::patch) {
+    const double value = has_index(solved.values, answer.patch)
+                             ? at(solved.values, answer.patch)
+                             : std::numeric_limits<double>::quiet_NaN();
+    return ' ' + (std::isfinite(value)
+                      ? tr("Patch %1 has %2.").arg(answer.patch).arg(value_text(question, value))
+                      : tr("Patch %1 has no such value.").arg(answer.patch));
+  }
+  if (question.kind == Question::Kind::number && solved.value != 0) {
+    return ' ' + tr("Your number is %1 times this.")
+                     .arg(QString::number(*answer.number / solved.value, 'g', 2));
+  }
+  return {};
+}
+
+}  // namespace
+
+QString colored(const QString& text, const QColor& color) {
+  return QStringLiteral("<b style='color: %1'>%2</b>").arg(color.name(), text);
+}
+
+QString value_text(const Question& question, double value) {
+  const QString unit = QString::fromStdString(question.unit);
+  const QString number = number_text(question.percent ? 100 * value : value);
+  return unit.isEmpty() ? number : number + QStringLiteral(" ") + unit;
+}
+
+QString result_text(const Question& question, const Solved& solved, const GivenAnswer& answer) {
+  const QString verdict = verdict_text(question, solved, answer) + ' ';
+  switch (question.kind) {
+    case Question::Kind::choice:
+      return question.rule == Question::Rule::nearest
+                 ? verdict + tr("The program computes %1.").arg(value_text(question, solved.value))
+                 : verdict;
+    case Question::Kind::number:
+      return verdict + tr("The program computes %1.").arg(value_text(question, solved.value)) +
+             reason_text(question, solved, answer);
+    case Question::Kind::patch:
+      return solved.right.empty()
+                 ? verdict
+                 : verdict +
+                       tr("The right answer is patch %1, with %2.")
+                           .arg(solved.right.front())
+                           .arg(value_text(question, at(solved.values, solved.right.front()))) +
+                       reason_text(question, solved, answer);
+    case Question::Kind::area:
+      break;
+  }
+  const QString area = tr("The program's region has %1.").arg(value_text(question, solved.value));
+  if (!is_given(question, answer)) {
+    return verdict + area;
+  }
+  const AreaComparison compared = compare_areas(solved.region, answer.outline);
+  return verdict + area + ' ' +
+         tr("Your area overlaps it by %1 %: %2 are missing (pink), %3 are too much (blue).")
+             .arg(std::lround(100 * compared.overlap))
+             .arg(value_text(question, compared.missed), value_text(question, compared.extra));
+}
+
+}  // namespace transillum::viewer
