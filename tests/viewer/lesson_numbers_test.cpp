@@ -17,6 +17,7 @@
 #include "lesson_page.h"
 #include "lessons/lesson.h"
 #include "registered.h"
+#include "scene/direction_glyph.h"
 #include "transillum/bounds.h"
 #include "transillum/engine.h"
 #include "transillum/radiosity_solver.h"

@@ -125,6 +125,19 @@ class WholeMapTest : public QObject {
     QCOMPARE(s.focus.position().step, 4);
   }
 
+  /// A map of an older direction does not pass for the newest.
+  void the_title_names_a_newer_direction_that_is_still_recorded() {
+    const WholeMap s("cornell-box");
+    QVERIFY(s.ready);
+    const auto* title = s.map_view->findChild<QLabel*>("map_title");
+    QVERIFY(title->text().startsWith("Direction 32 of 32, complete"));
+    s.focus.follow(0, 4);
+    QVERIFY(title->text().startsWith("Direction 32 of 32, complete; direction 5 follows"));
+    QVERIFY(s.settles());
+    QVERIFY(title->text().startsWith("Direction 5 of 32, complete"));
+    QVERIFY(!title->text().contains("follows"));
+  }
+
   void a_choice_of_the_toolbar_is_shown_alone() {
     const WholeMap s("cornell-box");
     QVERIFY(s.ready);
@@ -132,7 +145,7 @@ class WholeMapTest : public QObject {
     QVERIFY(s.settles());
     QVERIFY(!s.receivers->isVisible());
     QVERIFY(points_with_the_right_patch(*s.sources, true) > 50);
-    // What a patch sees: the inside lists of its steps.
+    // A patch sees the inside lists of its steps.
     QVERIFY(!s.button("map_seen")->isEnabled());
     const MapHistory& history = s.focus.map()->history;
     std::int32_t step = history.step_count() - 1;
@@ -207,9 +220,10 @@ class WholeMapTest : public QObject {
     const WholeMap s("cornell-box");
     QVERIFY(s.ready);
     const QImage before = s.sources->grab().toImage();
-    s.sources->show_callouts({{"omega", Callout::Anchor::direction}});
+    s.sources->show_callouts({{"omega", Callout::Anchor::direction, no_patch, {}}});
     const QImage after = s.sources->grab().toImage();
-    const QPoint sign = axes_origin(s.sources->size()).toPoint();
+    // The dot of the callout fills the sign's circle.
+    const QPoint sign = axes_origin(s.sources->size()).toPoint() - QPoint(2, 0);
     QVERIFY(before.pixel(sign) != after.pixel(sign));
     for (int y = 0; y < after.height() / 2; ++y) {
       for (int x = 0; x < after.width() / 2; ++x) {
@@ -243,11 +257,11 @@ class WholeMapTest : public QObject {
     const auto widths = [&] { return std::pair(s.scene_view->width(), s.map_view->width()); };
     const auto before = widths();
     QVERIFY(before.first < before.second);
-    QTest::keyClick(s.window.get(), Qt::Key_V);
+    s.trigger("swap_views");
     QVERIFY(comes_to_rest(*s.window));
     save_picture(*s.window, "swapped");
     QVERIFY(widths().first > widths().second);
-    QTest::keyClick(s.window.get(), Qt::Key_V);
+    s.trigger("swap_views");
     QVERIFY(comes_to_rest(*s.window));
     QVERIFY(widths() == before);
     s.trigger("layout_inspect");

@@ -51,7 +51,7 @@ struct MapEngineChoice {
 };
 struct PixelView;
 
-/// What of a direction is drawn.
+/// The part of a direction that is drawn.
 enum class MapExtent {
   step,       ///< V after a step
   sources,    ///< all fronts that face the plane from above: what emits, seen along omega
@@ -73,7 +73,7 @@ struct MapPictureRequest {
   QSizeF size;             ///< logical
   double pixel_ratio = 1;
   PatchId receiver = no_patch;         ///< draw what this patch sees; V if it is no_patch
-  MapExtent extent = MapExtent::step;  ///< of an exact map without receiver
+  MapExtent extent = MapExtent::step;  ///< for exact maps without receiver
 };
 
 struct MapPicture {

@@ -1,13 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "map/map_strip.h"
 
+#include <QObject>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "map/map_canvas.h"
 #include "map/map_painter.h"
 #include "support/number_text.h"
 #include "widgets/theme.h"
@@ -36,7 +36,7 @@ void draw_scale_bar(QPainter& painter, const QSizeF& size, double scale) {
   painter.drawLine(left, left + QPointF(length, 0));
   painter.drawLine(left - QPointF(0, 4), left + QPointF(0, 4));
   painter.drawLine(left + QPointF(length, -4), left + QPointF(length, 4));
-  draw_on_plate(painter, left + QPointF(length + 8, 4), number_text(meters) + MapCanvas::tr(" m"));
+  draw_on_plate(painter, left + QPointF(length + 8, 4), number_text(meters) + QObject::tr(" m"));
 }
 
 void draw_axes(QPainter& painter, const QSizeF& size) {
@@ -68,14 +68,14 @@ void draw_legend(QPainter& painter, const QSizeF& size, const MapPictureRequest&
   }
   std::vector<std::pair<QBrush, QString>> entries;
   if (shown.extent == MapExtent::step) {
-    entries.emplace_back(back_side_brush(1), MapCanvas::tr("back side"));
+    entries.emplace_back(back_side_brush(1), QObject::tr("back side"));
   }
   const MapEngineChoice& choice = shown.choice;
   if (choice.shows(EngineTraits::Picture::corrected) && choice.differences) {
-    entries.emplace_back(theme::inside, MapCanvas::tr("too much"));
-    entries.emplace_back(theme::outside, MapCanvas::tr("too little"));
+    entries.emplace_back(theme::inside, QObject::tr("too much"));
+    entries.emplace_back(theme::outside, QObject::tr("too little"));
   } else if (choice.engine && choice.differences) {
-    entries.emplace_back(theme::difference, MapCanvas::tr("differs"));
+    entries.emplace_back(theme::difference, QObject::tr("differs"));
   }
   constexpr double box_width = 16, gap = 8, axes = 64;
   const auto width_of = [&](const QString& text) {

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What stands below a visibility map: scale bar, legend and axes. Sizes are those of the whole
-// picture, logical pixels; a low picture has no room below the map, and all stands beside it.
+// What stands below a visibility map: scale bar, legend and axes. Sizes are of the whole picture,
+// logical pixels; a low picture has no room below the map, and all stands beside it.
 #pragma once
 
 #include <QPointF>

@@ -329,7 +329,7 @@ void MapView::show_position() {
   MapCanvas::Content content;
   content.map = map;
   // Another engine has no picture of a whole direction.
-  content.step = focus_.at_step() || whole ? focus_.position().step : map->record().fullest_step();
+  content.step = whole ? focus_.position().step : focus_.picture_step();
   content.phase = shown_phase();
   content.step_shown = focus_.at_step();
   content.labels = labels_->isChecked();
@@ -408,7 +408,7 @@ QString MapView::direction_text() const {
   const int newest = focus_.target().direction;
   return focus_.arrived() || newest == map->direction
              ? tr("%1, complete").arg(direction)
-             : tr("%1, complete; that of %2 follows").arg(direction, count_text(newest + 1));
+             : tr("%1, complete; direction %2 follows").arg(direction, count_text(newest + 1));
 }
 
 QString MapView::whole_text() const {

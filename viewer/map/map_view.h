@@ -40,7 +40,7 @@ class MapView : public QWidget {
   void set_labels_shown(bool shown);
   bool labels_shown() const;
 
-  /// What is shown of a whole direction.
+  /// The part of a whole direction that is shown.
   enum class Whole { complete, receivers, patch };
   void choose_whole(Whole whole);
 
@@ -68,7 +68,8 @@ class MapView : public QWidget {
   bool shows_pair() const;
   /// In canvas_.
   Phase shown_phase() const;
-  /// What is drawn of a whole direction; not set while a step is shown, or the V of an engine.
+  /// The part of a whole direction that is drawn; not set while a step is shown, or the V of an
+  /// engine.
   std::optional<Whole> shown_whole() const;
   /// Places the canvases so that two maps are as large as possible.
   void arrange();
@@ -82,11 +83,11 @@ class MapView : public QWidget {
   MapCanvas* canvas_;
   MapCanvas* second_;  ///< beside canvas_: V before the step, or what receives; else hidden
   QWidget* canvases_;
-  QBoxLayout* side_by_side_;  ///< of canvases_
+  QBoxLayout* side_by_side_;  ///< layout of canvases_
   PhasePair* pair_;
   HemicubeView* hemicube_;
   QStackedWidget* pictures_;
-  QBoxLayout* rows_;  ///< of the buttons
+  QBoxLayout* rows_;  ///< rows of buttons
   QWidget *whole_buttons_, *phase_buttons_;
   QButtonGroup* wholes_;  ///< ids are of type Whole
   QButtonGroup* phases_;

@@ -13,7 +13,7 @@ namespace {
 
 using Term = LightBalance::Term;
 
-/// What is summed to one term: a group, or a face.
+/// The group or face whose patches are summed to one term.
 std::pair<int, int> source_of(const Patch& patch) {
   return patch.group == no_group ? std::pair(0, static_cast<int>(patch.face))
                                  : std::pair(1, static_cast<int>(patch.group));

@@ -13,9 +13,9 @@ namespace transillum::viewer {
 /// Why B of a patch is what it is. B is the sum of all members of type Rgb from `exitance` on and
 /// of the contributions of `terms`. Powers per area in W/m².
 struct LightBalance {
-  /// What the receiver reflects of the light of one source: a group, or else a face.
+  /// Reflected light of one source: a group, or else a face.
   struct Term {
-    std::vector<PatchId> patches;  ///< of the source that the receiver sees, ascending
+    std::vector<PatchId> patches;  ///< patches of the source that the receiver sees, ascending
     PatchId largest = no_patch;    ///< the one that contributes most
     double form_factor = 0;        ///< sum of F_ij
     Rgb radiosity;                 ///< mean of B_j, weighted by F_ij
@@ -30,7 +30,7 @@ struct LightBalance {
   std::size_t other_count = 0;
   Rgb shot;  ///< reflected light of the first shot, which `terms` omit
   Rgb sky;   ///< reflected light of the sky
-  /// What remains: the change by the last iteration, and reflection by lobes.
+  /// The rest: the change by the last iteration, and reflection by lobes.
   Rgb remainder;
 };
 /// @param snapshot with form factors

@@ -17,8 +17,6 @@ namespace transillum::viewer {
 
 namespace {
 
-QString tr(const char* text) { return BalanceView::tr(text); }
-
 QString link_to(const QString& target, const QString& text, const QString& tip) {
   return QStringLiteral("<a href='%1' title='%2' style='color:%3;text-decoration:none'>%4</a>")
       .arg(target, tip, theme::accent.name(), text);
@@ -40,12 +38,12 @@ QString symbol(const char* letter, const QString& index) {
 QString source_name(const Scene& scene, const LightBalance::Term& term) {
   const Patch& patch = scene.patch(term.largest);
   if (term.patches.size() == 1) {
-    return tr("patch %1").arg(term.largest);
+    return BalanceView::tr("patch %1").arg(term.largest);
   }
   const auto count = count_text(static_cast<std::int64_t>(term.patches.size()));
   return patch.group == no_group
-             ? tr("face %1, %2 patches").arg(QString::number(patch.face), count)
-             : tr("%1, %2 patches")
+             ? BalanceView::tr("face %1, %2 patches").arg(QString::number(patch.face), count)
+             : BalanceView::tr("%1, %2 patches")
                    .arg(QString::fromStdString(at(scene.groups(), patch.group)).toHtmlEscaped(),
                         count);
 }

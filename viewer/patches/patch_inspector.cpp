@@ -45,10 +45,10 @@ PatchInspector::PatchInspector(Focus& focus, Selection& selection, const ColorCh
 
   auto* layout = make_column(this, {12, 8, 12, 10});
   layout->addWidget(hint_);
+  layout->addWidget(why_);
   layout->addWidget(sums_);
   layout->addWidget(values_);
   layout->addWidget(coefficients_);
-  layout->addWidget(why_);
   layout->addStretch(1);
   connect(balance_, &BalanceView::panel_wanted, this, &PatchInspector::panel_wanted);
   connect(balance_, &BalanceView::form_factors_requested, &colors_,

@@ -221,7 +221,7 @@ void Focus::seek(StepFinder finder, StepOrder order, StepReason reason) {
 }
 
 void Focus::seek_from(std::int32_t from, StepFinder finder, StepOrder order, StepReason reason) {
-  if (!map_) {
+  if (passes_ == 0) {
     return;
   }
   end_following();
@@ -232,6 +232,10 @@ void Focus::seek_from(std::int32_t from, StepFinder finder, StepOrder order, Ste
   // position.
   const bool same_directions = !renews_ && passes_of(0) == passes_;
   seek_total_ = seek_left_ = (same_directions ? 1 : std::int64_t{iterations_}) * passes_ + 1;
+  if (!map_) {
+    seek_in(newest_);
+    return;
+  }
   target_ = position_;
   const std::int32_t step = finder_(map_->history, from, order_);
   if (step != MapHistory::none) {
@@ -254,7 +258,11 @@ void Focus::continue_seek() {
     emit seek_ended(false);
     return;
   }
-  set_target(next.iteration, next.direction, -1, [this](const MapHistory& history) {
+  seek_in(next);
+}
+
+void Focus::seek_in(const RunPosition& direction) {
+  set_target(direction.iteration, direction.direction, -1, [this](const MapHistory& history) {
     return finder_(history, order_ == StepOrder::forward ? -1 : history.step_count(), order_);
   });
 }

@@ -40,7 +40,7 @@ enum class Phase {
 /// Why a step is shown.
 enum class StepReason {
   none,        ///< no step has been chosen: the whole direction is meant
-  stepped,     ///< it is next to the one shown before
+  stepped,     ///< next to the step shown before
   chosen,      ///< by the user, in a view
   found,       ///< by a search
   breakpoint,  ///< a breakpoint holds
@@ -81,6 +81,11 @@ class Focus : public QObject {
   const RunPosition& position() const { return position_; }
   std::shared_ptr<const RecordedMap> map() const { return map_; }
   Phase phase() const { return phase_; }
+  /// The step whose V makes a picture: position().step, or the fullest of a whole direction.
+  /// Valid only with a map.
+  std::int32_t picture_step() const {
+    return at_step() ? position_.step : map_->record().fullest_step();
+  }
   /// The requested position, or position() if none is requested. The step may be unknown (-1) until
   /// the direction is recorded.
   const RunPosition& target() const { return target_; }
@@ -156,6 +161,8 @@ class Focus : public QObject {
   void go_to_newest();
   void arrive(std::int32_t step);
   void continue_seek();
+  /// Goes to the nearest end of a direction, and searches it from there.
+  void seek_in(const RunPosition& direction);
   void seek_from(std::int32_t step, StepFinder finder, StepOrder order, StepReason reason);
   void end_seek();
   /// Ends a search without success.
