@@ -405,10 +405,12 @@ QString MapView::direction_text() const {
              count_text(map->history.step_count()), text_of(focus_.reason()));
   }
   // Maps of many polygons take longer than the directions of the solve.
+  const QString shown =
+      shown_whole() == Whole::complete ? tr("%1, complete").arg(direction) : direction;
   const int newest = focus_.target().direction;
   return focus_.arrived() || newest == map->direction
-             ? tr("%1, complete").arg(direction)
-             : tr("%1, complete; direction %2 follows").arg(direction, count_text(newest + 1));
+             ? shown
+             : tr("%1; direction %2 follows").arg(shown, count_text(newest + 1));
 }
 
 QString MapView::whole_text() const {
