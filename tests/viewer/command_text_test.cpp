@@ -36,12 +36,12 @@ QString copied(const SolvedWindow& solved, const char* action) {
 }
 
 /// The output of a command, run with the program beside the viewer's; empty if it failed.
-QByteArray output_of(const QString& command) {
+QByteArray output_of(const QString& command, const QString& folder = QDir::tempPath()) {
   QProcess process;
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
   environment.insert("PATH", QFileInfo(TRANSILLUM_VIEWER).path() + ':' + environment.value("PATH"));
   process.setProcessEnvironment(environment);
-  process.setWorkingDirectory(QDir::tempPath());
+  process.setWorkingDirectory(folder);
   process.start("/bin/sh", {"-c", command});
   if (!process.waitForFinished(60000) || process.exitCode() != 0) {
     qInfo() << command << process.readAllStandardError();
@@ -235,6 +235,42 @@ class CommandTextTest : public QObject {
     QVERIFY(
         !output_of(copied(solved, "copy_map") + " --out " + file + " && echo written").isEmpty());
     QVERIFY(QFileInfo(file).size() > 100);
+  }
+
+  void a_copied_command_runs_as_it_is_data() {
+    QTest::addColumn<QString>("action");
+    QTest::addColumn<int>("step");
+    QTest::newRow("solve") << "copy_solve" << 12;
+    QTest::newRow("map") << "copy_map" << 12;
+    QTest::newRow("step") << "copy_step" << 12;
+    QTest::newRow("whole direction") << "copy_step" << 1000;
+  }
+  /// The name of the scene's file needs quotes, and nothing is added to the command.
+  void a_copied_command_runs_as_it_is() {
+    QFETCH(QString, action);
+    QFETCH(int, step);
+    const QTemporaryDir folder;
+    const QString room = folder.filePath("a room's file.obj");
+    write_obj(room.toStdString(), describe_scene("cornell-box"));
+    const SolvedWindow solved(room, {.directions = 8, .first_shot = {}});
+    QVERIFY(solved.ready);
+    Focus& focus = solved.window->focus;
+    focus.go_to({0, 3, step});
+    QVERIFY(wait_for([&] { return solved.window->settled(); }));
+    QVERIFY(QDir(folder.path()).mkdir("empty"));
+    const QDir empty(folder.filePath("empty"));
+    QVERIFY(
+        !output_of(copied(solved, qPrintable(action)) + " && echo done", empty.path()).isEmpty());
+    if (action == "copy_solve") {
+      return;
+    }
+    // The picture of that step.
+    const bool all = action == "copy_map";
+    const MapRecord& record = focus.map()->record();
+    const std::size_t polygons =
+        record.map_after(all ? record.step_count() - 1 : focus.position().step).size();
+    const QByteArray picture = contents_of(empty.filePath("map.svg"));
+    QVERIFY(picture.contains(", " + QByteArray::number(int(polygons)) + " polygons, "));
   }
 
  private:

@@ -410,7 +410,7 @@ class DebuggingTest : public QObject {
     save_picture(*s.window, "polygon-details");
     QVERIFY(canvas->grab().toImage() != before);
     QTest::mouseMove(canvas, place + QPoint(1, 0));
-    QVERIFY(!label->text().contains("Cut by step"));
+    QVERIFY(wait_for([&] { return !label->text().contains("Cut by step"); }));
   }
 
   void watched_values_are_those_of_the_steps() {

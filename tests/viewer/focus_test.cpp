@@ -73,16 +73,53 @@ class FocusTest : public QObject {
   void follows_the_newest_until_it_is_moved() {
     FocusWithMaps w;
     w.focus.follow(0, 0);
-    QCOMPARE(w.focus.position().step, w.maps[0]->record().fullest_step());
+    QCOMPARE(w.focus.position().step, w.last_step(0));
     w.focus.follow(0, 2);
-    QVERIFY(w.arrived_at({0, 2, w.maps[2]->record().fullest_step()}));
+    QVERIFY(w.arrived_at({0, 2, w.last_step(2)}));
+    QVERIFY(!w.focus.at_step());
     w.focus.step_by(-1);
-    QVERIFY(!w.focus.following());
+    QVERIFY(!w.focus.following() && w.focus.at_step());
     const RunPosition here = w.focus.position();
     w.focus.follow(0, 3);
     QVERIFY(w.arrived_at(here));
     w.focus.set_following(true);
-    QVERIFY(w.arrived_at({0, 3, w.maps[3]->record().fullest_step()}));
+    QVERIFY(w.arrived_at({0, 3, w.last_step(3)}));
+    QVERIFY(!w.focus.at_step());
+  }
+
+  void a_step_has_the_reason_of_the_command_that_chose_it() {
+    FocusWithMaps w;
+    w.focus.follow(0, 1);
+    QCOMPARE(w.focus.reason(), StepReason::none);
+    w.focus.step_by(1);
+    QVERIFY(w.arrived_at({0, 1, 0}));
+    QCOMPARE(w.focus.reason(), StepReason::stepped);
+    w.focus.go_to_step(3);
+    QCOMPARE(w.focus.reason(), StepReason::chosen);
+    const StepFinder last = [](const MapHistory& history, std::int32_t from, StepOrder) {
+      return from < history.step_count() - 1 ? history.step_count() - 1 : MapHistory::none;
+    };
+    w.focus.seek(last, StepOrder::forward, StepReason::breakpoint);
+    QVERIFY(w.arrived_at({0, 1, w.last_step(1)}));
+    QCOMPARE(w.focus.reason(), StepReason::breakpoint);
+    // A search without success leaves step and reason.
+    w.focus.seek([](const MapHistory&, std::int32_t, StepOrder) { return MapHistory::none; },
+                 StepOrder::forward);
+    QCOMPARE(w.focus.reason(), StepReason::breakpoint);
+    w.focus.direction_by(1);
+    QCOMPARE(w.focus.reason(), StepReason::breakpoint);
+    w.focus.show_whole();
+    QVERIFY(!w.focus.at_step() && !w.focus.following());
+    QVERIFY(w.arrived_at({0, 2, w.last_step(2)}));
+    w.focus.direction_by(1);
+    QVERIFY(!w.focus.at_step());
+    QVERIFY(w.arrived_at({0, 3, w.last_step(3)}));
+    // While a map is awaited, the reason is of the step shown.
+    w.answers_at_once = false;
+    w.focus.go_to({0, 0, 2});
+    QVERIFY(!w.focus.at_step());
+    w.show(0);
+    QCOMPARE(w.focus.reason(), StepReason::chosen);
   }
 
   /// In the run, the first iteration had one direction, the second two, the third all four.

@@ -70,9 +70,9 @@ class SteppingTest : public QObject {
     const Stepping s("furnace");
     QVERIFY(s.ready);
     QVERIFY(s.focus.following());
-    // The window tells why it shows a step that was not chosen; the tool tip has the whole text.
+    // The tool tip has the whole text.
     const auto tells_why = [text = s.window->findChild<QLabel*>("timeline_text")] {
-      return text->toolTip().contains("at its fullest step");
+      return text->toolTip().contains("Newest direction, complete");
     };
     QVERIFY(tells_why());
     const int count = s.steps() + 1;

@@ -99,8 +99,10 @@ PointerLabel::PointerLabel(const ColorChoice& colors, QWidget& canvas,
   connect(&colors_.selection(), &Selection::changed, this, update_text);
 }
 
-void PointerLabel::set_details(std::function<QString(const QPoint&)> details) {
+void PointerLabel::set_details(std::function<QString(const QPoint&)> details,
+                               std::function<QRect(const QPoint&)> explained) {
   details_ = std::move(details);
+  explained_ = std::move(explained);
 }
 
 void PointerLabel::point_again() {
@@ -159,6 +161,33 @@ void PointerLabel::show_patch(const PointedPatch& pointed) {
   }
 }
 
+namespace {
+
+/// The place in `canvas` for a plate that covers the least of `explained`: `first`, or a place
+/// beside it, or a corner.
+QPoint place_beside(const QRect& explained, const QRect& first, const QRect& canvas) {
+  QRect best = first;
+  const auto covered = [&explained](const QRect& plate) {
+    const QRect common = plate.intersected(explained);
+    return common.isEmpty() ? 0 : qint64{common.width()} * common.height();
+  };
+  constexpr int gap = 6;
+  const int right = explained.right() + gap, left = explained.left() - gap - first.width();
+  const int below = explained.bottom() + gap, above = explained.top() - gap - first.height();
+  const QPoint ends = QPoint(canvas.right() - first.width(), canvas.bottom() - first.height());
+  for (const QPoint& corner : {QPoint(right, first.top()), QPoint(left, first.top()),
+                               QPoint(first.left(), below), QPoint(first.left(), above), ends,
+                               QPoint(0, ends.y()), QPoint(ends.x(), 0), QPoint(0, 0)}) {
+    const QRect plate(corner, first.size());
+    if (canvas.contains(plate) && covered(plate) < covered(best)) {
+      best = plate;
+    }
+  }
+  return best.topLeft();
+}
+
+}  // namespace
+
 // To the right of the pointer and below, or on the other side where there is no room.
 void PointerLabel::place() {
   adjustSize();
@@ -168,6 +197,9 @@ void PointerLabel::place() {
   }
   if (corner.y() + height() > canvas_.height()) {
     corner.setY(std::max(0, pointer_.y() - offset.x() / 2 - height()));
+  }
+  if (detailed_ && explained_) {
+    corner = place_beside(explained_(pointer_), QRect(corner, size()), canvas_.rect());
   }
   move(corner);
   raise();

@@ -32,7 +32,10 @@ class PointerLabel : public Plate {
   PointerLabel(const ColorChoice& colors, QWidget& canvas,
                std::function<PointedPatch(const QPoint&)> patch_at);
   /// Further lines that are shown once the pointer has rested.
-  void set_details(std::function<QString(const QPoint&)> details);
+  /// @param explained what the lines are about, in the canvas: the plate covers as little of it as
+  ///        there is room for
+  void set_details(std::function<QString(const QPoint&)> details,
+                   std::function<QRect(const QPoint&)> explained);
   /// To be called when the canvas shows something else.
   void point_again();
   static constexpr int rest_ms = 500;
@@ -56,6 +59,7 @@ class PointerLabel : public Plate {
   QWidget& canvas_;
   std::function<PointedPatch(const QPoint&)> patch_at_;
   std::function<QString(const QPoint&)> details_;
+  std::function<QRect(const QPoint&)> explained_;
   QTimer rest_;
   bool detailed_ = false;
   QPoint pointer_;

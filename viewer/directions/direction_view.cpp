@@ -365,9 +365,7 @@ void DirectionView::mouseReleaseEvent(QMouseEvent* event) {
   if (!point) {
     return;
   }
-  RunPosition position = focus_.position();
-  position.direction = point->pass;
-  focus_.go_to(position);
+  focus_.go_to_direction(focus_.position().iteration, point->pass);
 }
 
 }  // namespace transillum::viewer

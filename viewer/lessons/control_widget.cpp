@@ -111,7 +111,6 @@ double ControlWidget::gray_at(int position) const {
 void ControlWidget::moved(int position) {
   show_position(position);
   const double gray = gray_at(position);
-  RunPosition target = focus_.target();
   switch (control_.kind) {
     case PageControl::Kind::option:
       emit option_chosen(control_.target, at(control_.values, position));
@@ -126,8 +125,7 @@ void ControlWidget::moved(int position) {
       focus_.go_to_step(position - 1);
       return;
     case PageControl::Kind::direction:
-      target.direction = position - 1;
-      focus_.go_to(target);
+      focus_.go_to_direction(focus_.target().iteration, position - 1);
       return;
   }
 }

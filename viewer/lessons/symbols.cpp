@@ -76,12 +76,25 @@ void lower_indices(const QTextBlock& block) {
   }
 }
 
-// The patch that the step's fragment sees over the largest area.
-PatchId most_seen(const Focus& focus) {
+// The step shown; of a whole direction, the last that inserts a fragment of patch i, if it is
+// given.
+std::int32_t step_of(const Focus& focus, PatchId i) {
+  if (focus.at_step() || i == no_patch) {
+    return focus.position().step;
+  }
   const MapHistory& history = focus.map()->history;
+  std::int32_t step = history.step_count() - 1;
+  while (step >= 0 && history.step(step).patch != i) {
+    --step;
+  }
+  return step;
+}
+
+// The patch that the step's fragment sees over the largest area.
+PatchId most_seen(const MapHistory& history, std::int32_t step) {
   std::map<PatchId, double> areas;
   PatchId most = no_patch;
-  for (const std::int32_t r : history.inside_at(focus.position().step)) {
+  for (const std::int32_t r : history.inside_at(step)) {
     const PatchId patch = history.row(r).patch;
     areas[patch] += history.record().area(history.row(r));
     most = most == no_patch || areas[patch] > areas[most] ? patch : most;
@@ -106,12 +119,12 @@ std::vector<Callout> callouts_of_symbol(const QString& link, const Focus& focus,
     return {};
   }
   const QString name = link.mid(prefix.size());
-  const bool stepping = focus.map() && focus.position().step >= 0;
   PatchId i = selection.patch();
-  if (i == no_patch && stepping) {
-    i = focus.map()->history.step(focus.position().step).patch;
+  const std::int32_t step = focus.map() ? step_of(focus, i) : -1;
+  if (i == no_patch && step >= 0) {
+    i = focus.map()->history.step(step).patch;
   }
-  const PatchId j = stepping ? most_seen(focus) : no_patch;
+  const PatchId j = step >= 0 ? most_seen(focus.map()->history, step) : no_patch;
   std::vector<Callout> callouts;
   const auto add = [&](const QString& text, Anchor anchor, PatchId patch) {
     if (anchor != Anchor::patch || patch != no_patch) {

@@ -57,11 +57,9 @@ constexpr Name<MapKind> algorithms[] = {{"local-map", MapKind::local},
                                         {"global-map", MapKind::global}};
 constexpr Name<Phase> phases[] = {
     {"before", Phase::before}, {"split", Phase::split}, {"after", Phase::after}};
-constexpr Name<StepName> step_names[] = {{"exchange", StepName::exchange},
-                                         {"cut", StepName::cut},
-                                         {"event", StepName::event},
-                                         {"fullest", StepName::fullest},
-                                         {"polygon", StepName::polygon}};
+constexpr Name<StepName> step_names[] = {
+    {"exchange", StepName::exchange}, {"cut", StepName::cut},         {"event", StepName::event},
+    {"fullest", StepName::fullest},   {"polygon", StepName::polygon}, {"whole", StepName::whole}};
 constexpr Name<Layout> layouts[] = {
     {"teach", Layout::teach}, {"inspect", Layout::inspect}, {"debug", Layout::debug}};
 

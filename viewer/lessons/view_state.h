@@ -28,6 +28,7 @@ enum class StepName {
   event,     ///< the step concerns the selected patch
   fullest,   ///< MapRecord::fullest_step()
   polygon,   ///< its fragment is part of the selected patch
+  whole,     ///< no step: the whole direction
 };
 /// A step by number or by kind.
 using StepChoice = std::variant<std::int32_t, StepName>;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "map/engine_drawing.h"
+#include "map/map_strip.h"
 #include "map/sketch_painter.h"
 #include "model/snapshot_values.h"
 #include "state/callout.h"
@@ -52,10 +53,9 @@ MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
             };
             QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
           }) {
-  setMinimumSize(200, 80);
+  setMinimumSize(120, 80);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
-  setToolTip(tr("Drag to move, wheel to zoom, double-click to show all, click to select a patch"));
   connect(&selection_, &Selection::patches_changed, this, qOverload<>(&QWidget::update));
 }
 
@@ -154,7 +154,7 @@ void MapCanvas::repaint_map() {
                        (content_.step_shown && content_.map != sent_.picture.map);
   sent_ = {{content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
             content_.choice, pixels(), content_.patch_colors, transform(), size(),
-            devicePixelRatioF(), content_.receiver},
+            devicePixelRatioF(), content_.receiver, content_.extent},
            sent_.number + 1};
   painter_.request(sent_, cancels ? CurrentJob::cancel : CurrentJob::finish);
 }
@@ -224,6 +224,16 @@ std::int32_t MapCanvas::row_at(const QPointF& position) const {
                         picture_->request.transform.to_meters(position));
 }
 
+QRect MapCanvas::box_of_row(std::int32_t row) const {
+  if (!picture_ || row == MapRecord::no_row) {
+    return {};
+  }
+  const MapPictureRequest& shown = picture_->request;
+  return row_polygon(shown.map->record(), shown.map->row(row), shown.transform)
+      .boundingRect()
+      .toAlignedRect();
+}
+
 void MapCanvas::mark_row(std::int32_t row) {
   marked_map_ = picture_ ? picture_->request.map : nullptr;
   marked_row_ = row;
@@ -256,6 +266,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   const double fraction = now.scale / painted.scale;
   painter.setRenderHint(QPainter::SmoothPixmapTransform, fraction != 1);
   const QPointF corner = now.middle - fraction * painted.middle;
+  painter.setClipRect(map_rect());
   painter.drawImage(QRectF(corner, fraction * picture_->request.size), picture_->image);
   painter.setRenderHint(QPainter::Antialiasing);
   if (!failure_.isEmpty()) {
@@ -269,13 +280,14 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   draw_selection(painter, now);
   draw_region(painter, now);
   draw_sketch(painter, sketch_, now);
-  draw_callouts(painter, now);
   draw_probe(painter, now);
   draw_marked_row(painter, now);
   draw_caption(painter);
-  draw_scale_bar(painter, now.scale);
-  draw_axes(painter);
-  draw_legend(painter);
+  painter.setClipping(false);
+  draw_scale_bar(painter, size(), now.scale);
+  draw_axes(painter, size());
+  draw_legend(painter, size(), picture_->request);
+  draw_callouts(painter, now);
 }
 
 void MapCanvas::draw_failure(QPainter& painter, const QString& failure) const {
@@ -284,25 +296,45 @@ void MapCanvas::draw_failure(QPainter& painter, const QString& failure) const {
                    tr("The engine failed, so nothing is drawn:\n\n%1").arg(failure));
 }
 
+QPainterPath MapCanvas::selection_path(const MapTransform& shown) const {
+  const MapRecord& record = picture_->request.map->record();
+  const bool covers = picture_->request.extent != MapExtent::step;
+  QPainterPath all;
+  std::vector<QPolygonF> nearer;
+  for (const std::int32_t number : picture_->rows) {
+    const MapRecord::Row& row = at(record.rows, number);
+    const bool selected = selection_.contains(row.patch);
+    if (!selected && !covers) {
+      continue;
+    }
+    const QPolygonF polygon = row_polygon(record, row, shown);
+    if (!selected) {
+      nearer.push_back(polygon);
+      continue;
+    }
+    QPainterPath seen;
+    seen.addPolygon(polygon);
+    seen.closeSubpath();
+    for (const QPolygonF& other : nearer) {
+      if (other.boundingRect().intersects(seen.boundingRect())) {
+        QPainterPath cover;
+        cover.addPolygon(other);
+        seen -= cover;
+      }
+    }
+    all.addPath(seen);
+  }
+  return all;
+}
+
 void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
   if (selection_.patches().empty()) {
     return;
   }
-  const MapRecord& record = picture_->request.map->record();
-  std::vector<QPolygonF> fragments;
-  for (const std::int32_t number : picture_->rows) {
-    const MapRecord::Row& row = at(record.rows, number);
-    if (selection_.contains(row.patch)) {
-      fragments.push_back(row_polygon(record, row, shown));
-    }
-  }
-  painter.setBrush(Qt::NoBrush);
+  const QPainterPath edges = selection_path(shown);
   for (const QPen& pen :
        {QPen(Qt::black, 4 * theme::scale()), QPen(theme::selection, 2 * theme::scale())}) {
-    painter.setPen(pen);
-    for (const QPolygonF& fragment : fragments) {
-      painter.drawPolygon(fragment);
-    }
+    painter.strokePath(edges, pen);
   }
 }
 
@@ -320,7 +352,7 @@ void MapCanvas::draw_callouts(QPainter& painter, const MapTransform& shown) cons
   for (const Callout& callout : callouts_) {
     if (const auto place = place_of(callout, shown); place && rect().contains(place->toPoint())) {
       draw_callout(painter, *place, QString::fromStdString(callout.text),
-                   rect().adjusted(2, 2, -2, -2), taken);
+                   map_rect().adjusted(2, 2, -2, -2), taken);
     }
   }
 }
@@ -348,7 +380,7 @@ void MapCanvas::mark_callout(QPainter& painter, const MapTransform& shown,
 std::optional<QPointF> MapCanvas::place_of(const Callout& callout,
                                            const MapTransform& shown) const {
   if (callout.anchor == Callout::Anchor::direction) {
-    return QPointF(width() / 2.0, 26 * theme::scale());
+    return axes_origin(size());
   }
   if (callout.anchor == Callout::Anchor::map) {
     return QPointF(8, height() / 2.0);
@@ -372,19 +404,6 @@ void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {
   }
 }
 
-namespace {
-
-// The text has a plate behind it: in a low picture it covers the map.
-void draw_text(QPainter& painter, const QPointF& baseline, const QString& text) {
-  QColor plate = theme::scene_background;
-  plate.setAlphaF(0.7);
-  const QRectF box = painter.fontMetrics().boundingRect(text).adjusted(-3, -1, 3, 1);
-  painter.fillRect(box.translated(baseline), plate);
-  painter.drawText(baseline, text);
-}
-
-}  // namespace
-
 void MapCanvas::draw_marked_row(QPainter& painter, const MapTransform& shown) const {
   if (marked_row_ == MapRecord::no_row || marked_map_ != picture_->request.map) {
     return;
@@ -398,7 +417,7 @@ void MapCanvas::draw_marked_row(QPainter& painter, const MapTransform& shown) co
     painter.drawPolygon(outline);
   }
   for (int k = 0; k < outline.size(); ++k) {
-    draw_text(painter, outline[k] + QPointF(4, -4), QString::number(k + 1));
+    draw_on_plate(painter, outline[k] + QPointF(4, -4), QString::number(k + 1));
   }
 }
 
@@ -407,85 +426,11 @@ void MapCanvas::draw_caption(QPainter& painter) const {
     return;
   }
   painter.setPen(theme::on_dark);
-  draw_text(painter, QPointF(12, 8 + painter.fontMetrics().ascent()), content_.caption);
+  draw_on_plate(painter, QPointF(12, 8 + painter.fontMetrics().ascent()), content_.caption);
 }
 
-void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
-  // The largest length of 1, 2 or 5 times a power of ten within a quarter of the width.
-  const double max_meters = width() / 4.0 / scale;
-  const double power = std::pow(10.0, std::floor(std::log10(max_meters)));
-  const double lead = max_meters / power;
-  const double meters = power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
-  const double length = meters * scale;
-  const QPointF left(14, height() - 14);
-  painter.setPen(QPen(theme::on_dark, 1.5));
-  painter.drawLine(left, left + QPointF(length, 0));
-  painter.drawLine(left - QPointF(0, 4), left + QPointF(0, 4));
-  painter.drawLine(left + QPointF(length, -4), left + QPointF(length, 4));
-  draw_text(painter, left + QPointF(length + 8, 4), number_text(meters) + tr(" m"));
-}
-
-void MapCanvas::draw_axes(QPainter& painter) const {
-  const QPointF origin(width() - 18, height() - 16);
-  constexpr double length = 22;
-  painter.setPen(QPen(theme::on_dark, 1.5));
-  const auto arrow = [&](const QPointF& axis, const QString& name, const QPointF& name_offset) {
-    const QPointF tip = origin + length * axis;
-    const QPointF across(-axis.y(), axis.x());
-    painter.drawLine(origin, tip);
-    painter.drawLine(tip, tip - 6 * axis + 3.5 * across);
-    painter.drawLine(tip, tip - 6 * axis - 3.5 * across);
-    painter.drawText(tip + name_offset, name);
-  };
-  arrow({-1, 0}, QStringLiteral("u"), {-13, 4});
-  arrow({0, -1}, QStringLiteral("v"), {-4, -6});
-}
-
-void MapCanvas::draw_legend(QPainter& painter) const {
-  if (width() < 330) {
-    return;  // no room between scale bar and axes
-  }
-  std::vector<std::pair<QBrush, QString>> entries{{back_side_brush(1), tr("back side")}};
-  const MapEngineChoice& choice = picture_->request.choice;
-  if (choice.shows(EngineTraits::Picture::corrected) && choice.differences) {
-    entries.emplace_back(theme::inside, tr("too much"));
-    entries.emplace_back(theme::outside, tr("too little"));
-  } else if (choice.engine && choice.differences) {
-    entries.emplace_back(theme::difference, tr("differs"));
-  }
-  constexpr double box_width = 16, gap = 8, axes = 64;
-  const auto width_of = [&](const QString& text) {
-    return box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(text);
-  };
-  double total = 0;
-  for (const auto& [brush, text] : entries) {
-    total += width_of(text);
-  }
-  // The legend is between the scale bar with its text and the axes; without room, back sides are
-  // omitted.
-  const double left = width() / 4.0 + 80, right = width() - axes;
-  if (entries.size() > 1 && left + total > right) {
-    total -= width_of(entries.front().second);
-    entries.erase(entries.begin());
-  }
-  // In a low map that leaves its sides free, the entries are one above the other at the left.
-  constexpr int low = 140, row = 20, side = 130;
-  const auto scale_in = [this](int room) {
-    return fit_map(*content_.map, QSizeF(room, height())).scale;
-  };
-  const bool stacked = height() < low && scale_in(width() - 2 * side) == scale_in(width());
-  double x = stacked ? 12 : std::min(std::max(width() / 2.0 - 8, left), right - total);
-  int y = height() - 23 - (stacked ? row : 0);
-  for (const auto& [brush, text] : entries) {
-    const QRectF box(x, y, box_width, 12);
-    painter.setPen(QPen(theme::on_dark_dim, 1));
-    painter.setBrush(brush);
-    painter.drawRect(box);
-    painter.setPen(theme::on_dark);
-    draw_text(painter, box.bottomRight() + QPointF(gap, -1), text);
-    x += stacked ? 0 : width_of(text);
-    y -= stacked ? row : 0;
-  }
+QRect MapCanvas::map_rect() const {
+  return rect().adjusted(0, 0, 0, -static_cast<int>(scale_bar_room(height())));
 }
 
 void MapCanvas::resizeEvent(QResizeEvent* event) {

@@ -4,6 +4,7 @@
 // DifferencePicture; paint_map() paints it on a worker thread.
 #pragma once
 
+#include <QPainterPath>
 #include <QWidget>
 #include <condition_variable>
 #include <memory>
@@ -42,6 +43,7 @@ class MapCanvas : public QWidget {
     std::shared_ptr<const std::vector<Color8>> patch_colors;
     QString caption = {};         ///< at the top
     PatchId receiver = no_patch;  ///< draw what this patch sees along the direction, instead of V
+    MapExtent extent = MapExtent::step;
   };
   void show_map(Content content);
   void clear();
@@ -75,6 +77,8 @@ class MapCanvas : public QWidget {
   /// The row of the record whose polygon is drawn at a point; MapRecord::no_row if none, or if V
   /// is not drawn exactly.
   std::int32_t row_at(const QPointF& position) const;
+  /// The box around that row's polygon, logical pixels; empty for MapRecord::no_row.
+  QRect box_of_row(std::int32_t row) const;
   /// Outlines the polygon of a row of the map shown, and numbers its corners; MapRecord::no_row
   /// outlines nothing.
   void mark_row(std::int32_t row);
@@ -114,6 +118,8 @@ class MapCanvas : public QWidget {
   void show_failure(const QString& message, quint64 number);
   void draw_failure(QPainter& painter, const QString& failure) const;
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
+  /// The edges of the selected fragments, without what nearer ones cover.
+  QPainterPath selection_path(const MapTransform& shown) const;
   void draw_region(QPainter& painter, const MapTransform& shown) const;
   void draw_callouts(QPainter& painter, const MapTransform& shown) const;
   void mark_callout(QPainter& painter, const MapTransform& shown, const Callout& callout) const;
@@ -121,9 +127,8 @@ class MapCanvas : public QWidget {
   void draw_probe(QPainter& painter, const MapTransform& shown) const;
   void draw_marked_row(QPainter& painter, const MapTransform& shown) const;
   void draw_caption(QPainter& painter) const;
-  void draw_scale_bar(QPainter& painter, double scale) const;
-  void draw_axes(QPainter& painter) const;
-  void draw_legend(QPainter& painter) const;
+  /// The part above the strip with scale bar, legend and axes. A low canvas has no strip.
+  QRect map_rect() const;
 
   Selection& selection_;
   Content content_;

@@ -59,6 +59,8 @@ QBrush back_side_brush(double pixel_ratio) {
   return QBrush(tile);
 }
 
+double scale_bar_room(double height) { return height > 160 ? 34 : 0; }
+
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size) {
   double left = HUGE_VAL, right = -HUGE_VAL, bottom = HUGE_VAL, top = -HUGE_VAL;
   for (const Vec3& p : map.loaded->scene->points()) {
@@ -70,9 +72,8 @@ MapTransform fit_map(const RecordedMap& map, const QSizeF& size) {
   }
   // Logical pixels. In a low picture the map is beside the scale bar, not above it.
   const double margin = std::min(14.0, 0.06 * size.height());
-  const double scale_bar_room = size.height() > 160 ? 34 : 0;
   const double width = std::max(size.width() - 2 * margin, 10.0);
-  const double height = std::max(size.height() - 2 * margin - scale_bar_room, 10.0);
+  const double height = std::max(size.height() - 2 * margin - scale_bar_room(size.height()), 10.0);
   MapTransform transform;
   transform.center = {(left + right) / 2, (bottom + top) / 2};
   transform.middle = {margin + width / 2, margin + height / 2};
@@ -123,7 +124,7 @@ class MapPainting {
     transform_.middle *= ratio_;
     // Other engines show V alone, not the changes of a step.
     const bool marked = request.step_shown && !request.choice.engine;
-    if (marked && request.step >= 0) {
+    if (marked && request.step >= 0 && !is_whole()) {
       step_row_ = history_.step(request.step).row;
     }
   }
@@ -136,10 +137,12 @@ class MapPainting {
     picture_.image = QImage(size, QImage::Format_RGB32);
     picture_.image.fill(theme::scene_background);
     painter_.begin(&picture_.image);
-    picture_.rows = drawn_rows();
+    picture_.rows = is_whole() ? whole_rows() : drawn_rows();
     if (request_.choice.engine) {
       picture_.pixels = pixels();
       draw(*picture_.pixels);
+    } else if (is_whole()) {
+      fill_one_over_another();
     } else {
       fill(picture_.rows);
     }
@@ -192,6 +195,50 @@ class MapPainting {
       }
     }
     return rows;
+  }
+
+  bool is_whole() const {
+    return request_.extent != MapExtent::step && request_.receiver == no_patch &&
+           !request_.choice.engine;
+  }
+
+  // The BSP order is the order from the top: seen along omega, later fragments cover earlier ones.
+  std::vector<std::int32_t> whole_rows() const {
+    const bool receivers = request_.extent == MapExtent::receivers;
+    std::vector<std::int32_t> rows;
+    for (std::int32_t k = 0; k < history_.step_count(); ++k) {
+      const MapHistory::Step& step = history_.step(k);
+      if (step.row != MapRecord::no_row && step.front_facing == receivers) {
+        rows.push_back(step.row);
+      }
+    }
+    if (!receivers) {
+      std::reverse(rows.begin(), rows.end());
+    }
+    return rows;
+  }
+
+  // Each polygon with its edges, the farthest first.
+  void fill_one_over_another() {
+    std::size_t done = 0;
+    for (auto r = picture_.rows.rbegin(); r != picture_.rows.rend(); ++r) {
+      if (done++ % 64 == 0) {
+        cancellation_.throw_if_canceled();
+      }
+      const QPolygonF polygon = polygon_of(*r);
+      if (is_outside(polygon, view_)) {
+        continue;
+      }
+      const Color8& c = at(*request_.patch_colors, row(*r).patch);
+      painter_.setRenderHint(QPainter::Antialiasing, false);
+      painter_.setPen(Qt::NoPen);
+      painter_.setBrush(QColor(c[0], c[1], c[2]));
+      painter_.drawPolygon(polygon);
+      if (area(polygon) > 30 * ratio_ * ratio_) {
+        painter_.setRenderHint(QPainter::Antialiasing);
+        outline({polygon}, QColor(0, 0, 0, 80), 0.6);
+      }
+    }
   }
 
   std::vector<std::int32_t> drawn_rows() const {

@@ -15,6 +15,10 @@ namespace transillum::viewer {
 /// The transform that fits the whole scene into a picture of `size` (logical pixels).
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
 
+/// The height of the strip below the map, with scale bar, legend and axes, in a picture of this
+/// height; 0 in a low one (logical pixels).
+double scale_bar_room(double height);
+
 /// Fill of back sides: gray with hatching.
 QBrush back_side_brush(double pixel_ratio);
 

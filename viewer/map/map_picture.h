@@ -51,6 +51,13 @@ struct MapEngineChoice {
 };
 struct PixelView;
 
+/// The part of a direction that is drawn.
+enum class MapExtent {
+  step,       ///< V after a step
+  sources,    ///< all fronts that face the plane from above: what emits, seen along omega
+  receivers,  ///< all fronts that face it from below: what receives, seen along -omega
+};
+
 /// Everything that determines one picture of a map.
 struct MapPictureRequest {
   std::shared_ptr<const RecordedMap> map;
@@ -65,7 +72,8 @@ struct MapPictureRequest {
   MapTransform transform;  ///< to logical pixels
   QSizeF size;             ///< logical
   double pixel_ratio = 1;
-  PatchId receiver = no_patch;  ///< draw what this patch sees; V if it is no_patch
+  PatchId receiver = no_patch;         ///< draw what this patch sees; V if it is no_patch
+  MapExtent extent = MapExtent::step;  ///< for exact maps without receiver
 };
 
 struct MapPicture {
@@ -73,7 +81,8 @@ struct MapPicture {
   QImage image;
   std::shared_ptr<const PixelView> pixels;  ///< the pixels drawn; null for exact pictures
   std::vector<std::int32_t>
-      rows;  ///< drawn: polygons of V, or the parts into which a step splits them
+      rows;  ///< drawn: polygons of V, the parts into which a step splits them, or, the nearest
+             ///< first, whole fragments that may cover one another
 };
 
 }  // namespace transillum::viewer

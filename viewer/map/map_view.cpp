@@ -50,22 +50,24 @@ QString legend_entry(const QColor& color, const QString& name) {
 }  // namespace
 
 MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, QWidget* parent)
-    : QWidget(parent), focus_(focus), colors_(colors) {
-  title_ = new QLabel;
+    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
+  title_ = named("map_title", new QLabel);
   step_text_ = named("map_text", new QLabel);
   step_text_->setForegroundRole(QPalette::PlaceholderText);
+  step_text_->setToolTip(
+      tr("Drag to move, wheel to zoom, double-click to show all, click to select a patch"));
   // Long text is cut off rather than widening the window.
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   step_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  before_ = make_canvas(selection, "map_canvas_before");
+  second_ = make_canvas(selection, "map_canvas_before");
   canvas_ = make_canvas(selection, "map_canvas");
-  before_->hide();
+  second_->hide();
   canvases_ = new QWidget;
-  auto* side_by_side = make_row(canvases_, {}, 2);
-  side_by_side->addWidget(before_, 1);
-  side_by_side->addWidget(canvas_, 1);
-  connect(before_, &MapCanvas::view_changed, this, [this] { canvas_->set_view(before_->view()); });
-  connect(canvas_, &MapCanvas::view_changed, this, [this] { before_->set_view(canvas_->view()); });
+  side_by_side_ = make_row(canvases_, {}, 2);
+  side_by_side_->addWidget(second_, 1);
+  side_by_side_->addWidget(canvas_, 1);
+  connect(second_, &MapCanvas::view_changed, this, [this] { canvas_->set_view(second_->view()); });
+  connect(canvas_, &MapCanvas::view_changed, this, [this] { second_->set_view(canvas_->view()); });
   pair_ = new PhasePair(*this);
 
   auto* text = make_column({10, 6, 10, 6}, 1);
@@ -86,6 +88,9 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   connect(&focus_, &Focus::moved, this, &MapView::show_position);
   connect(&focus_, &Focus::target_changed, this, &MapView::show_title);
   connect(&focus_, &Focus::probed, this, &MapView::show_position);
+  connect(&selection_, &Selection::changed, this, [this] {
+    wholes_->checkedId() == static_cast<int>(Whole::patch) ? show_position() : show_title();
+  });
   connect(pair_, &PhasePair::changed, this, &MapView::show_position);
   connect(hemicube_, &HemicubeView::shown, this, &MapView::show_title);
   connect(&colors_, &ColorChoice::changed, this, &MapView::show_position);
@@ -99,10 +104,12 @@ MapCanvas* MapView::make_canvas(Selection& selection, const char* name) {
   });
   connect(pointer, &PointerLabel::form_factors_requested, &colors_,
           &ColorChoice::form_factors_requested);
-  pointer->set_details([this, canvas](const QPoint& position) {
-    const std::int32_t row = canvas->row_at(position);
-    return row == MapRecord::no_row ? QString() : row_text(*canvas->map_shown(), row);
-  });
+  pointer->set_details(
+      [canvas](const QPoint& position) {
+        const std::int32_t row = canvas->row_at(position);
+        return row == MapRecord::no_row ? QString() : row_text(*canvas->map_shown(), row);
+      },
+      [canvas](const QPoint& position) { return canvas->box_of_row(canvas->row_at(position)); });
   connect(&focus_, &Focus::moved, pointer, &PointerLabel::point_again);
   connect(pointer, &PointerLabel::rested, canvas,
           [canvas](const QPoint& position) { canvas->mark_row(canvas->row_at(position)); });
@@ -127,8 +134,9 @@ void MapView::show_context_menu(const MapCanvas& canvas, const QPoint& position)
   // Searches this direction only: along other directions the point is elsewhere on the plane.
   const auto add_run = [&](const QString& text, StepOrder order) {
     RunPosition target = focus_.position();
-    target.step = find_changes_at(*point)(focus_.map()->history, target.step, order);
-    menu->addAction(text, this, [this, target] { focus_.go_to(target); })
+    const bool begins = !focus_.at_step() && order == StepOrder::forward;
+    target.step = find_changes_at(*point)(focus_.map()->history, begins ? -1 : target.step, order);
+    menu->addAction(text, this, [this, target] { focus_.go_to(target, StepReason::found); })
         ->setEnabled(target.step != MapHistory::none);
   };
   add_run(tr("Run to the next fragment that covers this point"), StepOrder::forward);
@@ -138,25 +146,63 @@ void MapView::show_context_menu(const MapCanvas& canvas, const QPoint& position)
   menu->popup(canvas.mapToGlobal(position));
 }
 
-QWidget* MapView::make_controls() {
+QWidget* MapView::make_whole_buttons() {
+  wholes_ = new QButtonGroup(this);
+  whole_buttons_ = new QWidget;
+  auto* row = make_row(whole_buttons_, {}, 4);
+  const auto add = [&](Whole whole, const char* name, const QString& text, const QString& tip) {
+    QToolButton* button = named(name, text_button(text, tip, true));
+    wholes_->addButton(button, static_cast<int>(whole));
+    row->addWidget(button);
+  };
+  add(Whole::complete, "map_complete", tr("Complete"),
+      tr("Show both sides of the direction: the fronts that emit, seen along ω,\n"
+         "and the fronts that receive, seen along −ω, at the same places of the plane"));
+  add(Whole::receivers, "map_receivers", tr("Receivers only"),
+      tr("Show only the fronts that receive, seen along −ω"));
+  add(Whole::patch, "map_seen", tr("What a patch sees"), tr("Show what the selected patch sees"));
+  wholes_->button(static_cast<int>(Whole::complete))->setChecked(true);
+  connect(wholes_, &QButtonGroup::idClicked, this, &MapView::show_position);
+  return whole_buttons_;
+}
+
+QWidget* MapView::make_phase_buttons() {
   phases_ = new QButtonGroup(this);
+  phase_buttons_ = new QWidget;
+  auto* row = make_row(phase_buttons_, {}, 4);
   const auto add_phase = [&](Phase phase, const char* name, const QString& text,
                              const QString& tip) {
-    QToolButton* button = text_button(text, tip + tr("\nNext and previous phase: / and M"), true);
-    button->setObjectName(QString::fromLatin1(name));
+    QToolButton* button =
+        named(name, text_button(text, tip + tr("\nNext and previous phase: / and M"), true));
     phases_->addButton(button, static_cast<int>(phase));
-    return button;
+    row->addWidget(button);
   };
-  auto* controls = new QWidget;
-  auto* row = make_row(controls, {10, 6, 8, 6}, 4);
-  row->addWidget(add_phase(Phase::before, "phase_before", tr("Before"),
-                           tr("Show V before the step, with the fragment to insert")));
-  row->addWidget(add_phase(Phase::split, "phase_split", tr("Split"),
-                           tr("Show the parts of V inside and outside the fragment")));
-  row->addWidget(add_phase(Phase::after, "phase_after", tr("After"),
-                           tr("Show V after the step, with the fragment inserted")));
+  QToolButton* whole =
+      named("map_whole", text_button(tr("Whole"), tr("Show the whole direction, no step"), false));
+  connect(whole, &QToolButton::clicked, &focus_, &Focus::show_whole);
+  row->addWidget(whole);
+  add_phase(Phase::before, "phase_before", tr("Before"),
+            tr("Show V before the step, with the fragment to insert"));
+  add_phase(Phase::split, "phase_split", tr("Split"),
+            tr("Show the parts of V inside and outside the fragment"));
+  add_phase(Phase::after, "phase_after", tr("After"),
+            tr("Show V after the step, with the fragment inserted"));
   row->addWidget(pair_->button());
-  row->addStretch(1);
+  connect(phases_, &QButtonGroup::idClicked, this,
+          [this](int phase) { focus_.set_phase(static_cast<Phase>(phase)); });
+  return phase_buttons_;
+}
+
+QWidget* MapView::make_controls() {
+  auto* controls = new QWidget;
+  rows_ = make_row(controls, {10, 6, 8, 6}, 4);
+  auto* first = make_row({}, 0);
+  first->addWidget(make_whole_buttons());
+  first->addWidget(make_phase_buttons());
+  first->addStretch(1);
+  auto* row = make_row({}, 4);
+  rows_->addLayout(first, 1);
+  rows_->addLayout(row);
   engine_menu_ = new EngineMenu;
   row->addWidget(engine_menu_);
   connect(engine_menu_, &EngineMenu::changed, this, &MapView::show_position);
@@ -168,32 +214,18 @@ QWidget* MapView::make_controls() {
   auto* fit = new QToolButton;
   fit->setIcon(theme::icon(theme::Icon::frame));
   fit->setToolTip(tr("Show the whole map"));
-  extras_ = {engine_menu_, labels_, zoom_, fit};
   for (QToolButton* button : {labels_, zoom_, fit}) {
     row->addWidget(button);
   }
-
-  connect(phases_, &QButtonGroup::idClicked, this,
-          [this](int phase) { focus_.set_phase(static_cast<Phase>(phase)); });
   connect(labels_, &QToolButton::toggled, this, &MapView::show_position);
   connect(zoom_, &QToolButton::clicked, canvas_, &MapCanvas::fit_step);
   connect(fit, &QToolButton::clicked, canvas_, &MapCanvas::fit);
   return controls;
 }
 
-void MapView::resizeEvent(QResizeEvent* event) {
-  QWidget::resizeEvent(event);
-  constexpr int margins = 40;
-  int room = width() - margins - pair_->button()->sizeHint().width();
-  for (const QAbstractButton* phase : phases_->buttons()) {
-    room -= phase->sizeHint().width();
-  }
-  for (QWidget* extra : extras_) {
-    room -= extra->sizeHint().width();
-  }
-  for (QWidget* extra : extras_) {
-    extra->setVisible(room >= 0);
-  }
+void MapView::choose_whole(Whole whole) {
+  wholes_->button(static_cast<int>(whole))->setChecked(true);
+  show_position();
 }
 
 void MapView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -210,7 +242,7 @@ void MapView::clear() {
   snapshot_ = nullptr;
   recolor_timer_->stop();
   canvas_->clear();
-  before_->clear();
+  second_->clear();
   hemicube_->clear();
   show_title();
 }
@@ -221,7 +253,7 @@ bool MapView::labels_shown() const { return labels_->isChecked(); }
 
 bool MapView::up_to_date() const {
   const bool painted =
-      shows_hemicube() ? hemicube_->up_to_date() : canvas_->up_to_date() && before_->up_to_date();
+      shows_hemicube() ? hemicube_->up_to_date() : canvas_->up_to_date() && second_->up_to_date();
   return painted && !recolor_timer_->isActive();
 }
 
@@ -231,7 +263,38 @@ bool MapView::shows_hemicube() const {
 
 bool MapView::shows_pair() const {
   return pair_->choice() != PhasePair::Choice::off && !engine_menu_->choice().engine &&
-         focus_.map() && !focus_.following() && focus_.position().step >= 0;
+         focus_.map() && focus_.at_step() && focus_.position().step >= 0;
+}
+
+std::optional<MapView::Whole> MapView::shown_whole() const {
+  if (focus_.at_step() || engine_menu_->choice().engine) {
+    return std::nullopt;
+  }
+  const auto whole = static_cast<Whole>(wholes_->checkedId());
+  return whole == Whole::patch && selection_.patch() == no_patch ? Whole::complete : whole;
+}
+
+void MapView::arrange() {
+  const bool phases = !shown_whole();
+  bool beside = phases;
+  if (const auto map = focus_.map(); map && !phases) {
+    const QSizeF size = canvases_->size();
+    beside = fit_map(*map, {size.width() / 2, size.height()}).scale >
+             fit_map(*map, {size.width(), size.height() / 2}).scale;
+  }
+  // The canvas of V is the right one of two phases; what emits is on the left or above.
+  side_by_side_->setDirection(phases   ? QBoxLayout::LeftToRight
+                              : beside ? QBoxLayout::RightToLeft
+                                       : QBoxLayout::BottomToTop);
+}
+
+void MapView::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  arrange();
+  // A narrow panel has no room for all buttons in one row.
+  constexpr int of_one_row = 560;
+  rows_->setDirection(width() < of_one_row * theme::scale() ? QBoxLayout::TopToBottom
+                                                            : QBoxLayout::LeftToRight);
 }
 
 Phase MapView::shown_phase() const {
@@ -245,7 +308,7 @@ void MapView::show_position() {
   const auto map = focus_.map();
   if (!map) {
     canvas_->clear();
-    before_->clear();
+    second_->clear();
     show_title();
     return;
   }
@@ -262,52 +325,124 @@ void MapView::show_position() {
     return;
   }
   hemicube_->clear();
-  MapCanvas::Content content{map,
-                             focus_.position().step,
-                             shown_phase(),
-                             !focus_.following(),
-                             labels_->isChecked(),
-                             engine_menu_->choice(),
-                             focus_.probe(),
-                             std::move(patch_colors)};
-  if (shows_pair()) {
+  const auto whole = shown_whole();
+  MapCanvas::Content content;
+  content.map = map;
+  // Another engine has no picture of a whole direction.
+  content.step = whole ? focus_.position().step : focus_.picture_step();
+  content.phase = shown_phase();
+  content.step_shown = focus_.at_step();
+  content.labels = labels_->isChecked();
+  content.choice = engine_menu_->choice();
+  content.probe = focus_.probe();
+  content.patch_colors = std::move(patch_colors);
+  MapCanvas::Content second = content;
+  bool two = false;
+  if (whole == Whole::complete) {
+    two = true;
+    content.extent = MapExtent::sources;
+    content.caption = tr("emits, along ω");
+    second.extent = MapExtent::receivers;
+    second.caption = tr("receives, along −ω");
+  } else if (whole == Whole::receivers) {
+    content.extent = MapExtent::receivers;
+  } else if (whole == Whole::patch) {
+    content.receiver = selection_.patch();
+  } else if (shows_pair()) {
+    two = pair_->choice() == PhasePair::Choice::side_by_side;
     content.caption = pair_->before() ? tr("before") : tr("after");
+    second.phase = Phase::before;
+    second.caption = tr("before");
   }
-  canvas_->show_map(content);
-  const bool two = shows_pair() && pair_->choice() == PhasePair::Choice::side_by_side;
+  arrange();
+  canvas_->show_map(std::move(content));
   if (two) {
-    content.phase = Phase::before;
-    content.caption = tr("before");
-    before_->show_map(std::move(content));
-    before_->set_view(canvas_->view());
+    second_->show_map(std::move(second));
+    second_->set_view(canvas_->view());
   } else {
-    before_->clear();
+    second_->clear();
   }
-  before_->setVisible(two);
+  second_->setVisible(two);
+  show_title();
 }
 
-void MapView::show_title() {
+void MapView::show_buttons() {
   const auto map = focus_.map();
   const bool of_engine = engine_menu_->choice().engine.has_value();
   const QString no_phase = !map        ? tr("No direction is shown yet")
                            : of_engine ? tr("The picture of an engine has no phases")
                                        : tr("Two phases are shown");
+  phase_buttons_->setVisible(focus_.at_step());
+  whole_buttons_->setVisible(!focus_.at_step());
   for (QAbstractButton* button : phases_->buttons()) {
     enable_if(*button, map && !of_engine && !shows_pair(), no_phase);
   }
+  for (QAbstractButton* button : wholes_->buttons()) {
+    enable_if(*button, map && !of_engine, no_phase);
+  }
+  if (map && !of_engine) {
+    enable_if(*wholes_->button(static_cast<int>(Whole::patch)), selection_.patch() != no_patch,
+              tr("No patch is selected"));
+  }
   enable_if(*pair_->button(), map && !of_engine, no_phase);
   const QString no_zoom = tr("The hemicube is shown as a whole, without numbers");
-  enable_if(*zoom_, map && !shows_hemicube(), map ? no_zoom : no_phase);
+  enable_if(*zoom_, map && focus_.at_step() && !shows_hemicube(),
+            shows_hemicube() ? no_zoom
+            : map            ? tr("No step is shown")
+                             : no_phase);
   enable_if(*labels_, !shows_hemicube(), no_zoom);
   phases_->button(static_cast<int>(focus_.phase()))->setChecked(true);
+}
+
+QString MapView::direction_text() const {
+  const auto map = focus_.map();
+  const QString direction = tr("Direction %1 of %2")
+                                .arg(count_text(map->direction + 1),
+                                     count_text(focus_.passes_of(focus_.position().iteration)));
+  if (focus_.at_step()) {
+    return tr("%1, step %2 of %3: %4")
+        .arg(direction, count_text(focus_.position().step + 1),
+             count_text(map->history.step_count()), text_of(focus_.reason()));
+  }
+  // Maps of many polygons take longer than the directions of the solve.
+  const QString shown =
+      shown_whole() == Whole::complete ? tr("%1, complete").arg(direction) : direction;
+  const int newest = focus_.target().direction;
+  return focus_.arrived() || newest == map->direction
+             ? shown
+             : tr("%1; direction %2 follows").arg(shown, count_text(newest + 1));
+}
+
+QString MapView::whole_text() const {
+  const auto polygons = [](const MapCanvas& canvas) {
+    return count_text(static_cast<std::int64_t>(canvas.polygon_count()));
+  };
+  switch (*shown_whole()) {
+    case Whole::complete:
+      return tr("%1 fragments emit, %2 receive").arg(polygons(*canvas_), polygons(*second_));
+    case Whole::receivers:
+      return tr("%1 fragments receive, seen along −ω").arg(polygons(*canvas_));
+    case Whole::patch:
+      break;
+  }
+  const PatchId patch = selection_.patch();
+  return canvas_->polygon_count() > 0
+             ? tr("Patch %1 sees %2 polygons").arg(patch).arg(polygons(*canvas_))
+             : tr("Patch %1 sees nothing along ω").arg(patch);
+}
+
+void MapView::show_title() {
+  const auto map = focus_.map();
+  show_buttons();
   if (!map) {
-    title_->setText(tr("No direction yet"));
+    title_->setText(
+        focus_.arrived()
+            ? tr("No direction yet")
+            : tr("Recording direction %1…").arg(count_text(focus_.target().direction + 1)));
     step_text_->setText(tr("View along ω, toward the source"));
     return;
   }
-  title_->setText(tr("Direction %1 of %2, view along ω")
-                      .arg(count_text(map->direction + 1),
-                           count_text(focus_.passes_of(focus_.position().iteration))));
+  title_->setText(direction_text());
   title_->setToolTip(
       tr("ω = %1 points toward the source").arg(vector_text(map->record().frame.omega)));
   if (shows_hemicube()) {
@@ -322,8 +457,11 @@ void MapView::show_title() {
     step_text_->setText(pixel_text());
     return;
   }
-  const bool split = shown_phase() == Phase::split && focus_.position().step >= 0;
-  if (split && !focus_.following()) {
+  if (shown_whole()) {
+    step_text_->setText(whole_text());
+    return;
+  }
+  if (shown_phase() == Phase::split && focus_.position().step >= 0) {
     step_text_->setText(QStringLiteral("%1 &nbsp; %2 &nbsp; %3")
                             .arg(legend_entry(theme::processed.darker(120), tr("fragment")),
                                  legend_entry(theme::inside, tr("inside list")),

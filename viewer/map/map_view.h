@@ -3,13 +3,14 @@
 
 #include <QWidget>
 #include <memory>
-#include <vector>
+#include <optional>
 
 #include "colors/color_choice.h"
 #include "model/snapshot.h"
 #include "state/focus.h"
 #include "state/selection.h"
 
+class QBoxLayout;
 class QButtonGroup;
 class QLabel;
 class QStackedWidget;
@@ -23,7 +24,8 @@ class MapCanvas;
 class EngineMenu;
 class PhasePair;
 
-/// The visibility map V of the direction in focus, and its changes by the current step.
+/// The visibility map of the direction in focus: V and its changes by the current step, or, where
+/// no step is shown, the whole direction.
 class MapView : public QWidget {
   Q_OBJECT
 
@@ -38,6 +40,10 @@ class MapView : public QWidget {
   void set_labels_shown(bool shown);
   bool labels_shown() const;
 
+  /// The part of a whole direction that is shown.
+  enum class Whole { complete, receivers, patch };
+  void choose_whole(Whole whole);
+
   bool up_to_date() const;
   MapCanvas* canvas() const { return canvas_; }
   PhasePair* pair() const { return pair_; }
@@ -47,32 +53,46 @@ class MapView : public QWidget {
 
  private:
   QWidget* make_controls();
+  QWidget* make_whole_buttons();
+  QWidget* make_phase_buttons();
   MapCanvas* make_canvas(Selection& selection, const char* name);
   void show_context_menu(const MapCanvas& canvas, const QPoint& position);
   void show_position();
   void show_title();
+  void show_buttons();
+  QString direction_text() const;
+  QString whole_text() const;
   QString pixel_text() const;
   bool shows_hemicube() const;
   /// Whether both phases of the step are shown, at once or in turn.
   bool shows_pair() const;
   /// In canvas_.
   Phase shown_phase() const;
+  /// The part of a whole direction that is drawn; not set while a step is shown, or the V of an
+  /// engine.
+  std::optional<Whole> shown_whole() const;
+  /// Places the canvases so that two maps are as large as possible.
+  void arrange();
 
   Focus& focus_;
+  Selection& selection_;
   const ColorChoice& colors_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* title_;
   QLabel* step_text_;
   MapCanvas* canvas_;
-  MapCanvas* before_;  ///< beside canvas_; hidden unless two phases are shown side by side
+  MapCanvas* second_;  ///< beside canvas_: V before the step, or what receives; else hidden
   QWidget* canvases_;
+  QBoxLayout* side_by_side_;  ///< layout of canvases_
   PhasePair* pair_;
   HemicubeView* hemicube_;
   QStackedWidget* pictures_;
+  QBoxLayout* rows_;  ///< rows of buttons
+  QWidget *whole_buttons_, *phase_buttons_;
+  QButtonGroup* wholes_;  ///< ids are of type Whole
   QButtonGroup* phases_;
   QToolButton* labels_;
   QToolButton* zoom_;
-  std::vector<QWidget*> extras_;  ///< controls that a narrow view omits
   EngineMenu* engine_menu_;
   QTimer* recolor_timer_;
 };

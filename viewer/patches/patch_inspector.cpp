@@ -6,14 +6,17 @@
 #include <utility>
 
 #include "model/snapshot_values.h"
+#include "patches/balance_view.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
+#include "widgets/fold.h"
 #include "widgets/value_grid.h"
 
 namespace transillum::viewer {
 
-PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, QWidget* parent)
+PatchInspector::PatchInspector(Focus& focus, Selection& selection, const ColorChoice& colors,
+                               QWidget* parent)
     : QWidget(parent), selection_(selection), colors_(colors) {
   hint_ = note_label(tr("Click a patch in the scene or in the map."));
   make_sums();
@@ -37,13 +40,20 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   center_ = values_->add_row(tr("Center"), tr("m"));
   normal_ = values_->add_row(tr("Normal"), {});
   face_ = values_->add_row(tr("Face"), {});
+  balance_ = new BalanceView(focus, selection);
+  why_ = new Fold(QStringLiteral("why_section"), tr("Why this number?"), balance_);
 
   auto* layout = make_column(this, {12, 8, 12, 10});
   layout->addWidget(hint_);
+  layout->addWidget(why_);
   layout->addWidget(sums_);
   layout->addWidget(values_);
   layout->addWidget(coefficients_);
   layout->addStretch(1);
+  connect(balance_, &BalanceView::panel_wanted, this, &PatchInspector::panel_wanted);
+  connect(balance_, &BalanceView::form_factors_requested, &colors_,
+          &ColorChoice::form_factors_requested);
+  connect(why_->header(), &QAbstractButton::toggled, this, &PatchInspector::show_balance);
   connect(&selection_, &Selection::patches_changed, this, &PatchInspector::show_patch);
   connect(&colors_, &ColorChoice::changed, this, &PatchInspector::show_patch);
   show_patch();
@@ -173,8 +183,17 @@ void PatchInspector::show_sums() {
   mean_->setText(rgb_text((1 / area) * leaving));
 }
 
+void PatchInspector::show_balance() {
+  const bool one = snapshot_ && selection_.patches().size() == 1;
+  why_->setVisible(one);
+  if (why_->is_open()) {
+    balance_->show_balance(snapshot_, one ? selection_.patch() : no_patch);
+  }
+}
+
 void PatchInspector::show_patch() {
   show_sums();
+  show_balance();
   const PatchId patch = selection_.patch();
   const bool any = snapshot_ && patch >= 0 && patch < snapshot_->loaded->scene->patch_count();
   hint_->setVisible(!any);

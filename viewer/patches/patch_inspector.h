@@ -3,15 +3,19 @@
 
 #include <QWidget>
 #include <memory>
+#include <string>
 
 #include "colors/color_choice.h"
 #include "model/snapshot.h"
+#include "state/focus.h"
 #include "state/selection.h"
 
 class QLabel;
 
 namespace transillum::viewer {
 
+class BalanceView;
+class Fold;
 class ValueGrid;
 
 /// The geometry, material and current results of the selected patch.
@@ -19,9 +23,14 @@ class PatchInspector : public QWidget {
   Q_OBJECT
 
  public:
-  PatchInspector(Selection& selection, const ColorChoice& colors, QWidget* parent = nullptr);
+  PatchInspector(Focus& focus, Selection& selection, const ColorChoice& colors,
+                 QWidget* parent = nullptr);
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+
+ signals:
+  /// Passes BalanceView::panel_wanted() on.
+  void panel_wanted(const std::string& panel);
 
  private:
   /// Adds a row with the symbol, unit and tip of the quantity.
@@ -31,11 +40,14 @@ class PatchInspector : public QWidget {
   void show_coefficients(PatchId patch);
   void show_patch();
   void show_sums();
+  void show_balance();
 
   Selection& selection_;
   const ColorChoice& colors_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* hint_;
+  BalanceView* balance_;
+  Fold* why_;  ///< with balance_
   ValueGrid *sums_, *values_;
   ValueGrid* coefficients_;  ///< coefficients of B, where B is linear on patches
   QLabel *mean_b_, *first_b_, *second_b_, *first_direction_, *second_direction_, *lowest_,

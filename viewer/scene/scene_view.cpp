@@ -388,7 +388,7 @@ void SceneView::show_step() {
 }
 
 void SceneView::show_direction() {
-  const bool on_a_step = stepping() && focus_.position().step >= 0;
+  const bool on_a_step = stepping() && focus_.at_step() && focus_.position().step >= 0;
   if (on_a_step) {
     step_glyph_->show(*focus_.map(), focus_.position().step);
   } else {

@@ -16,7 +16,27 @@ std::int32_t nearest_step(const MapHistory& history, std::int32_t step) {
   return std::clamp(step, -1, history.step_count() - 1);
 }
 
+constexpr std::int32_t last_step = std::numeric_limits<std::int32_t>::max();
+
 }  // namespace
+
+QString text_of(StepReason reason) {
+  switch (reason) {
+    case StepReason::none:
+      break;
+    case StepReason::stepped:
+      return Focus::tr("stepped to");
+    case StepReason::chosen:
+      return Focus::tr("chosen");
+    case StepReason::found:
+      return Focus::tr("found by the search");
+    case StepReason::breakpoint:
+      return Focus::tr("a breakpoint holds");
+    case StepReason::page:
+      return Focus::tr("set by the page");
+  }
+  return {};
+}
 
 void Focus::begin_run(int passes, bool renews) {
   passes_ = passes;
@@ -24,6 +44,7 @@ void Focus::begin_run(int passes, bool renews) {
   iterations_ = 1;
   iteration_passes_.clear();
   position_ = target_ = newest_ = {};
+  reason_ = target_reason_ = StepReason::none;
   map_ = nullptr;
   set_probe(std::nullopt);
   following_ = true;
@@ -50,12 +71,13 @@ void Focus::set_passes_of_iterations(std::vector<int> passes) {
   emit target_changed();
 }
 
-void Focus::go_to(const RunPosition& position) {
+void Focus::go_to(const RunPosition& position, StepReason reason) {
   if (passes_ == 0) {
     return;
   }
   end_following();
   seek_left_ = 0;
+  target_reason_ = reason;
   set_target(
       position.iteration, position.direction, position.step,
       [step = position.step](const MapHistory& history) { return nearest_step(history, step); });
@@ -65,12 +87,19 @@ void Focus::go_to_step(std::int32_t step) {
   go_to({position_.iteration, position_.direction, step});
 }
 
+void Focus::show_whole() {
+  if (map_ && at_step()) {
+    go_to({position_.iteration, position_.direction, last_step}, StepReason::none);
+  }
+}
+
 void Focus::go_to_first(int iteration, int direction, StepFinder finder) {
   if (passes_ == 0) {
     return;
   }
   end_following();
   seek_left_ = 0;
+  target_reason_ = StepReason::found;
   set_target(iteration, direction, -1, [finder = std::move(finder)](const MapHistory& history) {
     return finder(history, -1, StepOrder::forward);
   });
@@ -98,50 +127,59 @@ bool Focus::step_by(std::int32_t steps) {
     return false;
   }
   const std::int32_t last = map_->history.step_count() - 1;
+  const std::int32_t now = !at_step() && steps > 0 ? -1 : position_.step;
   if (filter_.on()) {
-    const std::int32_t now = position_.step;
     const auto passes = [filter = filter_](const MapHistory& history, std::int32_t k) {
       return filter.passes_at(history, k);
     };
     if (steps > 0) {
-      seek_from(std::min(now + steps - 1, last), find_where(passes), StepOrder::forward);
+      seek_from(std::min(now + steps - 1, last), find_where(passes), StepOrder::forward,
+                StepReason::stepped);
     } else {
       seek_from(std::clamp(now + steps + 1, 0, std::max(now, 0)), find_where(passes),
-                StepOrder::backward);
+                StepOrder::backward, StepReason::stepped);
     }
     return true;
   }
   RunPosition to = position_;
   // The empty map of the next direction follows the last step; the last step of the previous
   // direction precedes an empty map.
-  if (steps > 0 && position_.step == last) {
+  if (steps > 0 && now == last) {
     to = moved_by(position_, 1, -1);
-  } else if (steps < 0 && position_.step == -1) {
-    to = moved_by(position_, -1, std::numeric_limits<std::int32_t>::max());
+  } else if (steps < 0 && now == -1) {
+    to = moved_by(position_, -1, last_step);
   } else {
-    to.step = std::clamp(position_.step + steps, -1, last);
+    to.step = std::clamp(now + steps, -1, last);
   }
-  if (to == position_) {
+  if (to == position_ && at_step()) {
     return false;
   }
-  go_to(to);
+  go_to(to, StepReason::stepped);
   return true;
 }
 
 void Focus::direction_by(int directions) {
   if (passes_ > 0) {
-    go_to(moved_by(target_, directions, position_.step));
+    const RunPosition to = moved_by(target_, directions, position_.step);
+    go_to_direction(to.iteration, to.direction);
   }
 }
 
 void Focus::iteration_by(int iterations) {
-  go_to({target_.iteration + iterations, target_.direction, position_.step});
+  go_to_direction(target_.iteration + iterations, target_.direction);
+}
+
+void Focus::go_to_direction(int iteration, int direction) {
+  go_to({iteration, direction, at_step() ? position_.step : last_step}, reason_);
 }
 
 void Focus::set_phase(Phase phase) {
-  const bool changed = following_ || phase != phase_;
+  const bool changed = following_ || !at_step() || phase != phase_;
   end_following();
   phase_ = phase;
+  if (!at_step()) {
+    reason_ = target_reason_ = StepReason::chosen;
+  }
   if (changed) {
     emit moved();
   }
@@ -155,7 +193,7 @@ void Focus::set_probe(const std::optional<Vec2>& probe) {
 void Focus::phase_by(int phases) {
   const int phase = static_cast<int>(phase_) + phases;
   const bool within = 0 <= phase && phase <= static_cast<int>(Phase::after);
-  if (within && position_.step >= 0) {
+  if (within && position_.step >= 0 && at_step()) {
     set_phase(static_cast<Phase>(phase));
     return;
   }
@@ -177,25 +215,32 @@ void Focus::set_filter(const EventFilter& filter) {
   emit filtered();
 }
 
-void Focus::seek(StepFinder finder, StepOrder order) {
-  seek_from(position_.step, std::move(finder), order);
+void Focus::seek(StepFinder finder, StepOrder order, StepReason reason) {
+  const bool begins = !at_step() && order == StepOrder::forward;
+  seek_from(begins ? -1 : position_.step, std::move(finder), order, reason);
 }
 
-void Focus::seek_from(std::int32_t from, StepFinder finder, StepOrder order) {
-  if (!map_) {
+void Focus::seek_from(std::int32_t from, StepFinder finder, StepOrder order, StepReason reason) {
+  if (passes_ == 0) {
     return;
   }
   end_following();
   finder_ = std::move(finder);
   order_ = order;
+  target_reason_ = reason;
   // Visits every direction once, and the first one again for its steps on the other side of the
   // position.
   const bool same_directions = !renews_ && passes_of(0) == passes_;
   seek_total_ = seek_left_ = (same_directions ? 1 : std::int64_t{iterations_}) * passes_ + 1;
+  if (!map_) {
+    seek_in(newest_);
+    return;
+  }
   target_ = position_;
   const std::int32_t step = finder_(map_->history, from, order_);
   if (step != MapHistory::none) {
     position_.step = target_.step = step;
+    reason_ = target_reason_;
     end_seek();
     emit moved();
     emit seek_ended(true);
@@ -213,12 +258,17 @@ void Focus::continue_seek() {
     emit seek_ended(false);
     return;
   }
-  set_target(next.iteration, next.direction, -1, [this](const MapHistory& history) {
+  seek_in(next);
+}
+
+void Focus::seek_in(const RunPosition& direction) {
+  set_target(direction.iteration, direction.direction, -1, [this](const MapHistory& history) {
     return finder_(history, order_ == StepOrder::forward ? -1 : history.step_count(), order_);
   });
 }
 
 void Focus::lose() {
+  target_reason_ = reason_;
   if (phase_unless_found_) {
     phase_ = *phase_unless_found_;
   }
@@ -279,8 +329,9 @@ void Focus::go_to_newest() {
     return;
   }
   seek_left_ = 0;
+  target_reason_ = StepReason::none;
   set_target(newest_.iteration, newest_.direction, -1,
-             [](const MapHistory& history) { return history.record().fullest_step(); });
+             [](const MapHistory& history) { return nearest_step(history, last_step); });
 }
 
 void Focus::set_target(int iteration, int direction, std::int32_t step, Arrival arrival) {
@@ -313,6 +364,7 @@ void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
   }
   const bool another = map != map_;
   map_ = std::move(map);
+  reason_ = target_reason_;
   if (another && probe_) {
     set_probe(std::nullopt);
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <QObject>
+#include <QString>
 #include <compare>
 #include <cstdint>
 #include <functional>
@@ -35,6 +36,18 @@ enum class Phase {
   split,   ///< V is clipped by i: the inside and the outside list
   after,   ///< V without the inside list and with i
 };
+
+/// Why a step is shown.
+enum class StepReason {
+  none,        ///< no step has been chosen: the whole direction is meant
+  stepped,     ///< next to the step shown before
+  chosen,      ///< by the user, in a view
+  found,       ///< by a search
+  breakpoint,  ///< a breakpoint holds
+  page,        ///< a lesson or a session file names it
+};
+/// A few words.
+QString text_of(StepReason reason);
 
 /// The position in the solve run that all views show, and the commands that change it. Views follow
 /// it and do not refer to each other.
@@ -68,10 +81,19 @@ class Focus : public QObject {
   const RunPosition& position() const { return position_; }
   std::shared_ptr<const RecordedMap> map() const { return map_; }
   Phase phase() const { return phase_; }
+  /// The step whose V makes a picture: position().step, or the fullest of a whole direction.
+  /// Valid only with a map.
+  std::int32_t picture_step() const {
+    return at_step() ? position_.step : map_->record().fullest_step();
+  }
   /// The requested position, or position() if none is requested. The step may be unknown (-1) until
   /// the direction is recorded.
   const RunPosition& target() const { return target_; }
   bool arrived() const { return !under_way_; }
+  /// Why position() has its step. Without a reason, it is after the last step.
+  StepReason reason() const { return reason_; }
+  /// Whether a step is shown, rather than the whole direction.
+  bool at_step() const { return reason_ != StepReason::none; }
   /// Whether the position follows the newest direction.
   bool following() const { return following_; }
   bool seeking() const { return under_way_ && seek_left_ > 0; }
@@ -85,17 +107,21 @@ class Focus : public QObject {
 
   // Each of these functions, except follow(), ends following. Values out of range are clamped.
 
-  void go_to(const RunPosition& position);
+  void go_to(const RunPosition& position, StepReason reason = StepReason::chosen);
   /// Goes to a step of the same direction.
   void go_to_step(std::int32_t step);
   /// Goes to the first step of a direction that `finder` finds; before the first step if it finds
   /// none.
   void go_to_first(int iteration, int direction, StepFinder finder);
   /// Goes at most to an end of the direction, and from there to the next direction. With a filter,
-  /// continues to the nearest step that has an event which passes, like seek().
+  /// continues to the nearest step that has an event which passes, like seek(). From a whole
+  /// direction, steps forward begin before its first step.
   /// @return false at an end of the run
   bool step_by(std::int32_t steps);
-  /// Goes to the same step of another direction or iteration.
+  /// Shows the whole direction instead of a step.
+  void show_whole();
+  /// Goes to the same step of another direction; while no step is shown, to all of the direction.
+  void go_to_direction(int iteration, int direction);
   void direction_by(int directions);
   void iteration_by(int iterations);
   /// Goes one phase forward (+1) or back (-1), over the ends of a step.
@@ -103,10 +129,10 @@ class Focus : public QObject {
   void set_phase(Phase phase);
   /// Goes to the nearest step after (before) this one that `finder` finds, searching all directions
   /// of the run; ends with seek_ended() or seek_stopped().
-  void seek(StepFinder finder, StepOrder order);
+  void seek(StepFinder finder, StepOrder order, StepReason reason = StepReason::found);
   /// Drops the target and ends a search.
   void stop();
-  /// If `following`, goes to the fullest step of the newest direction, now and on each follow().
+  /// If `following`, shows the whole newest direction, now and on each follow().
   void set_following(bool following);
   /// Reports the newest direction of the solve run.
   void follow(int iteration, int direction);
@@ -135,7 +161,9 @@ class Focus : public QObject {
   void go_to_newest();
   void arrive(std::int32_t step);
   void continue_seek();
-  void seek_from(std::int32_t step, StepFinder finder, StepOrder order);
+  /// Goes to the nearest end of a direction, and searches it from there.
+  void seek_in(const RunPosition& direction);
+  void seek_from(std::int32_t step, StepFinder finder, StepOrder order, StepReason reason);
   void end_seek();
   /// Ends a search without success.
   void lose();
@@ -147,6 +175,7 @@ class Focus : public QObject {
   RunPosition position_, target_, newest_;
   std::shared_ptr<const RecordedMap> map_;
   Phase phase_ = Phase::after;
+  StepReason reason_ = StepReason::none, target_reason_ = StepReason::none;
   std::optional<Phase> phase_unless_found_;  ///< comes back if a search ends without success
   std::optional<Vec2> probe_;
   EventFilter filter_;

@@ -203,10 +203,12 @@ void BreakpointPanel::show_run_menu(const QPoint& position) {
       });
   auto* menu = named("breakpoint_menu", new QMenu(this));
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  menu->addAction(tr("Run back to the previous step where the breakpoint holds"), this,
-                  [this, finder] { focus_.seek(finder, StepOrder::backward); });
-  menu->addAction(tr("Run forward to the next step where the breakpoint holds"), this,
-                  [this, finder] { focus_.seek(finder, StepOrder::forward); });
+  menu->addAction(
+      tr("Run back to the previous step where the breakpoint holds"), this,
+      [this, finder] { focus_.seek(finder, StepOrder::backward, StepReason::breakpoint); });
+  menu->addAction(
+      tr("Run forward to the next step where the breakpoint holds"), this,
+      [this, finder] { focus_.seek(finder, StepOrder::forward, StepReason::breakpoint); });
   const auto k = static_cast<std::size_t>(row);
   menu->addAction(tr("Remove its last condition"), this,
                   [this, k] { breakpoints_.remove_last_condition(k); })
@@ -286,8 +288,7 @@ void BreakpointPanel::mark_current() {
   const std::int32_t step = focus_.position().step;
   for (int row = 0; row < list_->count(); ++row) {
     const Breakpoint& breakpoint = at(breakpoints_.list(), row);
-    const bool here =
-        map && !focus_.following() && step >= 0 && holds(breakpoint, map->history, step);
+    const bool here = map && focus_.at_step() && step >= 0 && holds(breakpoint, map->history, step);
     QListWidgetItem* item = list_->item(row);
     item->setText(here ? tr("%1, true here").arg(text_of_row(row)) : text_of_row(row));
     QFont font = list_->font();
@@ -321,7 +322,8 @@ void BreakpointPanel::remove_current() {
 
 void BreakpointPanel::run(StepOrder order) {
   hits_ = std::make_shared<HitCounts>();
-  focus_.seek(breakpoints_.run_finder(hits_, [this] { return focus_.target(); }), order);
+  focus_.seek(breakpoints_.run_finder(hits_, [this] { return focus_.target(); }), order,
+              StepReason::breakpoint);
 }
 
 }  // namespace transillum::viewer

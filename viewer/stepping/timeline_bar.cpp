@@ -121,6 +121,13 @@ void TimelineBar::show_position() {
     return;
   }
   const std::int32_t k = focus_.position().step;
+  if (!focus_.at_step()) {
+    text_->set_clauses(
+        {focus_.following() ? tr("Newest direction, complete") : tr("The whole direction, no step"),
+         tr("%1 steps").arg(count_text(map->history.step_count())),
+         tr("Next step (.) begins with the first")});
+    return;
+  }
   if (k < 0) {
     text_->set_clauses({tr("Before the first step: V is empty")});
     return;
@@ -140,9 +147,6 @@ void TimelineBar::show_position() {
                                           : tr("V has %1 polygons").arg(count_text(step.map_size));
   QStringList clauses{cuts, tr("exchanges light with %1 of them").arg(count_text(step.exchanges)),
                       size};
-  if (focus_.following()) {
-    clauses.prepend(tr("Newest direction, at its fullest step"));
-  }
   text_->set_clauses(clauses);
 }
 

@@ -295,20 +295,15 @@ void TimelineLanes::mouseReleaseEvent(QMouseEvent*) { scrubbing_ = false; }
 
 void TimelineLanes::scrub(double x) {
   const int k = index(rect_of(scrubbed_), x, count_of(scrubbed_));
-  RunPosition to = position_shown();
-  to.step = focus_.position().step;
+  const RunPosition shown = position_shown();
   switch (scrubbed_) {
     case Lane::iterations:
-      to.iteration = k;
-      break;
+      return focus_.go_to_direction(k, shown.direction);
     case Lane::directions:
-      to.direction = k;
-      break;
+      return focus_.go_to_direction(shown.iteration, k);
     case Lane::steps:
-      to.step = k - 1;
-      break;
+      return focus_.go_to({shown.iteration, shown.direction, k - 1});
   }
-  focus_.go_to(to);
 }
 
 void TimelineLanes::keyPressEvent(QKeyEvent* event) {

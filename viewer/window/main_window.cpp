@@ -150,7 +150,7 @@ void MainWindow::make_views() {
   step_actions_ = new StepActions(state_.focus, state_.selection, this);
   settings_ = new SettingsPanel;
   summary_ = new SolveSummary;
-  inspector_ = new PatchInspector(state_.selection, state_.colors);
+  inspector_ = new PatchInspector(state_.focus, state_.selection, state_.colors);
   map_view_ = new MapView(state_.focus, state_.selection, state_.colors);
   error_view_ = new ErrorView([this] { return page_->scene_view()->view_point(); });
   convergence_view_ = new ConvergenceView(state_.focus);
@@ -259,6 +259,7 @@ void MainWindow::watch_maps() {
 
 /// Connects views with one another, through the shared state.
 void MainWindow::connect_views() {
+  connect(inspector_, &PatchInspector::panel_wanted, &docks_, &DockLayouts::bring_to_front);
   connect(inspection_, &InspectionPanels::paths_shown, page_->scene_view(), &SceneView::show_paths);
   connect(inspection_, &InspectionPanels::face_chosen, page_->scene_view(),
           &SceneView::fit_selected);

@@ -82,9 +82,26 @@ void DockLayouts::make_actions() {
       tr("A scene: what lights a patch, how large the error is"));
   add(Layout::debug, "layout_debug", tr("Step"), "Ctrl+3",
       tr("One direction, polygon by polygon, forward and back"));
+  swap_ = make_key_action(this, "swap_views", tr("Scene and map change places"),
+                          tr("Give the scene the room of the map, and the map that of the scene"),
+                          Qt::Key_V);
+  connect(swap_, &QAction::triggered, this, &DockLayouts::swap_views);
+  show_state();
+}
+
+void DockLayouts::swap_views() {
+  if (held_ || covered_ || current_ != Layout::debug) {
+    return;
+  }
+  show_alone({});
+  bring_to_front("map");
+  scene_large_ = find("map")->widget->width() > window_.width() / 2;
+  arrange_sizes();
 }
 
 void DockLayouts::show_state() {
+  enable_if(*swap_, !covered_ && current_ == Layout::debug,
+            tr("Only where directions are stepped"));
   for (int k = 0; k < layout_count; ++k) {
     at(actions_, k)->setChecked(!covered_ && static_cast<Layout>(k) == current_);
   }
@@ -172,6 +189,7 @@ void DockLayouts::reset() {
 void DockLayouts::arrange(Layout layout) {
   uncover();
   current_ = layout;
+  scene_large_ = false;
   emit switched();
   end_alone();
   for (const Dock& dock : docks_) {
@@ -257,7 +275,8 @@ void DockLayouts::arrange_sizes() {
     if (place && !dock.widget->isHidden()) {
       shown << dock.widget;
       // The scene below the panels at the top needs room in a low window, too.
-      const double part = std::min(1.0, window_.height() / usual_height);
+      const double part =
+          (scene_large_ ? 0.55 : 1.0) * std::min(1.0, window_.height() / usual_height);
       heights << (place->area == Qt::TopDockWidgetArea ? static_cast<int>(part * place->height)
                                                        : place->height);
     }
@@ -270,7 +289,10 @@ void DockLayouts::follow_type() {
   if (held_) {
     return;  // a full screen has other widths
   }
-  const Widths widths = widths_of(current_, window_.width());
+  Widths widths = widths_of(current_, window_.width());
+  if (scene_large_) {
+    widths.left = window_.width() - widths.left;
+  }
   for (const Dock& dock : docks_) {
     if (dock.widget->isHidden() || dock.widget->isFloating()) {
       continue;
@@ -439,6 +461,7 @@ void DockLayouts::add_to(QMenu& menu) {
   for (QAction* action : actions_) {
     menu.addAction(action);
   }
+  menu.addAction(swap_);
   menu.addAction(tr("Reset the layout"), this, &DockLayouts::reset,
                  QKeySequence(QStringLiteral("Ctrl+0")))
       ->setObjectName("layout_reset");

@@ -105,6 +105,8 @@ class DockLayouts : public QObject {
   void repaint_moved();
   /// Arranges the usual sizes of the layout, without moving docks.
   void arrange_sizes();
+  /// Exchanges the sizes of scene and map in the layout to step.
+  void swap_views();
 
   struct Dock {
     QDockWidget* widget;
@@ -135,6 +137,8 @@ class DockLayouts : public QObject {
   bool held_ = false;
   QByteArray held_state_;
   bool enlarged_ = false;
+  QAction* swap_ = nullptr;
+  bool scene_large_ = false;   ///< in the layout to step, the scene has the room of the map
   std::vector<QRect> places_;  ///< places of docks_ when the window was painted
   QString alone_;              ///< argument of show_alone()
   QByteArray before_alone_;    ///< state of the window

@@ -37,6 +37,7 @@ StepFinder find_named(StepName name, PatchId selection) {
         return history.step(step).patch == selection;
       });
     case StepName::cut:
+    case StepName::whole:
       break;
   }
   return find_where([](const MapHistory& history, std::int32_t step) {
@@ -405,7 +406,8 @@ void ViewStateApplier::apply_focus() {
              .arg(passes));
   }
   const auto* step = std::get_if<std::int32_t>(&requested_.focus->step);
-  focus.go_to({requested_.focus->iteration, requested_.focus->direction, step ? *step : -1});
+  focus.go_to({requested_.focus->iteration, requested_.focus->direction, step ? *step : -1},
+              StepReason::page);
 }
 
 void ViewStateApplier::on_direction() {
@@ -414,8 +416,14 @@ void ViewStateApplier::on_direction() {
   }
   awaits_ = Awaits::nothing;
   Focus& focus = frame_.state.focus;
-  if (const auto* name = std::get_if<StepName>(&requested_.focus->step)) {
-    focus.seek(find_named(*name, frame_.state.selection.patch()), StepOrder::forward);
+  const auto* name = std::get_if<StepName>(&requested_.focus->step);
+  if (name && *name == StepName::whole) {
+    focus.show_whole();
+    return;
+  }
+  if (name) {
+    focus.seek(find_named(*name, frame_.state.selection.patch()), StepOrder::forward,
+               StepReason::page);
   }
   focus.set_phase(requested_.focus->phase);
 }
@@ -449,7 +457,9 @@ ViewState ViewStateApplier::state() const {
   const Focus& focus = frame_.state.focus;
   if (!focus.following() && focus.map()) {
     const RunPosition& position = focus.position();
-    state.focus = FocusChoice{position.iteration, position.direction, position.step, focus.phase()};
+    state.focus = FocusChoice{
+        position.iteration, position.direction,
+        focus.at_step() ? StepChoice(position.step) : StepChoice(StepName::whole), focus.phase()};
   }
   state.materials = frame_.state.relighting.edits().changes();
   read_patches(state);

@@ -242,7 +242,8 @@ void ExportActions::write_map_picture(const QString& path) const {
   if (!focus.map()) {
     throw std::runtime_error("there is no visibility map yet");
   }
-  const std::int32_t step = focus.position().step - (focus.phase() == Phase::before ? 1 : 0);
+  // The writers draw one V.
+  const std::int32_t step = focus.picture_step() - (focus.phase() == Phase::before ? 1 : 0);
   check_map_path(path.toStdString());
   MapPictureOptions options;
   options.patch_colors = frame_.state.colors.patch_colors();

@@ -1,0 +1,153 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// "Why this number?": the terms of B of a patch, and the links of their numbers.
+#include <cmath>
+
+#include "inspected_window.h"
+#include "model/light_balance.h"
+#include "model/snapshot_values.h"
+#include "patches/balance_view.h"
+#include "state/breakpoints.h"
+#include "transillum/at.h"
+#include "widgets/fold.h"
+
+namespace transillum::viewer::balance_test {
+
+using namespace test;
+
+namespace {
+
+Rgb sum_of(const LightBalance& balance) {
+  Rgb sum = balance.exitance + balance.others + balance.shot + balance.sky + balance.remainder;
+  for (const LightBalance::Term& term : balance.terms) {
+    sum += term.contribution;
+  }
+  return sum;
+}
+
+}  // namespace
+
+class BalanceTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void terms_add_up_to_b_data() {
+    QTest::addColumn<QString>("scene");
+    QTest::addColumn<bool>("linear");
+    QTest::addColumn<bool>("shot");
+    QTest::addColumn<double>("area");
+    QTest::newRow("constant") << "cornell-box" << false << false << 0.0;
+    QTest::newRow("linear, divided") << "cornell-box" << true << false << 0.05;
+    QTest::newRow("first shot, divided") << "cornell-box" << false << true << 0.05;
+    QTest::newRow("sky") << "cornell-box:open=1" << false << false << 0.0;
+  }
+  void terms_add_up_to_b() {
+    QFETCH(QString, scene);
+    QFETCH(bool, linear);
+    QFETCH(bool, shot);
+    QFETCH(double, area);
+    SolveOptions options{.directions = 32};
+    options.tolerance = 1e-12;
+    if (!shot) {
+      options.first_shot = {};
+    }
+    if (scene.contains("open")) {
+      options.sky.exitance = {1, 2, 3};
+    }
+    if (linear) {
+      options.basis = Basis::linear;
+    }
+    const auto window = make_window(options);
+    RunOptions all{.solve = options};
+    if (area > 0) {
+      all.scene.max_patch_area = area;
+    }
+    window->scene.open(scene.toStdString(), all, {Goal::Kind::finished});
+    QVERIFY(wait_for([&] {
+      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+    }));
+    window->runner.include_form_factors();
+    QVERIFY(wait_for([&] { return window->snapshot()->form_factors != nullptr; }));
+    const auto snapshot = window->snapshot();
+    double largest = 0;
+    for (const Rgb& b : snapshot->radiosity) {
+      largest = std::max({largest, b.r, b.g, b.b});
+    }
+    for (PatchId i = 0; i < snapshot->loaded->scene->patch_count(); ++i) {
+      const LightBalance balance = light_balance(*snapshot, i);
+      QVERIFY(balance.terms.size() <= 10);
+      const Rgb& b = at(snapshot->radiosity, i);
+      const Rgb difference = sum_of(balance) - b;
+      // Some hundred additions of numbers of at most the largest B.
+      QVERIFY(std::abs(difference.r) + std::abs(difference.g) + std::abs(difference.b) <
+              1e-13 * largest);
+      // The solve has converged to 1e-12 of the reflected light.
+      const Rgb& rest = balance.remainder;
+      QVERIFY2(std::abs(rest.r) + std::abs(rest.g) + std::abs(rest.b) < 1e-9 * largest,
+               qPrintable(QString("patch %1: %2 of %3").arg(i).arg(rest.r).arg(b.r)));
+    }
+  }
+
+  /// A lamp of many tiles is one term.
+  void tiles_of_a_face_are_one_term() {
+    const auto window = make_window(SolveOptions{.directions = 32, .first_shot = {}});
+    RunOptions all{.solve = {.directions = 32, .first_shot = {}}};
+    all.scene.max_patch_area = 0.002;
+    window->scene.open("cornell-box", all, {Goal::Kind::finished});
+    QVERIFY(wait_for([&] {
+      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+    }));
+    window->runner.include_form_factors();
+    QVERIFY(wait_for([&] { return window->snapshot()->form_factors != nullptr; }));
+    const auto snapshot = window->snapshot();
+    const Scene& scene = *snapshot->loaded->scene;
+    const auto is_lamp = [&](const LightBalance::Term& term) {
+      return max_abs(material_of(*snapshot, term.largest).exitance) > 0 && term.patches.size() > 1;
+    };
+    LightBalance balance;
+    PatchId receiver = -1;
+    do {
+      balance = light_balance(*snapshot, ++receiver);
+    } while (balance.terms.empty() || !is_lamp(balance.terms.front()));
+    const LightBalance::Term& lamp = balance.terms.front();
+    double factor = 0;
+    for (const PatchId j : lamp.patches) {
+      QCOMPARE(scene.patch(j).face, scene.patch(lamp.largest).face);
+      factor += form_factor(*snapshot->form_factors, receiver, j);
+    }
+    QVERIFY(std::abs(factor - lamp.form_factor) < 1e-12);
+  }
+
+  void links_lead_to_source_directions_and_step() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready && shown.raise("inspector_dock"));
+    auto* balance = shown.part<BalanceView>("balance");
+    shown.window->selection.select(16);
+    QVERIFY(!balance->isVisible());
+    shown.part<FoldHeader>("why_section")->click();
+    QVERIFY(shown.has_form_factors());
+    QVERIFY(wait_for([&] { return balance->text().contains("href='step:0'"); }));
+    QVERIFY(comes_to_rest(*shown.window));
+    save_picture(*shown.window, "balance");
+    const PatchId lamp = light_balance(*shown.window->snapshot(), 16).terms.front().largest;
+    emit balance->linkActivated("step:0");
+    QVERIFY(wait_for([&] { return shown.window->focus.arrived() && shown.window->settled(); }));
+    const Focus& focus = shown.window->focus;
+    QVERIFY(focus.at_step() && focus.reason() == StepReason::found);
+    QVERIFY(holds(Breakpoint{Breakpoint::Kind::pair, 16, lamp}, focus.map()->history,
+                  focus.position().step));
+    emit balance->linkActivated("seen:0");
+    QVERIFY(wait_for([&] { return shown.part<QWidget>("received_light")->isVisible(); }));
+    emit balance->linkActivated("channel:2");
+    QVERIFY(balance->text().contains("<b>blue</b>"));
+    emit balance->linkActivated("source:0");
+    QCOMPARE(shown.window->selection.patch(), lamp);
+    save_picture(*shown.window, "balance-of-a-lamp");
+  }
+};
+
+const test::Registered registered("balance", test::run_as_viewer<BalanceTest>);
+
+}  // namespace transillum::viewer::balance_test
+
+#include "balance_test.moc"

@@ -1,0 +1,172 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The section "Why this number?" of the panel of a patch. Its numbers come from light_balance() of
+// the newest snapshot, which needs form factors.
+#include "patches/balance_view.h"
+
+#include <cmath>
+#include <utility>
+
+#include "model/snapshot_values.h"
+#include "state/breakpoints.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString link_to(const QString& target, const QString& text, const QString& tip) {
+  return QStringLiteral("<a href='%1' title='%2' style='color:%3;text-decoration:none'>%4</a>")
+      .arg(target, tip, theme::accent.name(), text);
+}
+
+QString cell(const QString& text, const char* align = "right") {
+  return QStringLiteral("<td align='%1'>%2</td>").arg(QLatin1String(align), text);
+}
+
+QString figures(const QString& text) {
+  return QStringLiteral("<td align='right' style='font-family:monospace'>%1</td>").arg(text);
+}
+
+/// A symbol with a real index: B with i below the line.
+QString symbol(const char* letter, const QString& index) {
+  return QStringLiteral("<i>%1</i><sub>%2</sub>").arg(QString::fromUtf8(letter), index);
+}
+
+QString source_name(const Scene& scene, const LightBalance::Term& term) {
+  const Patch& patch = scene.patch(term.largest);
+  if (term.patches.size() == 1) {
+    return BalanceView::tr("patch %1").arg(term.largest);
+  }
+  const auto count = count_text(static_cast<std::int64_t>(term.patches.size()));
+  return patch.group == no_group
+             ? BalanceView::tr("face %1, %2 patches").arg(QString::number(patch.face), count)
+             : BalanceView::tr("%1, %2 patches")
+                   .arg(QString::fromStdString(at(scene.groups(), patch.group)).toHtmlEscaped(),
+                        count);
+}
+
+}  // namespace
+
+BalanceView::BalanceView(Focus& focus, Selection& selection, QWidget* parent)
+    : QLabel(parent), focus_(focus), selection_(selection) {
+  setObjectName("balance");
+  setTextFormat(Qt::RichText);
+  setWordWrap(true);
+  setAlignment(Qt::AlignTop);
+  setTextInteractionFlags(Qt::TextBrowserInteraction);
+  connect(this, &QLabel::linkActivated, this, &BalanceView::follow);
+}
+
+void BalanceView::show_balance(std::shared_ptr<const SolverSnapshot> snapshot, PatchId patch) {
+  snapshot_ = std::move(snapshot);
+  if (!snapshot_ || patch < 0 || patch >= snapshot_->loaded->scene->patch_count()) {
+    setText({});
+    return;
+  }
+  if (!snapshot_->form_factors) {
+    setText(why_no_form_factors(*snapshot_));
+    emit form_factors_requested();
+    return;
+  }
+  balance_ = light_balance(*snapshot_, patch);
+  show_text();
+}
+
+double BalanceView::channel_of(const Rgb& value) const {
+  return channel_ == 0 ? value.r : channel_ == 1 ? value.g : value.b;
+}
+
+QString BalanceView::equation() const {
+  const QString i = QString::number(balance_.receiver), j = QStringLiteral("j");
+  const double b = channel_of(balance_.radiosity), e = channel_of(balance_.exitance);
+  const double rho = channel_of(balance_.reflectance);
+  QStringList channels;
+  for (const QString& name : {tr("red"), tr("green"), tr("blue")}) {
+    const auto channel = channels.size();
+    channels << (channel == channel_
+                     ? QStringLiteral("<b>%1</b>").arg(name)
+                     : link_to(QStringLiteral("channel:%1").arg(channel), name, {}));
+  }
+  return QStringLiteral(
+             "<p>%1 = %2 + %3 Σ<sub>j</sub> %4 %5</p>"
+             "<p style='font-family:monospace'>%6 = %7 + %8 × %9 W/m²</p>")
+             .arg(symbol("B", i), symbol("E", i), symbol("ρ", i), symbol("F", i + ',' + j),
+                  symbol("B", j), number_text(b), number_text(e), number_text(rho),
+                  rho > 0 ? number_text((b - e) / rho) : QStringLiteral("–")) +
+         QStringLiteral("<p>%1</p>").arg(channels.join(QStringLiteral(" · ")));
+}
+
+QString BalanceView::row(const QString& source, const QString& form_factor,
+                         const QString& radiosity, const QString& value, const Rgb& light) const {
+  const double all = channel_of(balance_.radiosity);
+  const QString share = all > 0
+                            ? QStringLiteral("%1 %").arg(100 * channel_of(light) / all, 0, 'f', 1)
+                            : QStringLiteral("–");
+  return QStringLiteral("<tr>%1%2%3%4%5</tr>")
+      .arg(cell(source, "left"), figures(form_factor), figures(radiosity), figures(value),
+           figures(share));
+}
+
+void BalanceView::show_text() {
+  const Scene& scene = *snapshot_->loaded->scene;
+  const auto number = [this](const Rgb& value) { return number_text(channel_of(value)); };
+  const QString i = QStringLiteral("i"), j = QStringLiteral("j"), ij = i + j;
+  QString text = equation() +
+                 QStringLiteral("<table width='100%' cellpadding='2'><tr>%1%2%3%4%5</tr>")
+                     .arg(cell(tr("source j"), "left"), cell(symbol("F", ij)), cell(symbol("B", j)),
+                          cell(symbol("ρ", i) + symbol("F", ij) + symbol("B", j)),
+                          cell(tr("of %1").arg(symbol("B", i))));
+  for (std::size_t k = 0; k < balance_.terms.size(); ++k) {
+    const LightBalance::Term& term = balance_.terms[k];
+    const auto to = [k](const char* what) {
+      return QStringLiteral("%1:%2").arg(QLatin1String(what)).arg(k);
+    };
+    text +=
+        row(link_to(to("source"), source_name(scene, term), tr("Select it")),
+            link_to(to("seen"), number_text(term.form_factor),
+                    tr("The directions in which it was seen")),
+            link_to(to("source"), number(term.radiosity), tr("Select it")),
+            link_to(to("step"), number(term.contribution), tr("A step that exchanges this light")),
+            term.contribution);
+  }
+  const auto add = [&](const QString& name, const Rgb& value, bool shown) {
+    text += shown ? row(name, {}, {}, number(value), value) : QString();
+  };
+  add(tr("%1 others").arg(balance_.other_count), balance_.others, balance_.other_count > 0);
+  add(tr("first shot"), balance_.shot, channel_of(balance_.shot) > 0);
+  add(tr("sky"), balance_.sky, channel_of(balance_.sky) > 0);
+  add(symbol("E", i), balance_.exitance, channel_of(balance_.exitance) > 0);
+  add(snapshot_->glossy ? tr("lobes, last iteration") : tr("last iteration"), balance_.remainder,
+      std::abs(channel_of(balance_.remainder)) > 1e-12 * channel_of(balance_.radiosity));
+  add(symbol("B", i), balance_.radiosity, true);
+  setText(text + QStringLiteral("</table>"));
+}
+
+void BalanceView::follow(const QString& link) {
+  const QString what = link.section(':', 0, 0);
+  const int number = link.section(':', 1).toInt();
+  if (what == QLatin1String("channel")) {
+    channel_ = number;
+    show_text();
+    return;
+  }
+  const LightBalance::Term term = balance_.terms[static_cast<std::size_t>(number)];
+  if (what == QLatin1String("seen")) {
+    emit panel_wanted("received");
+  } else if (what == QLatin1String("source")) {
+    term.patches.size() == 1 ? selection_.select(term.largest)
+                             : selection_.select_all(term.patches);
+  } else {
+    emit panel_wanted("map");
+    const Breakpoint pair{Breakpoint::Kind::pair, balance_.receiver, term.largest};
+    focus_.seek(find_where([pair](const MapHistory& history, std::int32_t step) {
+                  return holds(pair, history, step);
+                }),
+                StepOrder::forward);
+  }
+}
+
+}  // namespace transillum::viewer
