@@ -16,7 +16,6 @@
 #include "map/engine_drawing.h"
 #include "model/snapshot_values.h"
 #include "state/callout.h"
-#include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/callout_painter.h"
 #include "widgets/theme.h"
@@ -135,11 +134,22 @@ void MapCanvas::fit_step() {
   emit view_changed();
 }
 
-MapTransform MapCanvas::transform() const {
-  MapTransform result = fit_map(*content_.map, size());
+MapTransform MapCanvas::transform(const QSizeF& size) const {
+  MapTransform result = fit_map(*content_.map, size);
+  // A picture of another size shows the same part.
+  const QPointF shift = view().shift * result.scale;
   result.scale *= zoom_;
-  result.middle += pan_;
+  result.middle += shift;
   return result;
+}
+
+MapPictureRequest MapCanvas::request_for(const QSizeF& size, double pixel_ratio) const {
+  return {content_.map,    content_.step,
+          content_.phase,  content_.step_shown,
+          content_.labels, content_.choice,
+          pixels(),        content_.patch_colors,
+          transform(size), size,
+          pixel_ratio,     content_.receiver};
 }
 
 void MapCanvas::repaint_map() {
@@ -151,10 +161,7 @@ void MapCanvas::repaint_map() {
   // occasional old picture is better than none. A change by the user cancels them.
   const bool cancels = content_.choice != sent_.picture.choice ||
                        (content_.step_shown && content_.map != sent_.picture.map);
-  sent_ = {{content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
-            content_.choice, pixels(), content_.patch_colors, transform(), size(),
-            devicePixelRatioF(), content_.receiver},
-           sent_.number + 1};
+  sent_ = {request_for(size(), devicePixelRatioF()), sent_.number + 1};
   painter_.request(sent_, cancels ? CurrentJob::cancel : CurrentJob::finish);
 }
 
@@ -251,7 +258,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   }
   // The picture may be of an older view: move and scale it to the current one.
   const MapTransform& painted = picture_->request.transform;
-  const MapTransform now = picture_->request.map == content_.map ? transform() : painted;
+  const MapTransform now = picture_->request.map == content_.map ? transform(size()) : painted;
   const double fraction = now.scale / painted.scale;
   painter.setRenderHint(QPainter::SmoothPixmapTransform, fraction != 1);
   const QPointF corner = now.middle - fraction * painted.middle;
@@ -265,16 +272,51 @@ void MapCanvas::paintEvent(QPaintEvent*) {
     draw_failure(painter, QString::fromStdString(pixels()->failure));
     return;
   }
-  draw_selection(painter, now);
-  draw_region(painter, now);
-  draw_sketch(painter, now);
-  draw_callouts(painter, now);
-  draw_probe(painter, now);
-  draw_marked_row(painter, now);
-  draw_caption(painter);
-  draw_scale_bar(painter, now.scale);
-  draw_axes(painter);
-  draw_legend(painter);
+  draw_marks({painter, size()}, *picture_, now);
+}
+
+void MapCanvas::draw_marks(const MapSheet& sheet, const MapPicture& picture,
+                           const MapTransform& shown) const {
+  draw_selection(sheet.painter, picture, shown);
+  draw_region(sheet.painter, shown);
+  draw_sketch(sheet.painter, shown);
+  draw_callouts(sheet, picture, shown);
+  draw_probe(sheet.painter, shown);
+  draw_marked_row(sheet, picture, shown);
+  sheet.draw_caption(content_.caption);
+  sheet.draw_scale_bar(shown.scale);
+  sheet.draw_axes();
+  sheet.draw_legend(picture.request, back_side_brush(1));
+}
+
+QImage MapCanvas::picture(const QSize& pixels) const {
+  QImage image(pixels, QImage::Format_RGB32);
+  image.fill(theme::scene_background);
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setFont(font());
+  if (content_.map) {
+    const MapPicture drawn = paint_map(request_for(pixels, 1));
+    painter.drawImage(0, 0, drawn.image);
+    draw_marks({painter, pixels}, drawn, drawn.request.transform);
+  }
+  return image;
+}
+
+void MapCanvas::draw(QPainter& painter, const QSizeF& size, const QColor& ink,
+                     bool explained) const {
+  if (!content_.map) {
+    return;
+  }
+  const MapPictureRequest request = request_for(size, 1);
+  paint_map(request, painter);
+  if (explained) {
+    const MapSheet sheet{painter, size, ink, ink, Qt::transparent};
+    sheet.draw_caption(content_.caption);
+    sheet.draw_scale_bar(request.transform.scale);
+    sheet.draw_axes();
+    sheet.draw_legend(request, plain_back_side);
+  }
 }
 
 void MapCanvas::draw_failure(QPainter& painter, const QString& failure) const {
@@ -283,13 +325,14 @@ void MapCanvas::draw_failure(QPainter& painter, const QString& failure) const {
                    tr("The engine failed, so nothing is drawn:\n\n%1").arg(failure));
 }
 
-void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
+void MapCanvas::draw_selection(QPainter& painter, const MapPicture& picture,
+                               const MapTransform& shown) const {
   if (selection_.patches().empty()) {
     return;
   }
-  const MapRecord& record = picture_->request.map->record();
+  const MapRecord& record = picture.request.map->record();
   std::vector<QPolygonF> fragments;
-  for (const std::int32_t number : picture_->rows) {
+  for (const std::int32_t number : picture.rows) {
     const MapRecord::Row& row = at(record.rows, number);
     if (selection_.contains(row.patch)) {
       fragments.push_back(row_polygon(record, row, shown));
@@ -351,31 +394,35 @@ void MapCanvas::draw_sketch(QPainter& painter, const MapTransform& shown) const 
   }
 }
 
-void MapCanvas::draw_callouts(QPainter& painter, const MapTransform& shown) const {
+void MapCanvas::draw_callouts(const MapSheet& sheet, const MapPicture& picture,
+                              const MapTransform& shown) const {
+  const QRectF bounds(QPointF(0, 0), sheet.size);
   for (const Callout& callout : callouts_) {
-    mark_callout(painter, shown, callout);
+    mark_callout(sheet, picture, shown, callout);
   }
   std::vector<QRectF> taken;
   for (const Callout& callout : callouts_) {
-    if (const auto place = place_of(callout, shown); place && rect().contains(place->toPoint())) {
-      draw_callout(painter, *place, QString::fromStdString(callout.text),
-                   rect().adjusted(2, 2, -2, -2), taken);
+    const auto place = place_of(callout, picture, shown);
+    if (place && bounds.contains(*place)) {
+      draw_callout(sheet.painter, *place, QString::fromStdString(callout.text),
+                   bounds.adjusted(2, 2, -2, -2), taken);
     }
   }
 }
 
 // A region that is the whole V has a frame; an inside list is filled.
-void MapCanvas::mark_callout(QPainter& painter, const MapTransform& shown,
-                             const Callout& callout) const {
+void MapCanvas::mark_callout(const MapSheet& sheet, const MapPicture& picture,
+                             const MapTransform& shown, const Callout& callout) const {
+  QPainter& painter = sheet.painter;
   if (callout.anchor == Callout::Anchor::map) {
     painter.setBrush(Qt::NoBrush);
     painter.setPen(QPen(theme::region, 4 * theme::scale()));
-    painter.drawRect(rect().adjusted(2, 2, -3, -3));
+    painter.drawRect(QRectF(QPointF(0, 0), sheet.size).adjusted(2, 2, -3, -3));
   }
   if (callout.anchor != Callout::Anchor::inside || content_.step < 0) {
     return;
   }
-  const RecordedMap& map = *picture_->request.map;
+  const RecordedMap& map = *picture.request.map;
   std::vector<std::vector<Vec2>> parts;
   for (const std::int32_t r : map.history.inside_at(content_.step)) {
     const auto outline = map.record().outline(map.row(r));
@@ -384,15 +431,16 @@ void MapCanvas::mark_callout(QPainter& painter, const MapTransform& shown,
   fill_parts(painter, parts, shown, 170);
 }
 
-std::optional<QPointF> MapCanvas::place_of(const Callout& callout,
+std::optional<QPointF> MapCanvas::place_of(const Callout& callout, const MapPicture& picture,
                                            const MapTransform& shown) const {
+  const QSizeF& size = picture.request.size;
   if (callout.anchor == Callout::Anchor::direction) {
-    return QPointF(width() / 2.0, 26 * theme::scale());
+    return QPointF(size.width() / 2, 26 * theme::scale());
   }
   if (callout.anchor == Callout::Anchor::map) {
-    return QPointF(8, height() / 2.0);
+    return QPointF(8, size.height() / 2);
   }
-  const auto place = place_in_map(callout, *picture_->request.map, picture_->rows, content_.step);
+  const auto place = place_in_map(callout, *picture.request.map, picture.rows, content_.step);
   return place ? std::optional(shown.to_pixels(*place)) : std::nullopt;
 }
 
@@ -411,23 +459,12 @@ void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {
   }
 }
 
-namespace {
-
-// The text has a plate behind it: in a low picture it covers the map.
-void draw_text(QPainter& painter, const QPointF& baseline, const QString& text) {
-  QColor plate = theme::scene_background;
-  plate.setAlphaF(0.7);
-  const QRectF box = painter.fontMetrics().boundingRect(text).adjusted(-3, -1, 3, 1);
-  painter.fillRect(box.translated(baseline), plate);
-  painter.drawText(baseline, text);
-}
-
-}  // namespace
-
-void MapCanvas::draw_marked_row(QPainter& painter, const MapTransform& shown) const {
-  if (marked_row_ == MapRecord::no_row || marked_map_ != picture_->request.map) {
+void MapCanvas::draw_marked_row(const MapSheet& sheet, const MapPicture& picture,
+                                const MapTransform& shown) const {
+  if (marked_row_ == MapRecord::no_row || marked_map_ != picture.request.map) {
     return;
   }
+  QPainter& painter = sheet.painter;
   const QPolygonF outline =
       row_polygon(marked_map_->record(), marked_map_->row(marked_row_), shown);
   painter.setBrush(Qt::NoBrush);
@@ -437,93 +474,7 @@ void MapCanvas::draw_marked_row(QPainter& painter, const MapTransform& shown) co
     painter.drawPolygon(outline);
   }
   for (int k = 0; k < outline.size(); ++k) {
-    draw_text(painter, outline[k] + QPointF(4, -4), QString::number(k + 1));
-  }
-}
-
-void MapCanvas::draw_caption(QPainter& painter) const {
-  if (content_.caption.isEmpty()) {
-    return;
-  }
-  painter.setPen(theme::on_dark);
-  draw_text(painter, QPointF(12, 8 + painter.fontMetrics().ascent()), content_.caption);
-}
-
-void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
-  // The largest length of 1, 2 or 5 times a power of ten within a quarter of the width.
-  const double max_meters = width() / 4.0 / scale;
-  const double power = std::pow(10.0, std::floor(std::log10(max_meters)));
-  const double lead = max_meters / power;
-  const double meters = power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
-  const double length = meters * scale;
-  const QPointF left(14, height() - 14);
-  painter.setPen(QPen(theme::on_dark, 1.5));
-  painter.drawLine(left, left + QPointF(length, 0));
-  painter.drawLine(left - QPointF(0, 4), left + QPointF(0, 4));
-  painter.drawLine(left + QPointF(length, -4), left + QPointF(length, 4));
-  draw_text(painter, left + QPointF(length + 8, 4), number_text(meters) + tr(" m"));
-}
-
-void MapCanvas::draw_axes(QPainter& painter) const {
-  const QPointF origin(width() - 18, height() - 16);
-  constexpr double length = 22;
-  painter.setPen(QPen(theme::on_dark, 1.5));
-  const auto arrow = [&](const QPointF& axis, const QString& name, const QPointF& name_offset) {
-    const QPointF tip = origin + length * axis;
-    const QPointF across(-axis.y(), axis.x());
-    painter.drawLine(origin, tip);
-    painter.drawLine(tip, tip - 6 * axis + 3.5 * across);
-    painter.drawLine(tip, tip - 6 * axis - 3.5 * across);
-    painter.drawText(tip + name_offset, name);
-  };
-  arrow({-1, 0}, QStringLiteral("u"), {-13, 4});
-  arrow({0, -1}, QStringLiteral("v"), {-4, -6});
-}
-
-void MapCanvas::draw_legend(QPainter& painter) const {
-  if (width() < 330) {
-    return;  // no room between scale bar and axes
-  }
-  std::vector<std::pair<QBrush, QString>> entries{{back_side_brush(1), tr("back side")}};
-  const MapEngineChoice& choice = picture_->request.choice;
-  if (choice.shows(EngineTraits::Picture::corrected) && choice.differences) {
-    entries.emplace_back(theme::inside, tr("too much"));
-    entries.emplace_back(theme::outside, tr("too little"));
-  } else if (choice.engine && choice.differences) {
-    entries.emplace_back(theme::difference, tr("differs"));
-  }
-  constexpr double box_width = 16, gap = 8, axes = 64;
-  const auto width_of = [&](const QString& text) {
-    return box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(text);
-  };
-  double total = 0;
-  for (const auto& [brush, text] : entries) {
-    total += width_of(text);
-  }
-  // The legend is between the scale bar with its text and the axes; without room, back sides are
-  // omitted.
-  const double left = width() / 4.0 + 80, right = width() - axes;
-  if (entries.size() > 1 && left + total > right) {
-    total -= width_of(entries.front().second);
-    entries.erase(entries.begin());
-  }
-  // In a low map that leaves its sides free, the entries are one above the other at the left.
-  constexpr int low = 140, row = 20, side = 130;
-  const auto scale_in = [this](int room) {
-    return fit_map(*content_.map, QSizeF(room, height())).scale;
-  };
-  const bool stacked = height() < low && scale_in(width() - 2 * side) == scale_in(width());
-  double x = stacked ? 12 : std::min(std::max(width() / 2.0 - 8, left), right - total);
-  int y = height() - 23 - (stacked ? row : 0);
-  for (const auto& [brush, text] : entries) {
-    const QRectF box(x, y, box_width, 12);
-    painter.setPen(QPen(theme::on_dark_dim, 1));
-    painter.setBrush(brush);
-    painter.drawRect(box);
-    painter.setPen(theme::on_dark);
-    draw_text(painter, box.bottomRight() + QPointF(gap, -1), text);
-    x += stacked ? 0 : width_of(text);
-    y -= stacked ? row : 0;
+    sheet.draw_text(outline[k] + QPointF(4, -4), QString::number(k + 1));
   }
 }
 

@@ -1,0 +1,38 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QBrush>
+#include <QColor>
+#include <QPointF>
+#include <QSizeF>
+#include <QString>
+
+#include "map/map_picture.h"
+#include "widgets/theme.h"
+
+class QPainter;
+
+namespace transillum::viewer {
+
+/// Draws what explains a picture of a map, over it: scale bar, axes, legend, caption.
+struct MapSheet {
+  QPainter& painter;
+  QSizeF size;  ///< of the picture, logical pixels
+  QColor ink = theme::on_dark;
+  QColor dim = theme::on_dark_dim;
+  QColor plate{29, 33, 39, 178};  ///< behind texts, which may cover the map
+
+  void draw_text(const QPointF& baseline, const QString& text) const;
+  /// At the top left.
+  void draw_caption(const QString& text) const;
+  /// At the bottom left.
+  /// @param scale  pixels per meter
+  void draw_scale_bar(double scale) const;
+  /// The axes u and v at the bottom right.
+  void draw_axes() const;
+  /// The meaning of hatching and colors, between scale bar and axes; omitted where there is no
+  /// room.
+  void draw_legend(const MapPictureRequest& request, const QBrush& back_sides) const;
+};
+
+}  // namespace transillum::viewer
