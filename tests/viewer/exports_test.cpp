@@ -124,6 +124,10 @@ class ExportsTest : public QObject {
     const QImage scene(folder.filePath("scene.png"));
     QCOMPARE(scene.pixelColor(2, 2), theme::scene_background);
     QVERIFY(color_count(scene) > 5);
+    QVERIFY(fraction_of(scene, theme::processed) < 1e-4);
+    plan.direction = true;
+    write_figure(folder.filePath("scene.png"), plan, views);
+    QVERIFY(fraction_of(QImage(folder.filePath("scene.png")), theme::processed) > 1e-3);
   }
 
   void a_figure_that_cannot_be_written_is_one_error() {
@@ -228,7 +232,8 @@ class ExportsTest : public QObject {
                                               solved.scene_view->picture({.size = half}));
       const double of_map = mean_difference(frame.copy(QRect(QPoint(half.width() + 2, 0), half)),
                                             solved.map_view->canvas()->picture(half));
-      QVERIFY2(of_scene < 2 && of_map < 2,
+      // The colors of videos have half the resolution, which blurs colored lines.
+      QVERIFY2(of_scene < 3 && of_map < 3,
                qPrintable(QString("%1 %2 %3").arg(step).arg(of_scene).arg(of_map)));
     }
     QVERIFY(mean_difference(film.frames.front(), film.frames.back()) > 5);

@@ -139,7 +139,7 @@ void FilmFile::open_encoder(double per_second) {
     sws_setColorspaceDetails(converter_.get(), matrix, 1, matrix, 0, 0, 1 << 16, 1 << 16);
   }
   encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-  encoder_->thread_count = 0;  // as many as there are processors
+  encoder_->thread_count = 0;  // one thread per processor
   for (const auto& [name, value] : format.options) {
     // Another encoder of the same format may not have the option.
     av_opt_set(encoder_->priv_data, name, value, 0);

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "map/map_canvas.h"
 #include "map/map_painter.h"
 #include "support/number_text.h"
 
@@ -41,7 +40,7 @@ void MapSheet::draw_scale_bar(double scale) const {
   painter.drawLine(left, left + QPointF(length, 0));
   painter.drawLine(left - QPointF(0, 4), left + QPointF(0, 4));
   painter.drawLine(left + QPointF(length, -4), left + QPointF(length, 4));
-  draw_text(left + QPointF(length + 8, 4), number_text(meters) + MapCanvas::tr(" m"));
+  draw_text(left + QPointF(length + 8, 4), number_text(meters) + tr(" m"));
 }
 
 void MapSheet::draw_axes() const {
@@ -64,13 +63,13 @@ void MapSheet::draw_legend(const MapPictureRequest& request, const QBrush& back_
   if (size.width() < 330) {
     return;  // no room between scale bar and axes
   }
-  std::vector<std::pair<QBrush, QString>> entries{{back_sides, MapCanvas::tr("back side")}};
+  std::vector<std::pair<QBrush, QString>> entries{{back_sides, tr("back side")}};
   const MapEngineChoice& choice = request.choice;
   if (choice.shows(EngineTraits::Picture::corrected) && choice.differences) {
-    entries.emplace_back(theme::inside, MapCanvas::tr("too much"));
-    entries.emplace_back(theme::outside, MapCanvas::tr("too little"));
+    entries.emplace_back(theme::inside, tr("too much"));
+    entries.emplace_back(theme::outside, tr("too little"));
   } else if (choice.engine && choice.differences) {
-    entries.emplace_back(theme::difference, MapCanvas::tr("differs"));
+    entries.emplace_back(theme::difference, tr("differs"));
   }
   constexpr double box_width = 16, gap = 8, axes = 64;
   const auto width_of = [&](const QString& text) {

@@ -3,6 +3,7 @@
 
 #include <QBrush>
 #include <QColor>
+#include <QCoreApplication>
 #include <QPointF>
 #include <QSizeF>
 #include <QString>
@@ -16,8 +17,11 @@ namespace transillum::viewer {
 
 /// Draws what explains a picture of a map, over it: scale bar, axes, legend, caption.
 struct MapSheet {
+  Q_DECLARE_TR_FUNCTIONS(MapSheet)
+
+ public:
   QPainter& painter;
-  QSizeF size;  ///< of the picture, logical pixels
+  QSizeF size;  ///< size of the picture, logical pixels
   QColor ink = theme::on_dark;
   QColor dim = theme::on_dark_dim;
   QColor plate{29, 33, 39, 178};  ///< behind texts, which may cover the map

@@ -65,15 +65,10 @@ void SceneView::draw_callouts(QImage& image) const {
   callout_layer_->draw(painter, QRectF(QPointF(0, 0), drawn_size_));
 }
 
-QImage SceneView::picture(int scale, const QImage& sharp) {
-  const QImage shown = sharp_layer_->picture();
+QImage SceneView::picture(int scale) {
   taking_picture_ = true;
-  if (!sharp.isNull()) {
-    sharp_layer_->set_picture(sharp);
-  }
   QImage image = image_of_window(*window_, scale);
-  sharp_layer_->set_picture(shown);
-  if (scale > 1 || !sharp.isNull()) {
+  if (scale > 1) {
     window_->Render();  // the filter leaves its last tile on the screen
   }
   taking_picture_ = false;
@@ -117,6 +112,10 @@ QImage SceneView::picture(const SceneLook& look) {
   window_->SetSize((look.size.width() + tiles - 1) / tiles,
                    (look.size.height() + tiles - 1) / tiles);
   drawn_size_ = QSizeF(look.size) / (look.line_scale * canvas_->devicePixelRatioF());
+  if (!look.direction) {
+    glyph_->hide();
+    step_glyph_->hide();
+  }
   prepare_picture(look.line_scale, antialiased_);
   const auto draw = [&](const QColor& background) {
     renderer_->SetBackground(background.redF(), background.greenF(), background.blueF());
@@ -134,6 +133,9 @@ QImage SceneView::picture(const SceneLook& look) {
   const QColor& usual = theme::scene_background;
   renderer_->SetBackground(usual.redF(), usual.greenF(), usual.blueF());
   sharp_layer_->set_picture(shown);
+  if (!look.direction) {
+    show_direction();
+  }
   render();
   taking_picture_ = false;
   return image;

@@ -119,14 +119,13 @@ class SceneView : public QWidget {
   const FeatureEdges& feature_edges() const { return *feature_edges_; }
 
   /// The picture shown, with its callouts, with `scale` times as many pixels per side.
-  /// @param sharp  the sharp picture in that size, to show in place of the surfaces; null for
-  /// sharp()
-  QImage picture(int scale, const QImage& sharp = {});
+  QImage picture(int scale);
   /// The look of the scene in a file.
   struct SceneLook {
     QSize size;                                   ///< pixels
     QColor background = theme::scene_background;  ///< transparent where its alpha is 0
     double line_scale = 1;                        ///< factor of the widths of lines
+    bool direction = true;                        ///< with the direction and the step, if shown
     QImage sharp = {};  ///< the sharp picture in that size; null for the surfaces
   };
   /// The picture shown, with its callouts, in another size; what is in the smaller side stays.

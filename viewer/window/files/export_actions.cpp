@@ -1,13 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/files/export_actions.h"
 
-#include <QBuffer>
 #include <QClipboard>
 #include <QFileInfo>
 #include <QGuiApplication>
 #include <QMainWindow>
 #include <QMenu>
-#include <QSaveFile>
 #include <algorithm>
 #include <optional>
 #include <ostream>
@@ -84,23 +82,6 @@ void put_chart_values(const SolverSnapshot& snapshot, std::ostream& out) {
 }
 
 }  // namespace
-
-void write_whole(const QString& path, const QByteArray& bytes) {
-  QSaveFile file(path);
-  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) < 0 || !file.commit()) {
-    throw std::runtime_error((path + ": " + file.errorString()).toStdString());
-  }
-}
-
-void write_png(const QString& path, const QImage& image) {
-  QByteArray bytes;
-  QBuffer buffer(&bytes);
-  buffer.open(QIODevice::WriteOnly);
-  if (image.isNull() || !image.save(&buffer, "PNG")) {
-    throw std::runtime_error(path.toStdString() + ": there is no picture to write");
-  }
-  write_whole(path, bytes);
-}
 
 ExportActions::ExportActions(const WindowFrame& frame, MapView& map, ConvergenceView& charts)
     : QObject(&frame.window),

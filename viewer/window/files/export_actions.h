@@ -1,8 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <QByteArray>
-#include <QImage>
 #include <QObject>
 #include <QString>
 #include <functional>
@@ -20,11 +18,6 @@ class QWidget;
 namespace transillum::viewer {
 
 class ConvergenceView;
-
-/// Writes a file whole or not at all. @throws std::runtime_error
-void write_whole(const QString& path, const QByteArray& bytes);
-/// Writes a picture whole or not at all. @throws std::runtime_error
-void write_png(const QString& path, const QImage& image);
 
 /// Exports from the window: pictures, vector graphics, results, values. All files are written
 /// whole or not at all; the functions throw std::runtime_error where one cannot be written.

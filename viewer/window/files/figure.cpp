@@ -3,6 +3,7 @@
 // Figures. One function draws the layout, in units of 1/96 inch for text of 10 points; the formats
 // differ in the device that it draws on.
 #include "window/files/figure.h"
+#include "window/files/whole_file.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +23,6 @@
 #include "solve/convergence_view.h"
 #include "transillum/errors.h"
 #include "widgets/log_chart.h"
-#include "window/files/export_actions.h"
 
 namespace transillum::viewer {
 
@@ -104,7 +104,8 @@ class FigurePainting {
     }
     paint_title();
     if (plan_.scene) {
-      const SceneView::SceneLook look{layout_.pixels(layout_.scene), paper_, layout_.unit, sharp};
+      const SceneView::SceneLook look{layout_.pixels(layout_.scene), paper_, layout_.unit,
+                                      plan_.direction, sharp};
       painter_.drawImage(layout_.scene, views_.scene.picture(look));
     }
     if (!layout_.bar.isNull()) {

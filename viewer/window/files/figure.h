@@ -18,13 +18,14 @@ class ConvergenceView;
 class MapView;
 class SceneView;
 
-/// What is drawn into a figure, and how.
+/// The content and the look of a figure.
 struct FigurePlan {
   enum class Background { light, dark, transparent };
 
   bool scene = true, map = false, chart = false;  ///< in a row, in this order
   QString title = {};                             ///< above them; may be empty
   bool explained = true;                          ///< with color bar, legend, scale bar and axes
+  bool direction = false;                         ///< with the direction and the step in the scene
   QSizeF size{1200, 800};
   bool centimeters = false;  ///< the unit of `size`; otherwise pixels
   double text_points = 10;   ///< size of texts; lines are scaled with them

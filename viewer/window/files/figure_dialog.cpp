@@ -50,6 +50,7 @@ FigureDialog::FigureDialog(const FigurePlan& plan, bool has_map, QWidget* parent
   form->addRow(tr("Show"), shows);
   form->addRow(tr("Title"), title_);
   form->addRow(QString(), explained_);
+  form->addRow(QString(), direction_);
   form->addRow(tr("Size"), size);
   form->addRow(tr("Text, points"), text_);
   form->addRow(tr("Background"), background_);
@@ -73,6 +74,8 @@ void FigureDialog::make_fields(const FigurePlan& plan) {
   map_ = named("figure_map", new QCheckBox(tr("Map")));
   chart_ = named("figure_chart", new QCheckBox(tr("Charts")));
   explained_ = named("figure_explained", new QCheckBox(tr("Color bar, legend and scale bar")));
+  direction_ = named("figure_direction", new QCheckBox(tr("Direction and step in the scene")));
+  direction_->setChecked(plan.direction);
   title_ = named("figure_title", new QLineEdit(plan.title));
   width_ = number("figure_width", 0, 16384, plan.size.width());
   height_ = number("figure_height", 0, 16384, plan.size.height());
@@ -127,6 +130,7 @@ FigurePlan FigureDialog::plan() const {
   plan.chart = chart_->isChecked();
   plan.title = title_->text();
   plan.explained = explained_->isChecked();
+  plan.direction = direction_->isChecked();
   plan.size = {width_->value(), height_->value()};
   plan.centimeters = unit_->currentIndex() == 1;
   plan.text_points = text_->value();

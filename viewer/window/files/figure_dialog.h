@@ -30,7 +30,7 @@ class FigureDialog : public QDialog {
   void change_unit();
   void show_state();
 
-  QCheckBox *scene_, *map_, *chart_, *explained_;
+  QCheckBox *scene_, *map_, *chart_, *explained_, *direction_;
   QLineEdit* title_;
   QDoubleSpinBox *width_, *height_, *text_;
   QComboBox *unit_, *background_;

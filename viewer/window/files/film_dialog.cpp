@@ -26,7 +26,7 @@ FilmDialog::FilmDialog(const FilmPlan& plan, bool has_map, QWidget* parent) : QD
   show_ = named("film_show", new QComboBox);
   show_->addItems({tr("Scene"), tr("Visibility map"), tr("Scene and map, side by side")});
   over_ = named("film_over", new QComboBox);
-  over_->addItems({tr("What the window shows, until you finish"), tr("Steps of this direction"),
+  over_->addItems({tr("Changes in the window, until you finish"), tr("Steps of this direction"),
                    tr("Directions of this iteration"), tr("Iterations"),
                    tr("One turn of the camera")});
   size_ = named("film_size", new QComboBox);

@@ -17,7 +17,7 @@ constexpr double seconds_per_turn = 10;
 FilmWalk::FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view)
     : plan_(plan),
       focus_(focus),
-      view_(view),
+      view_(&view),
       begin_(focus.position()),
       view_point_(view.view_point()),
       followed_(focus.following()) {
@@ -37,21 +37,24 @@ FilmWalk::FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view)
       count_ = static_cast<int>(std::lround(seconds_per_turn * plan.per_second));
       break;
   }
-  view_.hold(true);
+  view.hold(true);
   if (plan.over != FilmPlan::Over::turn) {
     go();
   }
 }
 
 FilmWalk::~FilmWalk() {
+  if (!view_) {
+    return;
+  }
   if (plan_.over == FilmPlan::Over::turn) {
-    view_.set_view_point(view_point_);
+    view_->set_view_point(view_point_);
   } else if (followed_) {
     focus_.set_following(true);
   } else {
     focus_.go_to(begin_);
   }
-  view_.hold(false);
+  view_->hold(false);
 }
 
 bool FilmWalk::arrived() {
@@ -94,7 +97,7 @@ void FilmWalk::go() {
       focus_.go_to({done_, begin_.direction, last});
       break;
     case FilmPlan::Over::turn:
-      view_.turn(360.0 / count_, 0);
+      view_->turn(360.0 / count_, 0);
       break;
   }
 }

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QPointer>
 #include <QSize>
 
 #include "state/camera_views.h"
@@ -10,10 +11,10 @@ namespace transillum::viewer {
 
 class SceneView;
 
-/// What a film shows.
+/// The content of a film.
 struct FilmPlan {
   enum class Show { scene, map, both };
-  /// What changes from picture to picture.
+  /// The change from picture to picture.
   enum class Over {
     changes,     ///< each new picture of the window, until the recording is ended
     polygons,    ///< the steps of the direction shown
@@ -31,7 +32,7 @@ struct FilmPlan {
 class FilmWalk {
  public:
   /// @param plan  not over changes
-  /// @param focus, view must outlive this object
+  /// @param focus must outlive this object
   FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view);
   ~FilmWalk();
   FilmWalk(const FilmWalk&) = delete;
@@ -51,7 +52,7 @@ class FilmWalk {
 
   const FilmPlan plan_;
   Focus& focus_;
-  SceneView& view_;
+  const QPointer<SceneView> view_;  ///< null once the window is closing
   const RunPosition begin_;
   const ViewPoint view_point_;
   const bool followed_;

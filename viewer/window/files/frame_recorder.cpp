@@ -26,8 +26,8 @@
 #include "widgets/build.h"
 #include "widgets/dialogs.h"
 #include "window/base/notifier.h"
-#include "window/files/export_actions.h"
 #include "window/files/film_dialog.h"
+#include "window/files/whole_file.h"
 
 namespace transillum::viewer {
 
@@ -77,11 +77,20 @@ FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play, MapVie
     }
     walk_soon();
   });
-  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &FrameRecorder::show_state);
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] {
+    if (walk_ && frame_.state.scene.loaded() != film_->loaded) {
+      cancel();
+      frame_.notifier.show_failure(tr("Another scene was opened: no film was written"));
+    }
+    show_state();
+  });
   show_state();
 }
 
-FrameRecorder::~FrameRecorder() { worker_.clear(); }
+FrameRecorder::~FrameRecorder() {
+  frame_.state.focus.disconnect(this);
+  worker_.clear();
+}
 
 // Over the corner of the window: a projector shows no status bar.
 void FrameRecorder::make_mark() {
@@ -170,6 +179,7 @@ void FrameRecorder::begin_film(const QString& path, const FilmPlan& plan) {
   film_ = std::make_shared<Film>();
   film_->path = path;
   film_->plan = plan;
+  film_->loaded = frame_.state.scene.loaded();
   if (plan.over == FilmPlan::Over::changes) {
     record();
   } else {
@@ -316,10 +326,13 @@ void FrameRecorder::write_waiting(const FilmRequest& film, const Cancellation& c
     film->file->add(picture, cancellation);
     QMetaObject::invokeMethod(this, &FrameRecorder::on_written, Qt::QueuedConnection);
   }
+  if (std::exchange(film->finished, true)) {
+    return;
+  }
   if (film->file) {
     film->file->finish();
-    report(film, {});
   }
+  report(film, film->file ? QString() : tr("There is no picture to write"));
 }
 
 // On the worker's thread.
@@ -359,8 +372,8 @@ void FrameRecorder::show_state() {
   const QString text =
       ended_
           ? tr("Writing: %1 of %2 pictures").arg(frames_ - static_cast<int>(waiting)).arg(frames_)
-      : walk_ ? tr("Recording: %1 of %2 pictures").arg(frames_).arg(walk_->count())
-              : tr("Recording: %1 pictures").arg(frames_);
+      : walk_ ? tr("Recording: %1 of %2").arg(frames_).arg(walk_->count())
+              : tr("Recording: %1").arg(frames_);
   mark_text_->setText(QStringLiteral("<span style='color:#e5484d'>●</span> ") + text);
   place_mark();
 }

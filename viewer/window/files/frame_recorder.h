@@ -64,7 +64,9 @@ class FrameRecorder : public QObject {
     std::mutex mutex;  // guards the two below
     std::deque<QImage> waiting;
     bool ended = false;
-    std::unique_ptr<FilmFile> file;  ///< the worker's only
+    std::shared_ptr<const LoadedScene> loaded;  ///< the scene
+    std::unique_ptr<FilmFile> file;             ///< the worker's only
+    bool finished = false;                      ///< the worker's only
   };
   using FilmRequest = std::shared_ptr<Film>;
 
