@@ -1,7 +1,7 @@
 # Dependencies of the viewer and its tests. Imported targets belong to the folder that finds them,
 # so both include this.
 find_package(VTK 9.1 REQUIRED COMPONENTS
-  CommonCore CommonDataModel FiltersSources GUISupportQt ImagingColor InteractionStyle RenderingCore
+  CommonCore CommonDataModel FiltersSources GUISupportQt InteractionStyle RenderingCore
   RenderingFreeType RenderingOpenGL2)
 if(NOT VTK_QT_VERSION)
   set(VTK_QT_VERSION 5)
@@ -16,6 +16,7 @@ endif()
 find_package(Qt${VTK_QT_VERSION} REQUIRED COMPONENTS ${TRANSILLUM_QT_COMPONENTS})
 find_package(CLI11 REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)
-find_package(GIF REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED CONFIG)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavcodec libavformat libavutil libswscale)
 find_package(Threads REQUIRED)

@@ -6,6 +6,7 @@
 #include <QTest>
 #include <cmath>
 
+#include "colors/color_choice.h"
 #include "registered.h"
 #include "support/number_text.h"
 #include "widgets/log_chart.h"
@@ -14,9 +15,19 @@ namespace transillum::viewer::color_scale_test {
 
 namespace {
 
+double linear(std::uint8_t x) { return std::pow(x / 255.0, 2.2); }
+
 double lightness(const Color8& c) {
-  const auto linear = [](std::uint8_t x) { return std::pow(x / 255.0, 2.2); };
   return 0.2126 * linear(c[0]) + 0.7152 * linear(c[1]) + 0.0722 * linear(c[2]);
+}
+
+/// The lightness of a color for eyes without the cones for red, or without those for green
+/// (Viénot, Brettel and Mollon 1999).
+double lightness_without(bool red, const Color8& c) {
+  const double r = linear(c[0]), g = linear(c[1]), b = linear(c[2]);
+  const double yellow = red ? 0.1124 * r + 0.8876 * g : 0.2927 * r + 0.7073 * g;
+  const double blue = red ? 0.004 * (r - g) + b : 0.0223 * (g - r) + b;
+  return (0.2126 + 0.7152) * yellow + 0.0722 * blue;
 }
 
 }  // namespace
@@ -36,6 +47,17 @@ class ColorScaleTest : public QObject {
       QCOMPARE(color_of(map, -3), color_of(map, 0));
       QCOMPARE(color_of(map, 7), color_of(map, 1));
       QCOMPARE(color_of(map, NAN), color_of(map, 0));
+    }
+  }
+
+  void the_default_map_survives_gray_print_and_color_blindness() {
+    Selection selection;
+    const ColorMap map = ColorChoice(selection).map();
+    for (int k = 1; k <= 50; ++k) {
+      const Color8 before = color_of(map, (k - 1) / 50.0), now = color_of(map, k / 50.0);
+      QVERIFY(lightness(now) > lightness(before));
+      QVERIFY(lightness_without(true, now) > lightness_without(true, before));
+      QVERIFY(lightness_without(false, now) > lightness_without(false, before));
     }
   }
 

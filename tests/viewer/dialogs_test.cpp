@@ -5,11 +5,9 @@
 #include <QAbstractSpinBox>
 #include <QDialog>
 #include <QDialogButtonBox>
-#include <QInputDialog>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QRegularExpression>
-#include <QSpinBox>
 #include <QTabBar>
 #include <QTemporaryDir>
 #include <QTextBrowser>
@@ -131,7 +129,7 @@ class DialogsTest : public QObject {
       QTest::newRow(name) << QString::fromUtf8(name) << true;
     }
     for (const char* name :
-         {"About transillum", "Picture of the scene…", "Units and orientation…"}) {
+         {"About transillum", "Save figure…", "Save film…", "Units and orientation…"}) {
       QTest::newRow(name) << QString::fromUtf8(name) << false;
     }
   }
@@ -160,33 +158,6 @@ class DialogsTest : public QObject {
       QCOMPARE(cut_texts(dialog), QStringList());
       save_picture(dialog, "dialog-" + opening.section(' ', 0, 0).remove(QChar(0x2026)));
     }));
-  }
-
-  void a_picture_of_the_scene_has_a_size_in_its_range() {
-    const SolvedWindow solved("cornell-box");
-    QVERIFY(solved.ready);
-    const QSize size = solved.window->findChild<SceneView*>()->canvas()->size();
-    QVERIFY(examine_dialog(
-        *action_with_text(*solved.window, "Picture of the scene…"), [&](QDialog& dialog) {
-          auto& question = dynamic_cast<QInputDialog&>(dialog);
-          auto* field = dialog.findChild<QSpinBox*>();
-          const auto type = [&](const char* text) {
-            field->selectAll();
-            QTest::keyClicks(field, text);
-            QVERIFY(question.intValue() >= 1 && question.intValue() <= 8);
-            const QString told = QStringLiteral("%1 × %2 pixels")
-                                     .arg(question.intValue() * size.width())
-                                     .arg(question.intValue() * size.height());
-            QVERIFY2(question.labelText().contains(told), qPrintable(question.labelText()));
-          };
-          type("8");
-          QCOMPARE(question.intValue(), 8);
-          QVERIFY(question.labelText().contains("1 to 8"));
-          type("100000");
-          type("0");
-          QVERIFY(
-              !dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok)->isEnabled());
-        }));
   }
 
   void the_guide_has_all_its_pages() {

@@ -424,7 +424,7 @@ class SharpTest : public QObject {
     QTimer::singleShot(0, shown.window.get(), [&] {
       shown.window->relighting.edits().set_reflectance("material:white", {0.3, 0.3, 0.3});
     });
-    QVERIFY(!shown.sharp->make(8, shown.window.get()));
+    QVERIFY(!shown.sharp->make(8 * shown.subject().size, shown.window.get()));
     const QString text = shown.window->banner_text();
     QVERIFY2(text.contains("has changed: the picture was not made"), qPrintable(text));
     QVERIFY(shown.becomes_sharp());
@@ -433,23 +433,21 @@ class SharpTest : public QObject {
   void a_picture_that_is_saved_is_sharp_at_its_size() {
     const SharpWindow shown;
     QVERIFY(shown.becomes_sharp());
-    const auto large = shown.sharp->make(2, shown.window.get());
+    const auto large = shown.sharp->make(2 * shown.subject().size, shown.window.get());
     QVERIFY(large.has_value());
     QCOMPARE(large->size(), 2 * shown.scene_view->sharp().size());
     SharpSubject subject = shown.subject();
     subject.size *= 2;
     QCOMPARE(compare(*large, ShownLight(subject)).different, 0);
     shown.scene_view->set_antialiased(false);
-    const QTemporaryDir folder;
-    const QString path = folder.filePath("scene.png");
-    shown.window->findChild<ExportActions*>()->write_scene(path, 2, *large);
-    QCOMPARE(different_pixels(QImage(path).convertToFormat(QImage::Format_RGB32),
+    const QImage picture = shown.scene_view->picture({.size = subject.size, .sharp = *large});
+    QCOMPARE(different_pixels(picture.convertToFormat(QImage::Format_RGB32),
                               large->convertToFormat(QImage::Format_RGB32)),
              0);
     QVERIFY(shown.scene_view->sharp().size() == shown.subject().size);
     // Without a sharp picture, the surfaces are saved.
     shown.sharp->action()->setChecked(false);
-    const auto none = shown.sharp->make(2, shown.window.get());
+    const auto none = shown.sharp->make({300, 200}, shown.window.get());
     QVERIFY(none && none->isNull());
   }
 };

@@ -7,7 +7,7 @@
 #include <QToolButton>
 
 #include "colors/pointer_label.h"
-#include "map/map_strip.h"
+#include "map/map_sheet.h"
 #include "model/snapshot_values.h"
 #include "solved_window.h"
 #include "transillum/at.h"

@@ -5,6 +5,7 @@
 
 #include <QFontInfo>
 #include <QFontMetricsF>
+#include <QLinearGradient>
 #include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
@@ -69,7 +70,7 @@ ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent)
         tip_of(colors_.quantity()) + QLatin1Char('\n') +
         tr("Left of the bar: area per value, square-root scale. Drag over a range to select the\n"
            "patches with such values"));
-    setVisible(colors_.scale().mode != ColorMode::true_color && !colors_.values().empty());
+    setVisible(ColorBarSheet::applies(colors_));
     update();
   };
   connect(&colors, &ColorChoice::changed, this, show);
@@ -77,36 +78,42 @@ ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent)
   show();
 }
 
-bool ColorBar::shows_zero() const { return colors_.scale().marks_zero && colors_.scale().zeros; }
+bool ColorBarSheet::shows_zero() const { return colors.scale().marks_zero && colors.scale().zeros; }
 
-QRectF ColorBar::bar_rect() const {
-  const int top = margin + 2 * fontMetrics().height() + 10 + arrow_height;
-  const int zero_height = shows_zero() ? fontMetrics().height() + zero_gap : 0;
+QRectF ColorBarSheet::bar() const {
+  const int line = QFontMetrics(font).height();
+  const int top = margin + 2 * line + 10 + arrow_height;
+  const int zero_height = shows_zero() ? line + zero_gap : 0;
   return QRectF(margin + histogram_width, top, bar_width,
-                height() - top - margin - arrow_height - zero_height);
+                size.height() - top - margin - arrow_height - zero_height);
+}
+
+void ColorBarSheet::draw(QPainter& painter) const {
+  painter.setFont(font);
+  paint_title(painter);
+  const QRectF box = bar();
+  if (box.height() < 20) {
+    return;
+  }
+  paint_bar(painter, box);
+  paint_histogram(painter, QRectF(margin, box.top(), histogram_width - 4, box.height()));
+  paint_ticks(painter, box);
+  if (shows_zero()) {
+    paint_zero(painter, QRectF(box.left(), box.bottom() + arrow_height + zero_gap, box.width(),
+                               QFontMetrics(font).height()));
+  }
 }
 
 void ColorBar::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme::scene_background);
-  paint_title(painter);
-  const QRectF bar = bar_rect();
-  if (bar.height() < 20) {
-    return;
-  }
   if (drag_begin_) {
     QColor band = theme::selection;
     band.setAlphaF(0.4);
     painter.fillRect(QRectF(QPointF(0, *drag_begin_), QPointF(width(), drag_end_)).normalized(),
                      band);
   }
-  paint_bar(painter, bar);
-  paint_histogram(painter, QRectF(margin, bar.top(), histogram_width - 4, bar.height()));
-  paint_ticks(painter, bar);
-  if (shows_zero()) {
-    paint_zero(painter, QRectF(bar.left(), bar.bottom() + arrow_height + zero_gap, bar.width(),
-                               fontMetrics().height()));
-  }
+  sheet().draw(painter);
 }
 
 void ColorBar::mousePressEvent(QMouseEvent* event) {
@@ -130,7 +137,7 @@ void ColorBar::mouseReleaseEvent(QMouseEvent* event) {
   if (bottom - top < 2) {
     return;  // a click
   }
-  const QRectF bar = bar_rect();
+  const QRectF bar = sheet().bar();
   const ColorScale& scale = colors_.scale();
   const auto value_at = [&](double y) { return scale.value_at((bar.bottom() - y) / bar.height()); };
   // A pointed end of the bar stands for the values beyond it.
@@ -146,46 +153,47 @@ void ColorBar::mouseReleaseEvent(QMouseEvent* event) {
   emit patches_chosen(patches);
 }
 
-void ColorBar::paint_zero(QPainter& painter, const QRectF& box) const {
+void ColorBarSheet::paint_zero(QPainter& painter, const QRectF& box) const {
   painter.fillRect(box, QColor(zero_color[0], zero_color[1], zero_color[2]));
-  painter.setPen(theme::on_dark);
+  painter.setPen(ink);
   painter.drawText(box.translated(box.width() + 9, 0), Qt::AlignLeft | Qt::AlignVCenter,
                    QStringLiteral("0"));
 }
 
-void ColorBar::paint_title(QPainter& painter) const {
-  const QuantityTraits& traits = traits_of(colors_.quantity());
+void ColorBarSheet::paint_title(QPainter& painter) const {
+  const QuantityTraits& traits = traits_of(colors.quantity());
   const QString unit = QString::fromUtf8(traits.unit);
-  const int line = fontMetrics().height();
-  QFont bold = font();
+  const int line = QFontMetrics(font).height();
+  QFont bold = font;
   bold.setBold(true);
   const QString title = QString::fromUtf8(traits.symbol) +
                         (unit.isEmpty() ? unit : QStringLiteral(" (%1)").arg(unit));
-  const double room = width() - margin, needed = QFontMetricsF(bold).horizontalAdvance(title);
+  const double room = size.width() - margin, needed = QFontMetricsF(bold).horizontalAdvance(title);
   if (needed > room) {
     bold.setPixelSize(static_cast<int>(room / needed * QFontInfo(bold).pixelSize()));
   }
   painter.setFont(bold);
-  painter.setPen(theme::on_dark);
-  painter.drawText(QRect(0, margin, width(), line), Qt::AlignHCenter, title);
-  painter.setFont(font());
-  painter.setPen(theme::on_dark_dim);
-  painter.drawText(QRect(0, margin + line, width(), line), Qt::AlignHCenter, subtitle_of(colors_));
+  painter.setPen(ink);
+  painter.drawText(QRectF(0, margin, size.width(), line), Qt::AlignHCenter, title);
+  painter.setFont(font);
+  painter.setPen(dim);
+  painter.drawText(QRectF(0, margin + line, size.width(), line), Qt::AlignHCenter,
+                   subtitle_of(colors));
 }
 
-void ColorBar::paint_bar(QPainter& painter, const QRectF& bar) const {
-  const ColorScale& scale = colors_.scale();
+void ColorBarSheet::paint_bar(QPainter& painter, const QRectF& bar) const {
+  const ColorScale& scale = colors.scale();
   const auto color_at = [&](double t) {
     const Color8 c = color_of(scale.map, t);
     return QColor(c[0], c[1], c[2]);
   };
-  const auto rows = static_cast<int>(bar.height() * devicePixelRatioF());
-  const double row_height = bar.height() / rows;
-  for (int row = 0; row < rows; ++row) {
-    painter.fillRect(
-        QRectF(bar.left(), bar.top() + row * row_height, bar.width(), 1.01 * row_height),
-        color_at(1 - (row + 0.5) / rows));
+  // One shape, without seams also in vector graphics.
+  constexpr int stops = 64;
+  QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
+  for (int k = 0; k <= stops; ++k) {
+    gradient.setColorAt(1.0 * k / stops, color_at(1.0 * k / stops));
   }
+  painter.fillRect(bar, gradient);
   // An arrow at an end of the bar: there are values beyond it. `sign` -1: upward.
   const auto paint_arrow = [&](double y, double sign, const QColor& color) {
     painter.setRenderHint(QPainter::Antialiasing);
@@ -203,16 +211,16 @@ void ColorBar::paint_bar(QPainter& painter, const QRectF& bar) const {
   if (scale.below) {
     paint_arrow(bar.bottom(), 1, color_at(0).lighter(160));
   }
-  painter.setPen(QPen(theme::on_dark_dim, 1));
+  painter.setPen(QPen(dim, 1));
   painter.drawRect(bar.adjusted(-0.5, -0.5, 0.5, 0.5));
 }
 
-void ColorBar::paint_histogram(QPainter& painter, const QRectF& box) const {
+void ColorBarSheet::paint_histogram(QPainter& painter, const QRectF& box) const {
   constexpr double pixels_per_bin = 4;
   const int bins = std::max(1, static_cast<int>(box.height() / pixels_per_bin));
   const double bin_height = box.height() / bins;
   const std::vector<double> fractions =
-      histogram(colors_.scale(), *colors_.snapshot()->loaded->scene, colors_.values(), bins);
+      histogram(colors.scale(), *colors.snapshot()->loaded->scene, colors.values(), bins);
   for (int k = 0; k < bins; ++k) {
     const double fraction = at(fractions, k);
     if (fraction <= 0) {
@@ -222,18 +230,18 @@ void ColorBar::paint_histogram(QPainter& painter, const QRectF& box) const {
     const double length = std::max(1.0, std::sqrt(fraction) * box.width());
     painter.fillRect(QRectF(box.right() - length, box.bottom() - (k + 1) * bin_height, length,
                             std::max(1.0, bin_height - 1)),
-                     theme::on_dark_dim);
+                     dim);
   }
 }
 
-void ColorBar::paint_ticks(QPainter& painter, const QRectF& bar) const {
-  const ColorScale& scale = colors_.scale();
-  const int line = fontMetrics().height();
-  painter.setPen(theme::on_dark);
+void ColorBarSheet::paint_ticks(QPainter& painter, const QRectF& bar) const {
+  const ColorScale& scale = colors.scale();
+  const int line = QFontMetrics(font).height();
+  painter.setPen(ink);
   for (const double value : scale.ticks()) {
     const double y = bar.bottom() - scale.position(value) * bar.height();
     painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + 5, y));
-    painter.drawText(QRectF(bar.right() + 9, y - line / 2.0, width() - bar.right() - 9, line),
+    painter.drawText(QRectF(bar.right() + 9, y - line / 2.0, size.width() - bar.right() - 9, line),
                      Qt::AlignLeft | Qt::AlignVCenter, tick_text(value, scale.logarithmic));
   }
 }

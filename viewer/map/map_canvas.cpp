@@ -14,11 +14,9 @@
 #include <utility>
 
 #include "map/engine_drawing.h"
-#include "map/map_strip.h"
 #include "map/sketch_painter.h"
 #include "model/snapshot_values.h"
 #include "state/callout.h"
-#include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/callout_painter.h"
 #include "widgets/theme.h"
@@ -136,11 +134,23 @@ void MapCanvas::fit_step() {
   emit view_changed();
 }
 
-MapTransform MapCanvas::transform() const {
-  MapTransform result = fit_map(*content_.map, size());
+MapTransform MapCanvas::transform(const QSizeF& size) const {
+  MapTransform result = fit_map(*content_.map, size);
+  // A picture of another size shows the same part.
+  const QPointF shift = view().shift * result.scale;
   result.scale *= zoom_;
-  result.middle += pan_;
+  result.middle += shift;
   return result;
+}
+
+MapPictureRequest MapCanvas::request_for(const QSizeF& size, double pixel_ratio) const {
+  return {content_.map,    content_.step,
+          content_.phase,  content_.step_shown,
+          content_.labels, content_.choice,
+          pixels(),        content_.patch_colors,
+          transform(size), size,
+          pixel_ratio,     content_.receiver,
+          content_.extent};
 }
 
 void MapCanvas::repaint_map() {
@@ -152,10 +162,7 @@ void MapCanvas::repaint_map() {
   // occasional old picture is better than none. A change by the user cancels them.
   const bool cancels = content_.choice != sent_.picture.choice ||
                        (content_.step_shown && content_.map != sent_.picture.map);
-  sent_ = {{content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
-            content_.choice, pixels(), content_.patch_colors, transform(), size(),
-            devicePixelRatioF(), content_.receiver, content_.extent},
-           sent_.number + 1};
+  sent_ = {request_for(size(), devicePixelRatioF()), sent_.number + 1};
   painter_.request(sent_, cancels ? CurrentJob::cancel : CurrentJob::finish);
 }
 
@@ -262,11 +269,11 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   }
   // The picture may be of an older view: move and scale it to the current one.
   const MapTransform& painted = picture_->request.transform;
-  const MapTransform now = picture_->request.map == content_.map ? transform() : painted;
+  const MapTransform now = picture_->request.map == content_.map ? transform(size()) : painted;
   const double fraction = now.scale / painted.scale;
   painter.setRenderHint(QPainter::SmoothPixmapTransform, fraction != 1);
   const QPointF corner = now.middle - fraction * painted.middle;
-  painter.setClipRect(map_rect());
+  painter.setClipRect(map_rect(size()));
   painter.drawImage(QRectF(corner, fraction * picture_->request.size), picture_->image);
   painter.setRenderHint(QPainter::Antialiasing);
   if (!failure_.isEmpty()) {
@@ -277,17 +284,52 @@ void MapCanvas::paintEvent(QPaintEvent*) {
     draw_failure(painter, QString::fromStdString(pixels()->failure));
     return;
   }
-  draw_selection(painter, now);
-  draw_region(painter, now);
-  draw_sketch(painter, sketch_, now);
-  draw_probe(painter, now);
-  draw_marked_row(painter, now);
-  draw_caption(painter);
-  painter.setClipping(false);
-  draw_scale_bar(painter, size(), now.scale);
-  draw_axes(painter, size());
-  draw_legend(painter, size(), picture_->request);
-  draw_callouts(painter, now);
+  draw_marks({painter, size()}, *picture_, now);
+}
+
+void MapCanvas::draw_marks(const MapSheet& sheet, const MapPicture& picture,
+                           const MapTransform& shown) const {
+  draw_selection(sheet.painter, picture, shown);
+  draw_region(sheet.painter, shown);
+  draw_sketch(sheet.painter, sketch_, shown);
+  draw_probe(sheet.painter, shown);
+  draw_marked_row(sheet, picture, shown);
+  sheet.draw_caption(content_.caption);
+  sheet.painter.setClipping(false);
+  sheet.draw_scale_bar(shown.scale);
+  sheet.draw_axes();
+  sheet.draw_legend(picture.request, back_side_brush(1));
+  draw_callouts(sheet, picture, shown);
+}
+
+QImage MapCanvas::picture(const QSize& pixels) const {
+  QImage image(pixels, QImage::Format_RGB32);
+  image.fill(theme::scene_background);
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setFont(font());
+  if (content_.map) {
+    const MapPicture drawn = paint_map(request_for(pixels, 1));
+    painter.drawImage(0, 0, drawn.image);
+    draw_marks({painter, pixels}, drawn, drawn.request.transform);
+  }
+  return image;
+}
+
+void MapCanvas::draw(QPainter& painter, const QSizeF& size, const QColor& ink,
+                     bool explained) const {
+  if (!content_.map) {
+    return;
+  }
+  const MapPictureRequest request = request_for(size, 1);
+  paint_map(request, painter);
+  if (explained) {
+    const MapSheet sheet{painter, size, ink, ink, Qt::transparent};
+    sheet.draw_caption(content_.caption);
+    sheet.draw_scale_bar(request.transform.scale);
+    sheet.draw_axes();
+    sheet.draw_legend(request, plain_back_side);
+  }
 }
 
 void MapCanvas::draw_failure(QPainter& painter, const QString& failure) const {
@@ -296,12 +338,12 @@ void MapCanvas::draw_failure(QPainter& painter, const QString& failure) const {
                    tr("The engine failed, so nothing is drawn:\n\n%1").arg(failure));
 }
 
-QPainterPath MapCanvas::selection_path(const MapTransform& shown) const {
-  const MapRecord& record = picture_->request.map->record();
-  const bool covers = picture_->request.extent != MapExtent::step;
+QPainterPath MapCanvas::selection_path(const MapPicture& picture, const MapTransform& shown) const {
+  const MapRecord& record = picture.request.map->record();
+  const bool covers = picture.request.extent != MapExtent::step;
   QPainterPath all;
   std::vector<QPolygonF> nearer;
-  for (const std::int32_t number : picture_->rows) {
+  for (const std::int32_t number : picture.rows) {
     const MapRecord::Row& row = at(record.rows, number);
     const bool selected = selection_.contains(row.patch);
     if (!selected && !covers) {
@@ -327,11 +369,12 @@ QPainterPath MapCanvas::selection_path(const MapTransform& shown) const {
   return all;
 }
 
-void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
+void MapCanvas::draw_selection(QPainter& painter, const MapPicture& picture,
+                               const MapTransform& shown) const {
   if (selection_.patches().empty()) {
     return;
   }
-  const QPainterPath edges = selection_path(shown);
+  const QPainterPath edges = selection_path(picture, shown);
   for (const QPen& pen :
        {QPen(Qt::black, 4 * theme::scale()), QPen(theme::selection, 2 * theme::scale())}) {
     painter.strokePath(edges, pen);
@@ -344,31 +387,35 @@ void MapCanvas::draw_region(QPainter& painter, const MapTransform& shown) const 
   }
 }
 
-void MapCanvas::draw_callouts(QPainter& painter, const MapTransform& shown) const {
+void MapCanvas::draw_callouts(const MapSheet& sheet, const MapPicture& picture,
+                              const MapTransform& shown) const {
+  const QRectF bounds(QPointF(0, 0), sheet.size);
   for (const Callout& callout : callouts_) {
-    mark_callout(painter, shown, callout);
+    mark_callout(sheet, picture, shown, callout);
   }
   std::vector<QRectF> taken;
   for (const Callout& callout : callouts_) {
-    if (const auto place = place_of(callout, shown); place && rect().contains(place->toPoint())) {
-      draw_callout(painter, *place, QString::fromStdString(callout.text),
-                   map_rect().adjusted(2, 2, -2, -2), taken);
+    const auto place = place_of(callout, picture, shown);
+    if (place && bounds.contains(*place)) {
+      draw_callout(sheet.painter, *place, QString::fromStdString(callout.text),
+                   map_rect(sheet.size).adjusted(2, 2, -2, -2), taken);
     }
   }
 }
 
 // A region that is the whole V has a frame; an inside list is filled.
-void MapCanvas::mark_callout(QPainter& painter, const MapTransform& shown,
-                             const Callout& callout) const {
+void MapCanvas::mark_callout(const MapSheet& sheet, const MapPicture& picture,
+                             const MapTransform& shown, const Callout& callout) const {
+  QPainter& painter = sheet.painter;
   if (callout.anchor == Callout::Anchor::map) {
     painter.setBrush(Qt::NoBrush);
     painter.setPen(QPen(theme::region, 4 * theme::scale()));
-    painter.drawRect(rect().adjusted(2, 2, -3, -3));
+    painter.drawRect(QRectF(QPointF(0, 0), sheet.size).adjusted(2, 2, -3, -3));
   }
   if (callout.anchor != Callout::Anchor::inside || content_.step < 0) {
     return;
   }
-  const RecordedMap& map = *picture_->request.map;
+  const RecordedMap& map = *picture.request.map;
   std::vector<std::vector<Vec2>> parts;
   for (const std::int32_t r : map.history.inside_at(content_.step)) {
     const auto outline = map.record().outline(map.row(r));
@@ -377,15 +424,16 @@ void MapCanvas::mark_callout(QPainter& painter, const MapTransform& shown,
   fill_parts(painter, parts, shown, 170);
 }
 
-std::optional<QPointF> MapCanvas::place_of(const Callout& callout,
+std::optional<QPointF> MapCanvas::place_of(const Callout& callout, const MapPicture& picture,
                                            const MapTransform& shown) const {
+  const QSizeF& size = picture.request.size;
   if (callout.anchor == Callout::Anchor::direction) {
-    return axes_origin(size());
+    return axes_origin(size);
   }
   if (callout.anchor == Callout::Anchor::map) {
-    return QPointF(8, height() / 2.0);
+    return QPointF(8, size.height() / 2);
   }
-  const auto place = place_in_map(callout, *picture_->request.map, picture_->rows, content_.step);
+  const auto place = place_in_map(callout, *picture.request.map, picture.rows, content_.step);
   return place ? std::optional(shown.to_pixels(*place)) : std::nullopt;
 }
 
@@ -404,10 +452,12 @@ void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {
   }
 }
 
-void MapCanvas::draw_marked_row(QPainter& painter, const MapTransform& shown) const {
-  if (marked_row_ == MapRecord::no_row || marked_map_ != picture_->request.map) {
+void MapCanvas::draw_marked_row(const MapSheet& sheet, const MapPicture& picture,
+                                const MapTransform& shown) const {
+  if (marked_row_ == MapRecord::no_row || marked_map_ != picture.request.map) {
     return;
   }
+  QPainter& painter = sheet.painter;
   const QPolygonF outline =
       row_polygon(marked_map_->record(), marked_map_->row(marked_row_), shown);
   painter.setBrush(Qt::NoBrush);
@@ -417,20 +467,12 @@ void MapCanvas::draw_marked_row(QPainter& painter, const MapTransform& shown) co
     painter.drawPolygon(outline);
   }
   for (int k = 0; k < outline.size(); ++k) {
-    draw_on_plate(painter, outline[k] + QPointF(4, -4), QString::number(k + 1));
+    sheet.draw_text(outline[k] + QPointF(4, -4), QString::number(k + 1));
   }
 }
 
-void MapCanvas::draw_caption(QPainter& painter) const {
-  if (content_.caption.isEmpty()) {
-    return;
-  }
-  painter.setPen(theme::on_dark);
-  draw_on_plate(painter, QPointF(12, 8 + painter.fontMetrics().ascent()), content_.caption);
-}
-
-QRect MapCanvas::map_rect() const {
-  return rect().adjusted(0, 0, 0, -static_cast<int>(scale_bar_room(height())));
+QRectF MapCanvas::map_rect(const QSizeF& size) {
+  return {0, 0, size.width(), size.height() - scale_bar_room(size.height())};
 }
 
 void MapCanvas::resizeEvent(QResizeEvent* event) {

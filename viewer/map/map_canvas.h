@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "map/map_painter.h"
+#include "map/map_sheet.h"
 #include "state/callout.h"
 #include "state/map_sketch.h"
 #include "state/selection.h"
@@ -90,6 +91,11 @@ class MapCanvas : public QWidget {
   std::shared_ptr<const RecordedMap> map_shown() const {
     return picture_ ? picture_->request.map : nullptr;
   }
+  /// The map as it is shown now, in another size: what is to be painted, and all marks.
+  QImage picture(const QSize& pixels) const;
+  /// Draws the map as it is shown now, without marks, as vector graphics.
+  /// @param explained  with scale bar, axes and legend
+  void draw(QPainter& painter, const QSizeF& size, const QColor& ink, bool explained) const;
   /// Number of polygons drawn.
   std::size_t polygon_count() const { return picture_ ? picture_->rows.size() : 0; }
 
@@ -111,24 +117,32 @@ class MapCanvas : public QWidget {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
 
  private:
-  MapTransform transform() const;
+  MapTransform transform(const QSizeF& size) const;
+  MapPictureRequest request_for(const QSizeF& size, double pixel_ratio) const;
   void repaint_map();
   void show_newest();
   void wait_for_picture();
   void show_failure(const QString& message, quint64 number);
   void draw_failure(QPainter& painter, const QString& failure) const;
-  void draw_selection(QPainter& painter, const MapTransform& shown) const;
+  /// Draws what is over the picture of a map.
+  void draw_marks(const MapSheet& sheet, const MapPicture& picture,
+                  const MapTransform& shown) const;
+  void draw_selection(QPainter& painter, const MapPicture& picture,
+                      const MapTransform& shown) const;
   /// The edges of the selected fragments, without what nearer ones cover.
-  QPainterPath selection_path(const MapTransform& shown) const;
+  QPainterPath selection_path(const MapPicture& picture, const MapTransform& shown) const;
   void draw_region(QPainter& painter, const MapTransform& shown) const;
-  void draw_callouts(QPainter& painter, const MapTransform& shown) const;
-  void mark_callout(QPainter& painter, const MapTransform& shown, const Callout& callout) const;
-  std::optional<QPointF> place_of(const Callout& callout, const MapTransform& shown) const;
+  void draw_callouts(const MapSheet& sheet, const MapPicture& picture,
+                     const MapTransform& shown) const;
+  void mark_callout(const MapSheet& sheet, const MapPicture& picture, const MapTransform& shown,
+                    const Callout& callout) const;
+  std::optional<QPointF> place_of(const Callout& callout, const MapPicture& picture,
+                                  const MapTransform& shown) const;
   void draw_probe(QPainter& painter, const MapTransform& shown) const;
-  void draw_marked_row(QPainter& painter, const MapTransform& shown) const;
-  void draw_caption(QPainter& painter) const;
+  void draw_marked_row(const MapSheet& sheet, const MapPicture& picture,
+                       const MapTransform& shown) const;
   /// The part above the strip with scale bar, legend and axes. A low canvas has no strip.
-  QRect map_rect() const;
+  static QRectF map_rect(const QSizeF& size);
 
   Selection& selection_;
   Content content_;

@@ -17,7 +17,6 @@ namespace transillum::viewer {
 
 namespace {
 
-const QColor back_side{0x43, 0x4a, 0x55};
 const QColor back_hatch{0x6b, 0x74, 0x80};
 
 bool is_outside(const QPolygonF& polygon, const QRectF& view) {
@@ -48,7 +47,7 @@ double area(const QPolygonF& polygon) {
 QBrush back_side_brush(double pixel_ratio) {
   const int size = static_cast<int>(std::lround(6 * pixel_ratio));
   QImage tile(size, size, QImage::Format_RGB32);
-  tile.fill(back_side);
+  tile.fill(plain_back_side);
   QPainter painter(&tile);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(back_hatch, pixel_ratio));
@@ -113,13 +112,15 @@ namespace {
 /// Draws one picture; coordinates are device pixels.
 class MapPainting {
  public:
-  MapPainting(const MapPictureRequest& request, const Cancellation& cancellation)
+  /// @param hatch  fill of back sides
+  MapPainting(const MapPictureRequest& request, const QBrush& hatch,
+              const Cancellation& cancellation)
       : request_(request),
         cancellation_(cancellation),
         history_(request.map->history),
         ratio_(request.pixel_ratio),
         transform_(request.transform),
-        hatch_(back_side_brush(ratio_)) {
+        hatch_(hatch) {
     transform_.scale *= ratio_;
     transform_.middle *= ratio_;
     // Other engines show V alone, not the changes of a step.
@@ -130,13 +131,21 @@ class MapPainting {
   }
 
   MapPicture paint() {
-    picture_.request = request_;
     const QSize size(static_cast<int>(std::lround(request_.size.width() * ratio_)),
                      static_cast<int>(std::lround(request_.size.height() * ratio_)));
-    view_ = QRectF(QPointF(0, 0), QSizeF(size));
     picture_.image = QImage(size, QImage::Format_RGB32);
     picture_.image.fill(theme::scene_background);
-    painter_.begin(&picture_.image);
+    QPainter painter(&picture_.image);
+    paint(painter);
+    painter.end();
+    picture_.image.setDevicePixelRatio(ratio_);
+    return std::move(picture_);
+  }
+
+  void paint(QPainter& painter) {
+    painter_ = &painter;
+    picture_.request = request_;
+    view_ = QRectF(QPointF(0, 0), request_.size * ratio_);
     picture_.rows = is_whole() ? whole_rows() : drawn_rows();
     if (request_.choice.engine) {
       picture_.pixels = pixels();
@@ -152,9 +161,6 @@ class MapPainting {
     if (request_.labels && !draws_corrected()) {
       label(picture_.rows);
     }
-    painter_.end();
-    picture_.image.setDevicePixelRatio(ratio_);
-    return std::move(picture_);
   }
 
  private:
@@ -173,16 +179,16 @@ class MapPainting {
       return;
     }
     if (!draws_corrected()) {
-      draw_pixels(painter_, view, transform_, *request_.patch_colors, hatch_, cancellation_);
+      draw_pixels(*painter_, view, transform_, *request_.patch_colors, hatch_, cancellation_);
       return;
     }
-    draw_corrected(painter_, *view.corrected, transform_,
+    draw_corrected(*painter_, *view.corrected, transform_,
                    {.of_patches = *request_.patch_colors,
                     .back_side = hatch_,
                     .differences = request_.choice.differences},
                    cancellation_);
     if (request_.labels) {
-      label_corrected(painter_, *view.corrected, transform_, ratio_);
+      label_corrected(*painter_, *view.corrected, transform_, ratio_);
     }
   }
 
@@ -230,12 +236,12 @@ class MapPainting {
         continue;
       }
       const Color8& c = at(*request_.patch_colors, row(*r).patch);
-      painter_.setRenderHint(QPainter::Antialiasing, false);
-      painter_.setPen(Qt::NoPen);
-      painter_.setBrush(QColor(c[0], c[1], c[2]));
-      painter_.drawPolygon(polygon);
+      painter_->setRenderHint(QPainter::Antialiasing, false);
+      painter_->setPen(Qt::NoPen);
+      painter_->setBrush(QColor(c[0], c[1], c[2]));
+      painter_->drawPolygon(polygon);
       if (area(polygon) > 30 * ratio_ * ratio_) {
-        painter_.setRenderHint(QPainter::Antialiasing);
+        painter_->setRenderHint(QPainter::Antialiasing);
         outline({polygon}, QColor(0, 0, 0, 80), 0.6);
       }
     }
@@ -266,7 +272,7 @@ class MapPainting {
   void fill(const std::vector<std::int32_t>& rows) {
     std::vector<QPolygonF> outlines;
     const bool dim = step_row_ != MapRecord::no_row && request_.phase == Phase::split;
-    painter_.setPen(Qt::NoPen);
+    painter_->setPen(Qt::NoPen);
     std::size_t done = 0;
     for (const std::int32_t r : rows) {
       if (done++ % 64 == 0) {
@@ -281,13 +287,13 @@ class MapPainting {
       if (dim && row(r).made < request_.step) {
         color = mixed(color, theme::scene_background, 0.45);
       }
-      painter_.setBrush(row(r).front_facing ? hatch_ : QBrush(color));
-      painter_.drawPolygon(polygon);
+      painter_->setBrush(row(r).front_facing ? hatch_ : QBrush(color));
+      painter_->drawPolygon(polygon);
       if (area(polygon) > 30 * ratio_ * ratio_) {
         outlines.push_back(polygon);
       }
     }
-    painter_.setRenderHint(QPainter::Antialiasing);
+    painter_->setRenderHint(QPainter::Antialiasing);
     outline(outlines, QColor(0, 0, 0, 80), 0.6);
   }
 
@@ -325,15 +331,15 @@ class MapPainting {
     if (std::max(box.width(), box.height()) > 1.2 * radius * ratio_) {
       return;
     }
-    painter_.setBrush(Qt::NoBrush);
+    painter_->setBrush(Qt::NoBrush);
     for (const QPen& pen : {QPen(Qt::black, 3.5 * ratio_), QPen(theme::processed, 1.5 * ratio_)}) {
-      painter_.setPen(pen);
-      painter_.drawEllipse(box.center(), radius * ratio_, radius * ratio_);
+      painter_->setPen(pen);
+      painter_->drawEllipse(box.center(), radius * ratio_, radius * ratio_);
     }
   }
 
   void label(const std::vector<std::int32_t>& rows) {
-    PolygonLabels labels(painter_, ratio_);
+    PolygonLabels labels(*painter_, ratio_);
     for (const std::int32_t r : rows) {
       const QPolygonF polygon = polygon_of(r);
       if (!is_outside(polygon, view_)) {
@@ -344,27 +350,30 @@ class MapPainting {
 
   void veil(const std::vector<QPolygonF>& polygons, QColor color, int alpha) {
     color.setAlpha(alpha);
-    painter_.setPen(Qt::NoPen);
-    painter_.setBrush(color);
-    painter_.setRenderHint(QPainter::Antialiasing, false);
+    painter_->setPen(Qt::NoPen);
+    painter_->setBrush(color);
+    painter_->setRenderHint(QPainter::Antialiasing, false);
     for (const QPolygonF& polygon : polygons) {
-      painter_.drawPolygon(polygon);
+      painter_->drawPolygon(polygon);
     }
-    painter_.setRenderHint(QPainter::Antialiasing);
+    painter_->setRenderHint(QPainter::Antialiasing);
   }
 
   void outline(const std::vector<QPolygonF>& polygons, const QColor& color, double width) {
-    painter_.setBrush(Qt::NoBrush);
-    painter_.setPen(
+    painter_->setBrush(Qt::NoBrush);
+    painter_->setPen(
         QPen(color, width * ratio_ * theme::scale(), Qt::SolidLine, Qt::SquareCap, Qt::RoundJoin));
     for (const QPolygonF& polygon : polygons) {
-      painter_.drawPolygon(polygon);
+      painter_->drawPolygon(polygon);
     }
   }
 
   const MapRecord::Row& row(std::int32_t r) const { return history_.row(r); }
   QPolygonF polygon_of(std::int32_t r) const {
-    return row_polygon(history_.record(), row(r), transform_);
+    const QPolygonF polygon = row_polygon(history_.record(), row(r), transform_);
+    // Not all programs that show vector graphics clip.
+    const bool whole = view_.contains(polygon.boundingRect()) || !picture_.image.isNull();
+    return whole ? polygon : polygon.intersected(view_);
   }
   std::vector<QPolygonF> polygons_of(const std::vector<std::int32_t>& rows) const {
     std::vector<QPolygonF> polygons;
@@ -383,13 +392,19 @@ class MapPainting {
   std::int32_t step_row_ = MapRecord::no_row;  ///< the step's fragment, if it is to be marked
   QRectF view_;
   MapPicture picture_;
-  QPainter painter_;  // paints on picture_.image
+  QPainter* painter_ = nullptr;
 };
 
 }  // namespace
 
 MapPicture paint_map(const MapPictureRequest& request, const Cancellation& cancellation) {
-  return MapPainting(request, cancellation).paint();
+  return MapPainting(request, back_side_brush(request.pixel_ratio), cancellation).paint();
+}
+
+void paint_map(const MapPictureRequest& request, QPainter& painter) {
+  painter.save();
+  MapPainting(request, plain_back_side, {}).paint(painter);
+  painter.restore();
 }
 
 std::int32_t row_at(const MapRecord& record, const std::vector<std::int32_t>& rows, const Vec2& p) {

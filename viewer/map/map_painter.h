@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QBrush>
+#include <QColor>
 #include <QPolygonF>
 #include <QSizeF>
 #include <cstdint>
@@ -9,6 +10,8 @@
 
 #include "map/map_picture.h"
 #include "model/requests/recorded_map.h"
+
+class QPainter;
 
 namespace transillum::viewer {
 
@@ -19,12 +22,17 @@ MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
 /// height; 0 in a low one (logical pixels).
 double scale_bar_room(double height);
 
-/// Fill of back sides: gray with hatching.
+/// Fill of back sides: gray with hatching; in vector graphics, plain gray.
+inline const QColor plain_back_side{0x43, 0x4a, 0x55};
 QBrush back_side_brush(double pixel_ratio);
 
 /// Paints front sides in their patch's color, back sides with back_side_brush(). Any thread.
 /// @throws Canceled
 MapPicture paint_map(const MapPictureRequest& request, const Cancellation& cancellation = {});
+
+/// Paints the same as vector graphics, on the background that is there, back sides in plain gray.
+/// @param request  its pixel ratio is 1
+void paint_map(const MapPictureRequest& request, QPainter& painter);
 
 /// Bounds of the step's fragment and of the polygons of V that it cuts, meters; null if there are
 /// none.

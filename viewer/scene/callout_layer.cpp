@@ -36,13 +36,13 @@ bool CalloutLayer::eventFilter(QObject* watched, QEvent* event) {
 
 void CalloutLayer::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  draw(painter);
+  draw(painter, rect());
 }
 
-void CalloutLayer::draw(QPainter& painter) const {
+void CalloutLayer::draw(QPainter& painter, const QRectF& bounds) const {
   std::vector<QRectF> taken;
   for (const Placed& callout : callouts_) {
-    draw_callout(painter, callout.anchor, callout.text, rect().adjusted(2, 2, -2, -2), taken);
+    draw_callout(painter, callout.anchor, callout.text, bounds.adjusted(2, 2, -2, -2), taken);
   }
 }
 

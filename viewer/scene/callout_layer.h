@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QRectF>
 #include <QWidget>
 #include <vector>
 
@@ -22,8 +23,9 @@ class CalloutLayer : public QWidget {
   /// Redraws if they have changed.
   void show_callouts(std::vector<Placed> callouts);
   const std::vector<Placed>& callouts() const { return callouts_; }
-  /// Draws them into a picture of the widget below, in its logical pixels.
-  void draw(QPainter& painter) const;
+  /// Draws them into a picture.
+  /// @param bounds  of the picture, logical pixels
+  void draw(QPainter& painter, const QRectF& bounds) const;
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

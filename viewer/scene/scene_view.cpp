@@ -14,7 +14,6 @@
 
 #include <QApplication>
 #include <QMouseEvent>
-#include <QPainter>
 #include <QResizeEvent>
 #include <QTimer>
 #include <algorithm>
@@ -24,7 +23,6 @@
 #include "scene/callout_layer.h"
 #include "scene/camera_style.h"
 #include "scene/sharp/shown_hit.h"
-#include "scene/window_image.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
 
@@ -257,6 +255,9 @@ void SceneView::fit(std::function<ViewPoint()> view) {
 
 /// Fits the view to a new size. A view that was set as it is stays until the camera is moved.
 void SceneView::follow_size(const QSize& before) {
+  if (!loaded_) {
+    return;
+  }
   if (!(view_point() == fitted_) && !before.isEmpty()) {
     refit_ = [this, moved = view_point(), old = aspect_of(before)] {
       return widened(moved, old, aspect());
@@ -452,7 +453,7 @@ std::optional<Vec3> SceneView::anchor_of(const Callout& callout) const {
 // After each rendering: the camera may have moved.
 void SceneView::place_callouts() {
   std::vector<CalloutLayer::Placed> placed;
-  const double scale = canvas_->devicePixelRatioF();
+  const int* size = window_->GetSize();
   for (const Callout& callout : callouts_) {
     const auto anchor = loaded_ ? anchor_of(callout) : std::nullopt;
     if (!anchor) {
@@ -461,8 +462,9 @@ void SceneView::place_callouts() {
     renderer_->SetWorldPoint(anchor->x, anchor->y, anchor->z, 1);
     renderer_->WorldToDisplay();
     const double* p = renderer_->GetDisplayPoint();
-    const QPointF position(p[0] / scale, canvas_->height() - p[1] / scale);
-    if (QRectF(canvas_->rect()).contains(position)) {
+    const QPointF position(p[0] / size[0] * drawn_size_.width(),
+                           (1 - p[1] / size[1]) * drawn_size_.height());
+    if (QRectF(QPointF(0, 0), drawn_size_).contains(position)) {
       placed.push_back({QString::fromStdString(callout.text), position});
     }
   }
@@ -470,7 +472,22 @@ void SceneView::place_callouts() {
 }
 
 void SceneView::render() {
-  const auto scale = static_cast<float>(canvas_->devicePixelRatioF() * theme::scale());
+  prepare_picture(1, antialiased_ && at_rest());
+  if (canvas_->isVisible() && !held_) {
+    window_->Render();
+  }
+}
+
+void SceneView::hold(bool held) {
+  held_ = held;
+  if (!held) {
+    render();
+  }
+}
+
+/// @param line_scale  factor of the widths of lines
+void SceneView::prepare_picture(double line_scale, bool smooth) {
+  const auto scale = static_cast<float>(line_scale * canvas_->devicePixelRatioF() * theme::scale());
   selected_->set_line_width(scale);
   glyph_->set_line_width(1.5 * scale);
   step_glyph_->set_line_width(2.5 * scale);
@@ -478,67 +495,8 @@ void SceneView::render() {
   feature_edges_->set_line_width(1.2 * scale);
   path_glyph_->set_line_width(1.5 * scale);
   surface_->set_line_width(scale);
-  renderer_->SetUseFXAA(antialiased_ && at_rest());
+  renderer_->SetUseFXAA(smooth);
   renderer_->ResetCameraClippingRange();
-  if (canvas_->isVisible()) {
-    window_->Render();
-  }
-}
-
-/// The snapshot whose light is shown in true color; null where something else is.
-std::shared_ptr<const SolverSnapshot> SceneView::lit_snapshot() const {
-  const auto shown = colors_.shows_kept_run() ? colors_.run_a() : colors_.snapshot();
-  const bool by_eye = colors_.quantity() == Quantity::eye_radiance;
-  const bool of_light = by_eye || (colors_.quantity() == Quantity::radiosity && shown &&
-                                   shown->glossy == nullptr);  // else B is not what is seen
-  if (!snapshot_ || !of_light || colors_.scale().mode != ColorMode::true_color ||
-      colors_.values().empty() || shown->loaded->scene != loaded_->scene ||
-      !(shown->passes_done > 0 || shown->of_file) || stepping() || surface_->draws_edges()) {
-    return nullptr;
-  }
-  return shown;
-}
-
-std::optional<SharpSubject> SceneView::sharp_subject() const {
-  const auto shown = lit_snapshot();
-  if (!shown) {
-    return std::nullopt;
-  }
-  const int* size = window_->GetSize();
-  SharpSubject subject{.loaded = loaded_,
-                       .snapshot = shown,
-                       .by_eye = colors_.quantity() == Quantity::eye_radiance,
-                       .scale = colors_.scale(),
-                       .view = view_point(),
-                       .size = {size[0], size[1]}};
-  if (hidden_.any()) {
-    subject.hidden = hidden_.flags();
-  }
-  if (clip_) {
-    subject.half = ShownHalf{vec3(clip_plane_->GetOrigin()), vec3(clip_plane_->GetNormal())};
-  }
-  return subject;
-}
-
-QImage SceneView::picture(int scale, const QImage& sharp) {
-  const QImage shown = sharp_layer_->picture();
-  taking_picture_ = true;
-  if (!sharp.isNull()) {
-    sharp_layer_->set_picture(sharp);
-  }
-  QImage image = image_of_window(*window_, scale);
-  sharp_layer_->set_picture(shown);
-  if (scale > 1 || !sharp.isNull()) {
-    window_->Render();  // the filter leaves its last tile on the screen
-  }
-  taking_picture_ = false;
-  if (!image.isNull() && !callout_layer_->callouts().empty()) {
-    QPainter painter(&image);
-    painter.setFont(callout_layer_->font());
-    painter.scale(1.0 * image.width() / canvas_->width(), 1.0 * image.height() / canvas_->height());
-    callout_layer_->draw(painter);
-  }
-  return image;
 }
 
 PatchId SceneView::patch_at(const QPoint& position) const {
@@ -592,7 +550,8 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
           (mouse->pos() - press_position_).manhattanLength() < QApplication::startDragDistance()) {
         emit menu_requested(mouse->pos());
       }
-    } else if (event->type() == QEvent::Resize && loaded_) {
+    } else if (event->type() == QEvent::Resize) {
+      drawn_size_ = canvas_->size();
       follow_size(static_cast<QResizeEvent*>(event)->oldSize());
     }
   }

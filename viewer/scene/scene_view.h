@@ -11,6 +11,7 @@
 
 #include <QImage>
 #include <QPoint>
+#include <QSizeF>
 #include <QWidget>
 #include <functional>
 #include <memory>
@@ -34,6 +35,7 @@
 #include "state/hidden_patches.h"
 #include "state/selection.h"
 #include "state/view_choices.h"
+#include "widgets/theme.h"
 
 class QTimer;
 class QVTKOpenGLNativeWidget;
@@ -117,9 +119,19 @@ class SceneView : public QWidget {
   const FeatureEdges& feature_edges() const { return *feature_edges_; }
 
   /// The picture shown, with its callouts, with `scale` times as many pixels per side.
-  /// @param sharp  the sharp picture in that size, to show in place of the surfaces; null for
-  /// sharp()
-  QImage picture(int scale, const QImage& sharp = {});
+  QImage picture(int scale);
+  /// The look of the scene in a file.
+  struct SceneLook {
+    QSize size;                                   ///< pixels
+    QColor background = theme::scene_background;  ///< transparent where its alpha is 0
+    double line_scale = 1;                        ///< factor of the widths of lines
+    bool direction = true;                        ///< with the direction and the step, if shown
+    QImage sharp = {};  ///< the sharp picture in that size; null for the surfaces
+  };
+  /// The picture shown, with its callouts, in another size; what is in the smaller side stays.
+  QImage picture(const SceneLook& look);
+  /// While held, changes are not drawn: picture() alone draws.
+  void hold(bool held);
   /// The subject of a sharp picture of this view; none where the surfaces show something else than
   /// light in true color.
   std::optional<SharpSubject> sharp_subject() const;
@@ -168,6 +180,8 @@ class SceneView : public QWidget {
   Vec3 vertical_ = {0, 1, 0};
   void follow_camera();
   void place_callouts();
+  void draw_callouts(QImage& image) const;
+  void prepare_picture(double line_scale, bool smooth);
 
   const Focus& focus_;
   Selection& selection_;
@@ -191,7 +205,10 @@ class SceneView : public QWidget {
   QPoint press_position_;
   bool pressed_ = false;
 
+  bool held_ = false;
+
   std::vector<Callout> callouts_;
+  QSizeF drawn_size_;  ///< logical size of the picture that is drawn
   CalloutLayer* callout_layer_;
   QVTKOpenGLNativeWidget* canvas_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;

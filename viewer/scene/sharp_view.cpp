@@ -239,19 +239,21 @@ void SharpView::tell(const QString& reason) {
   action_->setToolTip(reason.isEmpty() ? usual_tip_ : usual_tip_ + '\n' + reason);
 }
 
-std::optional<QImage> SharpView::make(int scale, QWidget* window) {
+std::optional<QImage> SharpView::make(const QSize& size, QWidget* window) {
   follow();
   if (!wanted()) {
     return QImage();
   }
-  if (scale == 1 && finished_) {
+  if (size == subject_->size && finished_) {
     return view_.sharp();
   }
   rest_timer_->stop();
   enlarges_ = true;
   enlarged_ = {};
   SharpSubject subject = *subject_;
-  subject.size *= scale;
+  const auto aspect_of = [](const QSize& of) { return 1.0 * of.width() / of.height(); };
+  subject.view = widened(subject.view, aspect_of(subject.size), aspect_of(size));
+  subject.size = size;
   request(subject);
   constexpr int whole = 1000;
   QProgressDialog dialog(tr("Making the sharp picture…"), tr("Cancel"), 0, whole, window);

@@ -35,10 +35,10 @@ class SharpView : public QObject {
   bool settled() const { return !wanted() || finished_; }
   /// Whether the light map is finished, or none is made.
   bool has_map() const { return !map_requested_ || map_finished_; }
-  /// Makes the sharp picture with `scale` times as many pixels a side, behind a dialog.
+  /// Makes the sharp picture of another size, pixels, behind a dialog.
   /// @returns null where none is shown; nothing where the user canceled, or where it failed or the
   /// subject has changed, which failed() tells
-  std::optional<QImage> make(int scale, QWidget* window);
+  std::optional<QImage> make(const QSize& size, QWidget* window);
 
  signals:
   void failed(const QString& message);

@@ -196,9 +196,9 @@ void MainWindow::make_whole_window_actions() {
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
   memory_ = new LayoutMemory(frame, docks_, appearance_, *files_, *lesson_panel_);
   exports_ = new ExportActions(frame, *map_view_, *convergence_view_);
-  recorder_ = new FrameRecorder(frame, *timeline_->play());
+  recorder_ = new FrameRecorder(frame, *timeline_->play(), *map_view_);
   timeline_->play()->menu()->addSeparator();
-  timeline_->play()->menu()->addAction(recorder_->animation_action());
+  timeline_->play()->menu()->addAction(recorder_->film_action());
   new LoadingNotice(frame);
   lesson_export_ = new LessonExport(frame, *lesson_panel_, [this] { return settled(); });
   auto* light = new LightOffer(frame, docks_, *settings_, inspection_->materials(), *applier_);
@@ -473,6 +473,8 @@ void MainWindow::make_file_menu() {
   fill_built_in_menu(*file->addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene")));
   files_->add_to(*file);
   file->addAction(exports_->save_scene_action());
+  file->addAction(exports_->figure_action());
+  file->addAction(recorder_->film_action());
   file->addAction(exports_->color_action());
   QMenu* exporting = file->addMenu(tr("Export"));
   exports_->add_to(*exporting);

@@ -1,20 +1,18 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/files/export_actions.h"
 
-#include <QBuffer>
 #include <QClipboard>
 #include <QFileInfo>
 #include <QGuiApplication>
-#include <QInputDialog>
 #include <QMainWindow>
 #include <QMenu>
-#include <QSaveFile>
 #include <algorithm>
 #include <optional>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
 
+#include "colors/color_bar.h"
 #include "io/results/error_report_files.h"
 #include "map/map_canvas.h"
 #include "map/map_view.h"
@@ -24,28 +22,18 @@
 #include "scene/sharp_view.h"
 #include "solve/convergence_view.h"
 #include "state/callout.h"
-#include "state/camera_views.h"
 #include "transillum/errors.h"
 #include "transillum/map_files.h"
 #include "transillum/material_changes.h"
-#include "transillum/picture.h"
 #include "widgets/build.h"
 #include "widgets/dialogs.h"
 #include "window/base/notifier.h"
 #include "window/files/color_export_dialog.h"
+#include "window/files/figure_dialog.h"
 
 namespace transillum::viewer {
 
 namespace {
-
-constexpr int largest_scale = 8;  ///< pixels of a picture along one of the screen
-
-void write_whole(const QString& path, const QByteArray& bytes) {
-  QSaveFile file(path);
-  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) < 0 || !file.commit()) {
-    throw std::runtime_error((path + ": " + file.errorString()).toStdString());
-  }
-}
 
 VisibilityMap map_at(const RecordedMap& map, std::int32_t step) {
   const MapRecord& record = map.record();
@@ -95,16 +83,6 @@ void put_chart_values(const SolverSnapshot& snapshot, std::ostream& out) {
 
 }  // namespace
 
-void write_png(const QString& path, const QImage& image) {
-  QByteArray bytes;
-  QBuffer buffer(&bytes);
-  buffer.open(QIODevice::WriteOnly);
-  if (image.isNull() || !image.save(&buffer, "PNG")) {
-    throw std::runtime_error(path.toStdString() + ": there is no picture to write");
-  }
-  write_whole(path, bytes);
-}
-
 ExportActions::ExportActions(const WindowFrame& frame, MapView& map, ConvergenceView& charts)
     : QObject(&frame.window),
       frame_(frame),
@@ -125,8 +103,6 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
           },
           CurrentJob::finish) {
   using E = ExportActions;
-  add("export_scene", tr("Picture of the scene…"), tr("Write the scene as PNG, at any scale"),
-      &E::choose_scene);
   add("export_result", tr("Result…"),
       tr("B of all patches, with E, ρ and H: VTP, which can be opened again, CSV, PLY or OBJ"),
       &E::choose_result);
@@ -139,6 +115,10 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
   copy_values_ = make_action(this, "copy_values", tr("Copy the values"),
                              tr("Copy the data of the charts as CSV"));
   connect(copy_values_, &QAction::triggered, this, &ExportActions::copy_chart_values);
+  save_figure_ = make_action(this, "save_figure", tr("Save figure…"),
+                             tr("Write scene, map and charts with color bar and legend, as PNG, "
+                                "SVG or PDF"));
+  connect(save_figure_, &QAction::triggered, this, &ExportActions::choose_figure);
   save_scene_ =
       make_action(this, "save_scene", tr("Save scene…"),
                   tr("Write the scene with its changed materials and turned faces as OBJ and MTL"));
@@ -152,6 +132,7 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
   connect(export_errors_, &QAction::triggered, this, &ExportActions::choose_errors);
   const auto enable = [this] {
     export_colors_->setEnabled(frame_.state.scene.snapshot() != nullptr);
+    save_figure_->setEnabled(frame_.state.scene.snapshot() != nullptr);
     save_scene_->setEnabled(frame_.state.scene.snapshot() != nullptr);
     for (QAction* action : actions_) {
       action->setEnabled(frame_.state.scene.snapshot() != nullptr);
@@ -170,8 +151,8 @@ void ExportActions::add(const char* name, const QString& text, const QString& ti
 
 void ExportActions::add_to(QMenu& menu) const { menu.addActions(actions_); }
 
-void ExportActions::write_scene(const QString& path, int scale, const QImage& sharp) const {
-  write_png(path, frame_.page.scene_view()->picture(scale, sharp));
+FigureViews ExportActions::figure_views() const {
+  return {*frame_.page.scene_view(), frame_.state.colors, map_, charts_};
 }
 
 void ExportActions::write_result(const QString& path) {
@@ -302,35 +283,24 @@ void ExportActions::write_chosen(const QString& title, const QString& filter,
   }
 }
 
-std::optional<int> ExportActions::ask_scale() const {
-  const QWidget* canvas = frame_.page.scene_view()->canvas();
-  const QSize size = canvas->size() * canvas->devicePixelRatioF();
-  const int largest = std::clamp(
-      PictureOptions::largest_size / std::max({size.width(), size.height(), 1}), 1, largest_scale);
-  QInputDialog dialog(&frame_.window);
-  dialog.setWindowTitle(tr("Picture of the scene"));
-  dialog.setInputMode(QInputDialog::IntInput);
-  const auto tell_size = [&](int scale) {
-    dialog.setLabelText(tr("Scale, 1 to %1: pixels for each pixel of the screen.\n"
-                           "The picture will have %2 × %3 pixels.")
-                            .arg(largest)
-                            .arg(scale * size.width())
-                            .arg(scale * size.height()));
-  };
-  connect(&dialog, &QInputDialog::intValueChanged, &dialog, tell_size);
-  dialog.setIntRange(1, largest);
-  dialog.setIntValue(std::min(2, largest));
-  tell_size(dialog.intValue());
-  return dialog.exec() == QDialog::Accepted ? std::optional(dialog.intValue()) : std::nullopt;
-}
-
-void ExportActions::choose_scene() {
-  const std::optional<int> scale = ask_scale();
-  const auto sharp =
-      scale ? frame_.page.sharp()->make(*scale, &frame_.window) : std::optional<QImage>();
+void ExportActions::choose_figure() {
+  if (figure_.size.isEmpty()) {
+    const QWidget* canvas = frame_.page.scene_view()->canvas();
+    figure_.size = 2 * canvas->devicePixelRatioF() * QSizeF(canvas->size());
+    figure_.text_points *= 2;
+  }
+  FigureDialog dialog(figure_, frame_.state.focus.map() != nullptr, &frame_.window);
+  if (dialog.exec() != QDialog::Accepted) {
+    return;
+  }
+  figure_ = dialog.plan();
+  const bool has_bar = ColorBarSheet::applies(frame_.state.colors);
+  const auto sharp = figure_.scene
+                         ? frame_.page.sharp()->make(figure_.scene_pixels(has_bar), &frame_.window)
+                         : QImage();
   if (sharp) {
-    write_chosen(tr("Picture of the scene"), tr("Pictures (*.png)"), name_with(".png"),
-                 [&](const QString& path) { write_scene(path, *scale, *sharp); });
+    write_chosen(tr("Save figure"), tr("Figures (*.png *.svg *.pdf)"), name_with(".png"),
+                 [&](const QString& path) { write_figure(path, figure_, figure_views(), *sharp); });
   }
 }
 

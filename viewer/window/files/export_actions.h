@@ -1,16 +1,15 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <QImage>
 #include <QObject>
 #include <QString>
 #include <functional>
-#include <optional>
 #include <variant>
 
 #include "support/newest_result.h"
 #include "transillum/files.h"
 #include "window/base/window_views.h"
+#include "window/files/figure.h"
 
 class QAction;
 class QMenu;
@@ -19,9 +18,6 @@ class QWidget;
 namespace transillum::viewer {
 
 class ConvergenceView;
-
-/// Writes a picture whole or not at all. @throws std::runtime_error
-void write_png(const QString& path, const QImage& image);
 
 /// Exports from the window: pictures, vector graphics, results, values. All files are written
 /// whole or not at all; the functions throw std::runtime_error where one cannot be written.
@@ -32,9 +28,8 @@ class ExportActions : public QObject {
   ExportActions(const WindowFrame& frame, MapView& map, ConvergenceView& charts);
 
   void add_to(QMenu& menu) const;
-  /// Writes the scene as it is drawn, with `scale` times as many pixels a side (1 … 8).
-  /// @param sharp  SharpView::make(); null without one
-  void write_scene(const QString& path, int scale, const QImage& sharp = {}) const;
+  /// The views for write_figure().
+  FigureViews figure_views() const;
   /// Writes the result shown, in the formats of `transillum solve`: .vtp, .csv or .ply. A worker
   /// thread writes; a failure there is shown in the window.
   /// @throws InputError where it is clear at once that it cannot be written
@@ -51,6 +46,8 @@ class ExportActions : public QObject {
   /// meters. A worker thread writes, as in write_result().
   /// @throws InputError where it is clear at once that it cannot be written
   void write_scene_file(const QString& path);
+  /// For the menu File.
+  QAction* figure_action() const { return save_figure_; }
   /// For the menu File.
   QAction* save_scene_action() const { return save_scene_; }
   /// For the menu File.
@@ -73,10 +70,7 @@ class ExportActions : public QObject {
  private:
   void add(const char* name, const QString& text, const QString& tip,
            void (ExportActions::*what)());
-  /// Asks how many pixels the picture of the scene has for each of the screen, along a side.
-  /// @returns nothing if the user cancels
-  std::optional<int> ask_scale() const;
-  void choose_scene();
+  void choose_figure();
   void choose_result();
   void choose_scene_file();
   void choose_colors();
@@ -94,7 +88,8 @@ class ExportActions : public QObject {
   MapView& map_;
   ConvergenceView& charts_;
   QList<QAction*> actions_;
-  QAction *save_scene_, *export_colors_, *export_errors_, *copy_values_;
+  FigurePlan figure_{.size = {}};  ///< the newest; without a size, none yet
+  QAction *save_figure_, *save_scene_, *export_colors_, *export_errors_, *copy_values_;
 
   struct FileToWrite {
     QString path;

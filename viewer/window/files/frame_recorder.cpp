@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Recording of the scene. Pictures of an animation wait in a short queue for the worker, which
-// reduces their colors and compresses them; Play waits for the queue. Where a solve is faster than
-// the worker, the picture that is shown when there is room is taken.
+// Recording. Pictures of a film wait in a short queue for the worker, which compresses them; Play
+// and FilmWalk wait for the queue. Where a solve is faster than the worker, the picture that is
+// shown when there is room is taken.
 #include "window/files/frame_recorder.h"
 
 #include <QDir>
@@ -11,19 +11,23 @@
 #include <QLabel>
 #include <QMainWindow>
 #include <QMenu>
-#include <QStatusBar>
+#include <QPainter>
+#include <QResizeEvent>
 #include <QToolButton>
 #include <algorithm>
 #include <utility>
 
-#include "scene/gif_file.h"
+#include "film/film_file.h"
+#include "map/map_canvas.h"
+#include "map/map_view.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "stepping/play_control.h"
 #include "widgets/build.h"
 #include "widgets/dialogs.h"
 #include "window/base/notifier.h"
-#include "window/files/export_actions.h"
+#include "window/files/film_dialog.h"
+#include "window/files/whole_file.h"
 
 namespace transillum::viewer {
 
@@ -42,15 +46,14 @@ int last_frame_in(const QString& folder) {
 
 }  // namespace
 
-FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play)
+FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map)
     : QObject(&frame.window),
       frame_(frame),
       play_(play),
-      worker_([this](const AnimationRequest& animation,
-                     const Cancellation& cancellation) { write_waiting(animation, cancellation); },
-              [this](const AnimationRequest& animation, const QString& message) {
-                report(animation, message);
-              }) {
+      map_(map),
+      worker_([this](const FilmRequest& film,
+                     const Cancellation& cancellation) { write_waiting(film, cancellation); },
+              [this](const FilmRequest& film, const QString& message) { report(film, message); }) {
   const auto add = [this](const char* name, const QString& text, const QString& tip) {
     auto* action = make_action(this, name, text, tip);
     action->setCheckable(true);
@@ -59,13 +62,12 @@ FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play)
   frames_action_ = add("export_frames", tr("Record frames…"),
                        tr("Write each new picture of the scene as a PNG, during the solve and at "
                           "each step, until switched off"));
-  animation_action_ = add("export_animation", tr("Record an animation…"),
-                          tr("Write each new picture of the scene to an animated GIF, at the speed "
-                             "of Play, until switched off (Shift+L)"));
-  animation_action_->setShortcut(QKeySequence(QStringLiteral("Shift+L")));
+  film_action_ = add("save_film", tr("Save film…"),
+                     tr("Write a film of scene, map or both, as WebM, MP4 or GIF (Shift+L)"));
+  film_action_->setShortcut(QKeySequence(QStringLiteral("Shift+L")));
   connect(frames_action_, &QAction::triggered, this, &FrameRecorder::choose_folder);
-  connect(animation_action_, &QAction::triggered, this, &FrameRecorder::choose_animation);
-  add_status(frame);
+  connect(film_action_, &QAction::triggered, this, &FrameRecorder::choose_film);
+  make_mark();
   play_.set_gate([this] { return has_room(); });
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] { record(); });
   // While the newest direction is followed, snapshots are already recorded.
@@ -73,33 +75,56 @@ FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play)
     if (!frame_.state.focus.following()) {
       record();
     }
+    walk_soon();
   });
-  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &FrameRecorder::show_state);
+  connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] {
+    if (walk_ && frame_.state.scene.loaded() != film_->loaded) {
+      cancel();
+      frame_.notifier.show_failure(tr("Another scene was opened: no film was written"));
+    }
+    show_state();
+  });
   show_state();
 }
 
-FrameRecorder::~FrameRecorder() { worker_.clear(); }
+FrameRecorder::~FrameRecorder() {
+  frame_.state.focus.disconnect(this);
+  worker_.clear();
+}
 
-void FrameRecorder::add_status(const WindowFrame& frame) {
-  status_ = named("recording", new QWidget);
-  status_text_ = new QLabel;
+// Over the corner of the window: a projector shows no status bar.
+void FrameRecorder::make_mark() {
+  mark_ = named("recording", new QWidget(&frame_.window));
+  mark_->setAutoFillBackground(true);
+  mark_text_ = named("recording_text", new QLabel);
   finish_ = named("finish_recording", new QToolButton,
-                  tr("Write the animation with the pictures so far (Shift+L)"));
+                  tr("Write the film with the pictures so far (Shift+L)"));
   finish_->setText(tr("Finish"));
-  auto* discard = named("cancel_recording", new QToolButton, tr("Discard the animation"));
+  auto* discard = named("cancel_recording", new QToolButton, tr("Discard the film"));
   discard->setText(tr("Cancel"));
-  auto* row = make_row(status_, {0, 0, 6, 0});
-  row->addWidget(status_text_);
+  auto* row = make_row(mark_, {8, 2, 4, 2});
+  row->addWidget(mark_text_);
   row->addWidget(finish_);
   row->addWidget(discard);
-  frame.window.statusBar()->addPermanentWidget(status_);
+  frame_.window.installEventFilter(this);
   connect(finish_, &QToolButton::clicked, this, &FrameRecorder::end);
   connect(discard, &QToolButton::clicked, this, &FrameRecorder::cancel);
 }
 
-void FrameRecorder::add_to(QMenu& menu) const {
-  menu.addActions({frames_action_, animation_action_});
+void FrameRecorder::place_mark() {
+  mark_->adjustSize();
+  mark_->move(frame_.window.width() - mark_->width() - 4, 2);
+  mark_->raise();
 }
+
+bool FrameRecorder::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize && film_) {
+    place_mark();
+  }
+  return QObject::eventFilter(watched, event);
+}
+
+void FrameRecorder::add_to(QMenu& menu) const { menu.addAction(frames_action_); }
 
 void FrameRecorder::choose_folder() {
   if (!folder_.isEmpty()) {
@@ -115,20 +140,25 @@ void FrameRecorder::choose_folder() {
   }
 }
 
-void FrameRecorder::choose_animation() {
-  if (animation_) {
+void FrameRecorder::choose_film() {
+  if (film_) {
     end();
+    return;
+  }
+  show_state();  // not yet checked
+  const QWidget* canvas = frame_.page.scene_view()->canvas();
+  plan_.size = FilmFile::even(canvas->size() * canvas->devicePixelRatioF());
+  FilmDialog dialog(plan_, frame_.state.focus.map() != nullptr, &frame_.window);
+  if (dialog.exec() != QDialog::Accepted) {
     return;
   }
   const QString scene =
       QString::fromStdString(frame_.state.scene.snapshot()->loaded->scene->name());
   const QString path =
-      ask_where_to_write(&frame_.window, tr("Animation"), tr("Animations (*.gif)"),
-                         QFileInfo(scene).completeBaseName() + QStringLiteral(".gif"));
-  if (path.isEmpty()) {
-    show_state();
-  } else {
-    begin_animation(path);
+      ask_where_to_write(&frame_.window, tr("Save film"), tr("Films (*.webm *.mp4 *.gif)"),
+                         QFileInfo(scene).completeBaseName() + QStringLiteral(".webm"));
+  if (!path.isEmpty()) {
+    begin_film(path, dialog.plan());
   }
 }
 
@@ -140,52 +170,62 @@ void FrameRecorder::begin_frames(const QString& folder) {
   show_state();
 }
 
-void FrameRecorder::begin_animation(const QString& path) {
+void FrameRecorder::begin_film(const QString& path, const FilmPlan& plan) {
   cancel();
   folder_.clear();
   frames_ = 0;
   ended_ = missed_ = false;
-  animation_ = std::make_shared<Animation>();
-  animation_->path = path;
-  animation_->delay_ms = qRound(1000 / play_.speed());
-  record();
+  plan_ = plan;
+  film_ = std::make_shared<Film>();
+  film_->path = path;
+  film_->plan = plan;
+  film_->loaded = frame_.state.scene.loaded();
+  if (plan.over == FilmPlan::Over::changes) {
+    record();
+  } else {
+    play_.stop();
+    walk_.emplace(plan, frame_.state.focus, *frame_.page.scene_view());
+    walk_soon();
+  }
   show_state();
 }
 
 void FrameRecorder::end() {
   folder_.clear();
-  if (animation_ && !ended_) {
-    ended_ = true;
+  if (film_ && !ended_) {
+    ended_ = true;  // before the walk goes back
+    walk_.reset();
     {
-      const std::lock_guard lock(animation_->mutex);
-      animation_->ended = true;
+      const std::lock_guard lock(film_->mutex);
+      film_->ended = true;
     }
-    worker_.request(animation_, CurrentJob::finish);
+    worker_.request(film_, CurrentJob::finish);
   }
   show_state();
 }
 
 void FrameRecorder::cancel() {
   worker_.clear();
-  animation_ = nullptr;
+  film_ = nullptr;
+  walk_.reset();
   show_state();
 }
 
 bool FrameRecorder::has_room() const {
-  if (!animation_ || ended_) {
+  if (!film_ || ended_) {
     return true;
   }
-  const std::lock_guard lock(animation_->mutex);
-  return animation_->waiting.size() < most_waiting;
+  const std::lock_guard lock(film_->mutex);
+  return film_->waiting.size() < most_waiting;
 }
 
 void FrameRecorder::record() {
   if (!folder_.isEmpty()) {
     record_file();
-  } else if (animation_ && !ended_) {
+  } else if (film_ && !ended_ && film_->plan.over == FilmPlan::Over::changes) {
     missed_ = !has_room();
     if (!missed_) {
-      record_animated();
+      record_picture();
     }
   }
 }
@@ -194,6 +234,7 @@ void FrameRecorder::on_written() {
   if (missed_) {
     record();
   }
+  walk_soon();
   show_state();
 }
 
@@ -208,31 +249,70 @@ void FrameRecorder::record_file() {
   }
 }
 
-void FrameRecorder::record_animated() {
-  QImage picture = frame_.page.scene_view()->picture(1);
+void FrameRecorder::walk_soon() {
+  if (walk_ && !walks_soon_) {
+    walks_soon_ = true;
+    QMetaObject::invokeMethod(this, &FrameRecorder::walk_on, Qt::QueuedConnection);
+  }
+}
+
+// Called after each move of the focus and whenever the queue has room, until there is no more.
+void FrameRecorder::walk_on() {
+  walks_soon_ = false;
+  if (!walk_ || !has_room() || !walk_->arrived()) {
+    return;
+  }
+  record_picture();
+  if (walk_->next()) {
+    walk_soon();
+  } else {
+    end();
+  }
+}
+
+QImage FrameRecorder::picture() const {
+  const FilmPlan& plan = film_->plan;
+  SceneView& scene = *frame_.page.scene_view();
+  if (plan.show == FilmPlan::Show::scene) {
+    return scene.picture({.size = plan.size});
+  }
+  if (plan.show == FilmPlan::Show::map) {
+    return map_.canvas()->picture(plan.size);
+  }
+  constexpr int gap = 2;
+  const QSize half((plan.size.width() - gap) / 2, plan.size.height());
+  QImage both(plan.size, QImage::Format_RGB32);
+  both.fill(Qt::black);
+  QPainter painter(&both);
+  painter.drawImage(0, 0, scene.picture({.size = half}));
+  painter.drawImage(half.width() + gap, 0, map_.canvas()->picture(half));
+  return both;
+}
+
+void FrameRecorder::record_picture() {
+  QImage picture = this->picture();
   if (picture.isNull()) {
     return;
   }
   ++frames_;
   {
-    const std::lock_guard lock(animation_->mutex);
-    animation_->waiting.push_back(std::move(picture));
+    const std::lock_guard lock(film_->mutex);
+    film_->waiting.push_back(std::move(picture));
   }
-  worker_.request(animation_, CurrentJob::finish);
+  worker_.request(film_, CurrentJob::finish);
   show_state();
 }
 
 // Runs on the worker's thread. A request that was replaced by another has been served by it.
-void FrameRecorder::write_waiting(const AnimationRequest& animation,
-                                  const Cancellation& cancellation) {
+void FrameRecorder::write_waiting(const FilmRequest& film, const Cancellation& cancellation) {
   while (true) {
     QImage picture;
     {
-      const std::lock_guard lock(animation->mutex);
-      if (!animation->waiting.empty()) {
-        picture = std::move(animation->waiting.front());
-        animation->waiting.pop_front();
-      } else if (!animation->ended) {
+      const std::lock_guard lock(film->mutex);
+      if (!film->waiting.empty()) {
+        picture = std::move(film->waiting.front());
+        film->waiting.pop_front();
+      } else if (!film->ended) {
         return;
       }
     }
@@ -240,30 +320,32 @@ void FrameRecorder::write_waiting(const AnimationRequest& animation,
     if (picture.isNull()) {
       break;
     }
-    if (!animation->file) {
-      animation->file =
-          std::make_unique<GifFile>(animation->path, picture.size(), animation->delay_ms);
+    if (!film->file) {
+      film->file = std::make_unique<FilmFile>(film->path, film->plan.size, film->plan.per_second);
     }
-    animation->file->add(picture, cancellation);
+    film->file->add(picture, cancellation);
     QMetaObject::invokeMethod(this, &FrameRecorder::on_written, Qt::QueuedConnection);
   }
-  if (animation->file) {
-    animation->file->finish();
-    report(animation, {});
+  if (std::exchange(film->finished, true)) {
+    return;
   }
+  if (film->file) {
+    film->file->finish();
+  }
+  report(film, film->file ? QString() : tr("There is no picture to write"));
 }
 
 // On the worker's thread.
-void FrameRecorder::report(const AnimationRequest& animation, const QString& failure) {
+void FrameRecorder::report(const FilmRequest& film, const QString& failure) {
   QMetaObject::invokeMethod(
       this,
-      [this, animation, failure] {
-        if (animation != animation_) {
+      [this, film, failure] {
+        if (film != film_) {
           return;  // canceled meanwhile
         }
         cancel();
         if (failure.isEmpty()) {
-          frame_.notifier.show_written(animation->path);
+          frame_.notifier.show_written(film->path);
         } else {
           frame_.notifier.show_failure(failure);
         }
@@ -274,23 +356,26 @@ void FrameRecorder::report(const AnimationRequest& animation, const QString& fai
 void FrameRecorder::show_state() {
   const bool any = frame_.state.scene.snapshot() != nullptr;
   frames_action_->setEnabled(any);
-  animation_action_->setEnabled(any);
+  film_action_->setEnabled(any);
   frames_action_->setChecked(!folder_.isEmpty());
-  animation_action_->setChecked(animation_ && !ended_);
-  status_->setVisible(animation_ != nullptr);
-  if (!animation_) {
+  film_action_->setChecked(film_ && !ended_);
+  mark_->setVisible(film_ != nullptr);
+  if (!film_) {
     return;
   }
   std::size_t waiting = 0;
   {
-    const std::lock_guard lock(animation_->mutex);
-    waiting = animation_->waiting.size();
+    const std::lock_guard lock(film_->mutex);
+    waiting = film_->waiting.size();
   }
   finish_->setEnabled(!ended_);
-  status_text_->setText(ended_ ? tr("Writing the animation: %1 of %2 pictures")
-                                     .arg(frames_ - static_cast<int>(waiting))
-                                     .arg(frames_)
-                               : tr("Recording: %1 pictures").arg(frames_));
+  const QString text =
+      ended_
+          ? tr("Writing: %1 of %2 pictures").arg(frames_ - static_cast<int>(waiting)).arg(frames_)
+      : walk_ ? tr("Recording: %1 of %2").arg(frames_).arg(walk_->count())
+              : tr("Recording: %1").arg(frames_);
+  mark_text_->setText(QStringLiteral("<span style='color:#e5484d'>●</span> ") + text);
+  place_mark();
 }
 
 }  // namespace transillum::viewer

@@ -7,9 +7,11 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "support/request_worker.h"
 #include "window/base/window_views.h"
+#include "window/files/film_plan.h"
 
 class QAction;
 class QLabel;
@@ -19,72 +21,87 @@ class QWidget;
 
 namespace transillum::viewer {
 
-class GifFile;
+class FilmFile;
 class PlayControl;
 
-/// Records each new picture of the scene, while solving and at each step: as numbered files of a
-/// folder, or as an animated GIF, which a worker thread writes.
+/// Records pictures: each new one of the scene as numbered files of a folder, or those of a
+/// FilmPlan as a film, which a worker thread writes. While a film is recorded, the window has a red
+/// mark.
 class FrameRecorder : public QObject {
   Q_OBJECT
 
  public:
   /// @param play  its pictures wait until the recording has room for them; must outlive this object
-  FrameRecorder(const WindowFrame& frame, PlayControl& play);
+  FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map);
   ~FrameRecorder() override;
 
   /// Adds both kinds of recording.
   void add_to(QMenu& menu) const;
-  QAction* animation_action() const { return animation_action_; }
+  QAction* film_action() const { return film_action_; }
 
   /// From now on, each new picture becomes the next frame_00001.png of `folder`.
   void begin_frames(const QString& folder);
-  /// From now on, each new picture is added to an animated GIF at the speed of PlayControl.
-  void begin_animation(const QString& path);
-  /// Ends the recording. The file of an animation is complete when writing() has become false.
+  /// Begins a film.
+  /// @param path  as for FilmFile
+  void begin_film(const QString& path, const FilmPlan& plan);
+  /// Ends the recording. The file of a film is complete when writing() has become false.
   void end();
-  /// Discards an animation at once.
+  /// Discards a film at once.
   void cancel();
   /// Number of pictures of this recording; for frames, including earlier recordings in the folder.
   int frames() const { return frames_; }
-  /// Whether an animation is being recorded or written.
-  bool writing() const { return animation_ != nullptr; }
+  /// Whether a film is being recorded or written.
+  bool writing() const { return film_ != nullptr; }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  /// An animation, shared with the worker.
-  struct Animation {
+  /// A film, shared with the worker.
+  struct Film {
     QString path;
-    int delay_ms = 0;
+    FilmPlan plan;
     std::mutex mutex;  // guards the two below
     std::deque<QImage> waiting;
     bool ended = false;
-    std::unique_ptr<GifFile> file;  ///< the worker's only
+    std::shared_ptr<const LoadedScene> loaded;  ///< the scene
+    std::unique_ptr<FilmFile> file;             ///< the worker's only
+    bool finished = false;                      ///< the worker's only
   };
-  using AnimationRequest = std::shared_ptr<Animation>;
+  using FilmRequest = std::shared_ptr<Film>;
 
-  void add_status(const WindowFrame& frame);
+  void make_mark();
+  void place_mark();
   void choose_folder();
-  void choose_animation();
+  void choose_film();
   void record();
+  void walk_on();
+  void walk_soon();
   void on_written();
   void record_file();
-  void record_animated();
+  void record_picture();
+  QImage picture() const;
   bool has_room() const;
-  void write_waiting(const AnimationRequest& animation, const Cancellation& cancellation);
-  void report(const AnimationRequest& animation, const QString& failure);
+  void write_waiting(const FilmRequest& film, const Cancellation& cancellation);
+  void report(const FilmRequest& film, const QString& failure);
   void show_state();
 
   WindowFrame frame_;
   PlayControl& play_;
-  QAction *frames_action_, *animation_action_;
-  QWidget* status_;
-  QLabel* status_text_;
+  MapView& map_;
+  QAction *frames_action_, *film_action_;
+  QWidget* mark_;
+  QLabel* mark_text_;
   QToolButton* finish_;
   QString folder_;
   int frames_ = 0;
-  AnimationRequest animation_;
-  bool ended_ = false;   ///< the animation takes no more pictures
-  bool missed_ = false;  ///< a picture that there was no room for
-  RequestWorker<AnimationRequest> worker_;
+  FilmPlan plan_;  ///< the newest
+  FilmRequest film_;
+  std::optional<FilmWalk> walk_;
+  bool walks_soon_ = false;  ///< walk_on() has been posted
+  bool ended_ = false;       ///< the film takes no more pictures
+  bool missed_ = false;      ///< a picture that there was no room for
+  RequestWorker<FilmRequest> worker_;
 };
 
 }  // namespace transillum::viewer

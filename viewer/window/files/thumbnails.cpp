@@ -5,6 +5,7 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QImage>
+#include <QMainWindow>
 #include <QStandardPaths>
 #include <utility>
 

@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "map/map_strip.h"
+#include "map/map_sheet.h"
 
-#include <QObject>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
@@ -10,21 +9,28 @@
 
 #include "map/map_painter.h"
 #include "support/number_text.h"
-#include "widgets/theme.h"
 
 namespace transillum::viewer {
 
-void draw_on_plate(QPainter& painter, const QPointF& baseline, const QString& text) {
-  QColor plate = theme::scene_background;
-  plate.setAlphaF(0.7);
-  const QRectF box = painter.fontMetrics().boundingRect(text).adjusted(-3, -1, 3, 1);
-  painter.fillRect(box.translated(baseline), plate);
+QPointF axes_origin(const QSizeF& size) { return {size.width() - 20, size.height() - 11}; }
+
+void MapSheet::draw_text(const QPointF& baseline, const QString& text) const {
+  painter.fillRect(painter.fontMetrics()
+                       .boundingRect(text)
+                       .adjusted(-3, -1, 3, 1)
+                       .translated(baseline.toPoint()),
+                   plate);
   painter.drawText(baseline, text);
 }
 
-QPointF axes_origin(const QSizeF& size) { return {size.width() - 20, size.height() - 11}; }
+void MapSheet::draw_caption(const QString& text) const {
+  if (!text.isEmpty()) {
+    painter.setPen(ink);
+    draw_text(QPointF(12, 8 + painter.fontMetrics().ascent()), text);
+  }
+}
 
-void draw_scale_bar(QPainter& painter, const QSizeF& size, double scale) {
+void MapSheet::draw_scale_bar(double scale) const {
   // The largest length of 1, 2 or 5 times a power of ten within a quarter of the width.
   const double max_meters = size.width() / 4.0 / scale;
   const double power = std::pow(10.0, std::floor(std::log10(max_meters)));
@@ -32,17 +38,17 @@ void draw_scale_bar(QPainter& painter, const QSizeF& size, double scale) {
   const double meters = power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
   const double length = meters * scale;
   const QPointF left(14, size.height() - 14);
-  painter.setPen(QPen(theme::on_dark, 1.5));
+  painter.setPen(QPen(ink, 1.5));
   painter.drawLine(left, left + QPointF(length, 0));
   painter.drawLine(left - QPointF(0, 4), left + QPointF(0, 4));
   painter.drawLine(left + QPointF(length, -4), left + QPointF(length, 4));
-  draw_on_plate(painter, left + QPointF(length + 8, 4), number_text(meters) + QObject::tr(" m"));
+  draw_text(left + QPointF(length + 8, 4), number_text(meters) + tr(" m"));
 }
 
-void draw_axes(QPainter& painter, const QSizeF& size) {
+void MapSheet::draw_axes() const {
   const QPointF origin = axes_origin(size);
   constexpr double length = 20, radius = 4.5;
-  painter.setPen(QPen(theme::on_dark, 1.5));
+  painter.setPen(QPen(ink, 1.5));
   const auto arrow = [&](const QPointF& axis, const QString& name, const QPointF& name_offset) {
     const QPointF tip = origin + length * axis;
     const QPointF across(-axis.y(), axis.x());
@@ -62,20 +68,20 @@ void draw_axes(QPainter& painter, const QSizeF& size) {
   painter.drawText(origin + QPointF(7, 4), QStringLiteral("ω"));
 }
 
-void draw_legend(QPainter& painter, const QSizeF& size, const MapPictureRequest& shown) {
+void MapSheet::draw_legend(const MapPictureRequest& request, const QBrush& back_sides) const {
   if (size.width() < 330) {
     return;  // no room between scale bar and axes
   }
   std::vector<std::pair<QBrush, QString>> entries;
-  if (shown.extent == MapExtent::step) {
-    entries.emplace_back(back_side_brush(1), QObject::tr("back side"));
+  if (request.extent == MapExtent::step) {
+    entries.emplace_back(back_sides, tr("back side"));
   }
-  const MapEngineChoice& choice = shown.choice;
+  const MapEngineChoice& choice = request.choice;
   if (choice.shows(EngineTraits::Picture::corrected) && choice.differences) {
-    entries.emplace_back(theme::inside, QObject::tr("too much"));
-    entries.emplace_back(theme::outside, QObject::tr("too little"));
+    entries.emplace_back(theme::inside, tr("too much"));
+    entries.emplace_back(theme::outside, tr("too little"));
   } else if (choice.engine && choice.differences) {
-    entries.emplace_back(theme::difference, QObject::tr("differs"));
+    entries.emplace_back(theme::difference, tr("differs"));
   }
   constexpr double box_width = 16, gap = 8, axes = 64;
   const auto width_of = [&](const QString& text) {
@@ -95,7 +101,7 @@ void draw_legend(QPainter& painter, const QSizeF& size, const MapPictureRequest&
   // In a low map that leaves its sides free, the entries are one above the other at the left.
   constexpr int low = 140, row = 20, side = 130;
   const auto scale_in = [&](double room) {
-    return fit_map(*shown.map, QSizeF(room, size.height())).scale;
+    return fit_map(*request.map, QSizeF(room, size.height())).scale;
   };
   const bool stacked =
       size.height() < low && scale_in(size.width() - 2 * side) == scale_in(size.width());
@@ -103,11 +109,11 @@ void draw_legend(QPainter& painter, const QSizeF& size, const MapPictureRequest&
   double y = size.height() - 23 - (stacked ? row : 0);
   for (const auto& [brush, text] : entries) {
     const QRectF box(x, y, box_width, 12);
-    painter.setPen(QPen(theme::on_dark_dim, 1));
+    painter.setPen(QPen(dim, 1));
     painter.setBrush(brush);
     painter.drawRect(box);
-    painter.setPen(theme::on_dark);
-    draw_on_plate(painter, box.bottomRight() + QPointF(gap, -1), text);
+    painter.setPen(ink);
+    draw_text(box.bottomRight() + QPointF(gap, -1), text);
     x += stacked ? 0 : width_of(text);
     y -= stacked ? row : 0;
   }

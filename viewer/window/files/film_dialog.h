@@ -1,0 +1,29 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QDialog>
+
+#include "window/files/film_plan.h"
+
+class QComboBox;
+class QDoubleSpinBox;
+
+namespace transillum::viewer {
+
+/// Asks what a film shows.
+class FilmDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  /// @param plan  proposed; its size is that of the window
+  /// @param has_map  whether a direction can be stepped through
+  FilmDialog(const FilmPlan& plan, bool has_map, QWidget* parent = nullptr);
+
+  FilmPlan plan() const;
+
+ private:
+  QComboBox *show_, *over_, *size_;
+  QDoubleSpinBox* speed_;
+};
+
+}  // namespace transillum::viewer
