@@ -99,7 +99,8 @@ class LessonValuesTest : public QObject {
           }
         }
         const double area = (high.x - low.x) * (high.y - low.y);
-        QVERIFY(std::abs(overlap(solved.region, {low, {high.x, low.y}, high, {low.x, high.y}}) -
+        QVERIFY(std::abs(compare_areas(solved.region, {low, {high.x, low.y}, high, {low.x, high.y}})
+                             .overlap -
                          solved.value / area) < 0.02);
         break;
       }
@@ -147,12 +148,16 @@ class LessonValuesTest : public QObject {
     const std::vector<Vec2> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     const std::vector<std::vector<Vec2>> halves{{{0, 0}, {0.5, 0}, {0.5, 1}, {0, 1}},
                                                 {{0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}}};
-    QVERIFY(std::abs(overlap(halves, square) - 1) < 0.01);
-    QVERIFY(std::abs(overlap({halves[0]}, square) - 0.5) < 0.01);
+    QVERIFY(std::abs(compare_areas(halves, square).overlap - 1) < 0.01);
+    QVERIFY(std::abs(compare_areas({halves[0]}, square).overlap - 0.5) < 0.01);
     const std::vector<Vec2> moved{{0.5, 0}, {1.5, 0}, {1.5, 1}, {0.5, 1}};
-    QVERIFY(std::abs(overlap(halves, moved) - 1.0 / 3) < 0.01);
-    QCOMPARE(overlap(halves, {{2, 2}, {3, 2}, {3, 3}}), 0.0);
-    QCOMPARE(overlap(halves, {}), 0.0);
+    QVERIFY(std::abs(compare_areas(halves, moved).overlap - 1.0 / 3) < 0.01);
+    QCOMPARE(compare_areas(halves, {{2, 2}, {3, 2}, {3, 3}}).overlap, 0.0);
+    QCOMPARE(compare_areas(halves, {}).overlap, 0.0);
+    const AreaComparison more = compare_areas({halves[0]}, square),
+                         less = compare_areas(halves, moved);
+    QVERIFY(more.missed == 0 && std::abs(more.extra - 0.5) < 0.01);
+    QVERIFY(std::abs(less.missed - 0.5) < 0.01 && std::abs(less.extra - 0.5) < 0.01);
   }
 
   void mistakes_name_the_key_data() {

@@ -92,8 +92,14 @@ bool is_given(const Question& question, const GivenAnswer& answer);
 Solved solve_question(const Question& question, ComputedValues& computed);
 /// Whether a complete answer is right.
 bool is_right(const Question& question, const Solved& solved, const GivenAnswer& answer);
-/// The common part of a region and a polygon over their union, 0 to 1, sampled on a grid to about
-/// 1 %; the polygon may cross itself.
-double overlap(const std::vector<std::vector<Vec2>>& region, const std::vector<Vec2>& outline);
+/// How a region and a polygon over it differ, sampled on a grid to about 1 %; the polygon may cross
+/// itself.
+struct AreaComparison {
+  double overlap = 0;  ///< the common part over the union, 0 to 1
+  double missed = 0;   ///< area of the region outside the polygon, m²
+  double extra = 0;    ///< area of the polygon outside the region, m²
+};
+AreaComparison compare_areas(const std::vector<std::vector<Vec2>>& region,
+                             const std::vector<Vec2>& outline);
 
 }  // namespace transillum::viewer

@@ -134,10 +134,11 @@ bool is_right(const Question& question, const Solved& solved, const GivenAnswer&
     case Question::Kind::area:
       break;
   }
-  return overlap(solved.region, answer.outline) >= question.within;
+  return compare_areas(solved.region, answer.outline).overlap >= question.within;
 }
 
-double overlap(const std::vector<std::vector<Vec2>>& region, const std::vector<Vec2>& outline) {
+AreaComparison compare_areas(const std::vector<std::vector<Vec2>>& region,
+                             const std::vector<Vec2>& outline) {
   const auto polygon_of = [](const std::vector<Vec2>& corners) {
     QPolygonF polygon;
     for (const Vec2& p : corners) {
@@ -152,7 +153,7 @@ double overlap(const std::vector<std::vector<Vec2>>& region, const std::vector<V
     box |= parts.emplace_back(polygon_of(part)).boundingRect();
   }
   constexpr int samples = 256;  // per side
-  int both = 0, any = 0;
+  int both = 0, missed = 0, extra = 0;
   for (int row = 0; row < samples; ++row) {
     for (int column = 0; column < samples; ++column) {
       const QPointF p(box.left() + (column + 0.5) / samples * box.width(),
@@ -162,10 +163,13 @@ double overlap(const std::vector<std::vector<Vec2>>& region, const std::vector<V
         return part.containsPoint(p, Qt::OddEvenFill);
       });
       both += in_drawn && in_region ? 1 : 0;
-      any += in_drawn || in_region ? 1 : 0;
+      missed += in_region && !in_drawn ? 1 : 0;
+      extra += in_drawn && !in_region ? 1 : 0;
     }
   }
-  return any == 0 ? 0 : static_cast<double>(both) / any;
+  const int any = both + missed + extra;
+  const double cell = box.width() * box.height() / (samples * samples);
+  return {any == 0 ? 0 : static_cast<double>(both) / any, missed * cell, extra * cell};
 }
 
 }  // namespace transillum::viewer

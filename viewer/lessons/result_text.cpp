@@ -82,8 +82,11 @@ QString result_text(const Question& question, const Solved& solved, const GivenA
   if (!is_given(question, answer)) {
     return verdict + area;
   }
-  const int percent = static_cast<int>(std::lround(100 * overlap(solved.region, answer.outline)));
-  return verdict + area + ' ' + tr("Your area overlaps it by %1 %.").arg(percent);
+  const AreaComparison compared = compare_areas(solved.region, answer.outline);
+  return verdict + area + ' ' +
+         tr("Your area overlaps it by %1 %: %2 are missing (pink), %3 are too much (blue).")
+             .arg(std::lround(100 * compared.overlap))
+             .arg(value_text(question, compared.missed), value_text(question, compared.extra));
 }
 
 }  // namespace transillum::viewer

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "map/engine_drawing.h"
+#include "map/sketch_painter.h"
 #include "model/snapshot_values.h"
 #include "state/callout.h"
 #include "support/number_text.h"
@@ -267,7 +268,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   }
   draw_selection(painter, now);
   draw_region(painter, now);
-  draw_sketch(painter, now);
+  draw_sketch(painter, sketch_, now);
   draw_callouts(painter, now);
   draw_probe(painter, now);
   draw_marked_row(painter, now);
@@ -305,49 +306,9 @@ void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) con
   }
 }
 
-namespace {
-
-QPolygonF in_pixels(const std::vector<Vec2>& corners, const MapTransform& shown) {
-  QPolygonF polygon;
-  for (const Vec2& p : corners) {
-    polygon.append(shown.to_pixels(p));
-  }
-  return polygon;
-}
-
-// The parts share edges: without antialiasing there are no seams between them.
-void fill_parts(QPainter& painter, const std::vector<std::vector<Vec2>>& parts,
-                const MapTransform& shown, int alpha) {
-  QColor color = theme::region;
-  color.setAlpha(alpha);
-  painter.setRenderHint(QPainter::Antialiasing, false);
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(color);
-  for (const std::vector<Vec2>& part : parts) {
-    painter.drawPolygon(in_pixels(part, shown));
-  }
-  painter.setRenderHint(QPainter::Antialiasing);
-}
-
-}  // namespace
-
 void MapCanvas::draw_region(QPainter& painter, const MapTransform& shown) const {
   if (region_) {
     fill_parts(painter, region_->parts, shown, 230);
-  }
-}
-
-void MapCanvas::draw_sketch(QPainter& painter, const MapTransform& shown) const {
-  fill_parts(painter, sketch_.right, shown, 170);
-  const QPolygonF outline = in_pixels(sketch_.outline, shown);
-  painter.setBrush(Qt::NoBrush);
-  for (const QPen& pen :
-       {QPen(Qt::black, 4 * theme::scale()), QPen(theme::on_dark, 2 * theme::scale())}) {
-    painter.setPen(pen);
-    painter.drawPolygon(outline);
-    for (const QPointF& corner : outline) {
-      painter.drawEllipse(corner, 3 * theme::scale(), 3 * theme::scale());
-    }
   }
 }
 

@@ -115,7 +115,6 @@ class MapCanvas : public QWidget {
   void draw_failure(QPainter& painter, const QString& failure) const;
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
   void draw_region(QPainter& painter, const MapTransform& shown) const;
-  void draw_sketch(QPainter& painter, const MapTransform& shown) const;
   void draw_callouts(QPainter& painter, const MapTransform& shown) const;
   void mark_callout(QPainter& painter, const MapTransform& shown, const Callout& callout) const;
   std::optional<QPointF> place_of(const Callout& callout, const MapTransform& shown) const;
