@@ -135,34 +135,6 @@ class AppearanceTest : public QObject {
     QVERIFY(window.views().docks.current() == Layout::debug);
   }
 
-  void no_page_has_to_be_scrolled_on_a_projector() {
-    const auto window = make_active_window();
-    auto* lessons = window->findChild<LessonPanel*>();
-    const auto* text = window->findChild<QTextBrowser*>("lesson_text");
-    lessons->show_page(0, 0);
-    window->findChild<QAction*>("projector")->trigger();
-    window->setWindowState(Qt::WindowNoState);
-    window->resize(1280, 720);
-    const QSize least = window->minimumSizeHint();
-    QVERIFY2(wait_for([&] { return window->size() == QSize(1280, 720); }, 5000),
-             qPrintable(QString("%1 x %2").arg(least.width()).arg(least.height())));
-    QStringList cut_off;
-    for (std::size_t lesson = 0; lesson < lessons->lessons().size(); ++lesson) {
-      for (std::size_t page = 0; page < lessons->lessons()[lesson].pages.size(); ++page) {
-        lessons->show_page(static_cast<int>(lesson), static_cast<int>(page));
-        const auto fits = [&] { return text->verticalScrollBar()->maximum() == 0; };
-        if (!wait_for(fits, 500)) {
-          cut_off << QString("%1.%2 by %3 px")
-                         .arg(lesson + 1)
-                         .arg(page + 1)
-                         .arg(text->verticalScrollBar()->maximum());
-        }
-      }
-    }
-    window->findChild<QAction*>("projector")->trigger();
-    QVERIFY2(cut_off.isEmpty(), qPrintable(cut_off.join(", ")));
-  }
-
   void page_down_scrolls_before_it_turns_on_a_projector() {
     const auto window = make_active_window();
     Lesson lesson;

@@ -301,29 +301,6 @@ class WindowTest : public QObject {
     QVERIFY2(too_large.isEmpty(), qPrintable(too_large.join("; ")));
   }
 
-  void no_page_of_a_lesson_needs_more_than_a_small_screen() {
-    const QSize screen(1280 - 16, 720 - 48);
-    const auto window = make_window();
-    window->findChild<QAction*>("layout_teach")->trigger();
-    window->resize(screen);
-    QStringList too_large;
-    for (std::size_t lesson = 0; lesson < built_in_lessons().size(); ++lesson) {
-      for (std::size_t page = 0; page < built_in_lessons()[lesson].pages.size(); ++page) {
-        window->views().lessons.show_page(static_cast<int>(lesson), static_cast<int>(page));
-        QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
-        if (window->size() != screen) {
-          too_large << QString("%1, page %2: %3 x %4")
-                           .arg(lesson + 1)
-                           .arg(page + 1)
-                           .arg(window->width())
-                           .arg(window->height());
-          window->resize(screen);
-        }
-      }
-    }
-    QVERIFY2(too_large.isEmpty(), qPrintable(too_large.join("; ")));
-  }
-
   void color_controls_do_not_overlap_in_a_narrow_view_data() {
     QTest::addColumn<bool>("projects");
     QTest::newRow("usual type") << false;

@@ -302,10 +302,10 @@ void LessonPanel::set_text_scale(double scale) {
   text_->place_insets();
 }
 
-// Pages are not scrolled on a projector: the type is smaller where a page is long.
+// Pages are not scrolled on a projector: the type is as large as the page has room for.
 void LessonPanel::fit_text() {
-  constexpr double smallest = 0.95, step = 0.05;
-  double scale = text_scale;
+  constexpr double smallest = 0.95, largest = 1.6, step = 0.05;
+  double scale = theme::appearance().projector ? largest : text_scale;
   set_text_scale(scale);
   while (theme::appearance().projector && is_cut_off() && scale > smallest) {
     scale -= step;

@@ -13,7 +13,6 @@
 #include <QToolButton>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -35,6 +34,21 @@ QLabel* wrapped_label(const char* name) {
   label->setWordWrap(true);
   return label;
 }
+
+/// The text of a choice, which a radio button would not wrap; a click chooses it.
+class ChoiceText : public QLabel {
+ public:
+  ChoiceText(const QString& text, QRadioButton& button) : QLabel(text), button_(button) {
+    setTextFormat(Qt::PlainText);
+    setWordWrap(true);
+  }
+
+ protected:
+  void mouseReleaseEvent(QMouseEvent*) override { button_.click(); }
+
+ private:
+  QRadioButton& button_;
+};
 
 int total_of(const AnswerCounts& counts) {
   return std::accumulate(counts.begin(), counts.end(), 0,
@@ -184,11 +198,12 @@ void QuestionBox::fill_answers() {
 
 void QuestionBox::add_choice(int k) {
   auto* grid = static_cast<QGridLayout*>(answers_->layout());
-  auto* button = named(QStringLiteral("choice_%1").arg(k + 1),
-                       new QRadioButton(label_of(at(page_->question->choices, k))),
+  auto* button = named(QStringLiteral("choice_%1").arg(k + 1), new QRadioButton,
                        tr("Predict this (arrow keys move between the answers)"));
+  const QString label = label_of(at(page_->question->choices, k));
+  button->setAccessibleName(label);
   choices_->addButton(button, k);
-  ChoiceRow row{new QLabel, new QLabel, new QProgressBar};
+  ChoiceRow row{new QLabel, new ChoiceText(label, *button), new QLabel, new QProgressBar};
   row.mark->setFixedWidth(theme::scaled(16));
   row.bar->setTextVisible(false);
   row.bar->setFixedSize(theme::scaled(70), theme::scaled(10));
@@ -196,9 +211,10 @@ void QuestionBox::add_choice(int k) {
   row.value->setForegroundRole(QPalette::PlaceholderText);
   grid->addWidget(row.mark, k, 0);
   grid->addWidget(button, k, 1);
-  grid->addWidget(row.value, k, 2);
-  grid->addWidget(row.bar, k, 3);
-  grid->setColumnStretch(1, 1);
+  grid->addWidget(row.text, k, 2);
+  grid->addWidget(row.value, k, 3);
+  grid->addWidget(row.bar, k, 4);
+  grid->setColumnStretch(2, 1);
   rows_.push_back(row);
 }
 
@@ -512,6 +528,7 @@ void QuestionBox::show_choices(const AnswerCounts& counts) {
     row.bar->setToolTip(tr("%1 of %2 answers").arg(row.bar->value()).arg(total_of(counts)));
     row.bar->setVisible(solved_ && total_of(counts) > 0);
     enable_if(*choices_->button(k), !solved_, tr("The answer is shown"));
+    row.text->setEnabled(!solved_);
     const bool right =
         solved_ && std::binary_search(solved_->right.begin(), solved_->right.end(), k);
     row.mark->setText(right ? colored(QStringLiteral("✓"), theme::good) : QString());

@@ -52,6 +52,8 @@ class QuestionBox : public QFrame {
   /// When the run of the page is over, the answer is computed while the page is read. Turning the
   /// page cancels that.
   void show_run(RunState run);
+  /// To be called after a change of the tally.
+  void refresh() { show_state(); }
   /// To be called when another scene is opened: cancels the computation.
   void leave_scene();
 
@@ -125,9 +127,9 @@ class QuestionBox : public QFrame {
   QLabel *ask_, *result_, *counts_;
   QWidget* answers_ = nullptr;
   QButtonGroup* choices_ = nullptr;
-  /// The widgets beside a choice that are shown after Reveal.
+  /// The widgets beside the button of a choice; all but the text are shown after Reveal.
   struct ChoiceRow {
-    QLabel *mark, *value;
+    QLabel *mark, *text, *value;
     QProgressBar* bar;
   };
   std::vector<ChoiceRow> rows_;
@@ -141,7 +143,7 @@ class QuestionBox : public QFrame {
   QElapsedTimer time_;                         ///< since the computation began
   std::shared_ptr<std::atomic<double>> done_;  ///< its finished fraction
   std::shared_ptr<const Solved> computed_;     ///< before and after Reveal
-  QString failure_;                            ///< of the computation
+  QString failure_;                            ///< why the computation failed
   bool runs_ = false;                          ///< a run is loading or running
   bool waits_ = false;                         ///< Reveal waits for the computation
   QuestionSolver solver_;

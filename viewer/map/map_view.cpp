@@ -168,6 +168,7 @@ QWidget* MapView::make_controls() {
   auto* fit = new QToolButton;
   fit->setIcon(theme::icon(theme::Icon::frame));
   fit->setToolTip(tr("Show the whole map"));
+  extras_ = {engine_menu_, labels_, zoom_, fit};
   for (QToolButton* button : {labels_, zoom_, fit}) {
     row->addWidget(button);
   }
@@ -178,6 +179,21 @@ QWidget* MapView::make_controls() {
   connect(zoom_, &QToolButton::clicked, canvas_, &MapCanvas::fit_step);
   connect(fit, &QToolButton::clicked, canvas_, &MapCanvas::fit);
   return controls;
+}
+
+void MapView::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  constexpr int margins = 40;
+  int room = width() - margins - pair_->button()->sizeHint().width();
+  for (const QAbstractButton* phase : phases_->buttons()) {
+    room -= phase->sizeHint().width();
+  }
+  for (QWidget* extra : extras_) {
+    room -= extra->sizeHint().width();
+  }
+  for (QWidget* extra : extras_) {
+    extra->setVisible(room >= 0);
+  }
 }
 
 void MapView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <memory>
+#include <vector>
 
 #include "colors/color_choice.h"
 #include "model/snapshot.h"
@@ -41,6 +42,9 @@ class MapView : public QWidget {
   MapCanvas* canvas() const { return canvas_; }
   PhasePair* pair() const { return pair_; }
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   QWidget* make_controls();
   MapCanvas* make_canvas(Selection& selection, const char* name);
@@ -68,6 +72,7 @@ class MapView : public QWidget {
   QButtonGroup* phases_;
   QToolButton* labels_;
   QToolButton* zoom_;
+  std::vector<QWidget*> extras_;  ///< controls that a narrow view omits
   EngineMenu* engine_menu_;
   QTimer* recolor_timer_;
 };

@@ -78,16 +78,15 @@ QList<QWidget*> ProjectorMode::views() const {
     return views << large;
   }
   views << scene;
-  const auto panel =
-      std::find_if(page.state.panels.begin(), page.state.panels.end(),
-                   [](const std::string& name) { return name != "timeline" && name != "lesson"; });
-  if (page.large.empty() && panel != page.state.panels.end()) {
-    views << dock(*panel);
+  for (const std::string& panel : page.state.panels) {
+    if (page.large.empty() && panel != "timeline" && panel != "lesson") {
+      views << dock(panel);
+    }
   }
   return views;
 }
 
-bool ProjectorMode::shows_scene_and_panel() const { return projected_.size() > 3; }
+bool ProjectorMode::shows_scene_and_panels() const { return projected_.size() > 3; }
 
 void ProjectorMode::project(bool on) {
   projecting_ = on;
@@ -95,7 +94,7 @@ void ProjectorMode::project(bool on) {
   timeline_.setMaximumHeight(QWIDGETSIZE_MAX);
   full_screen_.show_all();
   projected_ = on ? views() : QList<QWidget*>();
-  frame_.window.findChild<ColorControls*>()->set_thin(shows_scene_and_panel());
+  frame_.window.findChild<ColorControls*>()->set_thin(shows_scene_and_panels());
   if (!on) {
     return;
   }
@@ -111,17 +110,24 @@ void ProjectorMode::arrange() {
   if (!projecting_) {
     return;
   }
-  // Beside the page there is one view, or the scene and a panel.
+  // Beside the page there is one view, or the scene and a column of panels.
   constexpr double page_fraction = 0.46, panel_fraction = 0.265;
   const int width = frame_.window.width();
-  const bool scene_and_panel = shows_scene_and_panel();
+  const bool scene_and_panels = shows_scene_and_panels();
   QList<QDockWidget*> docks{dock("lesson")};
   QList<int> widths{static_cast<int>(page_fraction * width)};
-  if (auto* beside = qobject_cast<QDockWidget*>(projected_.value(scene_and_panel ? 3 : 2))) {
+  if (auto* beside = qobject_cast<QDockWidget*>(projected_.value(scene_and_panels ? 3 : 2))) {
     docks << beside;
-    widths << static_cast<int>((scene_and_panel ? panel_fraction : 1 - page_fraction) * width);
+    widths << static_cast<int>((scene_and_panels ? panel_fraction : 1 - page_fraction) * width);
   }
   frame_.window.resizeDocks(docks, widths, Qt::Horizontal);
+  QList<QDockWidget*> column;
+  QList<int> heights;
+  for (QWidget* view : projected_.mid(3)) {
+    column << static_cast<QDockWidget*>(view);
+    heights << frame_.window.height();  // equal ones
+  }
+  frame_.window.resizeDocks(column, heights, Qt::Vertical);
   const int height = timeline_.minimumSizeHint().height();
   timeline_.setMaximumHeight(height);
   frame_.window.resizeDocks({dock("timeline")}, {height}, Qt::Vertical);

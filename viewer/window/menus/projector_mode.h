@@ -40,9 +40,9 @@ class ProjectorMode : public QObject {
   void arrange();
   QDockWidget* dock(const std::string& panel) const;
   /// The timeline, the page, and beside it the view that the page wants to be large, or the scene
-  /// and the first panel that the page needs.
+  /// and the panels that the page needs.
   QList<QWidget*> views() const;
-  bool shows_scene_and_panel() const;
+  bool shows_scene_and_panels() const;
 
   WindowFrame frame_;
   DockLayouts& docks_;
