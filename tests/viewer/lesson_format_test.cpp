@@ -110,6 +110,24 @@ class LessonFormatTest : public QObject {
     QCOMPARE(l.pages[0].text, std::string("a\n\nb\n"));
   }
 
+  void the_first_hour_is_five_lessons_in_order() {
+    const auto& lessons = built_in_lessons();
+    int places = 0;
+    for (int k = 0; k < std::ssize(lessons); ++k) {
+      const FirstHour hour = first_hour_of(lessons, k);
+      QCOMPARE(hour.lessons, 5);
+      QVERIFY2(std::abs(hour.minutes - 50) <= 2, qPrintable(QString::number(hour.minutes)));
+      QVERIFY(hour.place == 0 || hour.place == ++places);
+    }
+    QCOMPARE(places, 5);
+    QCOMPARE(first_hour_of(lessons, 0).place, 1);
+    QCOMPARE(first_hour_of({}, 0).lessons, 0);
+    const Lesson one = lesson_from_text(
+        R"({"title": "T", "needs": "paper", "first-hour": true, "pages": [{"text": ""}]})",
+        "a.json");
+    QVERIFY(one.first_hour && one.needs == "paper");
+  }
+
   void a_lesson_says_how_many_minutes_it_takes() {
     const std::string pages = R"("pages": [{"text": ""}]})";
     QCOMPARE(lesson_from_text(R"({"title": "T", "minutes": 12, )" + pages, "a.json").minutes, 12);

@@ -6,6 +6,7 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QMouseEvent>
+#include <QSettings>
 #include <QSlider>
 #include <QTemporaryDir>
 #include <QTextBrowser>
@@ -204,8 +205,8 @@ class LessonsTest : public QObject {
         wait_for([&] { return std::abs(taught.window->snapshot()->radiosity[0].r - 1) < 1e-9; }));
     taught.trigger("undo");
     QTRY_COMPARE(rho->value(), 63);
-    // In the furnace B = E / (1 - rho), and rho is the factor of the changes; both up to the error of
-    // 16 directions.
+    // In the furnace B = E / (1 - rho), and rho is the factor of the changes; both up to the error
+    // of 16 directions.
     QVERIFY(taught.window->colors.exposure_is_automatic());
     QTest::keyClick(rho, Qt::Key_End);
     QVERIFY(
@@ -442,6 +443,52 @@ class LessonsTest : public QObject {
       window.findChild<SceneView*>()->reset_view();
       QVERIFY(view->view_point() == shown);
     }
+  }
+
+  void the_first_page_shows_what_was_read_and_continues_there() {
+    const QTemporaryDir folder;
+    QSettings settings(folder.filePath("settings.ini"), QSettings::IniFormat);
+    Taught taught;
+    taught.panel->show_page(0, 2);
+    taught.panel->show_page(0, 1);
+    QVERIFY(taught.settles());
+    QCOMPARE(taught.panel->pages_seen(0), 3);
+    QCOMPARE(taught.panel->pages_seen(1), 0);
+    taught.trigger("start");
+    auto* card = taught.window->findChild<QAbstractButton*>("lesson_1");
+    // The bar is as long as three pages of five.
+    const QImage picture = card->grab().toImage();
+    const auto is_bar = [&picture](double place) {
+      return picture.pixelColor(static_cast<int>(place * picture.width()), picture.height() - 3) ==
+             theme::accent;
+    };
+    QVERIFY(is_bar(0.55) && !is_bar(0.65));
+    save_picture(*taught.window, "lessons-read");
+    card->click();
+    QVERIFY(taught.settles());
+    QCOMPARE(taught.panel->page(), 2);
+    taught.panel->save(settings);
+
+    // The next window continues there; a lesson that has been read begins again.
+    Taught later;
+    later.panel->load(settings);
+    QCOMPARE(later.panel->pages_seen(0), 3);
+    later.panel->continue_lesson(0);
+    QCOMPARE(later.panel->page(), 2);
+    later.panel->show_page(0, static_cast<int>(later.panel->lessons()[0].pages.size()) - 1);
+    later.panel->continue_lesson(0);
+    QCOMPARE(later.panel->page(), 0);
+  }
+
+  void a_lesson_tells_on_its_first_page_what_it_needs() {
+    const Opened taught(R"({"title": "T", "minutes": 7, "needs": "paper", "pages": [
+        {"text": "One.", "show": {"scene": "furnace", "options": {"directions": 4}}},
+        {"text": "Two."}]})");
+    QVERIFY(taught.ready);
+    const auto* text = taught.window->findChild<QTextBrowser*>("lesson_text");
+    QVERIFY2(text->toPlainText().contains("needs paper"), qPrintable(text->toPlainText()));
+    taught.trigger("lesson_next");
+    QCOMPARE(text->toPlainText(), QString("Two."));
   }
 
   void turning_pages_quickly_ends_with_the_last() {

@@ -37,7 +37,10 @@ struct Class {
   LessonPanel* panel = window->findChild<LessonPanel*>();
   QuestionBox* box = window->findChild<QuestionBox*>();
 
-  Class() { panel->set_tally_folder(data.path() + "/tallies"); }
+  Class() {
+    panel->set_tally_folder(data.path() + "/tallies");
+    action("tally_keep")->setChecked(true);
+  }
   bool settles() {
     return wait_for([this] { return window->settled(); }) &&
            wait_for([this] { return window->settled(); });
@@ -65,7 +68,8 @@ struct Class {
       if (!QFile::exists(name)) {
         continue;
       }
-      const Tally tally(name);
+      Tally tally;
+      tally.keep(name);
       for (const auto& [answer, count] : tally.of(0, *panel->lessons()[0].pages[0].question)) {
         all[QString::fromStdString(answer)] = count;
       }
@@ -268,6 +272,23 @@ class QuestionsTest : public QObject {
     const Solved& result = *room.box->solved();
     QVERIFY(result.region.size() == 1 && result.value > 0);
     save_picture(*room.window, "question-area");
+    const auto hatched = [canvas](const QColor& color) {
+      return fraction_of(canvas->grab().toImage(), color) > 1e-3;
+    };
+    QVERIFY(!hatched(theme::difference));
+    // Moved by 0.3 of an edge, it lacks a strip and has one too much.
+    room.action("question_reveal")->trigger();
+    const Vec2 edge{corners[1].x - corners[0].x, corners[1].y - corners[0].y};
+    for (const Vec2& p : corners) {
+      click({p.x + 0.3 * edge.x, p.y + 0.3 * edge.y});
+    }
+    QTRY_COMPARE(room.box->answer().outline.size(), corners.size());
+    QVERIFY(!hatched(theme::selection) && !hatched(theme::difference));
+    room.reveal();
+    QVERIFY(room.text("question_result").contains("Not this time"));
+    QVERIFY(room.text("question_result").contains("are missing"));
+    QVERIFY(hatched(theme::selection) && hatched(theme::difference));
+    save_picture(*room.window, "question-area-wrong");
   }
 
   // This one takes thousands of passes.
@@ -299,7 +320,7 @@ class QuestionsTest : public QObject {
     room.action("question_reveal")->trigger();
     QVERIFY(!bar->isVisible() && reveal->text() == "Reveal the answer");
     room.action("question_reveal")->trigger();
-    QVERIFY(bar->isVisible() && bar->value() > 0.1 * bar->maximum());  // it was not begun again
+    QVERIFY(bar->isVisible() && bar->value() > 0.1 * bar->maximum());  // the computation continued
     room.open_built_in(6, 4);
     QVERIFY(!bar->isVisible() && room.box->solved() == nullptr);
     room.open_built_in(6, 5);
@@ -325,6 +346,29 @@ class QuestionsTest : public QObject {
     room.action("question_reveal")->trigger();
     QVERIFY(room.window->banner_text().contains("not open"));
     QVERIFY(room.box->solved() == nullptr);
+  }
+
+  void a_tally_is_kept_only_if_asked_for() {
+    Class room;
+    room.action("tally_keep")->setChecked(false);
+    room.open(page_with(boards_question));
+    const auto answer = [&room] {
+      room.window->findChild<QRadioButton*>("choice_1")->click();
+      room.action("question_count")->trigger();
+    };
+    answer();
+    QVERIFY(room.counts().isEmpty() && room.text("question_counts").contains("1 answer"));
+    room.action("tally_keep")->setChecked(true);
+    answer();
+    QCOMPARE(room.counted("few"), 2);
+    // The next class begins with none, and adds its answers to those of the file if asked to.
+    Class next;
+    next.action("tally_keep")->setChecked(false);
+    next.window->files().try_open(room.folder.filePath("mine.json"));
+    QVERIFY(next.settles());
+    QVERIFY(!next.window->findChild<QLabel*>("question_counts")->isVisible());
+    next.action("tally_keep")->setChecked(true);
+    QVERIFY(next.text("question_counts").contains("2 answers"));
   }
 
   void a_damaged_tally_is_reported_and_kept() {

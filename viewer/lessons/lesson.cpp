@@ -10,6 +10,7 @@
 
 #include "base/json_text.h"
 #include "support/json_object.h"
+#include "transillum/at.h"
 
 // Resources of a static library have to be registered explicitly; outside any namespace, as the
 // macro requires.
@@ -149,6 +150,8 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
     object.fail_at("title", "is missing");
   }
   object.read("minutes", lesson.minutes, 1, 600);
+  object.read("needs", lesson.needs);
+  object.read("first-hour", lesson.first_hour);
   const json* pages = object.find("pages");
   if (!pages || !pages->is_array() || pages->empty()) {
     object.fail_at("pages", "must be a list [ … ] of at least one page");
@@ -234,6 +237,18 @@ void check_panels(const Lesson& lesson, const std::string& name,
                        panel + "\"; known panels: " + known);
     }
   }
+}
+
+FirstHour first_hour_of(const std::vector<Lesson>& lessons, int lesson) {
+  FirstHour hour;
+  for (int k = 0; k < std::ssize(lessons); ++k) {
+    if (at(lessons, k).first_hour) {
+      ++hour.lessons;
+      hour.minutes += at(lessons, k).minutes;
+      hour.place = k == lesson ? hour.lessons : hour.place;
+    }
+  }
+  return hour;
 }
 
 const std::vector<Lesson>& built_in_lessons() {

@@ -29,7 +29,9 @@ struct Lesson {
   std::string file;  ///< the file that it was read from; a built-in lesson has a name without a
                      ///< folder
   bool built_in = false;
-  int minutes = 0;  ///< that a class takes; 0 if the file does not say
+  int minutes = 0;          ///< that a class takes; 0 if the file does not say
+  std::string needs;        ///< text: what to know or have before; may be empty
+  bool first_hour = false;  ///< belongs to the first hour of a newcomer
   std::vector<Page> pages;  ///< at least one
 };
 
@@ -44,6 +46,13 @@ Lesson read_lesson(const std::string& path);
 /// Checks that every panel named by a page is one of `panels`. @throws InputError if not
 void check_panels(const Lesson& lesson, const std::string& name,
                   const std::vector<std::string>& panels);
+/// The place of a lesson in the first hour, whose lessons are taken in their order.
+struct FirstHour {
+  int place = 0;    ///< from 1; 0 if the lesson is none of them
+  int lessons = 0;  ///< their number
+  int minutes = 0;  ///< that they take together
+};
+FirstHour first_hour_of(const std::vector<Lesson>& lessons, int lesson);
 /// The lessons compiled into the viewer, in their order.
 const std::vector<Lesson>& built_in_lessons();
 

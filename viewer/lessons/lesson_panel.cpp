@@ -12,8 +12,10 @@
 #include <QLabel>
 #include <QMenu>
 #include <QScrollBar>
+#include <QSettings>
 #include <QTimer>
 #include <QUrl>
+#include <algorithm>
 #include <utility>
 
 #include "lessons/control_widget.h"
@@ -34,7 +36,8 @@ namespace {
 
 constexpr double text_scale = 1.25,
                  title_scale = 1.6;  // relative to the window's font, for projectors
-const QString lesson_scheme = QStringLiteral("lesson");
+const QString lesson_scheme = QStringLiteral("lesson"),
+              pages_seen_key = QStringLiteral("lessons/pages-seen/");
 
 QToolButton* wide_button_for(QAction* action, Qt::ToolButtonStyle style) {
   auto* button = button_for(action);
@@ -117,6 +120,11 @@ void LessonPanel::make_actions() {
                        tr("Restore the window to the state of this page"), QKeySequence("Ctrl+L"));
   open_ =
       make_action(this, "lesson_open", tr("Open a lesson…"), tr("Open a lesson from a JSON file"));
+  keep_ = make_action(this, "tally_keep", tr("Keep the tally"),
+                      tr("Keep the answers of the class in a file, and add those that it has; "
+                         "otherwise they are forgotten with the window"));
+  keep_->setCheckable(true);
+  connect(keep_, &QAction::toggled, this, &LessonPanel::keep_tallies);
   previous_->setIcon(theme::icon(theme::Icon::step_back));
   next_->setIcon(theme::icon(theme::Icon::step_on));
   connect(previous_, &QAction::triggered, this, [this] { turn(-1); });
@@ -142,7 +150,9 @@ void LessonPanel::add_to(QMenu& menu) {
   connect(lessons, &QMenu::aboutToShow, this, [this, lessons] {
     lessons->clear();
     for (int k = 0; k < static_cast<int>(lessons_.size()); ++k) {
-      lessons->addAction(list_->itemText(k), this, [this, k] { show_page(k, 0); });
+      const QString place = place_text(k);
+      lessons->addAction(list_->itemText(k) + (place.isEmpty() ? QString() : '\t' + place), this,
+                         [this, k] { show_page(k, 0); });
     }
   });
   menu.addMenu(lessons);
@@ -153,6 +163,7 @@ void LessonPanel::add_to(QMenu& menu) {
   for (QAction* action : question_->actions()) {
     menu.addAction(action);
   }
+  menu.addAction(keep_);
 }
 
 void LessonPanel::add(Lesson lesson) {
@@ -175,6 +186,8 @@ void LessonPanel::show_page(int lesson, int page) {
   }
   lesson_ = lesson;
   page_ = page;
+  int& seen = pages_seen_[at(lessons_, lesson).file];
+  seen = std::max(seen, page + 1);
   show_question();
   show_state();
   emit page_shown(at(at(lessons_, lesson).pages, page).state);
@@ -185,6 +198,34 @@ void LessonPanel::show_page(int lesson, int page) {
   // Last: the new page dismisses older messages.
   if (!tally_failure_.isEmpty()) {
     emit failed(std::exchange(tally_failure_, QString()));
+  }
+}
+
+void LessonPanel::continue_lesson(int lesson) {
+  const int seen = pages_seen(lesson);
+  show_page(lesson, seen < pages_of(lesson) ? std::max(0, seen - 1) : 0);
+}
+
+int LessonPanel::pages_seen(int lesson) const {
+  const auto found = pages_seen_.find(at(lessons_, lesson).file);
+  return found == pages_seen_.end() ? 0 : std::min(found->second, pages_of(lesson));
+}
+
+void LessonPanel::save(QSettings& settings) const {
+  for (int k = 0; k < std::ssize(lessons_); ++k) {
+    if (at(lessons_, k).built_in) {
+      settings.setValue(pages_seen_key + QString::fromStdString(at(lessons_, k).file),
+                        pages_seen(k));
+    }
+  }
+}
+
+void LessonPanel::load(const QSettings& settings) {
+  for (const Lesson& lesson : lessons_) {
+    const QString key = pages_seen_key + QString::fromStdString(lesson.file);
+    if (lesson.built_in && settings.contains(key)) {
+      pages_seen_[lesson.file] = std::max(0, settings.value(key).toInt());
+    }
   }
 }
 
@@ -220,14 +261,30 @@ void LessonPanel::show_question() {
 std::shared_ptr<Tally> LessonPanel::tally_of(const Lesson& lesson) {
   std::shared_ptr<Tally>& tally = tallies_[lesson.file];
   if (!tally) {
-    try {
-      tally = std::make_shared<Tally>(tally_file(lesson, tally_folder_));
-    } catch (const std::exception& error) {
-      tally = std::make_shared<Tally>();
-      tally_failure_ = tr("%1. Answers are counted, but not kept").arg(failure_text(error));
-    }
+    tally = std::make_shared<Tally>();
+    keep(*tally, lesson);
   }
   return tally;
+}
+
+void LessonPanel::keep(Tally& tally, const Lesson& lesson) {
+  try {
+    tally.keep(keep_->isChecked() ? tally_file(lesson, tally_folder_) : QString());
+  } catch (const std::exception& error) {
+    tally_failure_ = tr("%1. Answers are counted, but not kept").arg(failure_text(error));
+  }
+}
+
+void LessonPanel::keep_tallies() {
+  for (const Lesson& lesson : lessons_) {
+    if (const auto found = tallies_.find(lesson.file); found != tallies_.end()) {
+      keep(*found->second, lesson);
+    }
+  }
+  question_->refresh();
+  if (!tally_failure_.isEmpty()) {
+    emit failed(std::exchange(tally_failure_, QString()));
+  }
 }
 
 void LessonPanel::turn(int pages) {
@@ -284,7 +341,10 @@ void LessonPanel::show_text(const Lesson::Page& page) {
     insets.push_back({'{' + QString::fromStdString(control.name) + '}', widget});
   }
   const std::string then = question_->solved() ? "\n\n" + page.question->then : "";
-  text_->show_page(QString::fromStdString(page.text + then), insets);
+  const QString needs = page_ == 0 ? needs_text(lesson_) : QString();
+  text_->show_page(
+      (needs.isEmpty() ? needs : '*' + needs + "*\n\n") + QString::fromStdString(page.text + then),
+      insets);
 }
 
 void LessonPanel::show_snapshot(const SolverSnapshot& snapshot) {
@@ -333,12 +393,30 @@ QString LessonPanel::list_of_lessons() const {
          "(Ctrl+L) restores the page's state.\n\n");
   for (int k = 0; k < static_cast<int>(lessons_.size()); ++k) {
     const Lesson& lesson = at(lessons_, k);
-    const QString minutes = lesson.minutes > 0 ? tr(", %1 min").arg(lesson.minutes) : QString();
-    text +=
-        QStringLiteral("[%1](%2:%3)%4\n\n")
-            .arg(QString::fromStdString(lesson.title), lesson_scheme, QString::number(k), minutes);
+    QStringList notes = {needs_text(k), place_text(k)};
+    notes.removeAll(QString());
+    text += QStringLiteral("[%1](%2:%3)  \n%4\n\n")
+                .arg(QString::fromStdString(lesson.title), lesson_scheme, QString::number(k),
+                     notes.join(QStringLiteral(" · ")));
   }
   return text;
+}
+
+QString LessonPanel::place_text(int lesson) const {
+  const FirstHour hour = first_hour_of(lessons_, lesson);
+  return hour.place > 0 ? tr("First hour, %1 of %2").arg(hour.place).arg(hour.lessons) : QString();
+}
+
+QString LessonPanel::needs_text(int lesson) const {
+  const Lesson& shown = at(lessons_, lesson);
+  QStringList parts;
+  if (shown.minutes > 0) {
+    parts << tr("%1 min").arg(shown.minutes);
+  }
+  if (!shown.needs.empty()) {
+    parts << tr("needs %1").arg(QString::fromStdString(shown.needs));
+  }
+  return parts.join(QStringLiteral(" · "));
 }
 
 void LessonPanel::show_state() {

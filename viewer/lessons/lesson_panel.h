@@ -18,6 +18,7 @@ class QComboBox;
 class QLabel;
 class QLayout;
 class QMenu;
+class QSettings;
 class QUndoStack;
 
 namespace transillum::viewer {
@@ -49,6 +50,12 @@ class LessonPanel : public QWidget {
   int page() const { return page_; }
   /// Nothing happens where the guard refuses.
   void show_page(int lesson, int page);
+  /// Continues a lesson at the last page that was shown; begins it where all were.
+  void continue_lesson(int lesson);
+  /// How many pages of a lesson, from the first, have been turned to, also in earlier sessions.
+  int pages_seen(int lesson) const;
+  void save(QSettings& settings) const;
+  void load(const QSettings& settings);
   /// The guard is asked before each page whether the window's state may be replaced.
   void set_guard(std::function<bool()> guard) { guard_ = std::move(guard); }
   QuestionBox& question() { return *question_; }
@@ -96,6 +103,11 @@ class LessonPanel : public QWidget {
   int pages_of(int lesson) const;
   void show_state();
   QString list_of_lessons() const;
+  /// "First hour, 1 of 5"; empty for other lessons.
+  QString place_text(int lesson) const;
+  /// Minutes and what the lesson needs; empty if its file does not say.
+  QString needs_text(int lesson) const;
+  void keep_tallies();
   void show_question();
   void point_at(const QString& link);
   void show_text(const Lesson::Page& page);
@@ -107,12 +119,15 @@ class LessonPanel : public QWidget {
   /// Scrolls the page on a projector. @returns false at its end
   bool scroll_on();
   std::shared_ptr<Tally> tally_of(const Lesson& lesson);
+  /// Keeps a tally in its file, or in memory only, as keep_ says.
+  void keep(Tally& tally, const Lesson& lesson);
 
   std::vector<Lesson> lessons_;
   QString tally_folder_;
   QString tally_failure_;                                  ///< to be reported
   std::map<std::string, std::shared_ptr<Tally>> tallies_;  ///< by the lesson's file
   int lesson_ = -1, page_ = 0;
+  std::map<std::string, int> pages_seen_;  ///< by the lesson's file
   std::function<bool()> guard_ = [] { return true; };
   QComboBox* list_;
   QLabel *title_, *page_number_;
@@ -123,7 +138,7 @@ class LessonPanel : public QWidget {
   std::vector<ControlWidget*> controls_;  ///< in the text shown
   RunOptions options_;                    ///< options of the newest snapshot
   QuestionBox* question_;
-  QAction *previous_, *next_, *again_, *open_;
+  QAction *previous_, *next_, *again_, *open_, *keep_;
 };
 
 }  // namespace transillum::viewer

@@ -37,10 +37,18 @@ AnswerCounts counts_from(JsonObject& object) {
 
 }  // namespace
 
-Tally::Tally(const QString& file) : file_(file) {
-  if (!QFileInfo::exists(file)) {
+void Tally::keep(const QString& file) {
+  if (file == file_) {
     return;
   }
+  file_.clear();
+  if (QFileInfo::exists(file)) {
+    read(file);
+  }
+  file_ = file;
+}
+
+void Tally::read(const QString& file) {
   const std::string name = file.toStdString();
   const json whole = parse_json(read_json_file(name), name);
   JsonObject object(whole, name);
@@ -49,15 +57,19 @@ Tally::Tally(const QString& file) : file_(file) {
     object.fail_at("tally", "must be a list [ … ]");
   }
   object.done();
+  auto sums = counts_;  // the answers so far stay as they are where the file is damaged
   for (const json& value : *list) {
     JsonObject entry(value, object.where("tally"));
     int page = 0;
     std::string ask;
     entry.read("page", page, 1, most_pages);
     entry.read("ask", ask);
-    counts_[{page - 1, ask}] = counts_from(entry);
+    for (const auto& [answer, count] : counts_from(entry)) {
+      sums[{page - 1, ask}][answer] += count;
+    }
     entry.done();
   }
+  counts_ = std::move(sums);
 }
 
 AnswerCounts Tally::of(int page, const Question& question) const {

@@ -16,11 +16,10 @@ using AnswerCounts = std::map<std::string, int>;
 /// The answers of a class to the questions of one lesson, kept in a file.
 class Tally {
  public:
-  /// Keeps the answers in memory only.
-  Tally() = default;
-  /// Keeps the answers in a file, which is made by the first answer.
-  /// @throws InputError where it cannot be read; then use the default constructor
-  explicit Tally(const QString& file);
+  /// Keeps the answers in a file from now on, which is made by the next answer, and adds those that
+  /// the file has; in memory only if `file` is empty, as at first.
+  /// @throws InputError where it cannot be read; then the answers are kept in memory
+  void keep(const QString& file);
 
   /// The answers to a question. Empty if it has not been answered, or if the page had another
   /// question when it was answered.
@@ -33,6 +32,7 @@ class Tally {
   const QString& file() const { return file_; }
 
  private:
+  void read(const QString& file);
   void write() const;
 
   QString file_;

@@ -109,6 +109,11 @@ class StartCard : public QAbstractButton {
     }
     setFixedSize(std::max(width, 1), height);
   }
+  /// @param read  how much of it has been read, 0 to 1: a bar at the bottom
+  void set_progress(bool first_hour, double read) {
+    first_hour_ = first_hour;
+    read_ = read;
+  }
 
   // The button does not know its content.
   QSize sizeHint() const override { return size(); }
@@ -123,6 +128,8 @@ class StartCard : public QAbstractButton {
     painter.fillPath(outline, isDown() ? theme::hover : theme::paper);
     painter.setClipPath(outline);
     draw_content(painter);
+    const int bar = theme::scaled(3);
+    painter.fillRect(QRectF(0, height() - bar, read_ * width(), bar), theme::accent);
     painter.setClipping(false);
     painter.setPen(QPen(marked ? theme::accent : theme::rule, marked ? 2 : 1));
     painter.drawPath(outline);
@@ -160,7 +167,7 @@ class StartCard : public QAbstractButton {
                       used);
     painter.drawText(title, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, name);
     painter.setFont(scaled_font(font(), look_ == Look::choice ? 1 : small_type, false));
-    painter.setPen(theme::ink_dim);
+    painter.setPen(first_hour_ ? theme::accent : theme::ink_dim);
     const QRect note(room.left(), title.bottom() + 1, room.width(), note_line);
     painter.drawText(note, Qt::AlignLeft | Qt::AlignVCenter,
                      painter.fontMetrics().elidedText(note_, Qt::ElideRight, note.width()));
@@ -169,7 +176,8 @@ class StartCard : public QAbstractButton {
   Look look_;
   QString note_;
   QPixmap picture_;
-  double ratio_ = picture_ratio;
+  double ratio_ = picture_ratio, read_ = 0;
+  bool first_hour_ = false;
 };
 
 StartPage::StartPage(QWidget* parent) : QScrollArea(parent) {
@@ -195,7 +203,11 @@ StartPage::StartPage(QWidget* parent) : QScrollArea(parent) {
   add_heading(*left, tr("Scenes"));
   left->addLayout(scenes_.layout);
   left->addSpacing(4);
-  add_heading(*left, tr("Lessons"));
+  auto* heading = make_row({}, 8);
+  add_heading(*heading, tr("Lessons"));
+  lessons_hint_ = note_label({});
+  heading->addWidget(lessons_hint_, 1, Qt::AlignBottom);
+  left->addLayout(heading);
   left->addLayout(lessons_.layout);
   left->addStretch(1);
   files_ = make_files();
@@ -264,15 +276,25 @@ void StartPage::set_choices(const QList<QAction*>& choices) {
   arrange();
 }
 
-void StartPage::set_lessons(const QVector<LessonEntry>& lessons) {
+void StartPage::set_lessons(const QVector<LessonEntry>& lessons, const QString& hint) {
   clear(lessons_);
+  lessons_hint_->setText(hint);
+  const auto in_hour = std::count_if(lessons.begin(), lessons.end(),
+                                     [](const LessonEntry& lesson) { return lesson.place > 0; });
   for (const LessonEntry& lesson : lessons) {
     const int number = lessons_.cards.size();
-    const QString minutes = lesson.minutes > 0 ? tr("%1 min").arg(lesson.minutes) : tr("lesson");
+    QString note = lesson.minutes > 0 ? tr("%1 min").arg(lesson.minutes) : tr("lesson");
+    if (lesson.place > 0) {
+      note = tr("%1 of %2 · %3").arg(lesson.place).arg(in_hour).arg(note);
+    }
+    if (lesson.read == 1) {
+      note = tr("✓ %1").arg(note);
+    }
     auto* card =
         named(QStringLiteral("lesson_%1").arg(number + 1),
-              new StartCard(StartCard::Look::picture_left, lesson.title, minutes, lesson.picture),
+              new StartCard(StartCard::Look::picture_left, lesson.title, note, lesson.picture),
               lesson.title);
+    card->set_progress(lesson.place > 0, lesson.read);
     connect(card, &StartCard::clicked, this, [this, number] { emit lesson_clicked(number); });
     lessons_.cards << card;
   }

@@ -25,6 +25,8 @@ class StartPage : public QScrollArea {
     QString title;
     int minutes = 0;  ///< 0 if it is not known
     QPixmap picture;
+    int place = 0;    ///< in the first hour, from 1; 0 if it is no part of that
+    double read = 0;  ///< fraction of its pages, 0 to 1
   };
   struct RecentFile {
     QString path;
@@ -35,7 +37,8 @@ class StartPage : public QScrollArea {
 
   /// Shows a card for each action, with its text and tool tip; a click triggers the action.
   void set_choices(const QList<QAction*>& choices);
-  void set_lessons(const QVector<LessonEntry>& lessons);
+  /// @param hint  beside the heading of the lessons
+  void set_lessons(const QVector<LessonEntry>& lessons, const QString& hint);
   void set_recent(const QVector<RecentFile>& files);
   /// Names the scene that is being loaded; empty if none is.
   void set_loading(const QString& name);
@@ -67,6 +70,7 @@ class StartPage : public QScrollArea {
 
   QVector<QLabel*> headings_;
   QLabel* loading_;
+  QLabel* lessons_hint_;
   QWidget* files_;
   QGridLayout* page_;  ///< scenes and lessons beside the files
   Grid choices_{}, scenes_{}, lessons_{}, recent_{};

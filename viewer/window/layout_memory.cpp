@@ -7,6 +7,7 @@
 #include <QSettings>
 #include <QTimer>
 
+#include "lessons/lesson_panel.h"
 #include "scene/scene_page.h"
 #include "scene/sharp_view.h"
 #include "support/checked_bytes.h"
@@ -25,12 +26,13 @@ constexpr QSize room_for_frame(16, 48);
 }  // namespace
 
 LayoutMemory::LayoutMemory(const WindowFrame& frame, DockLayouts& docks,
-                           AppearanceActions& appearance, FileActions& files)
+                           AppearanceActions& appearance, FileActions& files, LessonPanel& lessons)
     : QObject(&frame.window),
       frame_(frame),
       docks_(docks),
       appearance_(appearance),
-      files_(files) {}
+      files_(files),
+      lessons_(lessons) {}
 
 void LayoutMemory::fit_into_screen(const QSize& wanted) {
   frame_.window.resize(wanted.boundedTo(frame_.window.screen()->availableSize() - room_for_frame));
@@ -58,6 +60,7 @@ void LayoutMemory::restore() {
   frame_.page.turntable_action()->setChecked(settings.value("scene/turntable", false).toBool());
   frame_.page.sharp()->action()->setChecked(settings.value("scene/sharp", true).toBool());
   files_.load(settings);
+  lessons_.load(settings);
   const auto geometry = without_checksum(settings.value("window/geometry").toByteArray());
   if (geometry) {
     frame_.window.restoreGeometry(*geometry);
@@ -86,6 +89,7 @@ void LayoutMemory::save() {
   settings.setValue("scene/turntable", frame_.page.turntable_action()->isChecked());
   settings.setValue("scene/sharp", frame_.page.sharp()->action()->isChecked());
   files_.save(settings);
+  lessons_.save(settings);
 }
 
 }  // namespace transillum::viewer

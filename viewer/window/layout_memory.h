@@ -11,6 +11,7 @@ namespace transillum::viewer {
 
 class AppearanceActions;
 class FileActions;
+class LessonPanel;
 
 /// Layout, appearance and choices of the window, in the settings of the program: the values of the
 /// last run are restored, and the values of this run are saved for the next.
@@ -18,7 +19,7 @@ class LayoutMemory : public QObject {
  public:
   /// The references must outlive this object.
   LayoutMemory(const WindowFrame& frame, DockLayouts& docks, AppearanceActions& appearance,
-               FileActions& files);
+               FileActions& files, LessonPanel& lessons);
 
   void restore();
   void save();
@@ -32,6 +33,7 @@ class LayoutMemory : public QObject {
   DockLayouts& docks_;
   AppearanceActions& appearance_;
   FileActions& files_;
+  LessonPanel& lessons_;
 };
 
 }  // namespace transillum::viewer

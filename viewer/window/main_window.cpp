@@ -194,7 +194,7 @@ void MainWindow::make_whole_window_actions() {
   vertical_ = new VerticalControl(frame, *settings_);
   session_ = new WindowSession(frame, docks_, *notes_, *applier_);
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
-  memory_ = new LayoutMemory(frame, docks_, appearance_, *files_);
+  memory_ = new LayoutMemory(frame, docks_, appearance_, *files_, *lesson_panel_);
   exports_ = new ExportActions(frame, *map_view_, *convergence_view_);
   recorder_ = new FrameRecorder(frame, *timeline_->play());
   timeline_->play()->menu()->addSeparator();

@@ -7,6 +7,7 @@
 #include "lessons/lesson_panel.h"
 #include "scene/scene_page.h"
 #include "scene/start_page.h"
+#include "transillum/at.h"
 #include "widgets/full_screen.h"
 #include "window/base/dock_layouts.h"
 #include "window/files/file_actions.h"
@@ -35,7 +36,7 @@ StartControl::StartControl(const WindowFrame& frame, DockLayouts& docks, FileAct
   connect(&docks_, &DockLayouts::chosen, this, &StartControl::begin);
   connect(&start, &StartPage::open_clicked, files_.open_action(), &QAction::trigger);
   connect(&start, &StartPage::lesson_clicked, this,
-          [this](int lesson) { lessons_.show_page(lesson, 0); });
+          [this](int lesson) { lessons_.continue_lesson(lesson); });
   connect(&start, &StartPage::built_in_clicked, this, [this](const QString& name) {
     leaves_teaching_ = true;
     files_.open_scene(name);
@@ -53,15 +54,22 @@ StartControl::StartControl(const WindowFrame& frame, DockLayouts& docks, FileAct
 
 void StartControl::fill_lessons() {
   QVector<StartPage::LessonEntry> entries;
-  for (const Lesson& lesson : lessons_.lessons()) {
+  const auto& lessons = lessons_.lessons();
+  for (int k = 0; k < std::ssize(lessons); ++k) {
+    const Lesson& lesson = at(lessons, k);
     const QString number = QString::fromStdString(lesson.file).section('-', 0, 0);
     QPixmap picture;
     if (lesson.built_in) {
       picture.load(QStringLiteral(":/pictures/card-%1.png").arg(number));
     }
-    entries.push_back({QString::fromStdString(lesson.title), lesson.minutes, picture});
+    const int pages = static_cast<int>(lesson.pages.size());
+    entries.push_back({QString::fromStdString(lesson.title), lesson.minutes, picture,
+                       first_hour_of(lessons, k).place, 1.0 * lessons_.pages_seen(k) / pages});
   }
-  frame_.page.start()->set_lessons(entries);
+  const FirstHour hour = first_hour_of(lessons, 0);
+  frame_.page.start()->set_lessons(
+      entries,
+      tr("The first hour: 1 of %1 to %1 of %1, %2 minutes").arg(hour.lessons).arg(hour.minutes));
 }
 
 void StartControl::fill_recent() {
