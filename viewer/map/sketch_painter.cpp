@@ -37,9 +37,11 @@ void hatch_differences(QPainter& painter, const MapSketch& sketch, const MapTran
   if (sketch.right.empty() || sketch.outline.size() < least_corners) {
     return;
   }
+  // One path of all parts: the union of hundreds, part by part, would take long in each repaint.
   QPainterPath right;
+  right.setFillRule(Qt::WindingFill);
   for (const std::vector<Vec2>& part : sketch.right) {
-    right = right.united(path_of(in_pixels(part, shown)));
+    right.addPath(path_of(in_pixels(part, shown)));
   }
   const QPainterPath drawn = path_of(in_pixels(sketch.outline, shown));
   hatch(painter, right.subtracted(drawn), theme::selection, Qt::BDiagPattern);
