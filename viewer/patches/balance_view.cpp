@@ -23,11 +23,14 @@ QString link_to(const QString& target, const QString& text, const QString& tip) 
 }
 
 QString cell(const QString& text, const char* align = "right") {
-  return QStringLiteral("<td align='%1'>%2</td>").arg(QLatin1String(align), text);
+  return QStringLiteral("<td align='%1' style='white-space:nowrap'>%2</td>")
+      .arg(QLatin1String(align), text);
 }
 
 QString figures(const QString& text) {
-  return QStringLiteral("<td align='right' style='font-family:monospace'>%1</td>").arg(text);
+  return QStringLiteral(
+             "<td align='right' style='font-family:monospace;white-space:nowrap'>%1</td>")
+      .arg(text);
 }
 
 /// A symbol with a real index: B with i below the line.
@@ -58,6 +61,7 @@ BalanceView::BalanceView(Focus& focus, Selection& selection, QWidget* parent)
   setAlignment(Qt::AlignTop);
   setTextInteractionFlags(Qt::TextBrowserInteraction);
   connect(this, &QLabel::linkActivated, this, &BalanceView::follow);
+  connect(&focus_, &Focus::seek_stopped, this, [this] { disconnect(other_way_); });
 }
 
 void BalanceView::show_balance(std::shared_ptr<const SolverSnapshot> snapshot, PatchId patch) {
@@ -115,7 +119,7 @@ void BalanceView::show_text() {
   const auto number = [this](const Rgb& value) { return number_text(channel_of(value)); };
   const QString i = QStringLiteral("i"), j = QStringLiteral("j"), ij = i + j;
   QString text = equation() +
-                 QStringLiteral("<table width='100%' cellpadding='2'><tr>%1%2%3%4%5</tr>")
+                 QStringLiteral("<table width='100%' cellpadding='1'><tr>%1%2%3%4%5</tr>")
                      .arg(cell(tr("source j"), "left"), cell(symbol("F", ij)), cell(symbol("B", j)),
                           cell(symbol("ρ", i) + symbol("F", ij) + symbol("B", j)),
                           cell(tr("of %1").arg(symbol("B", i))));
@@ -161,12 +165,24 @@ void BalanceView::follow(const QString& link) {
                              : selection_.select_all(term.patches);
   } else {
     emit panel_wanted("map");
-    const Breakpoint pair{Breakpoint::Kind::pair, balance_.receiver, term.largest};
-    focus_.seek(find_where([pair](const MapHistory& history, std::int32_t step) {
-                  return holds(pair, history, step);
-                }),
-                StepOrder::forward);
+    seek_exchange_with(term.largest);
   }
+}
+
+// Back from the position, which is the newest as a rule, then forward to the end of the run.
+void BalanceView::seek_exchange_with(PatchId source) {
+  const Breakpoint pair{{Breakpoint::Kind::pair, balance_.receiver, source}};
+  const StepFinder finder = find_where(
+      [pair](const MapHistory& history, std::int32_t step) { return holds(pair, history, step); });
+  disconnect(other_way_);
+  other_way_ = connect(&focus_, &Focus::seek_ended, this, [this, finder](bool found) {
+    const StepFinder other = finder;  // the connection owns `finder`
+    disconnect(other_way_);
+    if (!found) {
+      focus_.seek(other, StepOrder::forward);
+    }
+  });
+  focus_.seek(finder, StepOrder::backward);
 }
 
 }  // namespace transillum::viewer
