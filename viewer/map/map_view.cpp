@@ -77,6 +77,7 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   auto* layout = make_column(this, {}, 0);
   layout->addLayout(text);
   hemicube_ = named("hemicube_view", new HemicubeView(selection));
+  hemicube_->setMinimumHeight(52);
   pictures_ = new QStackedWidget;
   pictures_->addWidget(canvases_);
   pictures_->addWidget(hemicube_);

@@ -4,6 +4,7 @@
 // the newest snapshot, which needs form factors.
 #include "patches/balance_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -116,28 +117,34 @@ QString BalanceView::row(const QString& source, const QString& form_factor,
 
 void BalanceView::show_text() {
   const Scene& scene = *snapshot_->loaded->scene;
-  const auto number = [this](const Rgb& value) { return number_text(channel_of(value)); };
+  double largest_f = 0, largest_b = 0;
+  for (const LightBalance::Term& term : balance_.terms) {
+    largest_f = std::max(largest_f, term.form_factor);
+    largest_b = std::max(largest_b, channel_of(term.radiosity));
+  }
+  const ColumnFormat of_f(largest_f), of_b(largest_b), of_term(channel_of(balance_.radiosity));
   const QString i = QStringLiteral("i"), j = QStringLiteral("j"), ij = i + j;
-  QString text = equation() +
-                 QStringLiteral("<table width='100%' cellpadding='1'><tr>%1%2%3%4%5</tr>")
-                     .arg(cell(tr("source j"), "left"), cell(symbol("F", ij)), cell(symbol("B", j)),
-                          cell(symbol("ρ", i) + symbol("F", ij) + symbol("B", j)),
-                          cell(tr("of %1").arg(symbol("B", i))));
+  QString text =
+      equation() + QStringLiteral("<table width='100%' cellpadding='1'><tr>%1%2%3%4%5</tr>")
+                       .arg(cell(tr("source j"), "left"), cell(of_f.header(symbol("F", ij))),
+                            cell(of_b.header(symbol("B", j))),
+                            cell(of_term.header(symbol("ρ", i) + symbol("F", ij) + symbol("B", j))),
+                            cell(tr("of %1").arg(symbol("B", i))));
   for (std::size_t k = 0; k < balance_.terms.size(); ++k) {
     const LightBalance::Term& term = balance_.terms[k];
     const auto to = [k](const char* what) {
       return QStringLiteral("%1:%2").arg(QLatin1String(what)).arg(k);
     };
-    text +=
-        row(link_to(to("source"), source_name(scene, term), tr("Select it")),
-            link_to(to("seen"), number_text(term.form_factor),
-                    tr("The directions in which it was seen")),
-            link_to(to("source"), number(term.radiosity), tr("Select it")),
-            link_to(to("step"), number(term.contribution), tr("A step that exchanges this light")),
-            term.contribution);
+    text += row(
+        link_to(to("source"), source_name(scene, term), tr("Select it")),
+        link_to(to("seen"), of_f.text(term.form_factor), tr("The directions in which it was seen")),
+        link_to(to("source"), of_b.text(channel_of(term.radiosity)), tr("Select it")),
+        link_to(to("step"), of_term.text(channel_of(term.contribution)),
+                tr("A step that exchanges this light")),
+        term.contribution);
   }
   const auto add = [&](const QString& name, const Rgb& value, bool shown) {
-    text += shown ? row(name, {}, {}, number(value), value) : QString();
+    text += shown ? row(name, {}, {}, of_term.text(channel_of(value)), value) : QString();
   };
   add(tr("%1 others").arg(balance_.other_count), balance_.others, balance_.other_count > 0);
   add(tr("first shot"), balance_.shot, channel_of(balance_.shot) > 0);
