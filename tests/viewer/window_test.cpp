@@ -196,8 +196,13 @@ class WindowTest : public QObject {
     QCOMPARE(solved.window->selection.patch(), patch);
     QCOMPARE(solved.text("patch_id"), QString::number(patch));
     QVERIFY(!solved.text("patch_radiosity").isEmpty());
-    QVERIFY(wait_for(
-        [&] { return fraction_of(picture_of(solved.map_view->canvas()), theme::selection) > 0; }));
+    // The patch emits along the newest direction, or receives: it is in one of the two maps.
+    auto* receiving = solved.window->findChild<MapCanvas*>("map_canvas_before");
+    QVERIFY(wait_for([&] {
+      return fraction_of(picture_of(solved.map_view->canvas()), theme::selection) +
+                 fraction_of(picture_of(receiving), theme::selection) >
+             0;
+    }));
     QVERIFY(fraction_of(picture_of(solved.scene_view->canvas()), theme::selection) > 0);
   }
 

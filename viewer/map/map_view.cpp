@@ -63,6 +63,7 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   canvas_ = make_canvas(selection, "map_canvas");
   second_->hide();
   canvases_ = new QWidget;
+  canvases_->setMinimumHeight(52);
   side_by_side_ = make_row(canvases_, {}, 2);
   side_by_side_->addWidget(second_, 1);
   side_by_side_->addWidget(canvas_, 1);
@@ -76,6 +77,7 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   auto* layout = make_column(this, {}, 0);
   layout->addLayout(text);
   hemicube_ = named("hemicube_view", new HemicubeView(selection));
+  hemicube_->setMinimumHeight(52);
   pictures_ = new QStackedWidget;
   pictures_->addWidget(canvases_);
   pictures_->addWidget(hemicube_);
@@ -99,6 +101,7 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
 
 MapCanvas* MapView::make_canvas(Selection& selection, const char* name) {
   auto* canvas = named(name, new MapCanvas(selection));
+  canvas->setMinimumHeight(26);  // two of them above one another in a low panel
   auto* pointer = new PointerLabel(colors_, *canvas, [canvas](const QPoint& position) {
     return PointedPatch{canvas->patch_at(position), canvas->patch_point_at(position)};
   });
@@ -201,6 +204,7 @@ QWidget* MapView::make_controls() {
   first->addWidget(make_phase_buttons());
   first->addStretch(1);
   auto* row = make_row({}, 4);
+  row->addStretch(1);
   rows_->addLayout(first, 1);
   rows_->addLayout(row);
   engine_menu_ = new EngineMenu;

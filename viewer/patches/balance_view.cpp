@@ -4,6 +4,7 @@
 // the newest snapshot, which needs form factors.
 #include "patches/balance_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -23,11 +24,14 @@ QString link_to(const QString& target, const QString& text, const QString& tip) 
 }
 
 QString cell(const QString& text, const char* align = "right") {
-  return QStringLiteral("<td align='%1'>%2</td>").arg(QLatin1String(align), text);
+  return QStringLiteral("<td align='%1' style='white-space:nowrap'>%2</td>")
+      .arg(QLatin1String(align), text);
 }
 
 QString figures(const QString& text) {
-  return QStringLiteral("<td align='right' style='font-family:monospace'>%1</td>").arg(text);
+  return QStringLiteral(
+             "<td align='right' style='font-family:monospace;white-space:nowrap'>%1</td>")
+      .arg(text);
 }
 
 /// A symbol with a real index: B with i below the line.
@@ -58,6 +62,7 @@ BalanceView::BalanceView(Focus& focus, Selection& selection, QWidget* parent)
   setAlignment(Qt::AlignTop);
   setTextInteractionFlags(Qt::TextBrowserInteraction);
   connect(this, &QLabel::linkActivated, this, &BalanceView::follow);
+  connect(&focus_, &Focus::seek_stopped, this, [this] { disconnect(other_way_); });
 }
 
 void BalanceView::show_balance(std::shared_ptr<const SolverSnapshot> snapshot, PatchId patch) {
@@ -112,28 +117,34 @@ QString BalanceView::row(const QString& source, const QString& form_factor,
 
 void BalanceView::show_text() {
   const Scene& scene = *snapshot_->loaded->scene;
-  const auto number = [this](const Rgb& value) { return number_text(channel_of(value)); };
+  double largest_f = 0, largest_b = 0;
+  for (const LightBalance::Term& term : balance_.terms) {
+    largest_f = std::max(largest_f, term.form_factor);
+    largest_b = std::max(largest_b, channel_of(term.radiosity));
+  }
+  const ColumnFormat of_f(largest_f), of_b(largest_b), of_term(channel_of(balance_.radiosity));
   const QString i = QStringLiteral("i"), j = QStringLiteral("j"), ij = i + j;
-  QString text = equation() +
-                 QStringLiteral("<table width='100%' cellpadding='2'><tr>%1%2%3%4%5</tr>")
-                     .arg(cell(tr("source j"), "left"), cell(symbol("F", ij)), cell(symbol("B", j)),
-                          cell(symbol("ρ", i) + symbol("F", ij) + symbol("B", j)),
-                          cell(tr("of %1").arg(symbol("B", i))));
+  QString text =
+      equation() + QStringLiteral("<table width='100%' cellpadding='1'><tr>%1%2%3%4%5</tr>")
+                       .arg(cell(tr("source j"), "left"), cell(of_f.header(symbol("F", ij))),
+                            cell(of_b.header(symbol("B", j))),
+                            cell(of_term.header(symbol("ρ", i) + symbol("F", ij) + symbol("B", j))),
+                            cell(tr("of %1").arg(symbol("B", i))));
   for (std::size_t k = 0; k < balance_.terms.size(); ++k) {
     const LightBalance::Term& term = balance_.terms[k];
     const auto to = [k](const char* what) {
       return QStringLiteral("%1:%2").arg(QLatin1String(what)).arg(k);
     };
-    text +=
-        row(link_to(to("source"), source_name(scene, term), tr("Select it")),
-            link_to(to("seen"), number_text(term.form_factor),
-                    tr("The directions in which it was seen")),
-            link_to(to("source"), number(term.radiosity), tr("Select it")),
-            link_to(to("step"), number(term.contribution), tr("A step that exchanges this light")),
-            term.contribution);
+    text += row(
+        link_to(to("source"), source_name(scene, term), tr("Select it")),
+        link_to(to("seen"), of_f.text(term.form_factor), tr("The directions in which it was seen")),
+        link_to(to("source"), of_b.text(channel_of(term.radiosity)), tr("Select it")),
+        link_to(to("step"), of_term.text(channel_of(term.contribution)),
+                tr("A step that exchanges this light")),
+        term.contribution);
   }
   const auto add = [&](const QString& name, const Rgb& value, bool shown) {
-    text += shown ? row(name, {}, {}, number(value), value) : QString();
+    text += shown ? row(name, {}, {}, of_term.text(channel_of(value)), value) : QString();
   };
   add(tr("%1 others").arg(balance_.other_count), balance_.others, balance_.other_count > 0);
   add(tr("first shot"), balance_.shot, channel_of(balance_.shot) > 0);
@@ -161,12 +172,24 @@ void BalanceView::follow(const QString& link) {
                              : selection_.select_all(term.patches);
   } else {
     emit panel_wanted("map");
-    const Breakpoint pair{Breakpoint::Kind::pair, balance_.receiver, term.largest};
-    focus_.seek(find_where([pair](const MapHistory& history, std::int32_t step) {
-                  return holds(pair, history, step);
-                }),
-                StepOrder::forward);
+    seek_exchange_with(term.largest);
   }
+}
+
+// Back from the position, which is the newest as a rule, then forward to the end of the run.
+void BalanceView::seek_exchange_with(PatchId source) {
+  const Breakpoint pair{{Breakpoint::Kind::pair, balance_.receiver, source}};
+  const StepFinder finder = find_where(
+      [pair](const MapHistory& history, std::int32_t step) { return holds(pair, history, step); });
+  disconnect(other_way_);
+  other_way_ = connect(&focus_, &Focus::seek_ended, this, [this, finder](bool found) {
+    const StepFinder other = finder;  // the connection owns `finder`
+    disconnect(other_way_);
+    if (!found) {
+      focus_.seek(other, StepOrder::forward);
+    }
+  });
+  focus_.seek(finder, StepOrder::backward);
 }
 
 }  // namespace transillum::viewer

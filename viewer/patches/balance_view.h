@@ -37,13 +37,16 @@ class BalanceView : public QLabel {
   QString row(const QString& source, const QString& form_factor, const QString& radiosity,
               const QString& value, const Rgb& light) const;
   void follow(const QString& link);
+  /// Goes to a step in which the receiver and a patch exchange light.
+  void seek_exchange_with(PatchId source);
   double channel_of(const Rgb& value) const;
 
   Focus& focus_;
   Selection& selection_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   LightBalance balance_;
-  int channel_ = 0;  ///< 0 red, 1 green, 2 blue
+  int channel_ = 0;                    ///< 0 red, 1 green, 2 blue
+  QMetaObject::Connection other_way_;  ///< searches forward where nothing was found backward
 };
 
 }  // namespace transillum::viewer
