@@ -33,18 +33,18 @@ using namespace test;
 /// The longest of the streams of a PDF file, decompressed.
 QByteArray largest_content_of(const QByteArray& pdf) {
   QByteArray largest;
-  for (qsizetype at = pdf.indexOf("stream\n"); at >= 0;) {
-    const auto begin = static_cast<int>(at) + 7;
-    const int end = pdf.indexOf("endstream", begin);
+  auto begin = pdf.indexOf("stream\n") + 7;
+  while (begin >= 7) {
+    const auto end = pdf.indexOf("endstream", begin);
     // qUncompress() expects the size first, of which it makes no more than a guess.
-    const bool compressed = pdf.at(begin) == 'x';
+    const QByteArray stream = pdf.mid(begin, end - begin);
     const QByteArray content =
-        compressed ? qUncompress(QByteArray(4, '\1') + pdf.mid(begin, end - begin)) : QByteArray();
+        stream.startsWith('x') ? qUncompress(QByteArray(4, '\1') + stream) : QByteArray();
     if (content.contains(" Tf") && content.size() > largest.size()) {
       largest = content;
     }
-    at = pdf.indexOf("\nstream\n", end);
-    at += at >= 0 ? 1 : 0;
+    const auto next = pdf.indexOf("\nstream\n", end);
+    begin = next < 0 ? 0 : next + 8;
   }
   return largest;
 }
@@ -335,6 +335,41 @@ class ExportsTest : public QObject {
       QVERIFY2(solved.window->banner_text().contains(name),
                qPrintable(solved.window->banner_text()));
     }
+  }
+
+  void a_film_ends_with_its_scene() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    const QTemporaryDir folder;
+    FrameRecorder& recorder = *solved.window->findChild<FrameRecorder*>();
+    const FilmPlan plan{FilmPlan::Show::scene, FilmPlan::Over::turn, {320, 240}, 60};
+    recorder.begin_film(folder.filePath("film.webm"), plan);
+    QVERIFY(wait_for([&] { return recorder.frames() > 3; }));
+    solved.window->open("boards");
+    QVERIFY(wait_for([&] { return !recorder.writing(); }));
+    QVERIFY(recorder.frames() < 600);
+    QVERIFY(comes_to_rest(*solved.window));
+    QVERIFY(QDir(folder.path()).entryList(QDir::Files).isEmpty());
+    // A film of the new scene that is finished early is whole.
+    const QString path = folder.filePath("film.mp4");
+    recorder.begin_film(path, plan);
+    QVERIFY(wait_for([&] { return recorder.frames() > 3; }));
+    recorder.end();
+    QVERIFY(wait_for([&] { return !recorder.writing(); }));
+    QCOMPARE(static_cast<int>(decoded_film(path).frames.size()), recorder.frames());
+  }
+
+  void closing_the_window_discards_a_film() {
+    const QTemporaryDir folder;
+    {
+      const SolvedWindow solved("furnace");
+      QVERIFY(solved.ready);
+      FrameRecorder& recorder = *solved.window->findChild<FrameRecorder*>();
+      recorder.begin_film(folder.filePath("film.webm"),
+                          {FilmPlan::Show::both, FilmPlan::Over::polygons, {320, 240}, 5});
+      QVERIFY(wait_for([&] { return recorder.frames() > 1; }));
+    }
+    QVERIFY(QDir(folder.path()).entryList(QDir::Files | QDir::Hidden).isEmpty());
   }
 
   void a_projector_shows_that_a_film_is_recorded() {

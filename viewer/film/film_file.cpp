@@ -11,6 +11,7 @@
 #include <cstring>
 #include <initializer_list>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "film/palette.h"
@@ -49,7 +50,11 @@ const Format* format_of(const QString& path) {
   return found == std::end(formats) ? nullptr : found;
 }
 
-int write_bytes(void* file, std::uint8_t* bytes, int count) {
+// FFmpeg 7 has made the bytes constant.
+using BytesToWrite =
+    std::conditional_t<(LIBAVFORMAT_VERSION_MAJOR >= 61), const std::uint8_t*, std::uint8_t*>;
+
+int write_bytes(void* file, BytesToWrite bytes, int count) {
   const auto written =
       static_cast<QSaveFile*>(file)->write(reinterpret_cast<const char*>(bytes), count);
   return written == count ? count : AVERROR(EIO);
