@@ -98,12 +98,10 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
          "eq. 21: bound of ε for evenly spread directions, divided by π\n"
          "Click to go to a direction"),
       "7.1"));
-  connect(iteration_chart_, &LogChart::clicked, this, [this](int x) {
-    focus_.go_to_direction(x - 1, focus_.target().direction);
-  });
-  connect(direction_chart_, &LogChart::clicked, this, [this](int x) {
-    focus_.go_to_direction(shown_iteration_, x - 1);
-  });
+  connect(iteration_chart_, &LogChart::clicked, this,
+          [this](int x) { focus_.go_to_direction(x - 1, focus_.target().direction); });
+  connect(direction_chart_, &LogChart::clicked, this,
+          [this](int x) { focus_.go_to_direction(shown_iteration_, x - 1); });
   connect(&focus_, &Focus::moved, this, &ConvergenceView::show_position);
 }
 
