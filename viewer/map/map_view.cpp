@@ -180,10 +180,10 @@ QWidget* MapView::make_phase_buttons() {
     phases_->addButton(button, static_cast<int>(phase));
     row->addWidget(button);
   };
-  QToolButton* whole =
+  whole_ =
       named("map_whole", text_button(tr("Whole"), tr("Show the whole direction, no step"), false));
-  connect(whole, &QToolButton::clicked, &focus_, &Focus::show_whole);
-  row->addWidget(whole);
+  connect(whole_, &QToolButton::clicked, &focus_, &Focus::show_whole);
+  row->addWidget(whole_);
   add_phase(Phase::before, "phase_before", tr("Before"),
             tr("Show V before the step, with the fragment to insert"));
   add_phase(Phase::split, "phase_split", tr("Split"),
@@ -295,10 +295,21 @@ void MapView::arrange() {
 void MapView::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   arrange();
-  // A narrow panel has no room for all buttons in one row.
-  constexpr int of_one_row = 560;
-  rows_->setDirection(width() < of_one_row * theme::scale() ? QBoxLayout::TopToBottom
-                                                            : QBoxLayout::LeftToRight);
+  // A narrow view has its buttons in two rows, and omits some beside the phases without room.
+  constexpr int margins = 22;
+  const int room = width() - margins;
+  for (QToolButton* extra : {pair_->button(), whole_}) {
+    extra->show();
+  }
+  for (QToolButton* extra : {pair_->button(), whole_}) {
+    if (phase_buttons_->sizeHint().width() > room) {
+      extra->hide();
+    }
+  }
+  const int of_one_row =
+      std::max(phase_buttons_->sizeHint().width(), whole_buttons_->sizeHint().width()) +
+      rows_->itemAt(1)->sizeHint().width();
+  rows_->setDirection(of_one_row > room ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
 }
 
 Phase MapView::shown_phase() const {

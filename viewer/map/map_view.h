@@ -91,6 +91,7 @@ class MapView : public QWidget {
   QWidget *whole_buttons_, *phase_buttons_;
   QButtonGroup* wholes_;  ///< ids are of type Whole
   QButtonGroup* phases_;
+  QToolButton* whole_;
   QToolButton* labels_;
   QToolButton* zoom_;
   EngineMenu* engine_menu_;
