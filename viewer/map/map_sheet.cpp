@@ -12,7 +12,7 @@
 
 namespace transillum::viewer {
 
-QPointF axes_origin(const QSizeF& size) { return {size.width() - 20, size.height() - 11}; }
+QPointF axes_origin(const QSizeF& size) { return {size.width() - 26, size.height() - 11}; }
 
 void MapSheet::draw_text(const QPointF& baseline, const QString& text) const {
   painter.fillRect(painter.fontMetrics()
