@@ -130,6 +130,26 @@ class ExportsTest : public QObject {
     QVERIFY(fraction_of(QImage(folder.filePath("scene.png")), theme::processed) > 1e-3);
   }
 
+  void a_figure_of_a_whole_direction_has_both_sides() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    const FigureViews views = solved.window->findChild<ExportActions*>()->figure_views();
+    const QTemporaryDir folder;
+    FigurePlan plan;
+    plan.scene = false;
+    plan.map = true;
+    plan.size = {900, 450};
+    write_figure(folder.filePath("map.svg"), plan, views);
+    const QByteArray svg = contents_of(folder.filePath("map.svg"));
+    QVERIFY(svg.contains(">emits, along") && svg.contains(">receives, along"));
+    QCOMPARE(svg.count(" m</text>"), 2);  // scale bars
+    const QImage picture = solved.map_view->picture({400, 200});
+    QCOMPARE(picture.size(), QSize(400, 200));
+    for (const int left : {0, 201}) {
+      QVERIFY(color_count(picture.copy(left, 0, 199, 200)) > 5);
+    }
+  }
+
   void a_figure_that_cannot_be_written_is_one_error() {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);

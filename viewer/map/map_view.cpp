@@ -8,6 +8,7 @@
 #include <QButtonGroup>
 #include <QLabel>
 #include <QMenu>
+#include <QPainter>
 #include <QStackedWidget>
 #include <QTimer>
 #include <QToolButton>
@@ -310,6 +311,41 @@ void MapView::resizeEvent(QResizeEvent* event) {
       std::max(phase_buttons_->sizeHint().width(), whole_buttons_->sizeHint().width()) +
       rows_->itemAt(1)->sizeHint().width();
   rows_->setDirection(of_one_row > room ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+}
+
+std::vector<std::pair<const MapCanvas*, QRectF>> MapView::parts_of(const QSizeF& size) const {
+  if (second_->isHidden()) {
+    return {{canvas_, QRectF(QPointF(0, 0), size)}};
+  }
+  constexpr double gap = 2;
+  const auto direction = side_by_side_->direction();
+  const bool beside = direction != QBoxLayout::BottomToTop;
+  const double half = (beside ? size.width() - gap : size.height() - gap) / 2;
+  const QSizeF part = beside ? QSizeF(half, size.height()) : QSizeF(size.width(), half);
+  const QRectF first(QPointF(0, 0), part);
+  const QRectF last = first.translated(beside ? half + gap : 0, beside ? 0 : half + gap);
+  const bool second_first = direction == QBoxLayout::LeftToRight;
+  return {{canvas_, second_first ? last : first}, {second_, second_first ? first : last}};
+}
+
+QImage MapView::picture(const QSize& pixels) const {
+  QImage image(pixels, QImage::Format_RGB32);
+  image.fill(Qt::black);
+  QPainter painter(&image);
+  for (const auto& [canvas, part] : parts_of(pixels)) {
+    const QRect place = part.toRect();
+    painter.drawImage(place.topLeft(), canvas->picture(place.size()));
+  }
+  return image;
+}
+
+void MapView::draw(QPainter& painter, const QSizeF& size, const QColor& ink, bool explained) const {
+  for (const auto& [canvas, part] : parts_of(size)) {
+    painter.save();
+    painter.translate(part.topLeft());
+    canvas->draw(painter, part.size(), ink, explained);
+    painter.restore();
+  }
 }
 
 Phase MapView::shown_phase() const {

@@ -4,6 +4,8 @@
 #include <QWidget>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "colors/color_choice.h"
 #include "model/snapshot.h"
@@ -47,6 +49,11 @@ class MapView : public QWidget {
   bool up_to_date() const;
   MapCanvas* canvas() const { return canvas_; }
   PhasePair* pair() const { return pair_; }
+  /// MapCanvas::picture() of what is shown: of both sides of a direction, or of two phases, each
+  /// has its part.
+  QImage picture(const QSize& pixels) const;
+  /// MapCanvas::draw() likewise.
+  void draw(QPainter& painter, const QSizeF& size, const QColor& ink, bool explained) const;
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -71,6 +78,8 @@ class MapView : public QWidget {
   /// The part of a whole direction that is drawn; not set while a step is shown, or the V of an
   /// engine.
   std::optional<Whole> shown_whole() const;
+  /// The canvases that are shown, and their parts of a picture of this size.
+  std::vector<std::pair<const MapCanvas*, QRectF>> parts_of(const QSizeF& size) const;
   /// Places the canvases so that two maps are as large as possible.
   void arrange();
 

@@ -116,7 +116,7 @@ class FigurePainting {
     }
     if (plan_.map) {
       at(layout_.map,
-         [&] { views_.map.canvas()->draw(painter_, layout_.map.size(), ink_, plan_.explained); });
+         [&] { views_.map.draw(painter_, layout_.map.size(), ink_, plan_.explained); });
     }
     if (plan_.chart) {
       paint_charts();

@@ -277,7 +277,7 @@ QImage FrameRecorder::picture() const {
     return scene.picture({.size = plan.size});
   }
   if (plan.show == FilmPlan::Show::map) {
-    return map_.canvas()->picture(plan.size);
+    return map_.picture(plan.size);
   }
   constexpr int gap = 2;
   const QSize half((plan.size.width() - gap) / 2, plan.size.height());
@@ -285,7 +285,7 @@ QImage FrameRecorder::picture() const {
   both.fill(Qt::black);
   QPainter painter(&both);
   painter.drawImage(0, 0, scene.picture({.size = half}));
-  painter.drawImage(half.width() + gap, 0, map_.canvas()->picture(half));
+  painter.drawImage(half.width() + gap, 0, map_.picture(half));
   return both;
 }
 
