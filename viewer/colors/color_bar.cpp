@@ -132,7 +132,7 @@ void ColorBar::mouseReleaseEvent(QMouseEvent* event) {
     return;
   }
   drag_end_ = event->pos().y();
-  const auto [top, bottom] = std::minmax(*std::exchange(drag_begin_, std::nullopt), drag_end_);
+  const auto [top, bottom] = std::minmax({*std::exchange(drag_begin_, std::nullopt), drag_end_});
   update();
   if (bottom - top < 2) {
     return;  // a click

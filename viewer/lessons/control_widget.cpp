@@ -87,10 +87,13 @@ void ControlWidget::set_text_font(const QFont& font) {
   for (const std::string& label : control_.labels) {
     texts << QString::fromStdString(label);
   }
+  const QString shown = value_->text();
   int widest = 0;
   for (const QString& text : texts) {
-    widest = std::max(widest, QFontMetrics(bold).horizontalAdvance(text));
+    value_->setText(text);
+    widest = std::max(widest, value_->sizeHint().width());
   }
+  value_->setText(shown);
   value_->setMinimumWidth(widest);
 }
 
