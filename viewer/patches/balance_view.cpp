@@ -46,10 +46,9 @@ QString source_name(const Scene& scene, const LightBalance::Term& term) {
   }
   const auto count = count_text(static_cast<std::int64_t>(term.patches.size()));
   return patch.group == no_group
-             ? BalanceView::tr("face %1, %2 patches").arg(QString::number(patch.face), count)
-             : BalanceView::tr("%1, %2 patches")
-                   .arg(QString::fromStdString(at(scene.groups(), patch.group)).toHtmlEscaped(),
-                        count);
+             ? BalanceView::tr("face %1 (%2)").arg(QString::number(patch.face), count)
+             : BalanceView::tr("%1 (%2)").arg(
+                   QString::fromStdString(at(scene.groups(), patch.group)).toHtmlEscaped(), count);
 }
 
 }  // namespace
@@ -107,9 +106,8 @@ QString BalanceView::equation() const {
 QString BalanceView::row(const QString& source, const QString& form_factor,
                          const QString& radiosity, const QString& value, const Rgb& light) const {
   const double all = channel_of(balance_.radiosity);
-  const QString share = all > 0
-                            ? QStringLiteral("%1 %").arg(100 * channel_of(light) / all, 0, 'f', 1)
-                            : QStringLiteral("–");
+  const QString share =
+      all > 0 ? QString::number(100 * channel_of(light) / all, 'f', 1) : QStringLiteral("–");
   return QStringLiteral("<tr>%1%2%3%4%5</tr>")
       .arg(cell(source, "left"), figures(form_factor), figures(radiosity), figures(value),
            figures(share));
@@ -129,14 +127,14 @@ void BalanceView::show_text() {
                        .arg(cell(tr("source j"), "left"), cell(of_f.header(symbol("F", ij))),
                             cell(of_b.header(symbol("B", j))),
                             cell(of_term.header(symbol("ρ", i) + symbol("F", ij) + symbol("B", j))),
-                            cell(tr("of %1").arg(symbol("B", i))));
+                            cell(QStringLiteral("%")));
   for (std::size_t k = 0; k < balance_.terms.size(); ++k) {
     const LightBalance::Term& term = balance_.terms[k];
     const auto to = [k](const char* what) {
       return QStringLiteral("%1:%2").arg(QLatin1String(what)).arg(k);
     };
     text += row(
-        link_to(to("source"), source_name(scene, term), tr("Select it")),
+        link_to(to("source"), source_name(scene, term), tr("Select its patches")),
         link_to(to("seen"), of_f.text(term.form_factor), tr("The directions in which it was seen")),
         link_to(to("source"), of_b.text(channel_of(term.radiosity)), tr("Select it")),
         link_to(to("step"), of_term.text(channel_of(term.contribution)),

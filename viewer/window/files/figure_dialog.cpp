@@ -20,10 +20,10 @@ namespace {
 
 constexpr double pixels_per_cm = 300 / 2.54;
 
-QDoubleSpinBox* number(const char* name, double low, double high, double value) {
+QDoubleSpinBox* number(const char* name, double low, double high, double value, int decimals) {
   auto* box = named(name, new QDoubleSpinBox);
   box->setRange(low, high);
-  box->setDecimals(1);
+  box->setDecimals(decimals);
   box->setValue(value);
   return box;
 }
@@ -77,9 +77,10 @@ void FigureDialog::make_fields(const FigurePlan& plan) {
   direction_ = named("figure_direction", new QCheckBox(tr("Direction and step in the scene")));
   direction_->setChecked(plan.direction);
   title_ = named("figure_title", new QLineEdit(plan.title));
-  width_ = number("figure_width", 0, 16384, plan.size.width());
-  height_ = number("figure_height", 0, 16384, plan.size.height());
-  text_ = number("figure_text", 4, 96, plan.text_points);
+  const int decimals = plan.centimeters ? 1 : 0;
+  width_ = number("figure_width", 0, 16384, plan.size.width(), decimals);
+  height_ = number("figure_height", 0, 16384, plan.size.height(), decimals);
+  text_ = number("figure_text", 4, 96, plan.text_points, 1);
   unit_ = named("figure_unit", new QComboBox);
   unit_->addItems({tr("px"), tr("cm")});
   unit_->setCurrentIndex(plan.centimeters ? 1 : 0);
@@ -100,9 +101,12 @@ void FigureDialog::make_fields(const FigurePlan& plan) {
 }
 
 void FigureDialog::change_unit() {
-  const double factor = unit_->currentIndex() == 1 ? 1 / pixels_per_cm : pixels_per_cm;
+  const bool centimeters = unit_->currentIndex() == 1;
+  const double factor = centimeters ? 1 / pixels_per_cm : pixels_per_cm;
   for (QDoubleSpinBox* box : {width_, height_}) {
-    box->setValue(factor * box->value());
+    const double value = factor * box->value();
+    box->setDecimals(centimeters ? 1 : 0);
+    box->setValue(value);
   }
   show_state();
 }
