@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What the questions of lessons ask for: every built-in one has a computed and plausible answer,
+// Answers to the questions of lessons: each built-in question has a computed and plausible answer,
 // values are known in the furnace, and mistakes in files are reported.
 #include <algorithm>
 #include <cmath>

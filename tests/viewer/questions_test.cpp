@@ -363,7 +363,7 @@ class QuestionsTest : public QObject {
     room.action("tally_keep")->setChecked(true);
     answer();
     QCOMPARE(room.counted("few"), 2);
-    // The next class begins with none, and adds its answers to those of the file if asked to.
+    // The next class begins without answers; Keep the tally adds its answers to those of the file.
     Class next;
     next.action("tally_keep")->setChecked(false);
     next.window->files().try_open(room.folder.filePath("mine.json"));

@@ -331,7 +331,7 @@ void QuestionBox::leave_scene() {
   show_state();
 }
 
-// The answer, or why there is none, is told only when the user asks for it.
+// The answer, or the reason why there is none, is shown only after Reveal.
 void QuestionBox::show_computed() {
   if (!waits_ || solver_.busy()) {
     show_state();

@@ -15,7 +15,7 @@ namespace transillum::viewer {
 struct QuestionRequest {
   std::shared_ptr<const LoadedScene> loaded;
   Question question;
-  /// The finished fraction, 0 to 1; null if nobody asks.
+  /// The finished fraction, 0 to 1; null: progress is not reported.
   std::shared_ptr<std::atomic<double>> done = nullptr;
 };
 

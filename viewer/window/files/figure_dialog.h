@@ -19,7 +19,7 @@ class FigureDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param plan  proposed
+  /// @param plan  the first values of the fields
   /// @param has_map  whether there is a map
   FigureDialog(const FigurePlan& plan, bool has_map, QWidget* parent = nullptr);
 

@@ -15,7 +15,7 @@ class FilmDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param plan  proposed; its size is that of the window
+  /// @param plan  the first values of the fields; its size is the size of the window
   /// @param has_map  whether a direction can be stepped through
   FilmDialog(const FilmPlan& plan, bool has_map, QWidget* parent = nullptr);
 

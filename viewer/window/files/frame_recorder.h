@@ -24,9 +24,8 @@ namespace transillum::viewer {
 class FilmFile;
 class PlayControl;
 
-/// Records pictures: each new one of the scene as numbered files of a folder, or those of a
-/// FilmPlan as a film, which a worker thread writes. While a film is recorded, the window has a red
-/// mark.
+/// Writes each new picture of the scene to a numbered file in a folder, or writes the film of a
+/// FilmPlan on a worker thread. While a film is recorded, the window has a red mark.
 class FrameRecorder : public QObject {
   Q_OBJECT
 
