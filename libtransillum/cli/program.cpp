@@ -80,7 +80,8 @@ struct Program {
     for (auto add :
          {add_scene_command, add_solve_command, add_picture_command, add_transfers_command,
           add_map_command, add_factors_command, add_directions_command, add_bounds_command,
-          add_study_command, add_compare_command, add_info_command, add_merge_command}) {
+          add_study_command, add_compare_command, add_info_command, add_merge_command,
+          add_shading_command}) {
       Command run = add(app);
       CLI::App& command = *app.get_subcommands({}).back();
       if (command.get_groups().size() > 2) {  // one of them has the arguments

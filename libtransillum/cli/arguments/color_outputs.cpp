@@ -85,10 +85,13 @@ void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
   refuse_unless(colors.display.light_map, command, "--sharp", "used only with --light-map");
   refuse_unless(colors.sharp, command, "--texels", "used only with --sharp");
   refuse_unless(!colors.series.empty(), command, "--series-every", "used only with --series");
-  const bool sky_has_zenith = options.sky.is_set() && options.sky.model != SkyModel::uniform;
-  refuse_unless(sky_has_zenith || has_picture || is_any_of(out, {".glb", ".gltf"}), command, "--up",
-                "used only with --sky and --sky-model cie-overcast, a .glb or .gltf file, or a "
-                "picture");
+  const bool sky_has_zenith = options.sky.is_bright() && options.sky.model != SkyModel::uniform;
+  const bool has_sun = options.sky.sun.is_set() || options.sky.sun.below_horizon;
+  refuse_unless(
+      sky_has_zenith || has_sun || has_picture || is_any_of(out, {".glb", ".gltf"}), command,
+      "--up",
+      "used only with --sky and --sky-model cie-overcast, a sun, a .glb or .gltf file, or "
+      "a picture");
   const bool has_factors = command.get_option("--factors")->count() > 0;
   refuse_unless(takes_directions(options.engine) && !options.goal.is_set() && !has_factors, command,
                 "--series",

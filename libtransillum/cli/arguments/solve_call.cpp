@@ -266,7 +266,8 @@ void add_solve_options(CLI::App& command, SolveCall& call) {
       command, call.scene,
       {"Directions", "Engine", "Iteration", "Accuracy", "Scene", "Patches", "Refinement", "Sky"});
   command.get_option("--up")->description(
-      "the zenith of the sky cie-overcast (default 0,0,1); the direction that becomes up, +y, in "
+      "the vertical: the zenith of the sky cie-overcast (default 0,0,1) and of the sun's azimuth "
+      "and elevation, which require it; the direction that becomes up, +y, in "
       ".glb and .gltf files (default 0,1,0: coordinates stay) and is up in pictures (default "
       "0,0,1)");
   add_parsed_option(

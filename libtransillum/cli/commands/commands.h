@@ -25,5 +25,6 @@ Command add_compare_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
 Command add_merge_command(CLI::App& program);
 Command add_picture_command(CLI::App& program);
+Command add_shading_command(CLI::App& program);
 
 }  // namespace transillum::cli

@@ -170,8 +170,8 @@ class RadiositySolver {
   /// done so far, with the weights of form_factor_sums(). Where no backs are seen, both sum to 1
   /// (eq. 17).
   std::vector<double> sky_fractions() const;
-  /// Per patch: what it receives from SolveOptions::sky, W/m², from the passes done so far; empty
-  /// without a sky. In the semi-iterative scheme, for the last set of directions.
+  /// Per patch: what it receives from SolveOptions::sky and its sun, W/m², from the passes done so
+  /// far; empty without a sky. In the semi-iterative scheme, for the last set of directions.
   std::vector<Rgb> sky_irradiance() const;
   /// Linear parts of sky_irradiance(), W/m²; empty without a sky, and with Basis::constant.
   std::vector<LinearTerm> sky_linear_terms() const;

@@ -27,8 +27,8 @@ struct RelightOptions {
   /// Index into the materials given for each patch, so that the faces of one material may have
   /// different ones, as change_materials() makes them; if empty, Patch::material applies.
   std::span<const std::int32_t> patch_materials = {};
-  /// Irradiance of each patch from a sky, W/m², one per patch (Solution::sky_irradiance): it
-  /// depends on the geometry only. Empty if there is no sky.
+  /// Irradiance of each patch from a sky and sun, W/m², one per patch (Solution::sky_irradiance):
+  /// it depends on the geometry only. Empty if there is no sky.
   std::span<const Rgb> sky_irradiance = {};
   /// Solution::sky_linear_terms, with Basis::linear.
   std::span<const LinearTerm> sky_linear_terms = {};

@@ -34,6 +34,17 @@ struct SceneInput {
   friend bool operator==(const SceneInput&, const SceneInput&) = default;
 };
 
+/// Where the sun is, if no direction is given.
+struct SunPlace {
+  std::optional<SolarPosition> position = {};  ///< given by angles
+  std::optional<Site> site = {};               ///< given by place and time
+  std::optional<ZonedTime> time = {};          ///< goes with `site`
+  std::optional<Vec3> north = {};              ///< default_north() if unset
+
+  /// Exact comparison of all members.
+  friend bool operator==(const SunPlace&, const SunPlace&) = default;
+};
+
 /// Whether and how patches are divided in rounds.
 struct RefineChoice {
   std::optional<RefineBy> by = {};  ///< unset: they are not
@@ -57,6 +68,7 @@ struct RunOptions {
   SceneOptions scene = {};   ///< how faces become patches
   SceneInput input = {};     ///< how the scene is read and changed
   RefineChoice refine = {};  ///< rounds of refinement
+  SunPlace sun = {};         ///< sets SolveOptions::sky.sun, once the vertical is known
   bool paper = false;        ///< options that are not given are as in the paper
   /// The accuracy limits the sum of all errors: patches are divided too, up to refine.patches.
   bool total = false;

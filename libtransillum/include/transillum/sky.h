@@ -6,6 +6,7 @@
 
 #include "transillum/choice.h"
 #include "transillum/export.h"
+#include "transillum/sun.h"
 #include "transillum/vec3.h"
 
 namespace TRANSILLUM_API transillum {
@@ -20,17 +21,22 @@ enum class SkyModel {
 template <>
 const Choices& choices_of<SkyModel>();
 
-/// Light from outside of an open scene: where a line meets no patch, it meets the sky.
+/// Light from outside of an open scene: where a line meets no patch, it meets the sky. The sun is
+/// in it, too.
 struct Sky {
-  /// Irradiance of an unobstructed patch that is turned upward, W/m², per channel; 0 means no sky.
+  /// Irradiance of an unobstructed patch that is turned upward, without the sun's, W/m², per
+  /// channel; 0 means that only the sun, if any, gives light.
   Rgb exitance;
   SkyModel model = SkyModel::uniform;  ///< its distribution
   Vec3 up{0, 0, 1};                    ///< toward the zenith; unit; read by cie_overcast only
+  Sun sun = {};                        ///< the sun, if any
 
-  /// Whether there is light.
-  bool is_set() const { return max_abs(exitance) > 0; }
-  /// pi L / exitance of the sky in the direction omega, a unit vector: 1 everywhere in a uniform
-  /// sky; of cie_overcast 9/7 at the zenith and 3/7 at the horizon.
+  /// Whether there is light, of the sky or of the sun.
+  bool is_set() const { return is_bright() || sun.is_set(); }
+  /// Whether there is light of the sky without the sun.
+  bool is_bright() const { return max_abs(exitance) > 0; }
+  /// pi L / exitance of the sky, without the sun, in the direction omega, a unit vector: 1
+  /// everywhere in a uniform sky; of cie_overcast 9/7 at the zenith and 3/7 at the horizon.
   double relative_radiance(const Vec3& omega) const;
   /// @throws InputError naming the value and its range.
   void validate() const;

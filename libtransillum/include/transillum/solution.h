@@ -203,7 +203,7 @@ struct SolvedLight {
   /// RadiositySolver::sky_fractions(); with given form factors, 1 - sum_j F_ij, which counts
   /// what meets back sides as escaping. Empty if not known.
   std::vector<double> sky_fractions = {};
-  /// RadiositySolver::sky_irradiance(); part of `irradiance`; empty without a sky
+  /// RadiositySolver::sky_irradiance(), the sun's too; part of `irradiance`; empty without both
   std::vector<Rgb> sky_irradiance = {};
   /// RadiositySolver::sky_linear_terms(); empty without a sky, and with Basis::constant
   std::vector<LinearTerm> sky_linear_terms = {};

@@ -100,7 +100,7 @@ struct SolveOptions {
   /// If set, a SolveSession chooses `directions` and `replicas`. A RadiositySolver uses the
   /// values given.
   AccuracyGoal goal = {};
-  /// Light that enters where nothing is above a patch. Not with engines hemicube and pairs.
+  /// Light that enters where nothing is above a patch. With engines hemicube and pairs, only a sun.
   Sky sky = {};
   /// solve(): lobes of materials take part (glossy.h). Requires two_way, Scheme::fixed,
   /// Basis::constant, an engine that takes_directions(), normalization none or rows. A

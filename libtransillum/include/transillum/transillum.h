@@ -38,10 +38,12 @@ namespace transillum {}
 #include "transillum/refinement.h"
 #include "transillum/relight.h"
 #include "transillum/run_options.h"
+#include "transillum/shading.h"
 #include "transillum/sky.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 #include "transillum/solve_session.h"
+#include "transillum/sun.h"
 
 // Directions and what is proven or measured about them.
 #include "transillum/bounds.h"

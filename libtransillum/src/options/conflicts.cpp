@@ -26,6 +26,7 @@ bool has_goal(const RunOptions& r) { return r.solve.goal.is_set(); }
 bool has_iterations(const RunOptions& r) { return r.solve.iterations > 0; }
 /// A first shot where it pays excludes nothing: where it cannot be, there is none.
 bool has_shot(const RunOptions& r) { return r.solve.first_shot.value_or(-1) >= 0; }
+bool has_sun(const RunOptions& r) { return r.solve.sky.sun.is_set(); }
 bool has_rounds(const RunOptions& r) { return r.refine.is_set(); }
 bool has_no_limit_of_patches(const RunOptions& r) { return r.refine.patches == 0; }
 bool has_time_limit(const RunOptions& r) { return r.solve.goal.seconds > 0; }
@@ -73,6 +74,7 @@ constexpr Conflict conflicts[] = {
     {"glossy", is_glossy, is_not_fixed,
      "lobes are not available with another scheme than fixed: every iteration needs the same "
      "directions"},
+    {"glossy", is_glossy, has_sun, "lobes are not available with a sun"},
     {"accuracy", has_goal, chooses_directions,
      "the scheme {scheme} chooses its directions itself; choose fixed or conjugate-gradients"},
     {"accuracy", has_goal, has_iterations,
@@ -91,8 +93,8 @@ constexpr Conflict conflicts[] = {
 };
 
 constexpr std::pair<const char*, const char*> all_alternatives[] = {
-    {"max-patch-area", "patches"},
-    {"units", "scale"},
+    {"max-patch-area", "patches"}, {"units", "scale"}, {"sun", "sun-direction"},
+    {"sun", "sun-irradiance"},     {"sun", "site"},    {"site", "sun-direction"},
 };
 
 std::string text_of(const Conflict& conflict, const SolveOptions& solve) {
@@ -144,7 +146,9 @@ void SolveOptions::validate() const {
 }
 
 std::string SolveOptions::why_dark(bool emits) const {
-  return emits || sky.is_set() ? "" : "nothing emits light, so B would be 0 everywhere";
+  return emits || sky.is_set() || sky.sun.below_horizon
+             ? ""
+             : "nothing emits light, so B would be 0 everywhere";
 }
 
 std::optional<double> SolveOptions::used_first_shot() const {

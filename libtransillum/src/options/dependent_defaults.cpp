@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "options/option_table.h"
+#include "transillum/errors.h"
 #include "transillum/study.h"
 
 namespace transillum {
@@ -38,9 +39,36 @@ void set_default_accuracy(RunOptions& options, const std::set<std::string>& give
   }
 }
 
+/// Sets the direction of a sun that is given by angles, or by place and time.
+/// @throws InputError
+void place_sun(RunOptions& options, const std::set<std::string>& given) {
+  const SunPlace& place = options.sun;
+  if (!place.position && !place.site) {
+    return;
+  }
+  Sky& sky = options.solve.sky;
+  if (!place.position && !place.time) {
+    throw InputError("site: requires a time");
+  }
+  if (!place.position && given.count("sun-irradiance") == 0) {
+    throw InputError("site: requires sun-irradiance, in W/m2");
+  }
+  if (given.count("up") == 0) {
+    throw InputError("the sun: its azimuth and elevation require a vertical, up");
+  }
+  const SolarPosition position =
+      place.position ? *place.position : solar_position(*place.site, place.time->utc);
+  sky.sun.direction = direction_of(position, sky.up, place.north.value_or(default_north(sky.up)));
+  sky.sun.below_horizon = position.elevation <= 0;
+  if (sky.sun.below_horizon) {
+    sky.sun.irradiance = {};
+  }
+}
+
 }  // namespace
 
 void set_dependent_defaults(RunOptions& options, const std::set<std::string>& given) {
+  place_sun(options, given);
   SolveOptions& solve = options.solve;
   if (options.paper) {
     for (const auto& [name, value] : paper_choices) {

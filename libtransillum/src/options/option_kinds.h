@@ -145,6 +145,10 @@ void flag(Option& o, Get get, bool given = true) {
   };
 }
 
+inline std::string exact_text(const Vec3& value) {
+  return fmt::format("{},{},{}", value.x, value.y, value.z);
+}
+
 inline std::string exact_text(const Rgb& value) {
   return value.r == value.g && value.g == value.b
              ? exact_text(value.r)

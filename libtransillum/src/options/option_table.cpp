@@ -35,6 +35,12 @@ void change(Option& o, MaterialChange (*from_text)(const std::string&)) {
   o.print = [](const RunOptions&) { return std::string(); };
 }
 
+/// A direction; a unit vector keeps its bits.
+Vec3 unit_vector_from_text(const std::string& text) {
+  const Vec3 direction = direction_from_text(text), given = point_from_text(text);
+  return std::abs(norm(given) - 1) < 1e-12 ? given : direction;
+}
+
 bool is_reflectance(double value) { return value >= 0 && value < 1; }
 bool is_positive(double value) { return value > 0; }
 
@@ -244,7 +250,7 @@ void add_sky(Table& t) {
     o.solve.sky.exitance = text == "none" ? Rgb{} : exitance_from_text(text);
   };
   sky.print = [](const RunOptions& o) {
-    return o.solve.sky.is_set() ? exact_text(o.solve.sky.exitance) : "none";
+    return o.solve.sky.is_bright() ? exact_text(o.solve.sky.exitance) : "none";
   };
   Option& model =
       t.add("sky-model", "NAME", "a name",
@@ -252,18 +258,75 @@ void add_sky(Table& t) {
             "bright at the zenith as at the horizon, nothing from below");
   choice(model, solve(&SolveOptions::sky, &Sky::model));
   model.lists_choices = true;
-  Option& up = t.add("up", "X,Y,Z", "a direction x,y,z", "the zenith of the sky cie-overcast");
+  Option& up =
+      t.add("up", "X,Y,Z", "a direction x,y,z",
+            "the vertical: the zenith of the sky cie-overcast, and of azimuths and elevations");
   up.json = Option::Json::numbers;
   up.reads_factors = true;  // result files have it, too
   up.parse = [](RunOptions& o, const std::string& text) {
-    const Vec3 direction = direction_from_text(text), given = point_from_text(text);
-    // A unit vector keeps its bits.
-    o.solve.sky.up = std::abs(norm(given) - 1) < 1e-12 ? given : direction;
+    o.solve.sky.up = unit_vector_from_text(text);
   };
-  up.print = [](const RunOptions& o) {
-    const Vec3& v = o.solve.sky.up;
-    return fmt::format("{},{},{}", v.x, v.y, v.z);
+  up.print = [](const RunOptions& o) { return exact_text(o.solve.sky.up); };
+}
+
+/// The sun by its direction, as files have it.
+void add_sun(Table& t) {
+  Option& direction =
+      t.add("sun-direction", "X,Y,Z", "a direction x,y,z, or none", "direction toward the sun");
+  direction.json = Option::Json::numbers;
+  direction.unset = "none";
+  direction.parse = [](RunOptions& o, const std::string& text) {
+    o.solve.sky.sun.direction = text == "none" ? Vec3{} : unit_vector_from_text(text);
   };
+  direction.print = [](const RunOptions& o) {
+    const Sun& sun = o.solve.sky.sun;
+    return sun.is_set() ? exact_text(sun.direction) : std::string("none");
+  };
+  Option& irradiance = t.add("sun-irradiance", "W[,W,W]", "one number or three, W/m2, or none",
+                             "irradiance by the sun of a plane perpendicular to its direction, in "
+                             "W/m2");
+  irradiance.json = Option::Json::numbers;
+  irradiance.zero_is_unset = true;
+  irradiance.unset = "none";
+  irradiance.default_text = "no sun";
+  irradiance.parse = [](RunOptions& o, const std::string& text) {
+    o.solve.sky.sun.irradiance = text == "none" ? Rgb{} : exitance_from_text(text);
+  };
+  irradiance.print = [](const RunOptions& o) {
+    const Sun& sun = o.solve.sky.sun;
+    return sun.is_set() ? exact_text(sun.irradiance) : std::string("none");
+  };
+  flag(t.add("sun-disc", "", "yes or no",
+             "the sun is a disc of 0.53 degrees: shadows have a penumbra"),
+       solve(&SolveOptions::sky, &Sky::sun, &Sun::disc));
+}
+
+/// The sun by angles, or by place and time. Files have the direction that results.
+void add_sun_place(Table& t) {
+  const std::size_t first = t.list.size();
+  t.common("sun", "AZ,EL,W[,W,W]", "azimuth, elevation and irradiance",
+           "the sun: azimuth in degrees clockwise from north, elevation above the horizon, and "
+           "irradiance of a plane perpendicular to its direction, in W/m2; requires --up")
+      .parse = [](RunOptions& o, const std::string& text) {
+    const auto [position, irradiance] = sun_from_text(text);
+    o.sun.position = position;
+    o.solve.sky.sun.irradiance = irradiance;
+  };
+  t.add("site", "LAT,LON", "latitude and longitude in degrees",
+        "the sun as seen from this place at a time; north and east are positive; requires --up")
+      .parse = [](RunOptions& o, const std::string& text) { o.sun.site = site_from_text(text); };
+  t.add("time", "TIME", "a time with its zone",
+        "time in ISO 8601 with a zone, such as 2026-06-21T14:00+02:00, for --site")
+      .parse = [](RunOptions& o, const std::string& text) { o.sun.time = time_from_text(text); };
+  Option& north = t.add("north", "X,Y,Z", "a direction x,y,z", "direction toward the north");
+  north.default_text = "0,1,0; where up is along y, 0,0,-1";
+  north.parse = [](RunOptions& o, const std::string& text) {
+    o.sun.north = direction_from_text(text);
+  };
+  for (std::size_t k = first; k < t.list.size(); ++k) {
+    t.list[k].in_files = false;
+    t.list[k].print = [](const RunOptions&) { return std::string(); };
+  }
 }
 
 void add_patches(Table& t) {
@@ -446,6 +509,10 @@ std::vector<Option> all_options() {
   add_equations(table);
   add_accuracy(table);
   add_sky(table);
+  const std::size_t sun = table.list.size();
+  add_sun(table);
+  add_sun_place(table);
+  table.mark(sun, &Option::reads_factors);
   add_patches(table);
   add_reading(table);
   add_machine(table);

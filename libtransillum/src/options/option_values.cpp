@@ -101,6 +101,30 @@ Rgb exitance_from_text(const std::string& text) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+std::pair<SolarPosition, Rgb> sun_from_text(const std::string& text) {
+  const std::vector<double> numbers = numbers_in(text);
+  if (numbers.size() != 3 && numbers.size() != 5) {
+    refuse(text, "AZ,EL,W or AZ,EL,W,W,W, finite numbers");
+  }
+  if (std::abs(numbers[1]) > 90) {
+    refuse(text, "AZ,EL,W with an elevation from -90 to 90 degrees");
+  }
+  const std::size_t step = numbers.size() == 5 ? 1 : 0;
+  const Rgb irradiance{numbers[2], numbers[2 + step], numbers[2 + 2 * step]};
+  if (std::min({irradiance.r, irradiance.g, irradiance.b}) < 0) {
+    refuse(text, "AZ,EL,W with an irradiance of at least 0");
+  }
+  return {{numbers[0], numbers[1]}, irradiance};
+}
+
+Site site_from_text(const std::string& text) {
+  const std::vector<double> numbers = numbers_in(text);
+  if (numbers.size() != 2 || std::abs(numbers[0]) > 90 || std::abs(numbers[1]) > 180) {
+    refuse(text, "LAT,LON, a latitude from -90 to 90 and a longitude from -180 to 180 degrees");
+  }
+  return {numbers[0], numbers[1]};
+}
+
 std::uint64_t memory_size_from_text(const std::string& text) {
   std::string_view digits = text;
   int shift = 0;

@@ -6,7 +6,9 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
+#include "transillum/sun.h"
 #include "transillum/vec3.h"
 
 namespace transillum {
@@ -23,6 +25,10 @@ Vec3 point_from_text(const std::string& text);
 Vec3 direction_from_text(const std::string& text);
 /// E or E,E,E: an exitance of at least 0 for all channels, or for each, W/m².
 Rgb exitance_from_text(const std::string& text);
+/// AZ,EL,W or AZ,EL,W,W,W: a position of the sun and its irradiance, W/m².
+std::pair<SolarPosition, Rgb> sun_from_text(const std::string& text);
+/// LAT,LON: a place, in degrees.
+Site site_from_text(const std::string& text);
 /// A size in bytes: a number, optionally followed by K, M, G or T (powers of 1024).
 std::uint64_t memory_size_from_text(const std::string& text);
 

@@ -32,7 +32,13 @@ bool draws_random_numbers(const RunOptions& run) {
 bool has_goal(const RunOptions& run) { return run.solve.goal.is_set(); }
 bool has_accuracy(const RunOptions& run) { return run.solve.goal.accuracy > 0; }
 bool has_no_goal(const RunOptions& run) { return !has_goal(run); }
-bool has_sky(const RunOptions& run) { return run.solve.sky.is_set(); }
+bool has_sky(const RunOptions& run) { return run.solve.sky.is_bright(); }
+bool has_sun(const RunOptions& run) {
+  return run.solve.sky.sun.is_set() || run.solve.sky.sun.below_horizon;
+}
+bool has_direction(const RunOptions& run) { return !(run.solve.sky.sun.direction == Vec3{}); }
+bool has_sun_place(const RunOptions& run) { return run.sun.position || run.sun.site; }
+bool has_site(const RunOptions& run) { return run.sun.site.has_value(); }
 bool is_semi_iterative(const RunOptions& run) {
   return traits_of(run.solve.scheme).renews_directions;
 }
@@ -69,6 +75,11 @@ constexpr Use uses[] = {
     {"points", takes_points, "used only with engine pairs and with a first shot"},
     {"order", takes_order, "used only with engine painter"},
     {"sky-model", has_sky, "used only with a sky"},
+    {"sun-direction", has_sun, "used only with sun-irradiance"},
+    {"sun-irradiance", has_direction, "used only with a direction or site of the sun"},
+    {"sun-disc", has_sun, "used only with a sun"},
+    {"time", has_site, "used only with site"},
+    {"north", has_sun_place, "used only with an azimuth or site of the sun"},
     {"burn-in", is_semi_iterative, "used only with scheme semi-iterative"},
     {"tolerance", stops_by_tolerance, "not used with a given number of iterations"},
     {"refine-until", has_rounds, "used only with --refine-by"},

@@ -137,7 +137,7 @@ HitLight::HitLight(const Solution& solution, const EmbreeScene& embree, const Pl
       embree_(embree),
       points_(points),
       lamps_(lamps),
-      has_gathered_sources_(solution.sky.is_set() || lamps.gathered_part() > least_gathered),
+      has_gathered_sources_(solution.sky.is_bright() || lamps.gathered_part() > least_gathered),
       is_lamp_(scene_.patches().size(), 0),
       bases_(linear_bases(scene_)),
       light_(scene_.patches().size()),

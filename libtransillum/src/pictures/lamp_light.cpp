@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "pictures/surface_rays.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
 
@@ -85,10 +86,16 @@ Rgb reflectance_of(const Solution& solution, PatchId patch) {
                          : diffuse;
 }
 
-LampLight::LampLight(const Solution& solution, const Cancellation& cancellation)
+LampLight::LampLight(const Solution& solution, const EmbreeScene& embree,
+                     const Cancellation& cancellation)
     : scene_(solution.scene),
+      embree_(embree),
+      sun_irradiance_(solution.sky.sun.irradiance),
       finder_(*scene_, cancellation),
       lamps_(finder_.lamps(emitting_patches(*scene_))) {
+  if (solution.sky.sun.is_set()) {
+    sun_rays_ = rays_of(solution.sky.sun);
+  }
   // Parts of one patch stay together.
   std::map<PatchId, Face> faces;
   for (const LampPolygon& lamp : lamps_) {
@@ -149,7 +156,20 @@ Rgb LampLight::at_point(PatchId patch, const Vec3& x, const Cancellation& cancel
       sum += own->form_factor(scaled, normal, tick) * view.lamp->exitance;
     }
   }
-  return sum;
+  return sun_rays_.empty() ? sum : sum + sun_fraction(patch, x) * sun_irradiance_;
+}
+
+double LampLight::sun_fraction(PatchId patch, const Vec3& x) const {
+  const Vec3& normal = scene_->patch(patch).normal;
+  const Vec3 start = start_of_rays(embree_, x, normal);
+  double fraction = 0;
+  for (const SunRay& ray : sun_rays_) {
+    const double cosine = dot(normal, ray.direction);
+    if (cosine > 0 && met_by(embree_, start, ray.direction).patch == no_patch) {
+      fraction += ray.weight * cosine;
+    }
+  }
+  return fraction;
 }
 
 }  // namespace transillum

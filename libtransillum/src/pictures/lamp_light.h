@@ -8,8 +8,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "radiosity/sun_light.h"
 #include "transillum/cancellation.h"
 #include "transillum/solution.h"
+#include "visibility/embree/embree_scene.h"
 #include "visibility/pairs/patch_exchange.h"
 
 namespace transillum {
@@ -17,23 +19,23 @@ namespace transillum {
 /// The fraction that a patch reflects, by its lobe too if the solve has lobes.
 Rgb reflectance_of(const Solution& solution, PatchId patch);
 
-/// The light of lamps at points of surfaces: the visible part of each lamp in closed form. Lamps
-/// are emitting faces: the most powerful, and where there are many, those that are brighter than
-/// what reflects.
+/// The light of lamps and of the sun at points of surfaces: the visible part of each lamp in closed
+/// form, the sun by rays toward it. Lamps are emitting faces: the most powerful, and where there
+/// are many, those that are brighter than what reflects.
 ///
 /// Threads: any number may query.
 class LampLight {
  public:
-  /// Keeps the scene of `solution` alive.
+  /// Keeps the scene of `solution` alive, and a reference to `embree`.
   /// @throws Canceled
-  LampLight(const Solution& solution, const Cancellation& cancellation);
+  LampLight(const Solution& solution, const EmbreeScene& embree, const Cancellation& cancellation);
 
   /// The patches whose exitance it treats, ascending.
   const std::vector<PatchId>& patches() const { return patches_; }
   /// Number of emitting faces that are none of them, and their part of all power.
   int gathered_count() const { return gathered_count_; }
   double gathered_part() const { return gathered_part_; }
-  /// Irradiance by all lamps at a point of a patch, W/m².
+  /// Irradiance by all lamps and the sun at a point of a patch, W/m².
   /// @param x on the patch, m
   /// @throws Canceled
   Rgb at_point(PatchId patch, const Vec3& x, const Cancellation& cancellation) const;
@@ -49,7 +51,13 @@ class LampLight {
 
   Views& views_of(PatchId patch, const Cancellation& cancellation) const;
 
+  /// The part of the sun's irradiance that arrives.
+  double sun_fraction(PatchId patch, const Vec3& x) const;
+
   std::shared_ptr<const Scene> scene_;
+  const EmbreeScene& embree_;
+  Rgb sun_irradiance_;
+  std::vector<SunRay> sun_rays_;  ///< empty without a sun
   ExchangeFinder finder_;
   std::vector<LampPolygon> lamps_;
   std::vector<PatchId> patches_;

@@ -43,7 +43,7 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
         is_interpolated(gather == 0),
         embree(scene, cancellation),
         points(scene, cancellation),
-        lamps(*solution, cancellation),
+        lamps(*solution, embree, cancellation),
         hits(*solution, embree, points, lamps),
         gathered(*solution, embree, hits, gather > 0 ? gather : interpolated_rays(scene)),
         interpolated(scene, points, gathered, lamps),

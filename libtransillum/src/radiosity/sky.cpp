@@ -44,6 +44,7 @@ void Sky::validate() const {
   if (!is_finite(up) || std::abs(norm(up) - 1) > 1e-9) {
     throw InputError(fmt::format("up: the vector {} {} {} is not a unit vector", up.x, up.y, up.z));
   }
+  sun.validate();
 }
 
 }  // namespace transillum

@@ -90,6 +90,13 @@ class ResultReader {
     const std::vector<std::string> model = strings("sky_model");
     sky.exitance = {e[0], e[1], e[2]};
     sky.up = {up[0], up[1], up[2]};
+    if (file_.has("FieldData", "sun_irradiance")) {
+      const std::vector<double> w = file_.numbers("FieldData", "sun_irradiance", 3, 1);
+      const std::vector<double> d = file_.numbers("FieldData", "sun_direction", 3, 1);
+      sky.sun = {{w[0], w[1], w[2]},
+                 {d[0], d[1], d[2]},
+                 file_.numbers("FieldData", "sun_disc", 1, 1).front() != 0};
+    }
     try {
       sky.model = from_name<SkyModel>(model.empty() ? "" : model.front());
       sky.validate();

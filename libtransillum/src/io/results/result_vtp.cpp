@@ -99,7 +99,7 @@ void add_vector(VtpArrays& fields, const char* name, const Vec3& vector) {
   add_array(fields, name, std::vector{vector.x, vector.y, vector.z}, VtpEntries::vectors);
 }
 
-/// The sky, where there is one.
+/// Sky and sun, where there is one.
 void add_sky(VtpArrays& fields, const Sky& sky) {
   if (!sky.is_set()) {
     return;
@@ -107,6 +107,11 @@ void add_sky(VtpArrays& fields, const Sky& sky) {
   add_colors(fields, "sky_exitance", 1, [&](PatchId) { return sky.exitance; });
   add_field(fields, "sky_model", name_of(sky.model));
   add_vector(fields, "sky_up", sky.up);
+  if (sky.sun.is_set()) {
+    add_colors(fields, "sun_irradiance", 1, [&](PatchId) { return sky.sun.irradiance; });
+    add_vector(fields, "sun_direction", sky.sun.direction);
+    add_field(fields, "sun_disc", sky.sun.disc ? 1.0 : 0.0);
+  }
 }
 
 /// Adds the options, statistics and error estimate of the solve as field data, for the viewer.

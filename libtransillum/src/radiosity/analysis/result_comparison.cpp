@@ -74,19 +74,28 @@ bool knows_sky(const Solution& solution) {
 /// Whether two skies give the same light.
 bool are_same(const Sky& one, const Sky& other) {
   return one.exitance == other.exitance &&
-         (!one.is_set() ||
-          (one.model == other.model && (one.model == SkyModel::uniform || one.up == other.up)));
+         (!one.is_set() || (one.sun == other.sun && one.model == other.model &&
+                            (one.model == SkyModel::uniform || one.up == other.up)));
 }
 
 std::string text_of(const Sky& sky) {
   if (!sky.is_set()) {
     return "none";
   }
+  const Sun& sun = sky.sun;
+  const std::string of_sun =
+      sun.is_set() ? fmt::format("a sun of {} W/m2 from {} {} {}{}", text_of(sun.irradiance),
+                                 sun.direction.x, sun.direction.y, sun.direction.z,
+                                 sun.disc ? ", a disc" : "")
+                   : "";
+  if (!sky.is_bright()) {
+    return of_sun;
+  }
   std::string text = fmt::format("a sky of {} W/m2, {}", text_of(sky.exitance), name_of(sky.model));
   if (sky.model != SkyModel::uniform) {
     text += fmt::format(", up {} {} {}", sky.up.x, sky.up.y, sky.up.z);
   }
-  return text;
+  return sun.is_set() ? text + " and " + of_sun : text;
 }
 
 }  // namespace

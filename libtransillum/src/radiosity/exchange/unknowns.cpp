@@ -6,7 +6,7 @@
 
 namespace transillum {
 
-Unknowns::Unknowns(const Scene& scene, Basis basis, const DirectLight& shot)
+Unknowns::Unknowns(const Scene& scene, Basis basis, const DirectLight& shot, const SunLight& sun)
     : per_patch(basis == Basis::linear ? 3 : 1) {
   const bool is_shot = !shot.sources.empty();
   if (per_patch > 1 && is_shot && shot.linear_terms.empty()) {
@@ -17,7 +17,7 @@ Unknowns::Unknowns(const Scene& scene, Basis basis, const DirectLight& shot)
   exitance.reserve(all);
   reflectance.reserve(all);
   shot_exitance.reserve(all);
-  shot_irradiance.reserve(all);
+  given_irradiance.reserve(all);
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     for (std::size_t a = 0; a < per_patch; ++a) {
       area.push_back(scene.patch(i).area);
@@ -25,11 +25,21 @@ Unknowns::Unknowns(const Scene& scene, Basis basis, const DirectLight& shot)
       reflectance.push_back(scene.reflectance(i));
       shot_exitance.push_back(a == 0 ? at(shot.exitance, i) : Rgb{});
     }
-    shot_irradiance.push_back(at(shot.irradiance, i));
+    given_irradiance.push_back(at(shot.irradiance, i));
     if (per_patch > 1) {
       const LinearTerm part = is_shot ? at(shot.linear_terms, i) : LinearTerm();
-      shot_irradiance.insert(shot_irradiance.end(), {part.first, part.second});
+      given_irradiance.insert(given_irradiance.end(), {part.first, part.second});
     }
+  }
+  for (std::size_t i = 0; i < sun.irradiance.size(); ++i) {
+    sun_irradiance.push_back(sun.irradiance[i]);
+    if (per_patch > 1) {
+      const LinearTerm& part = sun.linear_terms[i];
+      sun_irradiance.insert(sun_irradiance.end(), {part.first, part.second});
+    }
+  }
+  for (std::size_t u = 0; u < sun_irradiance.size(); ++u) {
+    given_irradiance[u] += sun_irradiance[u];
   }
 }
 

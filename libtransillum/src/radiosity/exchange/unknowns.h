@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "radiosity/reflected_light.h"
+#include "radiosity/sun_light.h"
 #include "transillum/first_shot.h"
 #include "transillum/scene.h"
 #include "transillum/solution.h"
@@ -17,16 +18,18 @@ namespace transillum {
 /// The numbers that a solve computes: B_i of every patch, or with Basis::linear the coefficients
 /// b_ia of its functions, as unknown 3 i + a. What is the same for all functions of a patch is
 /// given for each of them, so that one equation serves both bases:
-///   b_u = e_u + rho_u (h_u of the shot + 4 / (M A_u) sum_d sum_v T(u,v,omega_d) b_v).
+///   b_u = e_u + rho_u (h_u of the shot and the sun + 4 / (M A_u) sum_d sum_v T(u,v,omega_d) b_v).
 struct Unknowns {
-  std::size_t per_patch;                            ///< 1, or 3
-  std::vector<double> area;                         ///< measure of its patch: ∫ phi_a², m²
-  std::vector<Rgb> exitance;                        ///< E_i for phi_0, 0 for the others
-  std::vector<Rgb> reflectance;                     ///< reflectance of its patch
-  std::vector<Rgb> shot_exitance, shot_irradiance;  ///< DirectLight's
+  std::size_t per_patch;              ///< 1, or 3
+  std::vector<double> area;           ///< measure of its patch: ∫ phi_a², m²
+  std::vector<Rgb> exitance;          ///< E_i for phi_0, 0 for the others
+  std::vector<Rgb> reflectance;       ///< reflectance of its patch
+  std::vector<Rgb> shot_exitance;     ///< DirectLight's
+  std::vector<Rgb> sun_irradiance;    ///< SunLight's; empty without a sun
+  std::vector<Rgb> given_irradiance;  ///< of the first shot and the sun
 
   /// @throws InputError where functions are linear and `shot` has no linear terms
-  Unknowns(const Scene& scene, Basis basis, const DirectLight& shot);
+  Unknowns(const Scene& scene, Basis basis, const DirectLight& shot, const SunLight& sun = {});
 
   std::size_t count() const { return area.size(); }
   ReflectedLight light() const { return {exitance, per_patch}; }

@@ -18,7 +18,9 @@
 #include "radiosity/linear_solution.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
+#include "radiosity/sun_light.h"
 #include "radiosity/two_sided.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/study.h"
 
@@ -72,7 +74,7 @@ std::vector<double> row_sums(const FormFactors& form_factors, std::size_t per_pa
 /// Sets the values that are sums over rows of F: closure, escaped, energy and rho_max.
 /// @param sums of row_sums()
 void add_power(const Scene& scene, const std::vector<double>& sums,
-               const JacobiIteration& iteration, SolveStatistics& statistics) {
+               const JacobiIteration& iteration, const SunLight& sun, SolveStatistics& statistics) {
   const std::size_t per_patch = sums.size() / std::max<std::size_t>(1, scene.patches().size());
   double area = 0, visible = 0, outside = 0, previous = 0;
   Rgb received, sent, absorbed, emitted;
@@ -97,6 +99,9 @@ void add_power(const Scene& scene, const std::vector<double>& sums,
     }
     absorbed += own * ((Rgb{1, 1, 1} - scene.reflectance(i)) * iteration.h[row]);
     emitted += own * scene.exitance(i);
+    if (!sun.irradiance.empty()) {
+      emitted += own * at(sun.irradiance, i);
+    }
     statistics.rho_max = std::max(statistics.rho_max, max_abs(scene.reflectance(i)));
   }
   statistics.escaped = area > 0 ? std::max(0.0, 1 - (visible + outside) / area) : 0.0;
@@ -114,6 +119,8 @@ Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
   const auto start = Clock::now();
   JacobiIteration iteration(*scene, form_factors, scene->materials(), options.threads, {},
                             per_patch);
+  const SunLight sun = sun_light(scene, nullptr, options, cancellation);
+  iteration.add_sky(sun.irradiance, sun.linear_terms);
   iteration.run(options.iterations > 0 ? options.iterations : JacobiIteration::max_iterations,
                 options.iterations > 0 ? 0 : options.tolerance, cancellation);
   statistics.seconds_iterate = seconds_since(start);
@@ -122,7 +129,10 @@ Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
   for (const double sum : solution.form_factor_sums) {
     solution.sky_fractions.push_back(std::max(0.0, 1 - sum));
   }
-  add_power(*scene, sums, iteration, statistics);
+  add_power(*scene, sums, iteration, sun, statistics);
+  solution.sky = options.sky;
+  solution.sky_irradiance = sun.irradiance;
+  solution.sky_linear_terms = sun.linear_terms;
   if (per_patch > 1) {
     solution.linear_terms = linear_terms_of(iteration.b);
   }
@@ -151,7 +161,7 @@ void refuse_directions(const SolveOptions& options, const std::string& who) {
                      " no directions, and therefore no schemes, normalizations, replicas or "
                      "first shot");
   }
-  if (options.sky.is_set()) {
+  if (options.sky.is_bright()) {
     throw InputError(who + " no directions, and cannot tell the sky from the backs of patches");
   }
 }

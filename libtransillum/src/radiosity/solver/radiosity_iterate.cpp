@@ -25,7 +25,7 @@ RadiosityIterate::RadiosityIterate(const Unknowns& unknowns, const SolveOptions&
       two_way_(options.two_way),
       normalization_(options.normalize),
       sky_(options.sky),
-      h_(unknowns.shot_irradiance) {
+      h_(unknowns.given_irradiance) {
   const std::size_t count = unknowns.count();
   b_.resize(count);
   unshot_.resize(count);
@@ -34,7 +34,7 @@ RadiosityIterate::RadiosityIterate(const Unknowns& unknowns, const SolveOptions&
   }
   gathered_.resize(count);
   projected_.resize(count);
-  sky_areas_.resize(sky_.is_set() ? count : 0);
+  sky_areas_.resize(sky_.is_bright() ? count : 0);
 }
 
 void RadiosityIterate::start_from(const Rgb& gathered) {
@@ -216,6 +216,11 @@ double RadiosityIterate::sky_fraction(std::size_t u, double uncovered, double pr
 }
 
 Rgb RadiosityIterate::sky_irradiance(std::size_t u) const {
+  return unknowns_.sun_irradiance.empty() ? gathered_sky(u)
+                                          : gathered_sky(u) + unknowns_.sun_irradiance[u];
+}
+
+Rgb RadiosityIterate::gathered_sky(std::size_t u) const {
   if (sky_areas_.empty() || passes_ == 0) {
     return {};
   }
@@ -224,7 +229,7 @@ Rgb RadiosityIterate::sky_irradiance(std::size_t u) const {
 
 Rgb RadiosityIterate::gathered_irradiance(std::size_t u) const {
   const Rgb from_patches = row_scale(u) * gathered_[u];
-  return sky_areas_.empty() ? from_patches : from_patches + sky_irradiance(u);
+  return sky_areas_.empty() ? from_patches : from_patches + gathered_sky(u);
 }
 
 Rgb RadiosityIterate::estimate(std::size_t u) const {
@@ -232,7 +237,7 @@ Rgb RadiosityIterate::estimate(std::size_t u) const {
 }
 
 Rgb RadiosityIterate::irradiance(std::size_t u, const Rgb& gathered) const {
-  return unknowns_.shot_irradiance[u] + gathered;
+  return unknowns_.given_irradiance[u] + gathered;
 }
 
 Rgb RadiosityIterate::radiosity(std::size_t u, const Rgb& irradiance) const {
@@ -294,7 +299,7 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
     }
   };
   std::vector<double> weights(patches), emitted(patches), unknown(patches), weighted(patches);
-  std::vector<Rgb> result(patches), given = unknowns_.shot_irradiance;
+  std::vector<Rgb> result(patches), given = unknowns_.given_irradiance;
   for (std::size_t i = 0; i < kept_sky_areas_.size(); ++i) {
     given[i] +=
         (sky_scale(i, kept_projected_[i], kept_passes_) * kept_sky_areas_[i]) * sky_.exitance;

@@ -22,7 +22,7 @@ class RadiosityIterate {
  public:
   /// Keeps a reference to `unknowns`. The light of the first shot is added to H, and the exitance
   /// that it covers is not gathered again:
-  ///   B_i = E_i + rho_i (H_i of the shot + H_i of the sky + sum_j F_ij (B_j - E_j shot)).
+  ///   B_i = E_i + rho_i (H_i of the shot + H_i of sky and sun + sum_j F_ij (B_j - E_j shot)).
   /// @param share passes are gathered for its patches; after them complete() must be called
   RadiosityIterate(const Unknowns& unknowns, const SolveOptions& options,
                    const OwnedPatches& owned);
@@ -37,7 +37,7 @@ class RadiosityIterate {
   int passes() const { return passes_; }  ///< passes of the iteration under way
 
   /// Sets B to what follows if every patch gathers the irradiance `gathered`, in addition to the
-  /// irradiance of the first shot, W/m².
+  /// irradiance of the first shot and the sun, W/m².
   void start_from(const Rgb& gathered);
   /// Sets B to the B of `other`.
   void start_from(const RadiosityIterate& other);
@@ -71,7 +71,7 @@ class RadiosityIterate {
   /// The share of what leaves the patch of u that escapes.
   /// @param uncovered, projected, passes as in VisibleAreaSums
   double sky_fraction(std::size_t u, double uncovered, double projected, int passes) const;
-  /// Irradiance of u from the sky in the passes so far, W/m².
+  /// Irradiance of u from the sky in the passes so far, and from the sun, W/m².
   Rgb sky_irradiance(std::size_t u) const;
   /// Power sent by the part of B that is gathered, in the unit of gathered().
   /// @param column_areas as in VisibleAreaSums, unscaled
@@ -101,7 +101,9 @@ class RadiosityIterate {
  private:
   /// H from what is gathered, the sky included, and B from H.
   Rgb irradiance(std::size_t u, const Rgb& gathered) const;
-  /// Irradiance of u from patches and sky, W/m².
+  /// Irradiance of u from the sky without the sun in the passes so far, W/m².
+  Rgb gathered_sky(std::size_t u) const;
+  /// Irradiance of u from patches and sky, without the sun, W/m².
   Rgb gathered_irradiance(std::size_t u) const;
   Rgb radiosity(std::size_t u, const Rgb& irradiance) const;
   void set_radiosity(std::size_t u, const Rgb& b);

@@ -94,7 +94,8 @@ void SolverInput::prepare() {
   if (!engine) {
     engine = make_engine(options.engine, scene, tree, used_engine_options(options));
   }
-  unknowns = std::make_shared<const Unknowns>(*scene, options.basis, *shot);
+  sun = sun_light(scene, tree, options, requested);
+  unknowns = std::make_shared<const Unknowns>(*scene, options.basis, *shot, sun);
 }
 
 }  // namespace transillum

@@ -6,6 +6,7 @@
 
 #include "radiosity/exchange/owned_patches.h"
 #include "radiosity/exchange/unknowns.h"
+#include "radiosity/sun_light.h"
 #include "transillum/radiosity_solver.h"
 #include "transillum/solve_options.h"
 
@@ -33,6 +34,7 @@ struct SolverInput {
   int threads = 1;                          ///< options.threads, or the number of cores
   std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
   std::shared_ptr<const BspTree> tree;
+  SunLight sun;  ///< empty without a sun
   TransferEngine engine;
   std::shared_ptr<PatchSums> sums;  ///< where they are kept
   Cancellation cancellation;        ///< PatchSums::own() of `requested`

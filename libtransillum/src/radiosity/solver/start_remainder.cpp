@@ -78,7 +78,8 @@ void StartRemainder::start(const RadiosityIterate& whole) {
              (scene.exitance(i) - at(input_.shot->exitance, i) + scene.reflectance(i) * shot);
     area += scene.patch(i).area;
   }
-  gathered = max_of(gathered, (1 / area) * power + input_.options.sky.exitance);
+  gathered = max_of(gathered, (1 / area) * power + input_.options.sky.exitance +
+                                  input_.options.sky.sun.irradiance);
   gathered = {gathered.r / (1 - rho_max_.r), gathered.g / (1 - rho_max_.g),
               gathered.b / (1 - rho_max_.b)};
   make_upper();
