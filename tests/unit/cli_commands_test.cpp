@@ -42,8 +42,9 @@ TEST(CliHelp, EveryCommandHasHelpWithAnExample) {
        {"solve", "transfers", "map", "directions", "info", "sphere-flake", "rooms"}) {
     EXPECT_THAT(all.out, HasSubstr(word));
   }
-  for (const char* command : {"scene", "solve", "transfers", "map", "factors", "directions",
-                              "bounds", "study", "compare", "info", "merge", "picture"}) {
+  for (const char* command :
+       {"scene", "solve", "transfers", "map", "factors", "directions", "bounds", "study", "compare",
+        "info", "merge", "picture", "shading"}) {
     const ProgramResult result = run_program({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example: transillum " + std::string(command)));

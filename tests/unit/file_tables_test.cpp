@@ -137,6 +137,7 @@ class FileTables : public ::testing::Test {
     options_.directions = 16;
     options_.replicas = 2;
     options_.sky.exitance = {1, 1, 1};
+    options_.sky.sun = {{1, 1, 1}, {0, 0, 1}};
   }
 
   TemporaryFolder folder_;

@@ -141,6 +141,32 @@ RunOptions defaults_with(const std::vector<std::pair<const char*, const char*>>&
   return run;
 }
 
+/// Angles become a direction, once the vertical is known; that is what files and commands have.
+TEST(OptionTable, PlacesTheSunByItsAzimuth) {
+  const RunOptions run = defaults_with({{"sun", "90,0.001,800"}, {"up", "0,0,1"}});
+  EXPECT_NEAR(run.solve.sky.sun.direction.x, 1, 1e-9);
+  EXPECT_EQ(option("sun-irradiance").print(run), "800");
+  EXPECT_EQ(differences_from_default(run).size(), 2U);
+  const RunOptions night =
+      defaults_with({{"sun", "90,-1,800"}, {"up", "0,0,1"}, {"north", "1,0,0"}});
+  EXPECT_FALSE(night.solve.sky.is_set());
+  EXPECT_EQ(night.solve.why_dark(false), "");
+  EXPECT_THAT(test::refusal([] {
+                defaults_with({{"sun", "90,30,800"}});
+              }),
+              HasSubstr("require a vertical"));
+  EXPECT_THAT(test::refusal([] {
+                defaults_with({{"site", "52,13"}, {"up", "0,0,1"}});
+              }),
+              HasSubstr("requires a time"));
+  for (const char* text : {"90,30", "90,91,800", "90,30,-1", "90,30,1,2"}) {
+    EXPECT_THAT(test::refusal([=] {
+                  defaults_with({{"sun", text}, {"up", "0,0,1"}});
+                }),
+                HasSubstr("is not AZ,EL,W"));
+  }
+}
+
 TEST(OptionTable, WithoutDirectionsAnAccuracyIsTheDefault) {
   const AccuracyGoal goal = defaults_with({}).solve.goal;
   EXPECT_EQ(goal.accuracy, 0.01);

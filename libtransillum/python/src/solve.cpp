@@ -119,9 +119,26 @@ py::tuple to_arrays(const FormFactors& f) {
 
 py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
                        const py::object& progress) {
-  refuse(keywords,
-         {"accuracy", "accuracy_of", "seconds", "iterations", "tolerance", "scheme", "burn_in",
-          "first_shot", "basis", "glossy", "sky", "sky_model", "up"},
+  refuse(keywords, {"accuracy",
+                    "accuracy_of",
+                    "seconds",
+                    "iterations",
+                    "tolerance",
+                    "scheme",
+                    "burn_in",
+                    "first_shot",
+                    "basis",
+                    "glossy",
+                    "sky",
+                    "sky_model",
+                    "up",
+                    "sun",
+                    "site",
+                    "time",
+                    "north",
+                    "sun_direction",
+                    "sun_irradiance",
+                    "sun_disc"},
          true, "form_factors()");
   SolveOptions options = options_from(keywords, Goal::none);
   options.first_shot.reset();

@@ -280,7 +280,8 @@ void add_sun(Table& t) {
   };
   direction.print = [](const RunOptions& o) {
     const Sun& sun = o.solve.sky.sun;
-    return sun.is_set() ? exact_text(sun.direction) : std::string("none");
+    const bool has_direction = sun.is_set() && !(sun.direction == Vec3{});
+    return has_direction ? exact_text(sun.direction) : std::string("none");
   };
   Option& irradiance = t.add("sun-irradiance", "W[,W,W]", "one number or three, W/m2, or none",
                              "irradiance by the sun of a plane perpendicular to its direction, in "

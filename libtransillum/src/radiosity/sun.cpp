@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <libnova/julian_day.h>
+#include <libnova/sidereal_time.h>
 #include <libnova/solar.h>
 #include <libnova/transform.h>
 
@@ -26,11 +27,20 @@ constexpr double parallax = 8.794 / 3600;
 /// Terrestrial time minus universal time, s: 29 in 1950, 69 in 2020. The sun moves 0.0008° in
 /// 69 s.
 constexpr double terrestrial_minus_universal = 60;
+/// How much the motion of the earth moves the sun, degrees.
+constexpr double aberration = 20.4898 / 3600;
 constexpr double seconds_per_day = 86400, julian_day_of_1970 = 2440587.5;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
   throw InputError(
       fmt::format("\"{}\" is not a time such as 2026-06-21T14:00+02:00: {}", text, why));
+}
+
+/// Precession in longitude since the equinox of 2000, degrees, of a Julian day: libnova leaves it
+/// out, as it does aberration.
+double since_2000(double julian_day) {
+  const double centuries = (julian_day - 2451545) / 36525;
+  return (5028.796195 * centuries + 1.1054348 * centuries * centuries) / 3600;
 }
 
 int number(const std::ssub_match& match) { return match.matched ? std::stoi(match.str()) : 0; }
@@ -104,11 +114,16 @@ std::string local_text(const ZonedTime& time) {
 
 SolarPosition solar_position(const Site& site, double utc) {
   const double universal = julian_day_of_1970 + utc / seconds_per_day;
-  ln_equ_posn of_sun{};
-  ln_get_solar_equ_coords(universal + terrestrial_minus_universal / seconds_per_day, &of_sun);
+  const double terrestrial = universal + terrestrial_minus_universal / seconds_per_day;
+  ln_lnlat_posn of_sun{};
+  ln_get_solar_ecl_coords(terrestrial, &of_sun);
+  of_sun = {of_sun.lng + since_2000(terrestrial) - aberration, 0};
+  ln_equ_posn equatorial{};
+  ln_get_equ_from_ecl(&of_sun, terrestrial, &equatorial);
   ln_lnlat_posn observer{site.longitude, site.latitude};
   ln_hrz_posn seen{};
-  ln_get_hrz_from_equ(&of_sun, &observer, universal, &seen);
+  ln_get_hrz_from_equ_sidereal_time(&equatorial, &observer,
+                                    ln_get_apparent_sidereal_time(universal), &seen);
   // libnova counts azimuths from the south, and sees the sun from the center of the earth.
   return {std::fmod(seen.az + 180, 360), seen.alt - parallax * std::cos(seen.alt * degree)};
 }
