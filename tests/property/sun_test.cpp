@@ -148,7 +148,7 @@ TEST(Sun, AStreetCanyonIsShadedByItsHouses) {
   }
 }
 
-/// What is sunlit of solids adds up, projected, to the area of their silhouette, which is the same
+/// The sunlit parts of solids add up, projected, to the area of their silhouette, which is the same
 /// from both sides, and for two boxes along the x axis a union of rectangles.
 TEST(Sun, SunlitAreaAddsUpToTheSilhouette) {
   Sketch many("many");
@@ -223,7 +223,7 @@ TEST(Sun, IsInTheBalanceOfEnergy) {
     absorbed += area * 0.4 * at(solution.irradiance, i).r;
     escaped += area * at(solution.sky_fractions, i) * at(solution.radiosity, i).r;
   }
-  // What falls into the opening, and on the block below it.
+  // The light that falls into the opening, and on the block below it.
   EXPECT_NEAR(given, 1000 * std::sin(60 * degree), 1e-9);
   EXPECT_NEAR(absorbed + escaped, given, 1e-6 * given);
 }

@@ -12,7 +12,7 @@ namespace transillum::cli {
 /// The surfaces of a table of sunlit fractions, each a set of patches.
 class ShadedSurfaces {
  public:
-  /// @param by group, face or patch; empty: group, or face in a scene without groups
+  /// @param by group, face or patch; empty chooses group, or face in a scene without groups
   ShadedSurfaces(const Scene& scene, const std::string& by);
 
   std::size_t count() const { return names_.size(); }
@@ -27,7 +27,7 @@ class ShadedSurfaces {
  private:
   std::vector<std::string> names_;
   std::vector<std::size_t> of_patch_;  ///< number of the surface, by patch
-  std::vector<double> area_;           ///< area by patch over that of its surface
+  std::vector<double> area_;           ///< area of each patch over the area of its surface
 };
 
 }  // namespace transillum::cli

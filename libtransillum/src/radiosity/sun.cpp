@@ -36,8 +36,8 @@ constexpr double seconds_per_day = 86400, julian_day_of_1970 = 2440587.5;
       fmt::format("\"{}\" is not a time such as 2026-06-21T14:00+02:00: {}", text, why));
 }
 
-/// Precession in longitude since the equinox of 2000, degrees, of a Julian day: libnova leaves it
-/// out, as it does aberration.
+/// Precession in longitude since the equinox of 2000, degrees, of a Julian day: libnova omits it
+/// and aberration.
 double since_2000(double julian_day) {
   const double centuries = (julian_day - 2451545) / 36525;
   return (5028.796195 * centuries + 1.1054348 * centuries * centuries) / 3600;

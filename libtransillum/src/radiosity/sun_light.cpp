@@ -20,7 +20,7 @@ constexpr int disc_rays = 64;
 /// The coefficients of the irradiance on one patch, per irradiance of the sun.
 using Coefficients = std::array<double, linear_unknowns>;
 
-/// What one direction brings to a patch.
+/// The light that one direction brings to a patch.
 Coefficients received(const Transfers& transfers, PatchId i, double area) {
   Coefficients found{at(transfers.forward, i).uncovered() / area};
   if (found[0] > 0 && !transfers.forward_moments.empty()) {

@@ -15,7 +15,7 @@ namespace transillum {
 /// The light of the sun on each patch, by exact passes, whatever the engine of the solve.
 struct SunLight {
   std::vector<Rgb> irradiance;           ///< W/m², one per patch; empty without a sun
-  std::vector<LinearTerm> linear_terms;  ///< of `irradiance`; empty with Basis::constant
+  std::vector<LinearTerm> linear_terms;  ///< linear parts; empty with Basis::constant
 };
 
 /// A direction, and how much of the sun's irradiance comes along it.

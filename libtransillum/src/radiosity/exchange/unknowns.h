@@ -26,7 +26,7 @@ struct Unknowns {
   std::vector<Rgb> reflectance;       ///< reflectance of its patch
   std::vector<Rgb> shot_exitance;     ///< DirectLight's
   std::vector<Rgb> sun_irradiance;    ///< SunLight's; empty without a sun
-  std::vector<Rgb> given_irradiance;  ///< of the first shot and the sun
+  std::vector<Rgb> given_irradiance;  ///< from the first shot and the sun
 
   /// @throws InputError where functions are linear and `shot` has no linear terms
   Unknowns(const Scene& scene, Basis basis, const DirectLight& shot, const SunLight& sun = {});
