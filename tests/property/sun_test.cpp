@@ -14,6 +14,7 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/form_factor_solve.h"
+#include "transillum/picture.h"
 #include "transillum/relight.h"
 #include "transillum/shading.h"
 #include "transillum/solution.h"
@@ -305,6 +306,22 @@ TEST(Sun, ADiscMakesAPenumbra) {
   EXPECT_NEAR(disc[0].r, 1000 * (1 - 2 / (3 * std::numbers::pi)), 10);
   EXPECT_NEAR(disc[1].r, 1000, 1e-6);
   EXPECT_NEAR(disc[2].r, 1000 * 2 / (3 * std::numbers::pi), 10);
+}
+
+TEST(Sun, PicturesHaveItsSharpShadows) {
+  Sketch sketch("board");
+  const int gray = sketch.material(0.5, 0);
+  add_rectangle(sketch, {-5, -5, 0}, {10, 0, 0}, {0, 10, 0}, gray);
+  add_rectangle(sketch, {0, -1, 2}, {1, 0, 0}, {0, 2, 0}, gray);
+  const Vec3 direction = toward(90, 45);  // the shadow begins at x = -2 and ends at x = -1
+  const SurfaceLight light(std::make_shared<const Solution>(
+      solve(sketch.scene(), {.directions = 8, .sky = sunny(direction)})));
+  for (const double x : {-2.01, -0.99}) {
+    EXPECT_NEAR(light.direct_irradiance(0, {x, 0.3, 0}).g, 1000 * direction.z, 1e-9) << x;
+  }
+  for (const double x : {-1.99, -1.01}) {
+    EXPECT_EQ(light.direct_irradiance(0, {x, 0.3, 0}).g, 0) << x;
+  }
 }
 
 TEST(Sun, RefusesWhatItCannotLight) {
