@@ -288,6 +288,10 @@ void MainWindow::connect_views() {
           &AlgorithmView::set_values_hidden);
   connect(lesson_panel_, &LessonPanel::enlarged, &docks_, &DockLayouts::enlarge);
   connect(lesson_panel_, &LessonPanel::sketched, map_view_->canvas(), &MapCanvas::show_sketch);
+  connect(page_->scene_view(), &SceneView::point_clicked, &lesson_panel_->question(),
+          &QuestionBox::take_surface_point);
+  connect(&lesson_panel_->question(), &QuestionBox::surface_sketched, page_->scene_view(),
+          &SceneView::show_sketch);
   connect(&state_.runner, &SolveRunner::state_changed, &lesson_panel_->question(),
           &QuestionBox::show_run);
   connect(&state_.breakpoints, &Breakpoints::changed, timeline_->lanes(),
