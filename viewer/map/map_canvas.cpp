@@ -545,10 +545,12 @@ void MapCanvas::mouseReleaseEvent(QMouseEvent* event) {
   }
   unsetCursor();
   if (!dragging_) {
+    const PatchId patch = patch_at(event->pos());
+    const PatchId clicked_patch = patch < content_.patches ? patch : no_patch;
     if (event->modifiers() & Qt::ControlModifier) {
-      selection_.toggle(patch_at(event->pos()));
+      selection_.toggle(clicked_patch);
     } else {
-      selection_.select(patch_at(event->pos()));
+      selection_.select(clicked_patch);
     }
     emit clicked(event->pos());
   }

@@ -152,7 +152,7 @@ void MainWindow::make_views() {
   settings_ = new SettingsPanel;
   summary_ = new SolveSummary;
   inspector_ = new PatchInspector(state_.focus, state_.selection, state_.colors);
-  map_view_ = new MapView(state_.focus, state_.selection, state_.colors);
+  map_view_ = new MapView(state_.focus, state_.selection, state_.colors, state_.beside);
   error_view_ = new ErrorView([this] { return page_->scene_view()->view_point(); });
   convergence_view_ = new ConvergenceView(state_.focus);
   direction_view_ =
