@@ -487,7 +487,7 @@ void MainWindow::make_file_menu() {
   QMenu* exporting = file->addMenu(tr("Export"));
   exports_->add_to(*exporting);
   recorder_->add_to(*exporting);
-  (new CommandActions(frame()))->add_to(*file);
+  (new CommandActions(frame(), *map_view_))->add_to(*file);
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
 }
