@@ -143,7 +143,7 @@ class SectionTest : public QObject {
     QVERIFY(found > 0);  // the lamp
   }
 
-  // What a browser shows at a step are the intervals of V, and the segments.
+  // A browser shows, at a step, the intervals of V and the segments.
   void a_page_in_html_has_its_section() {
     const RecordedMap map = record("flatland", slanted);
     const std::vector<Color8> colors(static_cast<std::size_t>(map.loaded->scene->patch_count()),

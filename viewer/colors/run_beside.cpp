@@ -2,7 +2,6 @@
 #include "colors/run_beside.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "support/number_text.h"
@@ -82,10 +81,7 @@ QString RunBeside::summary() const {
   if (!shown) {
     return {};
   }
-  constexpr double rounding = 1e-12;  // m²
-  const auto differs = [](const DirectionComparison::Row& row) {
-    return std::abs(row.change()) > rounding;
-  };
+  const auto differs = [](const DirectionComparison::Row& row) { return row.change() != 0; };
   const auto count = std::count_if(shown->rows.begin(), shown->rows.end(), differs);
   const Vec3& omega = shown->map->record().frame.omega;
   QString text =

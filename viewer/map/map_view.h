@@ -85,11 +85,11 @@ class MapView : public QWidget {
   /// The part of a whole direction that is drawn; not set while a step is shown, or the V of an
   /// engine.
   std::optional<Whole> shown_whole() const;
-  /// What the canvases show of a whole direction. @returns whether both are needed
+  /// Sets the content of the canvases for a whole direction. @returns whether both are needed
   bool set_whole(Whole whole, MapCanvas::Content& content, MapCanvas::Content& second) const;
   /// Whether the map of another run is, or will be, in second_.
   bool shows_beside() const;
-  /// What the two canvases show: V of the open scene, and of the run beside it.
+  /// Sets their content to V of the open scene and of the run beside it.
   void set_beside(const DirectionComparison& compared, MapCanvas::Content& open,
                   MapCanvas::Content& other) const;
   /// The canvases that are shown, and their parts of a picture of this size.

@@ -32,7 +32,7 @@ class SectionView : public QWidget {
     Section::Interval interval;
     PatchId receiver = no_patch;  ///< no_patch: on the line
   };
-  /// What is shown; empty without a direction.
+  /// The intervals shown; empty without a direction.
   std::vector<Shown> shown() const;
   /// The section shown; null without a direction.
   const Section* section() const;

@@ -74,8 +74,9 @@ void BesideView::show_state() {
   table_->setRowCount(static_cast<int>(rows));
   for (int k = 0; k < table_->rowCount(); ++k) {
     const DirectionComparison::Row& row = shown->rows[static_cast<std::size_t>(k)];
-    QStringList texts{QString::number(row.patch)};
-    for (const auto& pair : {row.seen, row.factors, row.radiosity}) {
+    QStringList texts{QString::number(row.patch), number_text(row.seen[1]),
+                      number_text(row.change())};
+    for (const auto& pair : {row.factors, row.radiosity}) {
       texts << number_text(pair[1]) << number_text(pair[1] - pair[0]);
     }
     for (int column = 0; column < table_->columnCount(); ++column) {

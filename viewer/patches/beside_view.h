@@ -12,7 +12,7 @@ class QToolButton;
 
 namespace transillum::viewer {
 
-/// What differs between a run beside the open scene and this, along the direction in focus: a
+/// The differences of the open scene from a run beside it, along the direction in focus: a
 /// sentence, and a table of patches, which can be copied.
 class BesideView : public QWidget {
   Q_OBJECT

@@ -117,8 +117,12 @@ KeptRunPanel::KeptRunPanel(ColorChoice& colors, Selection& selection, RunBeside&
   layout->addLayout(make_values());
   layout->addWidget(named("beside_view", new BesideView(beside, selection)), 1);
   connect(&runs_, &KeptRuns::changed, this, &KeptRunPanel::show_list);
-  connect(&beside_, &RunBeside::changed, this,
-          [this] { side_->setChecked(beside_.run() != nullptr); });
+  connect(&beside_, &RunBeside::changed, this, [this] {
+    const bool shown = beside_.run() != nullptr;
+    side_->setChecked(shown);
+    values_->setVisible(!shown);  // the comparison of all directions needs the room
+    go_->setVisible(!shown);
+  });
   connect(&runs_, &KeptRuns::compared_changed, this, &KeptRunPanel::show_choices);
   connect(&colors_, &ColorChoice::fitted, this, &KeptRunPanel::show_difference);
   connect(&colors_, &ColorChoice::changed, this, &KeptRunPanel::show_difference);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -27,7 +28,12 @@ struct DirectionComparison {
     std::array<double, 2> factors{};    ///< sum of its form factors
     std::array<double, 2> radiosity{};  ///< luminance of B, W/m²
 
-    double change() const { return seen[1] - seen[0]; }
+    /// The change of `seen`, m²; 0 up to rounding.
+    double change() const {
+      constexpr double rounding = 1e-12;
+      const double difference = seen[1] - seen[0];
+      return std::abs(difference) > rounding ? difference : 0;
+    }
   };
   std::shared_ptr<const RecordedMap> kept_map;  ///< of the other scene
   std::shared_ptr<const RecordedMap> map;       ///< DirectionRequest::map
