@@ -129,8 +129,9 @@ void QuestionBox::send_sketch() {
 SceneSketch QuestionBox::surface_sketch() const {
   const auto map = focus_.map();
   if (!page_ || page_->question->kind != Question::Kind::outline || !map ||
-      map->direction != page_->question->wanted.direction) {
-    return {};
+      map->direction != page_->question->wanted.direction ||
+      page_->question->wanted.patch >= map->loaded->scene->patch_count()) {
+    return {};  // perhaps still the map of another scene
   }
   const Patch& patch = map->loaded->scene->patch(page_->question->wanted.patch);
   const auto on_patch = [&](const std::vector<Vec2>& corners) {
