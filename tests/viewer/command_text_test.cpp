@@ -237,6 +237,24 @@ class CommandTextTest : public QObject {
     QVERIFY(QFileInfo(file).size() > 100);
   }
 
+  void a_copied_map_is_that_of_the_patch_whose_map_is_shown() {
+    const SolvedWindow solved("cornell-box", {.directions = 8, .first_shot = {}});
+    QVERIFY(solved.ready);
+    Focus& focus = solved.window->focus;
+    focus.go_to({0, 3, 0});
+    QVERIFY(wait_for([&] { return solved.window->settled(); }));
+    focus.show_whole();
+    solved.window->selection.select(2);
+    solved.map_view->choose_whole(MapView::Whole::patch);
+    QVERIFY(wait_for([&] { return solved.window->settled(); }));
+    const QString command = copied(solved, "copy_map");
+    QVERIFY(command.contains("--receiver 2 "));
+    const QTemporaryDir folder;
+    QVERIFY(!output_of(command + " && echo done", folder.path()).isEmpty());
+    solved.map_view->choose_whole(MapView::Whole::complete);
+    QVERIFY(!copied(solved, "copy_map").contains("--receiver"));
+  }
+
   void a_copied_command_runs_as_it_is_data() {
     QTest::addColumn<QString>("action");
     QTest::addColumn<int>("step");

@@ -60,6 +60,9 @@ class ExportsTest : public QObject {
     const QTemporaryDir folder;
     exports.write_map_picture(folder.filePath("map.svg"));
     QVERIFY(contents_of(folder.filePath("map.svg")).count("<path") > 3);
+    // Both sides, as in the window, until one steps.
+    const bool whole = !solved.window->focus.at_step();
+    QCOMPARE(contents_of(folder.filePath("map.svg")).contains(">receives, along "), whole);
     exports.write_charts(folder.filePath("charts.svg"));
     const QByteArray charts = contents_of(folder.filePath("charts.svg"));
     QVERIFY(charts.contains("<polyline") || charts.contains("<path"));

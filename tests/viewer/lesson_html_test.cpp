@@ -104,6 +104,32 @@ class LessonHtmlTest : public QObject {
     QVERIFY(!named.contains("nowhere"));
   }
 
+  // Both sides of a direction, all fragments that are not edge-on; omega's callout is at its
+  // symbol.
+  void a_whole_direction_has_both_sides() {
+    const auto scene = load_scene("cornell-box");
+    RecordedMap map;
+    map.history = MapHistory(
+        record_local_map(*scene, BspTree(*scene), normalized(Vec3{0.3, 0.8, -0.4})).record);
+    const std::vector<Color8> colors(static_cast<std::size_t>(scene->patch_count()),
+                                     Color8{1, 2, 3});
+    int fragments = 0;
+    for (std::int32_t k = 0; k < map.history.step_count(); ++k) {
+      fragments += map.history.step(k).row != MapRecord::no_row;
+    }
+    const QByteArray emits = side_svg(map, false, colors), receives = side_svg(map, true, colors);
+    QCOMPARE(count(emits, "<polygon") + count(receives, "<polygon"), fragments);
+    QVERIFY(count(emits, "<polygon") > 3 && count(receives, "<polygon") > 3);
+    const QByteArray named =
+        map_svg(map, 3, colors, false, {{"omega", Callout::Anchor::direction, no_patch, {}}});
+    static const QRegularExpression symbol(
+        "<g stroke=\"#fff\" fill=\"none\"><circle "
+        "(cx=\"[^\"]*\" cy=\"[^\"]*\")");
+    const QString place = symbol.match(QString::fromUtf8(named)).captured(1);
+    QVERIFY(!place.isEmpty());
+    QCOMPARE(named.count(place.toUtf8()), 2);  // the symbol, and the end of the callout's line
+  }
+
   void a_lesson_becomes_one_file() {
     Exported exported;
     exported.finish();

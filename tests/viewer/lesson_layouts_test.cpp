@@ -108,6 +108,12 @@ struct Room {
       case Question::Kind::area:
         require(shows(window->views().map.canvas()), "the map cannot be clicked");
         break;
+      case Question::Kind::outline:
+        require(shows(window->findChild<SceneView*>()), "the scene cannot be clicked");
+        break;
+      case Question::Kind::curve:
+        require(usable(question->findChild<QWidget*>("question_chart")), "the chart is cut");
+        break;
     }
     for (const auto* button : question->findChildren<QToolButton*>()) {
       const bool reveals = button->defaultAction() == question->actions().front();

@@ -88,6 +88,15 @@ class LessonValuesTest : public QObject {
         QVERIFY(is_right(question, solved, {.number = solved.value}));
         QVERIFY(!is_right(question, solved, {.number = 3 * solved.value}));
         break;
+      case Question::Kind::curve:
+        QCOMPARE(solved.values.size(), question.choices.size());
+        QVERIFY(std::all_of(solved.values.begin(), solved.values.end(),
+                            [](double value) { return value > 1e-4 && value < 1; }));
+        QVERIFY(is_right(question, solved, {.heights = solved.values}));
+        QVERIFY(!is_right(question, solved,
+                          {.heights = std::vector(solved.values.size(), solved.values.back())}));
+        break;
+      case Question::Kind::outline:
       case Question::Kind::area: {
         QVERIFY(solved.value > 0 && !solved.region.empty());
         GivenAnswer box;  // the bounding box of the region is not right, nor is an empty region
@@ -101,7 +110,7 @@ class LessonValuesTest : public QObject {
         const double area = (high.x - low.x) * (high.y - low.y);
         QVERIFY(std::abs(compare_areas(solved.region, {low, {high.x, low.y}, high, {low.x, high.y}})
                              .overlap -
-                         solved.value / area) < 0.02);
+                         solved.value / solved.scale / area) < 0.02);
         break;
       }
     }
@@ -180,6 +189,12 @@ class LessonValuesTest : public QObject {
         {"largest": {"figure": "radiosity", "patch": 1}}})",
         "omit the patch");
     row("no region", R"({"kind": "area", "ask": "?", "answer": {"figure": "patches"}})",
+        "visible-area");
+    row("no points", R"({"kind": "curve", "ask": "?"})", "question, choices: ");
+    row("a point is typed in", R"({"kind": "curve", "ask": "?", "choices":
+        [{"text": "1", "value": 1}, {"text": "2", "value": {"figure": "steps"}}]})",
+        "must be computed");
+    row("no outline", R"({"kind": "outline", "ask": "?", "answer": {"figure": "patches"}})",
         "visible-area");
     row("option", R"({"kind": "number", "ask": "?", "answer":
         {"figure": "iterations", "with": {"directons": 3}}})",

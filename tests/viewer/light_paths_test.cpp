@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The panel of light paths: listed with their fractions, drawn over the scene, written to files.
+#include <QCheckBox>
 #include <QDockWidget>
 #include <QFile>
 #include <QJsonArray>
@@ -10,8 +11,10 @@
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <cmath>
+#include <set>
 
 #include "inspected_window.h"
+#include "model/light_balance.h"
 #include "patches/path_panel.h"
 #include "test_files.h"
 
@@ -83,6 +86,31 @@ class LightPathsTest : public QObject {
     const double rest = 100 * luminance(expected.cut_off) / luminance(expected.radiosity);
     QVERIFY(std::abs(listed + rest - 100) < 0.05);  // digits shown
     QVERIFY(shown.text("path_caption").contains(QString::number(rest, 'f', 1) + " %"));
+  }
+
+  // The sums by group, and the rest, are all of B again; no two sums go through the same groups.
+  void light_paths_are_summed_by_group() {
+    const Inspected lit("cornell-box");
+    QVERIFY(lit.ready && lit.raise("paths_dock"));
+    const auto* panel = lit.part<PathPanel>("path_panel");
+    const Scene& scene = *lit.window->snapshot()->loaded->scene;
+    lit.window->selection.select(16);
+    lit.part<QCheckBox>("paths_by_group")->setChecked(true);
+    QVERIFY(wait_for([&] { return panel->paths() && !panel->busy(); }));
+    const LightPaths& sums = *panel->paths();
+    QVERIFY(!sums.paths.empty() && sums.paths.size() <= 20);
+    Rgb all = sums.cut_off;
+    std::set<std::vector<std::pair<int, int>>> keys;
+    for (const LightPath& path : sums.paths) {
+      all += path.contribution;
+      std::vector<std::pair<int, int>> key;
+      for (const PatchId patch : path.patches) {
+        key.push_back(source_of(scene.patch(patch)));
+      }
+      QVERIFY(keys.insert(key).second);
+    }
+    QVERIFY(max_abs(all - sums.radiosity) < 1e-9 * max_abs(sums.radiosity));
+    QCOMPARE(lit.part<QTableWidget>("path_table")->rowCount(), int(sums.paths.size()));
   }
 
   void light_paths_are_drawn_and_the_one_of_the_row_emphasized() {

@@ -23,6 +23,7 @@
 #include "stepping/play_control.h"
 #include "test_files.h"
 #include "transillum/at.h"
+#include "widgets/log_chart.h"
 
 namespace transillum::viewer::questions_test {
 
@@ -291,6 +292,81 @@ class QuestionsTest : public QObject {
     QVERIFY(room.text("question_result").contains("are missing"));
     QVERIFY(hatched(theme::selection) && hatched(theme::difference));
     save_picture(*room.window, "question-area-wrong");
+  }
+
+  // The values are those of the same solves; a curve that is twice as high differs by a factor of
+  // two at each point.
+  void a_curve_is_drawn_in_a_chart() {
+    Class room;
+    room.open(page_with(R"({"kind": "curve", "ask": "Draw it", "choices": [
+      {"text": "8", "value": {"figure": "rms-error", "with": {"directions": 8}}},
+      {"text": "16", "value": {"figure": "rms-error", "with": {"directions": 16}}},
+      {"text": "32", "value": {"figure": "rms-error"}}]})"));
+    const Question& question = *room.panel->lessons()[0].pages[0].question;
+    ComputedValues computed(loaded_for(room.panel->lessons()[0].pages[0].state), {});
+    const std::vector<double> right = solve_question(question, computed).values;
+    QCOMPARE(right.size(), std::size_t{3});
+    auto* chart = room.window->findChild<LogChart*>("question_chart");
+    QVERIFY(wait_for([&] { return chart->isVisible(); }));
+    const auto draw = [&](double factor) {
+      for (int x = 1; x <= 3; ++x) {
+        QVERIFY(!is_given(question, room.box->answer()));
+        const QPointF place = chart->position_of(x, factor * at(right, x - 1));
+        QTest::mouseClick(chart, Qt::LeftButton, {}, place.toPoint());
+      }
+      QVERIFY(is_given(question, room.box->answer()));
+    };
+    draw(1);
+    // A pixel is some hundredths of a decade.
+    QVERIFY(mean_distance(room.box->answer().heights, right) < 0.05);
+    room.reveal();
+    QVERIFY(room.text("question_result").contains("Right"));
+    save_picture(*room.window, "question-curve");
+    room.action("question_reveal")->trigger();
+    draw(4);
+    const double distance = mean_distance(room.box->answer().heights, right);
+    QVERIFY2(std::abs(distance - std::log10(4)) < 0.05, qPrintable(QString::number(distance)));
+    room.reveal();
+    QVERIFY(room.text("question_result").contains("Not this time"));
+    QVERIFY(room.text("question_result").contains("by a factor of"));
+    QCOMPARE(mean_distance({1, 0}, {1, 1}), HUGE_VAL);
+  }
+
+  // The corners that are clicked in the scene are those of the patch, which sees all of its
+  // projection: nothing is missing.
+  void an_outline_is_drawn_on_a_patch_in_the_scene() {
+    Class room;
+    std::string lesson = page_with(R"({"kind": "outline", "ask": "Draw it", "unit": "m²",
+      "within": 0.8, "answer": {"figure": "visible-area", "patch": 0, "others": "all"}})");
+    room.open(lesson);
+    const auto& page = room.panel->lessons()[0].pages[0];
+    const auto loaded = loaded_for(page.state);
+    ComputedValues computed(loaded, {});
+    const Solved right = solve_question(*page.question, computed);
+    QVERIFY(std::abs(right.value / loaded->scene->patch(0).area - 1) < 1e-9);
+    auto* view = room.window->findChild<SceneView*>();
+    const auto take = [&](double shift) {
+      for (const PointId p : loaded->scene->outline(0)) {
+        const Vec3 edge = loaded->scene->point(loaded->scene->outline(0)[1]) -
+                          loaded->scene->point(loaded->scene->outline(0)[0]);
+        emit view->point_clicked(0, loaded->scene->point(p) + shift * edge);
+        emit view->point_clicked(1, loaded->scene->point(p));  // another patch is ignored
+      }
+    };
+    take(0);
+    QCOMPARE(room.box->answer().outline.size(), loaded->scene->outline(0).size());
+    room.reveal();
+    QVERIFY2(room.text("question_result").contains("Right"),
+             qPrintable(room.text("question_result")));
+    room.action("question_reveal")->trigger();
+    take(0.3);
+    room.reveal();
+    QVERIFY(room.text("question_result").contains("Not this time"));
+    QVERIFY(wait_for([&] { return room.window->settled(); }));
+    const QImage picture = view->picture(1);
+    save_picture(*room.window, "question-outline");
+    QVERIFY(fraction_of(picture, theme::selection) + fraction_of(picture, theme::difference) >
+            1e-3);
   }
 
   // This one takes thousands of passes.

@@ -8,10 +8,13 @@
 #include <QRegularExpression>
 #include <QTextDocument>
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 
 #include "lessons/symbols.h"
 #include "state/callout.h"
+#include "state/section.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 
@@ -20,7 +23,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr std::size_t most_rows = 20'000;
-constexpr double map_width = 560;  // user units of the SVG
+constexpr double map_width = 560, omega_room = 24;  // user units of the SVG
 
 const char* const style_sheet = R"(
 :root { color-scheme: light dark; }
@@ -36,6 +39,8 @@ svg.map polygon.back { fill: url(#hatch); }
 svg.map .callout path { stroke: #fff; stroke-width: 2; }
 svg.map .callout circle { fill: #fff; }
 svg.map .callout text { font: bold 14px system-ui, sans-serif; fill: #fff; stroke: #000; stroke-width: 4px; paint-order: stroke; }
+svg.map polygon.strip { opacity: .3; }
+svg.map line { stroke-width: 4; }
 svg.map polygon.now { stroke: #ffe04d; stroke-width: 3; }
 .steps { display: flex; gap: .6rem; align-items: center; flex-wrap: wrap; }
 .steps input { flex: 1; }
@@ -113,6 +118,13 @@ QString value_text(const Question& question, double value) {
 
 QString answer_text(const Question& question, const Solved& solved) {
   QStringList right;
+  if (question.kind == Question::Kind::curve) {
+    for (std::size_t k = 0; k < solved.values.size(); ++k) {
+      right << QStringLiteral("%1: %2").arg(QString::fromStdString(question.choices.at(k).text),
+                                            value_text(question, solved.values[k]));
+    }
+    return right.join(QStringLiteral("; "));
+  }
   for (const int k : solved.right) {
     if (question.kind == Question::Kind::patch) {
       right << tr("patch %1 (%2)").arg(k).arg(value_text(question, at(solved.values, k)));
@@ -132,7 +144,7 @@ QString question_html(const ShownPage& shown) {
   const Question& question = *shown.page.question;
   QString html =
       QStringLiteral("<div class=\"question\">") + html_of(QString::fromStdString(question.ask));
-  if (!question.choices.empty()) {
+  if (question.kind == Question::Kind::choice) {
     html += QStringLiteral("<ul>");
     for (const Question::Choice& choice : question.choices) {
       const QString text = choice.text.empty() ? value_text(question, choice.value->number)
@@ -152,8 +164,26 @@ QString question_html(const ShownPage& shown) {
 QString map_html(const ShownPage& shown) {
   const MapHistory& history = shown.map->history;
   const bool all = history.record().rows.size() <= most_rows;
-  const QString svg = QString::fromUtf8(
-      map_svg(*shown.map, shown.step, shown.patch_colors, all, shown.page.callouts));
+  const std::vector<std::string>& panels = shown.page.state.panels;
+  const auto needs = [&](const char* panel) {
+    return std::find(panels.begin(), panels.end(), panel) != panels.end();
+  };
+  if (shown.whole && !needs("section")) {
+    QString sides;
+    for (const bool receivers : {false, true}) {
+      sides += QStringLiteral("<div>%1<p>%2</p></div>\n")
+                   .arg(QString::fromUtf8(side_svg(*shown.map, receivers, shown.patch_colors)),
+                        receivers ? tr("receives, along −ω") : tr("emits, along ω"));
+    }
+    return sides;
+  }
+  QString svg;
+  for (const auto draw : {section_svg, map_svg}) {
+    if (draw == section_svg ? needs("section") : !needs("section") || needs("map")) {
+      svg += QString::fromUtf8(
+          draw(*shown.map, shown.step, shown.patch_colors, all, shown.page.callouts));
+    }
+  }
   if (!all) {
     return QStringLiteral("<div>%1</div>\n").arg(svg);
   }
@@ -191,57 +221,184 @@ QByteArray callout_svg(const QString& text, double x, double y, double width,
          "</text></g>";
 }
 
+QByteArray color_svg(const Color8& color) {
+  return '#' + QByteArray(reinterpret_cast<const char*>(color.data()), 3).toHex();
+}
+
+/// @param whole  whether it is marked at the step that made it
+/// @param strip  whether it is a strip of a section
+QByteArray polygon_svg(const MapRecord::Row& row, std::span<const QPointF> corners, bool whole,
+                       const std::vector<Color8>& patch_colors, bool shown, bool strip = false) {
+  QByteArray svg = "<polygon data-made=\"" + QByteArray::number(row.made) + "\" data-consumed=\"" +
+                   QByteArray::number(row.consumed) + "\" data-whole=\"" + (whole ? "1" : "0") +
+                   "\" points=\"";
+  for (const QPointF& p : corners) {
+    svg += number(p.x()) + ',' + number(p.y()) + ' ';
+  }
+  svg += '"';
+  const QByteArray kind = (strip ? "strip " : "") + QByteArray(row.front_facing ? "back" : "");
+  if (!kind.isEmpty()) {
+    svg += " class=\"" + kind.trimmed() + '"';
+  }
+  if (!row.front_facing) {
+    svg += " fill=\"" + color_svg(at(patch_colors, row.patch)) + '"';
+  }
+  svg += shown ? ">" : " style=\"display:none\">";
+  return svg + "<title>" + QObject::tr("patch %1").arg(row.patch).toUtf8() + "</title></polygon>";
+}
+
+QByteArray svg_begin(double width, double height) {
+  return "<svg class=\"map\" viewBox=\"-8 -8 " + number(width + 16) + ' ' + number(height + 16) +
+         "\" width=\"" + number(width + 16) +
+         "\"><defs><pattern id=\"hatch\" width=\"6\" height=\"6\" "
+         "patternUnits=\"userSpaceOnUse\"><rect width=\"6\" height=\"6\" "
+         "fill=\"#3a4250\"/><path d=\"M0 6L6 0\" stroke=\"#6b7686\"/></pattern></defs>";
+}
+
+/// The part of the plane that a map fills, m, and its user units per meter.
+struct SvgFrame {
+  Vec2 low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+  Vec2 high{-low.x, -low.y};
+  double scale = 1;
+};
+
+SvgFrame frame_of(const MapRecord& record) {
+  SvgFrame frame;
+  for (const Vec2& p : record.corners) {
+    frame.low = {std::min(frame.low.x, p.x), std::min(frame.low.y, p.y)};
+    frame.high = {std::max(frame.high.x, p.x), std::max(frame.high.y, p.y)};
+  }
+  frame.scale =
+      map_width / std::max({frame.high.x - frame.low.x, frame.high.y - frame.low.y, 1e-300});
+  return frame;
+}
+
+// Along omega: u to the left, v up.
+std::vector<QPointF> corners_of(const SvgFrame& frame, const MapRecord& record,
+                                const MapRecord::Row& row) {
+  std::vector<QPointF> corners;
+  for (const Vec2& p : record.outline(row)) {
+    corners.emplace_back(frame.scale * (frame.high.x - p.x), frame.scale * (frame.high.y - p.y));
+  }
+  return corners;
+}
+
+/// Where omega leaves the plane: below the map, at the right.
+QPointF omega_place(const SvgFrame& frame) {
+  return {frame.scale * (frame.high.x - frame.low.x) - 24,
+          frame.scale * (frame.high.y - frame.low.y) + 14};
+}
+
+/// An arrow seen from its end.
+QByteArray omega_svg(const QPointF& place) {
+  constexpr double radius = 6, half = 4.2;
+  const QByteArray x = number(place.x()), y = number(place.y());
+  return "<g stroke=\"#fff\" fill=\"none\"><circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"" +
+         number(radius) + "\"/><path d=\"M" + number(place.x() - half) + ' ' +
+         number(place.y() - half) + 'L' + number(place.x() + half) + ' ' +
+         number(place.y() + half) + 'M' + number(place.x() - half) + ' ' +
+         number(place.y() + half) + 'L' + number(place.x() + half) + ' ' +
+         number(place.y() - half) + "\"/></g><text x=\"" + number(place.x() + 10) + "\" y=\"" +
+         number(place.y() + 5) + "\" fill=\"#fff\">ω</text>";
+}
+
 }  // namespace
 
 QByteArray map_svg(const RecordedMap& map, std::int32_t step,
                    const std::vector<Color8>& patch_colors, bool all,
                    const std::vector<Callout>& callouts) {
   const MapRecord& record = map.record();
-  Vec2 low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-  Vec2 high{-low.x, -low.y};
-  for (const Vec2& p : record.corners) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const double scale = map_width / std::max({high.x - low.x, high.y - low.y, 1e-300});
-  QByteArray svg = "<svg class=\"map\" viewBox=\"-8 -8 " + number(scale * (high.x - low.x) + 16) +
-                   ' ' + number(scale * (high.y - low.y) + 16) + "\" width=\"" +
-                   number(scale * (high.x - low.x) + 16) +
-                   "\"><defs><pattern id=\"hatch\" width=\"6\" height=\"6\" "
-                   "patternUnits=\"userSpaceOnUse\"><rect width=\"6\" height=\"6\" "
-                   "fill=\"#3a4250\"/><path d=\"M0 6L6 0\" stroke=\"#6b7686\"/></pattern></defs>";
+  const SvgFrame frame = frame_of(record);
+  const double scale = frame.scale, width = scale * (frame.high.x - frame.low.x);
+  QByteArray svg = svg_begin(width, scale * (frame.high.y - frame.low.y) + omega_room);
   for (const MapRecord::Row& row : record.rows) {
     const bool shown = row.made <= step && step < row.consumed;
     if (!shown && !all) {
       continue;
     }
-    svg += "<polygon data-made=\"" + QByteArray::number(row.made) + "\" data-consumed=\"" +
-           QByteArray::number(row.consumed) + "\" data-whole=\"" +
-           (row.parent == MapRecord::no_row ? "1" : "0") + "\" points=\"";
-    for (const Vec2& p : record.outline(row)) {  // along omega: u to the left, v up
-      svg += number(scale * (high.x - p.x)) + ',' + number(scale * (high.y - p.y)) + ' ';
-    }
-    svg += '"';
-    if (row.front_facing) {
-      svg += " class=\"back\"";
-    } else {
-      const Color8 color = at(patch_colors, row.patch);
-      svg += " fill=\"#" + QByteArray(reinterpret_cast<const char*>(color.data()), 3).toHex() + '"';
-    }
-    svg += shown ? ">" : " style=\"display:none\">";
-    svg += "<title>" + QObject::tr("patch %1").arg(row.patch).toUtf8() + "</title></polygon>";
+    const std::vector<QPointF> corners = corners_of(frame, record, row);
+    svg += polygon_svg(row, corners, row.parent == MapRecord::no_row, patch_colors, shown);
   }
   std::vector<QRectF> taken;
   const std::vector<std::int32_t> rows = record.map_after(step);
   for (const Callout& callout : callouts) {
-    const double width = scale * (high.x - low.x);
-    std::optional<Vec2> place = place_in_map(callout, map, rows, step);
-    if (callout.anchor == Callout::Anchor::direction) {
-      place = Vec2{(low.x + high.x) / 2, high.y};
+    std::optional<QPointF> at;
+    if (const auto place = place_in_map(callout, map, rows, step)) {
+      at = QPointF(scale * (frame.high.x - place->x), scale * (frame.high.y - place->y));
+    } else if (callout.anchor == Callout::Anchor::direction) {
+      at = omega_place(frame);
     }
-    if (place) {
-      svg += callout_svg(QString::fromStdString(callout.text), scale * (high.x - place->x),
-                         scale * (high.y - place->y), width, taken);
+    if (at) {
+      svg += callout_svg(QString::fromStdString(callout.text), at->x(), at->y(), width, taken);
+    }
+  }
+  return svg + omega_svg(omega_place(frame)) + "</svg>";
+}
+
+// The BSP order is the order from the top: seen along omega, later fragments cover earlier ones.
+QByteArray side_svg(const RecordedMap& map, bool receivers,
+                    const std::vector<Color8>& patch_colors) {
+  const MapRecord& record = map.record();
+  const SvgFrame frame = frame_of(record);
+  QByteArray svg = svg_begin(frame.scale * (frame.high.x - frame.low.x),
+                             frame.scale * (frame.high.y - frame.low.y) + omega_room);
+  const std::int32_t count = map.history.step_count();
+  for (std::int32_t n = 0; n < count; ++n) {
+    // The farthest first.
+    const MapHistory::Step& step = map.history.step(receivers ? count - 1 - n : n);
+    if (step.row == MapRecord::no_row || step.front_facing != receivers) {
+      continue;
+    }
+    const MapRecord::Row& row = map.row(step.row);
+    MapRecord::Row front = row;
+    front.front_facing = false;  // its front is seen
+    svg += polygon_svg(front, corners_of(frame, record, row), true, patch_colors, true);
+  }
+  return svg + omega_svg(omega_place(frame)) + "</svg>";
+}
+
+QByteArray section_svg(const RecordedMap& map, std::int32_t step,
+                       const std::vector<Color8>& patch_colors, bool all,
+                       const std::vector<Callout>& callouts) {
+  const Section section = section_of(map);
+  const auto [left, right, bottom, top] = section.box();
+  constexpr double bar = 10;
+  const double scale = map_width / std::max({right - left, top - bottom, 1e-300});
+  const auto place = [&, left = left, top = top](const Vec2& p) {
+    return QPointF(scale * (p.x - left), scale * (top - p.y));
+  };
+  QByteArray svg = svg_begin(scale * (right - left), scale * (top - bottom) + bar);
+  for (const bool strips : {true, false}) {
+    for (const Section::Interval& interval : section.intervals) {
+      const MapRecord::Row& row = map.row(interval.row);
+      const bool shown = row.made <= step && step < row.consumed;
+      const auto strip = strip_of(section, map, interval, no_patch);
+      if (!strip || (!shown && !all)) {
+        continue;
+      }
+      std::array<QPointF, 4> corners;
+      std::transform(strip->begin(), strip->end(), corners.begin(), place);
+      if (!strips) {  // a bar below the line
+        const QPointF down(-bar * section.omega.x, bar * section.omega.y);
+        corners = {corners[0], corners[3], corners[3] + down, corners[0] + down};
+      }
+      const bool whole = !strips && row.parent == MapRecord::no_row;
+      svg += polygon_svg(row, corners, whole, patch_colors, shown, strips);
+    }
+  }
+  for (const Section::Segment& segment : section.segments) {
+    const QPointF a = place(segment.a), b = place(segment.b);
+    svg += "<line x1=\"" + number(a.x()) + "\" y1=\"" + number(a.y()) + "\" x2=\"" + number(b.x()) +
+           "\" y2=\"" + number(b.y()) + "\" stroke=\"" +
+           color_svg(at(patch_colors, segment.patch)) + "\"><title>" +
+           QObject::tr("patch %1").arg(segment.patch).toUtf8() + "</title></line>";
+  }
+  std::vector<QRectF> taken;
+  for (const Callout& callout : callouts) {
+    if (const auto point = place_in_section(callout, section, map, step)) {
+      const QPointF at = place(*point);
+      svg += callout_svg(QString::fromStdString(callout.text), at.x(), at.y(),
+                         scale * (right - left), taken);
     }
   }
   return svg + "</svg>";

@@ -19,6 +19,7 @@ struct ShownPage {
   QByteArray picture;                      ///< the scene as PNG
   std::shared_ptr<const RecordedMap> map;  ///< map of the page's direction; null if it has none
   std::int32_t step = -1;                  ///< shown first, from 0
+  bool whole = false;                      ///< shows both sides of the direction instead of a step
   std::vector<Color8> patch_colors;        ///< colors of the map, one per patch
   std::optional<Solved> solved;            ///< answer to the page's question
 };
@@ -35,5 +36,16 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
 QByteArray map_svg(const RecordedMap& map, std::int32_t step,
                    const std::vector<Color8>& patch_colors, bool all,
                    const std::vector<Callout>& callouts = {});
+
+/// One side of a direction as an SVG element, as the window shows it without a step: the fronts
+/// that receive, or that emit.
+QByteArray side_svg(const RecordedMap& map, bool receivers,
+                    const std::vector<Color8>& patch_colors);
+
+/// The section of a direction as an SVG element (Section), with the same attributes, so that one
+/// script shows a step of both.
+QByteArray section_svg(const RecordedMap& map, std::int32_t step,
+                       const std::vector<Color8>& patch_colors, bool all,
+                       const std::vector<Callout>& callouts = {});
 
 }  // namespace transillum::viewer

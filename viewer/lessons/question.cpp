@@ -17,12 +17,12 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t most_choices = 12;
-constexpr double default_fraction = 0.1, default_overlap = 0.5;
+constexpr double default_fraction = 0.1, default_overlap = 0.5, default_distance = 0.3;
 
-constexpr Name<Question::Kind> question_kinds[] = {{"choice", Question::Kind::choice},
-                                                   {"patch", Question::Kind::patch},
-                                                   {"number", Question::Kind::number},
-                                                   {"area", Question::Kind::area}};
+constexpr Name<Question::Kind> question_kinds[] = {
+    {"choice", Question::Kind::choice},   {"patch", Question::Kind::patch},
+    {"number", Question::Kind::number},   {"area", Question::Kind::area},
+    {"outline", Question::Kind::outline}, {"curve", Question::Kind::curve}};
 
 // The JSON and the page that a question is read from.
 struct Place {
@@ -62,8 +62,12 @@ void read_choices(Question& question, const Place& place) {
       }
     }
     without_value += choice.value ? 0 : 1;
-    if (choice.text.empty() && !choice.value) {
+    const bool of_curve = question.kind == Question::Kind::curve;
+    if (choice.text.empty() && (of_curve || !choice.value)) {
       object.fail_at("text", "is missing");
+    }
+    if (of_curve && !(choice.value && is_computed(*choice.value))) {
+      object.fail_at("value", "must be computed, since it is a point of the curve");
     }
     object.done();
   }
@@ -111,8 +115,19 @@ void check_computed(const Question& question, JsonObject& object) {
   }
   const bool has_region = question.wanted.kind == LessonValueKind::visible_area ||
                           question.wanted.kind == LessonValueKind::projected_area;
-  if (question.kind == Question::Kind::area && !has_region) {
+  if (is_drawn(question) && !has_region) {
     object.fail_at("answer", "must be a visible-area or a projected-area");
+  }
+}
+
+double default_within(Question::Kind kind) {
+  switch (kind) {
+    case Question::Kind::number:
+      return default_fraction;
+    case Question::Kind::curve:
+      return default_distance;
+    default:
+      return default_overlap;
   }
 }
 
@@ -152,12 +167,14 @@ Question question_from_json(const json& value, const std::string& where, const j
     object.fail_at("ask", "is missing");
   }
   check_markdown(question.ask, object, "ask");
-  if (question.kind == Question::Kind::choice) {
+  if (question.kind == Question::Kind::choice || question.kind == Question::Kind::curve) {
     read_choices(question, place);
   }
-  read_answer(question, place);
-  if (question.kind == Question::Kind::number || question.kind == Question::Kind::area) {
-    question.within = question.kind == Question::Kind::number ? default_fraction : default_overlap;
+  if (question.kind != Question::Kind::curve) {
+    read_answer(question, place);
+  }
+  if (question.kind == Question::Kind::number || is_drawn(question)) {
+    question.within = default_within(question.kind);
     object.read("within", question.within);
     if (!(question.within > 0 && question.within <= 1)) {
       object.fail_at("within", "must be above 0 and at most 1");

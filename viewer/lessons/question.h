@@ -19,10 +19,12 @@ class JsonObject;
 /// run, never stated by the file.
 struct Question {
   enum class Kind {
-    choice,  ///< choose one of `choices`
-    patch,   ///< select a patch
-    number,  ///< enter a number
-    area     ///< draw a polygon on the visibility map
+    choice,   ///< choose one of `choices`
+    patch,    ///< select a patch
+    number,   ///< enter a number
+    area,     ///< draw a polygon on the visibility map
+    outline,  ///< draw a polygon on a patch in the scene
+    curve     ///< draw a curve in a chart; its points are `choices`
   };
   enum class Rule {
     largest,   ///< the choice, or patch, with the largest value
@@ -42,7 +44,7 @@ struct Question {
   Rule rule = Rule::value;
   LessonValue wanted;
   /// How close an answer has to be: for a number, the largest relative difference; for an area, the
-  /// least overlap (the common part over the union).
+  /// least overlap (the common part over the union); for a curve, the largest mean distance.
   double within = 0;
   bool percent = false;             ///< values are shown, and entered, times 100, with " %"
   std::string unit;                 ///< unit of the values
@@ -61,7 +63,8 @@ struct GivenAnswer {
   int choice = -1;
   PatchId patch = no_patch;
   std::optional<double> number = {};
-  std::vector<Vec2> outline = {};  ///< corners of a polygon on the plane, m
+  std::vector<Vec2> outline = {};    ///< corners of a polygon on the plane, m
+  std::vector<double> heights = {};  ///< of the points of a curve; 0 where none is given
 
   friend bool operator==(const GivenAnswer& a, const GivenAnswer& b);
 };
@@ -72,7 +75,8 @@ struct Solved {
       values;              ///< values of choices (NaN without a value) or of patches; else empty
   std::vector<int> right;  ///< indices of the right choices, or right patches; ascending
   double value = 0;        ///< value of Question::wanted, where it is one number
-  std::vector<std::vector<Vec2>> region;  ///< answer to a question for an area
+  std::vector<std::vector<Vec2>> region;  ///< answer to a question for an area or an outline
+  double scale = 1;  ///< area on the surface per area of `region`; `value` is on the surface
 };
 
 /// Reads the key `question` of a page.
@@ -86,7 +90,10 @@ Question question_from_json(const nlohmann::json& value, const std::string& wher
 /// Whether the question is about one direction: its map, its steps, or the patches above each
 /// other.
 bool is_of_direction(const Question& question);
-/// Whether the answer is complete: a choice, a patch, a number, or at least three corners.
+/// Whether the answer is drawn: an area, an outline or a curve.
+bool is_drawn(const Question& question);
+/// Whether the answer is complete: a choice, a patch, a number, at least three corners, or all
+/// points of a curve.
 bool is_given(const Question& question, const GivenAnswer& answer);
 /// Computes what is right. @throws as ComputedValues
 Solved solve_question(const Question& question, ComputedValues& computed);
@@ -101,5 +108,8 @@ struct AreaComparison {
 };
 AreaComparison compare_areas(const std::vector<std::vector<Vec2>>& region,
                              const std::vector<Vec2>& outline);
+/// The mean distance of a curve from the computed one, in powers of ten; infinite where a value is
+/// not positive.
+double mean_distance(const std::vector<double>& heights, const std::vector<double>& computed);
 
 }  // namespace transillum::viewer

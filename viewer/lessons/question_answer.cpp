@@ -55,16 +55,30 @@ std::vector<int> best_of(const std::vector<double>& values, Question::Rule rule,
   return right;
 }
 
+// The area of a patch over its projection.
+double on_surface(LessonValue wanted, ComputedValues& computed) {
+  wanted.kind = LessonValueKind::projected_area;
+  const double projected = computed.value(wanted);
+  wanted.kind = LessonValueKind::area;
+  return projected > 0 ? computed.value(wanted) / projected : 0;
+}
+
 }  // namespace
 
 bool operator==(const GivenAnswer& a, const GivenAnswer& b) {
   return a.choice == b.choice && a.patch == b.patch && a.number == b.number &&
+         a.heights == b.heights &&
          std::equal(a.outline.begin(), a.outline.end(), b.outline.begin(), b.outline.end(),
                     [](const Vec2& p, const Vec2& q) { return p.x == q.x && p.y == q.y; });
 }
 
+bool is_drawn(const Question& question) {
+  return question.kind == Question::Kind::area || question.kind == Question::Kind::outline ||
+         question.kind == Question::Kind::curve;
+}
+
 bool is_of_direction(const Question& question) {
-  return question.kind == Question::Kind::area || uses_direction(question.wanted) ||
+  return uses_direction(question.wanted) ||
          std::any_of(question.choices.begin(), question.choices.end(),
                      [](const Question::Choice& choice) {
                        return choice.value && uses_direction(*choice.value);
@@ -79,7 +93,12 @@ bool is_given(const Question& question, const GivenAnswer& answer) {
       return answer.patch != no_patch;
     case Question::Kind::number:
       return answer.number.has_value();
+    case Question::Kind::curve:
+      return answer.heights.size() == question.choices.size() &&
+             std::all_of(answer.heights.begin(), answer.heights.end(),
+                         [](double height) { return height > 0; });
     case Question::Kind::area:
+    case Question::Kind::outline:
       break;
   }
   return answer.outline.size() >= 3;
@@ -98,15 +117,21 @@ Solved solve_question(const Question& question, ComputedValues& computed) {
     solved.right = best_of(solved.values, question.rule, 0);
     return solved;
   }
-  solved.value = computed.value(question.wanted);
-  if (question.kind == Question::Kind::area) {
+  if (question.kind != Question::Kind::curve) {
+    solved.value = computed.value(question.wanted);
+  }
+  if (question.kind == Question::Kind::area || question.kind == Question::Kind::outline) {
     solved.region = computed.region(question.wanted);
   }
-  if (question.kind != Question::Kind::choice) {
-    return solved;
+  if (question.kind == Question::Kind::outline) {
+    solved.scale = on_surface(question.wanted, computed);
+    solved.value *= solved.scale;
   }
   for (const Question::Choice& choice : question.choices) {
     solved.values.push_back(value_or_nan(choice.value, computed));
+  }
+  if (question.kind != Question::Kind::choice) {
+    return solved;
   }
   solved.right = best_of(solved.values, question.rule, solved.value);
   if (solved.right.empty()) {
@@ -131,10 +156,24 @@ bool is_right(const Question& question, const Solved& solved, const GivenAnswer&
     case Question::Kind::number:
       return std::abs(*answer.number - solved.value) <=
              question.within * std::abs(solved.value) * (1 + same);
+    case Question::Kind::curve:
+      return mean_distance(answer.heights, solved.values) <= question.within;
     case Question::Kind::area:
+    case Question::Kind::outline:
       break;
   }
   return compare_areas(solved.region, answer.outline).overlap >= question.within;
+}
+
+double mean_distance(const std::vector<double>& heights, const std::vector<double>& computed) {
+  double sum = 0;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    if (!(heights[k] > 0 && computed.at(k) > 0)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    sum += std::abs(std::log10(heights[k] / computed[k]));
+  }
+  return heights.empty() ? 0 : sum / static_cast<double>(heights.size());
 }
 
 AreaComparison compare_areas(const std::vector<std::vector<Vec2>>& region,

@@ -140,6 +140,7 @@ void QuestionBox::show_page(std::shared_ptr<const Lesson::Page> page, int number
   number_ = nullptr;
   given_ = nullptr;
   drop_ = nullptr;
+  chart_ = nullptr;
   rows_.clear();
   setVisible(asks);
   if (asks) {
@@ -182,17 +183,7 @@ void QuestionBox::fill_answers() {
   } else if (question.kind == Question::Kind::number) {
     add_number();
   } else {
-    given_ = wrapped_label("question_given");
-    grid->addWidget(given_, 0, 0);
-    grid->setColumnStretch(0, 1);
-  }
-  if (question.kind == Question::Kind::area) {
-    drop_ = named("question_drop", new QToolButton,
-                  tr("Remove the corner that was clicked last (Backspace)"));
-    drop_->setText(tr("Remove the last corner"));
-    drop_->setShortcut(Qt::Key_Backspace);
-    grid->addWidget(drop_, 0, 1);
-    connect(drop_, &QToolButton::clicked, this, &QuestionBox::drop_point);
+    add_drawing();
   }
 }
 
@@ -245,24 +236,6 @@ void QuestionBox::take_patch(PatchId patch) {
   }
   // The patch that the page itself selects is no answer.
   set_answer({.patch = patch == page_->state.selection ? no_patch : patch});
-}
-
-void QuestionBox::take_point() {
-  if (!page_ || solved_ || page_->question->kind != Question::Kind::area || !focus_.probe()) {
-    return;
-  }
-  GivenAnswer answer = answer_;
-  answer.outline.push_back(*focus_.probe());
-  set_answer(std::move(answer));
-}
-
-void QuestionBox::drop_point() {
-  if (solved_ || answer_.outline.empty()) {
-    return;
-  }
-  GivenAnswer answer = answer_;
-  answer.outline.pop_back();
-  set_answer(std::move(answer));
 }
 
 void QuestionBox::set_answer(GivenAnswer answer) {
@@ -437,7 +410,7 @@ std::string QuestionBox::label_of_answer() const {
       return tr("patch %1").arg(answer_.patch).toStdString();
     case Question::Kind::number:
       return value_text(*page_->question, *answer_.number).toStdString();
-    case Question::Kind::area:
+    default:
       break;
   }
   const bool right = solved_ && is_right(question, *solved_, answer_);
@@ -484,9 +457,9 @@ void QuestionBox::show_state() {
   constexpr int period = 100;
   waits_ ? progress_timer_.start(period) : progress_timer_.stop();
   enable_if(*reveal_, asks, tr("This page asks no question"));
-  enable_if(*count_, given && !solved_ && page_->question->kind != Question::Kind::area,
+  enable_if(*count_, given && !solved_ && !is_drawn(*page_->question),
             solved_ ? tr("The answer is shown")
-            : given ? tr("Areas are not counted")
+            : given ? tr("What is drawn is not counted")
                     : tr("Give an answer first"));
   reset_->setVisible(total_of(counts) > 0);
   if (!asks) {
@@ -505,12 +478,13 @@ void QuestionBox::show_state() {
   if (number_) {
     number_->setReadOnly(solved_.has_value());
   }
-  if (given_ && page_->question->kind == Question::Kind::patch) {
-    given_->setText(given ? tr("Your answer: patch %1").arg(answer_.patch)
-                          : tr("Click a patch in the scene or the map"));
-  } else if (given_) {
-    given_->setText(tr("Click the corners of the area in the map, in order: %1 so far")
-                        .arg(answer_.outline.size()));
+  if (given_) {
+    given_->setText(given_text());
+  }
+  if (chart_) {
+    show_chart();
+  }
+  if (drop_) {
     enable_if(*drop_, !solved_ && !answer_.outline.empty(),
               solved_ ? tr("The answer is shown") : tr("No corner is given yet"));
   }
@@ -535,14 +509,6 @@ void QuestionBox::show_choices(const AnswerCounts& counts) {
     const bool computed = solved_ && choice.value && is_computed(*choice.value);
     row.value->setText(computed ? value_text(*page_->question, at(solved_->values, k)) : QString());
   }
-}
-
-void QuestionBox::send_sketch() {
-  MapSketch sketch{answer_.outline, {}};
-  if (solved_) {
-    sketch.right = solved_->region;
-  }
-  emit sketched(sketch);
 }
 
 }  // namespace transillum::viewer

@@ -29,6 +29,8 @@ class QVBoxLayout;
 
 namespace transillum::viewer {
 
+class LogChart;
+
 /// The question of a lesson's page: takes a prediction, and on Reveal shows what the program
 /// computes, and the tally of the class.
 class QuestionBox : public QFrame {
@@ -61,6 +63,9 @@ class QuestionBox : public QFrame {
   /// the appearance.
   void set_text_font(const QFont& font);
 
+  /// Takes a point of a patch in the scene as a corner of the answer, if one is asked for there.
+  void take_surface_point(PatchId patch, const Vec3& point);
+
   /// Reveal, count and reset, for a menu.
   std::vector<QAction*> actions() const { return {reveal_, count_, reset_}; }
   const GivenAnswer& answer() const { return answer_; }
@@ -78,6 +83,7 @@ class QuestionBox : public QFrame {
   void revealed(const transillum::viewer::ViewState& state);
   void then_shown();  ///< solved() has changed: Question::then is to be shown or hidden
   void sketched(const transillum::viewer::MapSketch& sketch);
+  void surface_sketched(const transillum::viewer::SceneSketch& sketch);
   /// The values of the step shown are to be hidden, since the question asks for one of them, or to
   /// be shown again.
   void values_hidden(bool hidden);
@@ -90,6 +96,10 @@ class QuestionBox : public QFrame {
   void fill_answers();
   void add_choice(int k);
   void add_number();
+  void add_drawing();
+  void add_chart();
+  void show_chart();
+  QString given_text() const;
   void take_patch(PatchId patch);
   void take_point();
   void drop_point();
@@ -112,6 +122,7 @@ class QuestionBox : public QFrame {
   void show_state();
   void show_choices(const AnswerCounts& counts);
   void send_sketch();
+  SceneSketch surface_sketch() const;
 
   Selection& selection_;
   Focus& focus_;
@@ -136,6 +147,7 @@ class QuestionBox : public QFrame {
   QLineEdit* number_ = nullptr;
   QLabel* given_ = nullptr;  ///< the answer as text, of a patch or an area
   QToolButton* drop_ = nullptr;
+  LogChart* chart_ = nullptr;
   QAction *reveal_, *count_, *reset_;
   bool hides_values_ = false;
   QProgressBar* progress_;

@@ -45,6 +45,16 @@ QString reason_text(const Question& question, const Solved& solved, const GivenA
   return {};
 }
 
+QString curve_text(const Question& question, const Solved& solved, const GivenAnswer& answer,
+                   const QString& verdict) {
+  if (!is_given(question, answer)) {
+    return verdict + tr("The green curve is the program's.");
+  }
+  const double factor = std::pow(10, mean_distance(answer.heights, solved.values));
+  return verdict + tr("Your curve differs from the program's (green) by a factor of %1 on average.")
+                       .arg(QString::number(factor, 'g', 2));
+}
+
 }  // namespace
 
 QString colored(const QString& text, const QColor& color) {
@@ -75,7 +85,10 @@ QString result_text(const Question& question, const Solved& solved, const GivenA
                            .arg(solved.right.front())
                            .arg(value_text(question, at(solved.values, solved.right.front()))) +
                        reason_text(question, solved, answer);
+    case Question::Kind::curve:
+      return curve_text(question, solved, answer, verdict);
     case Question::Kind::area:
+    case Question::Kind::outline:
       break;
   }
   const QString area = tr("The program's region has %1.").arg(value_text(question, solved.value));
@@ -86,7 +99,8 @@ QString result_text(const Question& question, const Solved& solved, const GivenA
   return verdict + area + ' ' +
          tr("Your area overlaps it by %1 %: %2 are missing (pink), %3 are too much (blue).")
              .arg(std::lround(100 * compared.overlap))
-             .arg(value_text(question, compared.missed), value_text(question, compared.extra));
+             .arg(value_text(question, solved.scale * compared.missed),
+                  value_text(question, solved.scale * compared.extra));
 }
 
 }  // namespace transillum::viewer

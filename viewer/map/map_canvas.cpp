@@ -11,14 +11,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "map/engine_drawing.h"
-#include "map/sketch_painter.h"
 #include "model/snapshot_values.h"
 #include "state/callout.h"
 #include "transillum/at.h"
 #include "widgets/callout_painter.h"
+#include "widgets/sketch_painter.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -27,6 +28,23 @@ namespace {
 
 constexpr double min_zoom = 0.5, max_zoom = 500;
 constexpr std::chrono::milliseconds max_wait{20};
+
+QPolygonF in_pixels(std::span<const Vec2> corners, const MapTransform& shown) {
+  QPolygonF polygon;
+  for (const Vec2& p : corners) {
+    polygon.append(shown.to_pixels(p));
+  }
+  return polygon;
+}
+
+std::vector<QPolygonF> in_pixels(const std::vector<std::vector<Vec2>>& parts,
+                                 const MapTransform& shown) {
+  std::vector<QPolygonF> polygons;
+  for (const std::vector<Vec2>& part : parts) {
+    polygons.push_back(in_pixels(std::span(part), shown));
+  }
+  return polygons;
+}
 
 }  // namespace
 
@@ -291,7 +309,8 @@ void MapCanvas::draw_marks(const MapSheet& sheet, const MapPicture& picture,
                            const MapTransform& shown) const {
   draw_selection(sheet.painter, picture, shown);
   draw_region(sheet.painter, shown);
-  draw_sketch(sheet.painter, sketch_, shown);
+  draw_sketch(sheet.painter, in_pixels(std::span(sketch_.outline), shown),
+              in_pixels(sketch_.right, shown));
   draw_probe(sheet.painter, shown);
   draw_marked_row(sheet, picture, shown);
   sheet.draw_caption(content_.caption);
@@ -383,7 +402,7 @@ void MapCanvas::draw_selection(QPainter& painter, const MapPicture& picture,
 
 void MapCanvas::draw_region(QPainter& painter, const MapTransform& shown) const {
   if (region_) {
-    fill_parts(painter, region_->parts, shown, 230);
+    fill_parts(painter, in_pixels(region_->parts, shown), 230);
   }
 }
 
@@ -416,12 +435,11 @@ void MapCanvas::mark_callout(const MapSheet& sheet, const MapPicture& picture,
     return;
   }
   const RecordedMap& map = *picture.request.map;
-  std::vector<std::vector<Vec2>> parts;
+  std::vector<QPolygonF> parts;
   for (const std::int32_t r : map.history.inside_at(content_.step)) {
-    const auto outline = map.record().outline(map.row(r));
-    parts.emplace_back(outline.begin(), outline.end());
+    parts.push_back(in_pixels(map.record().outline(map.row(r)), shown));
   }
-  fill_parts(painter, parts, shown, 170);
+  fill_parts(painter, parts, 170);
 }
 
 std::optional<QPointF> MapCanvas::place_of(const Callout& callout, const MapPicture& picture,
@@ -527,10 +545,12 @@ void MapCanvas::mouseReleaseEvent(QMouseEvent* event) {
   }
   unsetCursor();
   if (!dragging_) {
+    const PatchId patch = patch_at(event->pos());
+    const PatchId clicked_patch = patch < content_.patches ? patch : no_patch;
     if (event->modifiers() & Qt::ControlModifier) {
-      selection_.toggle(patch_at(event->pos()));
+      selection_.toggle(clicked_patch);
     } else {
-      selection_.select(patch_at(event->pos()));
+      selection_.select(clicked_patch);
     }
     emit clicked(event->pos());
   }

@@ -7,6 +7,7 @@
 #include <QPainterPath>
 #include <QWidget>
 #include <condition_variable>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -45,6 +46,7 @@ class MapCanvas : public QWidget {
     QString caption = {};         ///< at the top
     PatchId receiver = no_patch;  ///< draw what this patch sees along the direction, instead of V
     MapExtent extent = MapExtent::step;
+    PatchId patches = std::numeric_limits<PatchId>::max();  ///< only patches below are selected
   };
   void show_map(Content content);
   void clear();

@@ -15,10 +15,10 @@
 #include <utility>
 
 #include "colors/pointer_label.h"
+#include "colors/run_beside.h"
 #include "map/engine_drawing.h"
 #include "map/engine_menu.h"
 #include "map/hemicube_view.h"
-#include "map/map_canvas.h"
 #include "map/phase_pair.h"
 #include "map/polygon_text.h"
 #include "support/number_text.h"
@@ -50,8 +50,9 @@ QString legend_entry(const QColor& color, const QString& name) {
 
 }  // namespace
 
-MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, QWidget* parent)
-    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
+MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors,
+                 const RunBeside& beside, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors), beside_(beside) {
   title_ = named("map_title", new QLabel);
   step_text_ = named("map_text", new QLabel);
   step_text_->setForegroundRole(QPalette::PlaceholderText);
@@ -97,13 +98,19 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   connect(pair_, &PhasePair::changed, this, &MapView::show_position);
   connect(hemicube_, &HemicubeView::shown, this, &MapView::show_title);
   connect(&colors_, &ColorChoice::changed, this, &MapView::show_position);
+  connect(&beside_, &RunBeside::changed, this, &MapView::show_position);
   show_title();
 }
 
 MapCanvas* MapView::make_canvas(Selection& selection, const char* name) {
   auto* canvas = named(name, new MapCanvas(selection));
   canvas->setMinimumHeight(26);  // two of them above one another in a low panel
-  auto* pointer = new PointerLabel(colors_, *canvas, [canvas](const QPoint& position) {
+  auto* pointer = new PointerLabel(colors_, *canvas, [this, canvas](const QPoint& position) {
+    // The values are those of the open scene.
+    const auto shown = canvas->map_shown();
+    if (shown && snapshot_ && shown->loaded != snapshot_->loaded) {
+      return PointedPatch();
+    }
     return PointedPatch{canvas->patch_at(position), canvas->patch_point_at(position)};
   });
   connect(pointer, &PointerLabel::form_factors_requested, &colors_,
@@ -233,6 +240,10 @@ void MapView::choose_whole(Whole whole) {
   show_position();
 }
 
+PatchId MapView::receiver() const {
+  return focus_.map() && shown_whole() == Whole::patch ? selection_.patch() : no_patch;
+}
+
 void MapView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   const bool first = !snapshot_;
   snapshot_ = std::move(snapshot);
@@ -266,9 +277,12 @@ bool MapView::shows_hemicube() const {
   return engine_menu_->choice().shows(EngineTraits::Picture::hemicube);
 }
 
+bool MapView::shows_beside() const { return beside_.run() && !engine_menu_->choice().engine; }
+
 bool MapView::shows_pair() const {
-  return pair_->choice() != PhasePair::Choice::off && !engine_menu_->choice().engine &&
-         focus_.map() && focus_.at_step() && focus_.position().step >= 0;
+  return !shows_beside() && pair_->choice() != PhasePair::Choice::off &&
+         !engine_menu_->choice().engine && focus_.map() && focus_.at_step() &&
+         focus_.position().step >= 0;
 }
 
 std::optional<MapView::Whole> MapView::shown_whole() const {
@@ -389,21 +403,17 @@ void MapView::show_position() {
   content.patch_colors = std::move(patch_colors);
   MapCanvas::Content second = content;
   bool two = false;
-  if (whole == Whole::complete) {
-    two = true;
-    content.extent = MapExtent::sources;
-    content.caption = tr("emits, along ω");
-    second.extent = MapExtent::receivers;
-    second.caption = tr("receives, along −ω");
-  } else if (whole == Whole::receivers) {
-    content.extent = MapExtent::receivers;
-  } else if (whole == Whole::patch) {
-    content.receiver = selection_.patch();
+  if (whole) {
+    two = set_whole(*whole, content, second);
   } else if (shows_pair()) {
     two = pair_->choice() == PhasePair::Choice::side_by_side;
     content.caption = pair_->before() ? tr("before") : tr("after");
     second.phase = Phase::before;
     second.caption = tr("before");
+  }
+  if (const auto compared = shows_beside() ? beside_.comparison() : nullptr) {
+    two = true;
+    set_beside(*compared, content, second);
   }
   arrange();
   canvas_->show_map(std::move(content));
@@ -415,6 +425,35 @@ void MapView::show_position() {
   }
   second_->setVisible(two);
   show_title();
+}
+
+bool MapView::set_whole(Whole whole, MapCanvas::Content& content,
+                        MapCanvas::Content& second) const {
+  if (whole == Whole::complete) {
+    content.extent = MapExtent::sources;
+    content.caption = tr("emits, along ω");
+    second.extent = MapExtent::receivers;
+    second.caption = tr("receives, along −ω");
+  } else if (whole == Whole::receivers) {
+    content.extent = MapExtent::receivers;
+  } else {
+    content.receiver = selection_.patch();
+  }
+  return whole == Whole::complete;
+}
+
+void MapView::set_beside(const DirectionComparison& compared, MapCanvas::Content& open,
+                         MapCanvas::Content& other) const {
+  open.receiver = other.receiver = no_patch;
+  open.caption = tr("open scene");
+  open.extent = other.extent = focus_.at_step() ? MapExtent::step : MapExtent::sources;
+  other.caption = beside_.name();
+  other.map = compared.kept_map;
+  other.patches = compared.map->loaded->scene->patch_count();
+  other.patch_colors = std::make_shared<const std::vector<Color8>>(beside_.patch_colors());
+  other.step = beside_.step_beside(focus_.position().step);
+  other.step_shown = other.step >= 0 && focus_.at_step();
+  other.phase = open.phase;
 }
 
 void MapView::show_buttons() {
@@ -506,6 +545,10 @@ void MapView::show_title() {
   }
   if (canvas_->pixels()) {
     step_text_->setText(pixel_text());
+    return;
+  }
+  if (shows_beside() && beside_.comparison()) {
+    step_text_->setText(tr("The open scene and %1, along the same ω").arg(beside_.name()));
     return;
   }
   if (shown_whole()) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "colors/color_choice.h"
+#include "map/map_canvas.h"
 #include "model/snapshot.h"
 #include "state/focus.h"
 #include "state/selection.h"
@@ -22,9 +23,10 @@ class QToolButton;
 namespace transillum::viewer {
 
 class HemicubeView;
-class MapCanvas;
 class EngineMenu;
 class PhasePair;
+class RunBeside;
+struct DirectionComparison;
 
 /// The visibility map of the direction in focus: V and its changes by the current step, or, where
 /// no step is shown, the whole direction.
@@ -32,7 +34,9 @@ class MapView : public QWidget {
   Q_OBJECT
 
  public:
-  MapView(Focus& focus, Selection& selection, const ColorChoice& colors, QWidget* parent = nullptr);
+  /// @param beside  its map is shown beside the map of the open scene
+  MapView(Focus& focus, Selection& selection, const ColorChoice& colors, const RunBeside& beside,
+          QWidget* parent = nullptr);
 
   /// New colors; shown with the next map or after a short delay.
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
@@ -45,6 +49,9 @@ class MapView : public QWidget {
   /// The part of a whole direction that is shown.
   enum class Whole { complete, receivers, patch };
   void choose_whole(Whole whole);
+
+  /// The patch whose map is shown; no_patch while V or both sides are.
+  PatchId receiver() const;
 
   bool up_to_date() const;
   MapCanvas* canvas() const { return canvas_; }
@@ -78,6 +85,13 @@ class MapView : public QWidget {
   /// The part of a whole direction that is drawn; not set while a step is shown, or the V of an
   /// engine.
   std::optional<Whole> shown_whole() const;
+  /// Sets the content of the canvases for a whole direction. @returns whether both are needed
+  bool set_whole(Whole whole, MapCanvas::Content& content, MapCanvas::Content& second) const;
+  /// Whether the map of another run is, or will be, in second_.
+  bool shows_beside() const;
+  /// Sets their content to V of the open scene and of the run beside it.
+  void set_beside(const DirectionComparison& compared, MapCanvas::Content& open,
+                  MapCanvas::Content& other) const;
   /// The canvases that are shown, and their parts of a picture of this size.
   std::vector<std::pair<const MapCanvas*, QRectF>> parts_of(const QSizeF& size) const;
   /// Places the canvases so that two maps are as large as possible.
@@ -86,6 +100,7 @@ class MapView : public QWidget {
   Focus& focus_;
   Selection& selection_;
   const ColorChoice& colors_;
+  const RunBeside& beside_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* title_;
   QLabel* step_text_;

@@ -96,7 +96,7 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
 
 std::string map_command(const std::string& scene, const RunOptions& options,
                         const std::vector<MaterialChange>& changes, const Vec3& omega,
-                        std::optional<std::int32_t> steps) {
+                        std::optional<std::int32_t> steps, PatchId receiver) {
   Line line("transillum map");
   line.add(scene);
   line.add_changes(options.input.changes);
@@ -107,6 +107,9 @@ std::string map_command(const std::string& scene, const RunOptions& options,
   line.add("direction", fmt::format("{},{},{}", omega.x, omega.y, omega.z));
   if (steps) {
     line.add("step", fmt::format("{}", *steps));
+  }
+  if (receiver != no_patch) {
+    line.add("receiver", fmt::format("{}", receiver));
   }
   line.add("out", "map.svg");
   return line.text();

@@ -8,6 +8,7 @@
 
 #include "model/run_options.h"
 #include "transillum/material_changes.h"
+#include "transillum/scene.h"
 #include "transillum/vec3.h"
 
 namespace transillum::viewer {
@@ -21,8 +22,9 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
 /// The same for the visibility map of one direction.
 /// @param omega the direction, written with all digits
 /// @param steps of the direction that are done; all if not set
+/// @param receiver  the patch whose map it is; no_patch: V
 std::string map_command(const std::string& scene, const RunOptions& options,
                         const std::vector<MaterialChange>& changes, const Vec3& omega,
-                        std::optional<std::int32_t> steps = {});
+                        std::optional<std::int32_t> steps = {}, PatchId receiver = no_patch);
 
 }  // namespace transillum::viewer

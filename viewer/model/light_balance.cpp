@@ -13,12 +13,6 @@ namespace {
 
 using Term = LightBalance::Term;
 
-/// The group or face whose patches are summed to one term.
-std::pair<int, int> source_of(const Patch& patch) {
-  return patch.group == no_group ? std::pair(0, static_cast<int>(patch.face))
-                                 : std::pair(1, static_cast<int>(patch.group));
-}
-
 /// The light that entry `k` of the row brings from patch j, without what the first shot has
 /// brought.
 Rgb irradiance_of(const SolverSnapshot& snapshot, std::size_t k, PatchId j) {
@@ -64,6 +58,11 @@ std::vector<Term> all_terms(const SolverSnapshot& snapshot, PatchId i, const Rgb
 }
 
 }  // namespace
+
+std::pair<int, int> source_of(const Patch& patch) {
+  return patch.group == no_group ? std::pair(0, static_cast<int>(patch.face))
+                                 : std::pair(1, static_cast<int>(patch.group));
+}
 
 LightBalance light_balance(const SolverSnapshot& snapshot, PatchId receiver, std::size_t most) {
   LightBalance balance;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "model/snapshot.h"
@@ -33,6 +34,8 @@ struct LightBalance {
   /// The rest: the change by the last iteration, and reflection by lobes.
   Rgb remainder;
 };
+/// The group or face whose patches are summed as one source.
+std::pair<int, int> source_of(const Patch& patch);
 /// @param snapshot with form factors
 /// @param most length of `terms`
 LightBalance light_balance(const SolverSnapshot& snapshot, PatchId receiver, std::size_t most = 10);

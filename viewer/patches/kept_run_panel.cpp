@@ -15,9 +15,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "colors/run_beside.h"
 #include "model/command_text.h"
 #include "model/run_comparison.h"
 #include "model/snapshot_values.h"
+#include "patches/beside_view.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
@@ -95,9 +97,13 @@ QComboBox* make_choice(const char* name, const QString& tip) {
 
 }  // namespace
 
-KeptRunPanel::KeptRunPanel(ColorChoice& colors, Selection& selection, QAction& keep,
-                           QAction& difference, QWidget* parent)
-    : QWidget(parent), colors_(colors), runs_(colors.kept_runs()), selection_(selection) {
+KeptRunPanel::KeptRunPanel(ColorChoice& colors, Selection& selection, RunBeside& beside,
+                           QAction& keep, QAction& difference, QWidget* parent)
+    : QWidget(parent),
+      colors_(colors),
+      runs_(colors.kept_runs()),
+      selection_(selection),
+      beside_(beside) {
   make_table();
   hint_ = named("run_hint", note_label({}, {10, 0, 10, 2}));
   // A layout does not count further lines of wrapped text, and would lay the table over them.
@@ -109,7 +115,14 @@ KeptRunPanel::KeptRunPanel(ColorChoice& colors, Selection& selection, QAction& k
   layout->addWidget(hint_);
   layout->addLayout(make_choices());
   layout->addLayout(make_values());
+  layout->addWidget(named("beside_view", new BesideView(beside, selection)), 1);
   connect(&runs_, &KeptRuns::changed, this, &KeptRunPanel::show_list);
+  connect(&beside_, &RunBeside::changed, this, [this] {
+    const bool shown = beside_.run() != nullptr;
+    side_->setChecked(shown);
+    values_->setVisible(!shown);  // the comparison of all directions needs the room
+    go_->setVisible(!shown);
+  });
   connect(&runs_, &KeptRuns::compared_changed, this, &KeptRunPanel::show_choices);
   connect(&colors_, &ColorChoice::fitted, this, &KeptRunPanel::show_difference);
   connect(&colors_, &ColorChoice::changed, this, &KeptRunPanel::show_difference);
@@ -151,10 +164,17 @@ QLayout* KeptRunPanel::make_buttons(QAction& keep, QAction& difference) {
                   tr("Remove the run chosen in the list (Del); Undo restores it"));
   remove_->setText(tr("Remove"));
   connect(remove_, &QToolButton::clicked, this, &KeptRunPanel::remove_current);
+  side_ = named("run_beside", new QToolButton,
+                tr("Show the map of the run chosen in the list, also of another scene, beside the "
+                   "map of the open scene, along the same direction"));
+  side_->setText(tr("Beside"));
+  side_->setCheckable(true);
+  connect(side_, &QToolButton::clicked, this, &KeptRunPanel::show_beside);
   auto* row = make_row({8, 4, 8, 0});
   for (QAction* action : {&keep, &difference}) {
     row->addWidget(button_for(action));
   }
+  row->addWidget(side_);
   row->addStretch(1);
   row->addWidget(remove_);
   return row;
@@ -219,11 +239,22 @@ void KeptRunPanel::show_list() {
 void KeptRunPanel::show_hint() {
   const int row = table_->currentRow();
   enable_if(*remove_, row >= 0, tr("No run is chosen in the list"));
+  enable_if(*side_, row >= 0 || beside_.run(), tr("No run is chosen in the list"));
   hint_->setText(table_->rowCount() == 0 ? tr("No runs are kept. Keep one (K), change the "
                                               "settings, and solve again.")
                  : row >= 0              ? runs_.reason_against(static_cast<std::size_t>(row))
                                          : QString());
   hint_->setVisible(!hint_->text().isEmpty());
+}
+
+void KeptRunPanel::show_beside(bool shown) {
+  const int row = table_->currentRow();
+  if (shown && row >= 0) {
+    const KeptRun& run = at(runs_.all(), row);
+    beside_.show(run.snapshot, run.name);
+  } else {
+    beside_.show(nullptr, {});
+  }
 }
 
 void KeptRunPanel::show_choices() {

@@ -17,15 +17,18 @@ class QToolButton;
 
 namespace transillum::viewer {
 
+class RunBeside;
+
 /// The list of kept runs, to name and remove them; the choice of two to compare, and their
 /// difference.
 class KeptRunPanel : public QWidget {
   Q_OBJECT
 
  public:
+  /// @param beside  shows the run chosen in the list beside the open scene
   /// @param keep, difference  actions of the menu, also buttons here
-  KeptRunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAction& difference,
-               QWidget* parent = nullptr);
+  KeptRunPanel(ColorChoice& colors, Selection& selection, RunBeside& beside, QAction& keep,
+               QAction& difference, QWidget* parent = nullptr);
 
  signals:
   /// The patch of the largest difference has been selected.
@@ -41,6 +44,7 @@ class KeptRunPanel : public QWidget {
   void show_difference();
   void show_comparison(const ResultComparison& comparison);
   void show_hint();
+  void show_beside(bool shown);
   void rename(const QTableWidgetItem& item);
   void remove_current();
   void go_to_worst();
@@ -49,10 +53,11 @@ class KeptRunPanel : public QWidget {
   ColorChoice& colors_;
   KeptRuns& runs_;
   Selection& selection_;
+  RunBeside& beside_;
   QTableWidget* table_;
   QLabel *hint_, *values_;
   QComboBox *first_, *second_;
-  QToolButton *remove_, *go_;
+  QToolButton *remove_, *go_, *side_;
   PatchId worst_ = no_patch;
 };
 

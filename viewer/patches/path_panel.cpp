@@ -4,17 +4,21 @@
 // thread while it is visible, and tells the window which paths to draw in the scene.
 #include "patches/path_panel.h"
 
+#include <QCheckBox>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStringList>
 #include <QTableWidget>
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <utility>
 
 #include "colors/color_scale.h"
+#include "model/light_balance.h"
 #include "model/snapshot_values.h"
 #include "support/number_text.h"
 #include "transillum/files.h"
@@ -25,6 +29,8 @@
 namespace transillum::viewer {
 
 namespace {
+
+constexpr int most_paths = 1000;
 
 double fraction_of(const LightPaths& paths, const Rgb& light) {
   const double all = luminance(paths.radiosity);
@@ -37,6 +43,18 @@ QString path_text(const LightPath& path) {
     patches << QString::number(patch);
   }
   return patches.join(QStringLiteral(" → "));
+}
+
+/// The groups, or faces without one, that a path goes through; the last patch by its number.
+QString group_text(const LightPath& path, const Scene& scene) {
+  QStringList names;
+  for (const PatchId patch : path.patches) {
+    const Patch& one = scene.patch(patch);
+    names << (one.group == no_group ? PathPanel::tr("face %1").arg(one.face)
+                                    : QString::fromStdString(at(scene.groups(), one.group)));
+  }
+  names.back() = QString::number(path.patches.back());
+  return names.join(QStringLiteral(" → "));
 }
 
 nlohmann::json json_of(const Rgb& light) { return {light.r, light.g, light.b}; }
@@ -67,15 +85,20 @@ PathPanel::PathPanel(Selection& selection, QWidget* parent)
 QLayout* PathPanel::make_controls() {
   count_ =
       named("path_count", new QSpinBox, tr("How many of the strongest paths to list and draw"));
-  count_->setRange(1, 1000);
+  count_->setRange(1, most_paths);
   count_->setValue(20);
   auto* label = new QLabel(tr("Strongest"));
   label->setBuddy(count_);
   export_ =
       named("export_paths", new QPushButton(tr("Export…")), tr("Write the paths as CSV or JSON"));
+  by_group_ = named("paths_by_group", new QCheckBox(tr("By group")),
+                    tr("Sum the 1000 strongest paths through the same groups, or faces without "
+                       "one: a lamp of many patches is one source"));
+  connect(by_group_, &QCheckBox::toggled, this, &PathPanel::search);
   auto* row = make_row({10, 8, 10, 6}, 6);
   row->addWidget(label);
   row->addWidget(count_);
+  row->addWidget(by_group_);
   row->addStretch(1);
   row->addWidget(export_);
   connect(count_, qOverload<int>(&QSpinBox::valueChanged), this, &PathPanel::search);
@@ -143,7 +166,7 @@ void PathPanel::search() {
     show_caption();
     return;
   }
-  Request request{*std::move(light), count_->value(), {}, {}};
+  Request request{*std::move(light), count_->value(), by_group_->isChecked(), {}, {}};
   if (!(request == requested_) || (!paths_ && error_.isEmpty() && !finder_.busy())) {
     requested_ = request;
     request.start = snapshot_->radiosity;
@@ -156,12 +179,40 @@ void PathPanel::search() {
 LightPaths PathPanel::find(const Request& request, const Cancellation& cancellation) {
   const LightRequest& light = request.light;
   LightPathOptions options;
-  options.count = request.count;
+  options.count = request.by_group ? most_paths : request.count;
   options.start = request.start;
   options.sky_irradiance = request.sky;
   options.patch_materials = light.patch_materials();
-  return find_light_paths(light.scene(), *light.form_factors, light.receiver, light.material_list(),
-                          options, cancellation);
+  LightPaths paths = find_light_paths(light.scene(), *light.form_factors, light.receiver,
+                                      light.material_list(), options, cancellation);
+  return request.by_group
+             ? sums_of_paths(paths, light.scene(), static_cast<std::size_t>(request.count))
+             : paths;
+}
+
+LightPaths sums_of_paths(const LightPaths& paths, const Scene& scene, std::size_t most) {
+  LightPaths sums{{}, paths.radiosity, paths.cut_off, paths.complete};
+  std::map<std::vector<std::pair<int, int>>, std::size_t> numbers;
+  for (const LightPath& path : paths.paths) {
+    std::vector<std::pair<int, int>> key;
+    for (const PatchId patch : path.patches) {
+      key.push_back(source_of(scene.patch(patch)));
+    }
+    const auto [number, added] = numbers.emplace(std::move(key), sums.paths.size());
+    if (added) {
+      sums.paths.push_back(path);  // the strongest comes first
+    } else {
+      sums.paths[number->second].contribution += path.contribution;
+    }
+  }
+  std::stable_sort(sums.paths.begin(), sums.paths.end(), [](const auto& a, const auto& b) {
+    return luminance(a.contribution) > luminance(b.contribution);
+  });
+  for (std::size_t k = most; k < sums.paths.size(); ++k) {
+    sums.cut_off += sums.paths[k].contribution;
+  }
+  sums.paths.resize(std::min(sums.paths.size(), most));
+  return sums;
 }
 
 void PathPanel::show_paths() {
@@ -174,10 +225,12 @@ void PathPanel::show_paths() {
   table_->horizontalHeaderItem(1)->setText(light_format.header(tr("B, W/m²")));
   for (int row = 0; row < rows; ++row) {
     const LightPath& path = at(paths_->paths, row);
-    const QString texts[] = {
-        fraction_format.text(100 * fraction_of(*paths_, path.contribution)),
-        light_format.text(luminance(path.contribution)), QString::number(path.patches.size() - 1),
-        path.patches.size() > 1 ? path_text(path) : tr("emitted by the patch itself")};
+    const QString texts[] = {fraction_format.text(100 * fraction_of(*paths_, path.contribution)),
+                             light_format.text(luminance(path.contribution)),
+                             QString::number(path.patches.size() - 1),
+                             path.patches.size() <= 1 ? tr("emitted by the patch itself")
+                             : requested_.by_group    ? group_text(path, *snapshot_->loaded->scene)
+                                                      : path_text(path)};
     for (int column = 0; column < 4; ++column) {
       auto* item = new QTableWidgetItem(texts[column]);
       const auto side = column < 3 ? Qt::AlignRight : Qt::AlignLeft;

@@ -10,6 +10,7 @@
 #include "state/selection.h"
 #include "support/newest_result.h"
 
+class QCheckBox;
 class QLabel;
 class QPushButton;
 class QSpinBox;
@@ -47,12 +48,13 @@ class PathPanel : public QWidget {
   struct Request {
     LightRequest light;
     int count = 0;
+    bool by_group = false;  ///< sum paths through the same groups or faces
     std::vector<Rgb> start;
     std::vector<Rgb> sky;  ///< light that each patch receives from a sky; may be empty
 
     friend bool operator==(const Request& a, const Request& b) {
       // `start` changes only the time, and the sky's light belongs to the form factors.
-      return a.light == b.light && a.count == b.count;
+      return a.light == b.light && a.count == b.count && a.by_group == b.by_group;
     }
   };
   static LightPaths find(const Request& request, const Cancellation& cancellation);
@@ -71,12 +73,17 @@ class PathPanel : public QWidget {
   std::shared_ptr<const LightPaths> paths_;
   QString error_;
   QSpinBox* count_;
+  QCheckBox* by_group_;
   QPushButton* export_;
   QLabel* caption_;
   QTableWidget* table_;
   NewestResult<Request, LightPaths> finder_;
 };
 
+/// Sums the paths that go through the same groups, or faces without one: for each sum the strongest
+/// path, with the light of all.
+/// @param most  number of sums; what the others bring is added to `cut_off`
+LightPaths sums_of_paths(const LightPaths& paths, const Scene& scene, std::size_t most);
 /// One line per path: its rank from 1, fraction of B by luminance, contribution, patches from the
 /// source on. The last line is the sum of all other paths.
 void write_paths_csv(const LightPaths& paths, std::ostream& out);

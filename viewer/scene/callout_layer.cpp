@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "widgets/callout_painter.h"
+#include "widgets/sketch_painter.h"
 
 namespace transillum::viewer {
 
@@ -22,8 +23,21 @@ void CalloutLayer::show_callouts(std::vector<Placed> callouts) {
     return;
   }
   callouts_ = std::move(callouts);
+  follow();
+}
+
+void CalloutLayer::show_sketch(QPolygonF outline, std::vector<QPolygonF> right) {
+  if (outline == outline_ && right == right_) {
+    return;
+  }
+  outline_ = std::move(outline);
+  right_ = std::move(right);
+  follow();
+}
+
+void CalloutLayer::follow() {
   setGeometry(parentWidget()->rect());
-  setVisible(!callouts_.empty());
+  setVisible(!empty());
   update();
 }
 
@@ -40,6 +54,8 @@ void CalloutLayer::paintEvent(QPaintEvent*) {
 }
 
 void CalloutLayer::draw(QPainter& painter, const QRectF& bounds) const {
+  painter.setRenderHint(QPainter::Antialiasing);
+  draw_sketch(painter, outline_, right_);
   std::vector<QRectF> taken;
   for (const Placed& callout : callouts_) {
     draw_callout(painter, callout.anchor, callout.text, bounds.adjusted(2, 2, -2, -2), taken);

@@ -56,7 +56,7 @@ std::optional<SharpSubject> SceneView::sharp_subject() const {
 }
 
 void SceneView::draw_callouts(QImage& image) const {
-  if (image.isNull() || callout_layer_->callouts().empty()) {
+  if (image.isNull() || callout_layer_->empty()) {
     return;
   }
   QPainter painter(&image);

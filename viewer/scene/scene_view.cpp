@@ -17,6 +17,7 @@
 #include <QResizeEvent>
 #include <QTimer>
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -453,22 +454,40 @@ std::optional<Vec3> SceneView::anchor_of(const Callout& callout) const {
 // After each rendering: the camera may have moved.
 void SceneView::place_callouts() {
   std::vector<CalloutLayer::Placed> placed;
-  const int* size = window_->GetSize();
   for (const Callout& callout : callouts_) {
     const auto anchor = loaded_ ? anchor_of(callout) : std::nullopt;
     if (!anchor) {
       continue;
     }
-    renderer_->SetWorldPoint(anchor->x, anchor->y, anchor->z, 1);
-    renderer_->WorldToDisplay();
-    const double* p = renderer_->GetDisplayPoint();
-    const QPointF position(p[0] / size[0] * drawn_size_.width(),
-                           (1 - p[1] / size[1]) * drawn_size_.height());
+    const QPointF position = pixel_of(*anchor);
     if (QRectF(QPointF(0, 0), drawn_size_).contains(position)) {
       placed.push_back({QString::fromStdString(callout.text), position});
     }
   }
   callout_layer_->show_callouts(std::move(placed));
+  const auto polygon = [this](const std::vector<Vec3>& corners) {
+    QPolygonF pixels;
+    for (const Vec3& p : corners) {
+      pixels.append(pixel_of(p));
+    }
+    return pixels;
+  };
+  std::vector<QPolygonF> right;
+  std::transform(sketch_.right.begin(), sketch_.right.end(), std::back_inserter(right), polygon);
+  callout_layer_->show_sketch(polygon(sketch_.outline), std::move(right));
+}
+
+QPointF SceneView::pixel_of(const Vec3& point) {
+  const int* size = window_->GetSize();
+  renderer_->SetWorldPoint(point.x, point.y, point.z, 1);
+  renderer_->WorldToDisplay();
+  const double* p = renderer_->GetDisplayPoint();
+  return {p[0] / size[0] * drawn_size_.width(), (1 - p[1] / size[1]) * drawn_size_.height()};
+}
+
+void SceneView::show_sketch(const SceneSketch& sketch) {
+  sketch_ = sketch;
+  render();
 }
 
 void SceneView::render() {
@@ -541,6 +560,9 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
           selection_.toggle(patch_at(mouse->pos()));
         } else {
           selection_.select(patch_at(mouse->pos()));
+        }
+        if (const auto hit = hit_at(mouse->pos())) {
+          emit point_clicked(hit->patch, hit->point);
         }
       }
       render();

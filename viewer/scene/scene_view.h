@@ -33,6 +33,7 @@
 #include "state/camera_views.h"
 #include "state/focus.h"
 #include "state/hidden_patches.h"
+#include "state/map_sketch.h"
 #include "state/selection.h"
 #include "state/view_choices.h"
 #include "widgets/theme.h"
@@ -86,6 +87,8 @@ class SceneView : public QWidget {
   void view_from_side(Side side);
   /// Shows these callouts until the next call.
   void show_callouts(const std::vector<Callout>& callouts);
+  /// Draws a polygon on a patch, and the region that it should match, until the next call.
+  void show_sketch(const SceneSketch& sketch);
   /// The point in the scene that a callout points at, m; not set where the named object is not
   /// shown.
   std::optional<Vec3> anchor_of(const Callout& callout) const;
@@ -154,6 +157,8 @@ class SceneView : public QWidget {
   bool pressed() const { return pressed_; }
 
  signals:
+  /// The left button was clicked on a patch.
+  void point_clicked(transillum::PatchId patch, const transillum::Vec3& point);
   /// The right button was clicked at a point of canvas().
   void menu_requested(const QPoint& position);
   /// The picture is about to be drawn; what is shown may have changed.
@@ -180,6 +185,8 @@ class SceneView : public QWidget {
   Vec3 vertical_ = {0, 1, 0};
   void follow_camera();
   void place_callouts();
+  /// In logical pixels of the picture that is drawn.
+  QPointF pixel_of(const Vec3& point);
   void draw_callouts(QImage& image) const;
   void prepare_picture(double line_scale, bool smooth);
 
@@ -208,6 +215,7 @@ class SceneView : public QWidget {
   bool held_ = false;
 
   std::vector<Callout> callouts_;
+  SceneSketch sketch_;
   QSizeF drawn_size_;  ///< logical size of the picture that is drawn
   CalloutLayer* callout_layer_;
   QVTKOpenGLNativeWidget* canvas_;

@@ -15,4 +15,10 @@ struct MapSketch {
                                          ///< hidden
 };
 
+/// The same on a patch in the scene. Points are in meters.
+struct SceneSketch {
+  std::vector<Vec3> outline;
+  std::vector<std::vector<Vec3>> right;
+};
+
 }  // namespace transillum::viewer

@@ -137,6 +137,15 @@ void LogChart::show_lines(std::vector<Line> lines, std::vector<Level> levels, in
   change();
 }
 
+void LogChart::set_axes(QStringList names, const Decades& decades) {
+  names_ = std::move(names);
+  decades_ = decades;
+  x_max_ = std::max(1, static_cast<int>(names_.size()));
+  change();
+}
+
+Decades LogChart::decades() const { return decades_ ? *decades_ : decades_of(lines_, levels_); }
+
 void LogChart::set_mark(std::optional<int> x) {
   if (x == mark_) {
     return;
@@ -170,12 +179,34 @@ QPointF LogChart::position_of(int x) const {
   return {scale().x(x), (area_.top + area_.bottom) / 2};
 }
 
+QPointF LogChart::position_of(int x, double value) const {
+  const double left = scale().x(x);
+  const Decades shown = decades();
+  const double fraction = (std::log10(value) - shown.first) / (shown.last - shown.first);
+  return {left, area_.bottom - fraction * (area_.bottom - area_.top)};
+}
+
 void LogChart::mousePressEvent(QMouseEvent* event) {
   draw();
   const QRectF plot(QPointF(area_.left, area_.top), QPointF(area_.right, area_.bottom));
   if (event->button() == Qt::LeftButton && plot.contains(event->localPos())) {
     emit clicked(count_at(event->localPos()));
+    point_at(event->localPos());
   }
+}
+
+void LogChart::mouseMoveEvent(QMouseEvent* event) {
+  if (event->buttons() & Qt::LeftButton) {
+    point_at(event->localPos());
+  }
+}
+
+void LogChart::point_at(const QPointF& position) {
+  const int x = count_at(position);
+  const double height = std::max(area_.bottom - area_.top, 1.0);
+  const double fraction = std::clamp((area_.bottom - position.y()) / height, 0.0, 1.0);
+  const Decades shown = decades();
+  emit pointed(x, std::pow(10, shown.first + fraction * (shown.last - shown.first)));
 }
 
 LineChart LogChart::chart() const {
@@ -186,7 +217,7 @@ LineChart LogChart::chart() const {
   // A low chart needs its height for the curves; its title is enough.
   chart.axis_titles = height() > 9 * fontMetrics().height();
 
-  const Decades decades = decades_of(lines_, levels_);
+  const Decades decades = this->decades();
   chart.y = {y_title_.toStdString(),
              std::pow(10, decades.first),
              std::pow(10, decades.last),
@@ -198,8 +229,11 @@ LineChart LogChart::chart() const {
   }
   const bool one = x_max_ == 1;
   chart.x = {x_title_.toStdString(), one ? 0.5 : 1, one ? 1.5 : x_max_, false, false, {}};
+  for (int x = 1; x <= names_.size(); ++x) {
+    chart.x.ticks.push_back({1.0 * x, names_[x - 1].toStdString()});
+  }
   const int step = count_step(x_max_ - 1, width() / 60);
-  for (int x = step; x <= x_max_; x += step) {
+  for (int x = step; x <= x_max_ && names_.isEmpty(); x += step) {
     chart.x.ticks.push_back({1.0 * x, count_text(x).toStdString()});
   }
 

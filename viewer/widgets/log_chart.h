@@ -4,6 +4,7 @@
 #include <QColor>
 #include <QImage>
 #include <QString>
+#include <QStringList>
 #include <QWidget>
 #include <optional>
 #include <vector>
@@ -23,6 +24,11 @@ ChartStyle chart_style(const QWidget& widget);
 /// @param scale  device pixels per logical pixel
 /// @return the plotted area, in logical pixels
 ChartArea paint_chart(const LineChart& chart, QImage& picture, const QSize& pixels, double scale);
+
+/// Exponents of powers of ten, first < last.
+struct Decades {
+  int first = -1, last = 0;
+};
 
 /// A line chart with counts from 1 along x and a logarithmic y axis. Values that are not positive
 /// leave a gap in the line; the legend gives their number.
@@ -51,6 +57,9 @@ class LogChart : public QWidget {
   void set_title(const QString& title);
   /// @param x_max least right end of the x axis
   void show_lines(std::vector<Line> lines, std::vector<Level> levels, int x_max);
+  /// Fixes both axes, for a curve that is drawn by hand.
+  /// @param names  of the counts, from 1
+  void set_axes(QStringList names, const Decades& decades);
   /// The text shown if there is nothing to draw.
   void set_hint(const QString& hint);
   /// Sets the current count, which a vertical line marks; no mark if it is not set.
@@ -63,21 +72,29 @@ class LogChart : public QWidget {
   /// The chart as it is shown.
   LineChart chart() const;
 
+  /// The position in the widget of a value at a count; inside the plot only between the decades.
+  QPointF position_of(int x, double value) const;
+
   QSize sizeHint() const override { return {420, 210}; }
   QSize minimumSizeHint() const override { return {240, 3 * fontMetrics().height() + 66}; }
 
  signals:
   void clicked(int x);
+  /// The left button is held at a place of the plot: the nearest count, and the value there.
+  void pointed(int x, double value);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
   void changeEvent(QEvent* event) override;
 
  private:
   struct Scale;
   Scale scale() const;
   void change();
+  Decades decades() const;
+  void point_at(const QPointF& position);
   void add_levels(LineChart& chart) const;
   void add_mark(LineChart& chart) const;
   void add_lines(LineChart& chart) const;
@@ -87,16 +104,14 @@ class LogChart : public QWidget {
   std::vector<Line> lines_;
   std::vector<Level> levels_;
   int x_max_ = 1;
+  QStringList names_;
+  std::optional<Decades> decades_;
   std::optional<int> mark_;
   mutable QImage picture_;  ///< in device pixels; null until it is painted
   mutable ChartArea area_;  ///< area of the plot in the picture, logical pixels
 };
 
-/// Exponents of the powers of ten that enclose all positive values: first < last; [-1, 0] without
-/// values.
-struct Decades {
-  int first = -1, last = 0;
-};
+/// The powers of ten that enclose all positive values; [-1, 0] without values.
 Decades decades_of(const std::vector<LogChart::Line>& lines,
                    const std::vector<LogChart::Level>& levels);
 

@@ -36,8 +36,8 @@ InspectionPanels::InspectionPanels(SharedState& state, HiddenPatches& hidden, QW
   hidden.set_undo_stack(&undo_);
   compare_ = new CompareActions(state.colors, window, this);
   connect(compare_, &CompareActions::failed, this, &InspectionPanels::failed);
-  runs_ =
-      new KeptRunPanel(state.colors, state.selection, *compare_->keep(), *compare_->difference());
+  runs_ = new KeptRunPanel(state.colors, state.selection, state.beside, *compare_->keep(),
+                           *compare_->difference());
   connect(runs_, &KeptRunPanel::patch_chosen, this, &InspectionPanels::face_chosen);
   state.colors.kept_runs().set_undo_stack(&undo_);
   connect(&state.colors, &ColorChoice::form_factors_requested, &state.runner,

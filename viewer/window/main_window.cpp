@@ -27,6 +27,7 @@
 #include "map/map_canvas.h"
 #include "map/map_view.h"
 #include "map/phase_pair.h"
+#include "map/section_view.h"
 #include "model/snapshot_values.h"
 #include "patches/error_page.h"
 #include "patches/patch_inspector.h"
@@ -151,7 +152,7 @@ void MainWindow::make_views() {
   settings_ = new SettingsPanel;
   summary_ = new SolveSummary;
   inspector_ = new PatchInspector(state_.focus, state_.selection, state_.colors);
-  map_view_ = new MapView(state_.focus, state_.selection, state_.colors);
+  map_view_ = new MapView(state_.focus, state_.selection, state_.colors, state_.beside);
   error_view_ = new ErrorView([this] { return page_->scene_view()->view_point(); });
   convergence_view_ = new ConvergenceView(state_.focus);
   direction_view_ =
@@ -229,6 +230,9 @@ void MainWindow::make_docks() {
   docks_.add(tr("Summary"), "summary_dock", scrollable(summary_));
   inspection_->add_materials_to(docks_);
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_);
+  auto* section = new SectionView(state_.focus, state_.selection, state_.colors);
+  connect(lesson_panel_, &LessonPanel::callouts_shown, section, &SectionView::show_callouts);
+  docks_.add(tr("Section"), "section_dock", section);
   docks_.add(tr("Error"), "error_dock", error_view_);
   docks_.add(tr("Lobes"), "lobe_dock", lobe_view_);
   docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_));
@@ -243,7 +247,7 @@ void MainWindow::make_docks() {
   QDockWidget* timeline_dock = docks_.add(tr("Timeline"), "timeline_dock", timeline_);
   timeline_dock->setTitleBarWidget(new QWidget);  // a title would take too much of a projector
   // Maps are recorded only while a panel shows them.
-  for (const char* name : {"map", "algorithm", "event", "tree", "compare", "timeline"}) {
+  for (const char* name : {"map", "algorithm", "event", "tree", "compare", "section", "timeline"}) {
     auto* dock = findChild<QDockWidget*>(QStringLiteral("%1_dock").arg(name));
     map_docks_ << dock;
     // The docks outlive the members of the window.
@@ -284,6 +288,10 @@ void MainWindow::connect_views() {
           &AlgorithmView::set_values_hidden);
   connect(lesson_panel_, &LessonPanel::enlarged, &docks_, &DockLayouts::enlarge);
   connect(lesson_panel_, &LessonPanel::sketched, map_view_->canvas(), &MapCanvas::show_sketch);
+  connect(page_->scene_view(), &SceneView::point_clicked, &lesson_panel_->question(),
+          &QuestionBox::take_surface_point);
+  connect(&lesson_panel_->question(), &QuestionBox::surface_sketched, page_->scene_view(),
+          &SceneView::show_sketch);
   connect(&state_.runner, &SolveRunner::state_changed, &lesson_panel_->question(),
           &QuestionBox::show_run);
   connect(&state_.breakpoints, &Breakpoints::changed, timeline_->lanes(),
@@ -479,7 +487,7 @@ void MainWindow::make_file_menu() {
   QMenu* exporting = file->addMenu(tr("Export"));
   exports_->add_to(*exporting);
   recorder_->add_to(*exporting);
-  (new CommandActions(frame()))->add_to(*file);
+  (new CommandActions(frame(), *map_view_))->add_to(*file);
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
 }

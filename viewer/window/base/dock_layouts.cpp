@@ -23,7 +23,7 @@ namespace {
 
 // Raise this number when docks are added, removed or renamed: older saved layouts then become
 // invalid.
-constexpr int layout_version = 12;
+constexpr int layout_version = 13;
 
 // More tabs would hide each other's names.
 constexpr int most_tabs = 4;

@@ -24,6 +24,7 @@ const std::map<std::string, Places>& all_places() {
       {"material", {{inspect, left, 1, 700}}},
       {"inspector", {{inspect, right, 1, 330, front}}},
       {"map", {{teach, right, 1, 400}, {inspect, right, 1, 330}, {step, left, 1, 480, front}}},
+      {"section", {{teach, right, 1, 400}, {inspect, right, 1, 330}, {step, left, 1, 480}}},
       {"error", {{teach, right, 1, 400}}},
       {"lobe", {{teach, right, 1, 400}, {inspect, right, 1, 330}}},
       {"compare", {{inspect, right, 1, 330}, {step, left, 1, 480}}},

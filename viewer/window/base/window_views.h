@@ -4,6 +4,7 @@
 #include <QUndoStack>
 
 #include "colors/color_choice.h"
+#include "colors/run_beside.h"
 #include "model/requests/per_direction_visibility.h"
 #include "model/requests/relighting.h"
 #include "model/solver/solve_runner.h"
@@ -40,6 +41,7 @@ struct SharedState {
   OpenScene scene{runner, relighting};
   Focus focus;
   FocusFeed focus_feed{focus};
+  RunBeside beside{focus, colors};
   Breakpoints breakpoints;
   Watches watches;
   PerDirectionVisibility visibility;

@@ -223,6 +223,13 @@ void ExportActions::write_map_picture(const QString& path) const {
   if (!focus.map()) {
     throw std::runtime_error("there is no visibility map yet");
   }
+  if (!focus.at_step() && is_map_picture(path.toStdString())) {
+    FigurePlan plan;
+    plan.scene = false;
+    plan.map = true;
+    write_figure(path, plan, figure_views());
+    return;
+  }
   // The writers draw one V.
   const std::int32_t step = focus.picture_step() - (focus.phase() == Phase::before ? 1 : 0);
   check_map_path(path.toStdString());

@@ -118,6 +118,7 @@ void LessonExport::take_page() {
   if (shown.page.state.focus && frame_.state.focus.map()) {
     shown.map = frame_.state.focus.map();
     shown.step = frame_.state.focus.picture_step();
+    shown.whole = !frame_.state.focus.at_step();
     shown.patch_colors = frame_.state.colors.patch_colors();
   }
   pages_.push_back(std::move(shown));

@@ -6,6 +6,7 @@
 #include <QMainWindow>
 #include <QMenu>
 
+#include "map/map_view.h"
 #include "model/command_text.h"
 #include "model/snapshot_values.h"
 #include "solve/settings_panel.h"
@@ -13,7 +14,8 @@
 
 namespace transillum::viewer {
 
-CommandActions::CommandActions(const WindowFrame& frame) : QObject(&frame.window), frame_(frame) {
+CommandActions::CommandActions(const WindowFrame& frame, const MapView& view)
+    : QObject(&frame.window), frame_(frame), view_(view) {
   const auto add = [this](const char* name, const QString& text, const char* key,
                           const QString& tip) {
     auto* action = make_action(this, name, text, tip, QKeySequence(QString::fromLatin1(key)));
@@ -56,9 +58,9 @@ void CommandActions::copy_solve() {
 }
 
 void CommandActions::copy_map(std::optional<std::int32_t> steps) {
-  QApplication::clipboard()->setText(QString::fromStdString(
-      map_command(frame_.state.scene.spec(), options(), frame_.state.relighting.edits().changes(),
-                  frame_.state.focus.map()->record().frame.omega, steps)));
+  QApplication::clipboard()->setText(QString::fromStdString(map_command(
+      frame_.state.scene.spec(), options(), frame_.state.relighting.edits().changes(),
+      frame_.state.focus.map()->record().frame.omega, steps, steps ? no_patch : view_.receiver())));
 }
 
 void CommandActions::copy_step() {

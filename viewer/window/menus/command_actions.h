@@ -16,7 +16,7 @@ class CommandActions : public QObject {
 
  public:
   /// The objects that `parts` refers to must outlive this object.
-  explicit CommandActions(const WindowFrame& frame);
+  CommandActions(const WindowFrame& frame, const MapView& view);
 
   void add_to(QMenu& menu) const;
 
@@ -27,6 +27,7 @@ class CommandActions : public QObject {
   RunOptions options() const;
 
   WindowFrame frame_;
+  const MapView& view_;
   QAction *solve_, *map_, *step_;
 };
 

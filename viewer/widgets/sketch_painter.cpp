@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "map/sketch_painter.h"
+#include "widgets/sketch_painter.h"
 
 #include <QPainter>
 #include <QPainterPath>
@@ -9,14 +9,6 @@
 namespace transillum::viewer {
 
 namespace {
-
-QPolygonF in_pixels(const std::vector<Vec2>& corners, const MapTransform& shown) {
-  QPolygonF polygon;
-  for (const Vec2& p : corners) {
-    polygon.append(shown.to_pixels(p));
-  }
-  return polygon;
-}
 
 QPainterPath path_of(const QPolygonF& polygon) {
   QPainterPath path;
@@ -32,18 +24,19 @@ void hatch(QPainter& painter, const QPainterPath& path, const QColor& color, Qt:
   painter.fillPath(path, QBrush(color, style));
 }
 
-void hatch_differences(QPainter& painter, const MapSketch& sketch, const MapTransform& shown) {
-  constexpr std::size_t least_corners = 3;
-  if (sketch.right.empty() || sketch.outline.size() < least_corners) {
+void hatch_differences(QPainter& painter, const QPolygonF& outline,
+                       const std::vector<QPolygonF>& parts) {
+  constexpr int least_corners = 3;
+  if (parts.empty() || outline.size() < least_corners) {
     return;
   }
   // One path of all parts: the union of hundreds, part by part, would take long in each repaint.
   QPainterPath right;
   right.setFillRule(Qt::WindingFill);
-  for (const std::vector<Vec2>& part : sketch.right) {
-    right.addPath(path_of(in_pixels(part, shown)));
+  for (const QPolygonF& part : parts) {
+    right.addPath(path_of(part));
   }
-  const QPainterPath drawn = path_of(in_pixels(sketch.outline, shown));
+  const QPainterPath drawn = path_of(outline);
   hatch(painter, right.subtracted(drawn), theme::selection, Qt::BDiagPattern);
   hatch(painter, drawn.subtracted(right), theme::difference, Qt::FDiagPattern);
 }
@@ -51,23 +44,21 @@ void hatch_differences(QPainter& painter, const MapSketch& sketch, const MapTran
 }  // namespace
 
 // The parts share edges: without antialiasing there are no seams between them.
-void fill_parts(QPainter& painter, const std::vector<std::vector<Vec2>>& parts,
-                const MapTransform& shown, int alpha) {
+void fill_parts(QPainter& painter, const std::vector<QPolygonF>& parts, int alpha) {
   QColor color = theme::region;
   color.setAlpha(alpha);
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setPen(Qt::NoPen);
   painter.setBrush(color);
-  for (const std::vector<Vec2>& part : parts) {
-    painter.drawPolygon(in_pixels(part, shown));
+  for (const QPolygonF& part : parts) {
+    painter.drawPolygon(part);
   }
   painter.setRenderHint(QPainter::Antialiasing);
 }
 
-void draw_sketch(QPainter& painter, const MapSketch& sketch, const MapTransform& shown) {
-  fill_parts(painter, sketch.right, shown, 170);
-  hatch_differences(painter, sketch, shown);
-  const QPolygonF outline = in_pixels(sketch.outline, shown);
+void draw_sketch(QPainter& painter, const QPolygonF& outline, const std::vector<QPolygonF>& right) {
+  fill_parts(painter, right, 170);
+  hatch_differences(painter, outline, right);
   painter.setBrush(Qt::NoBrush);
   for (const QPen& pen :
        {QPen(Qt::black, 4 * theme::scale()), QPen(theme::on_dark, 2 * theme::scale())}) {

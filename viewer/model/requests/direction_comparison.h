@@ -1,0 +1,61 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// One direction in the open scene and in the scene of another run: what changed in the map.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "model/requests/recorded_map.h"
+
+namespace transillum::viewer {
+
+/// A run to show beside the open scene, along the direction of a map.
+struct DirectionRequest {
+  std::shared_ptr<const SolverSnapshot> kept;     ///< the other run; its scene needs no tree
+  std::shared_ptr<const SolverSnapshot> current;  ///< of the open scene
+  std::shared_ptr<const RecordedMap> map;         ///< of the open scene
+};
+
+struct DirectionComparison {
+  /// A patch that both scenes have: with the same number, as part of the same face. Each value is
+  /// of the other run, then of the open scene.
+  struct Row {
+    PatchId patch = no_patch;
+    std::array<double, 2> seen{};       ///< area over which it exchanges light along omega, m²
+    std::array<double, 2> factors{};    ///< sum of its form factors
+    std::array<double, 2> radiosity{};  ///< luminance of B, W/m²
+
+    /// The change of `seen`, m²; 0 up to rounding.
+    double change() const {
+      constexpr double rounding = 1e-12;
+      const double difference = seen[1] - seen[0];
+      return std::abs(difference) > rounding ? difference : 0;
+    }
+  };
+  std::shared_ptr<const RecordedMap> kept_map;  ///< of the other scene
+  std::shared_ptr<const RecordedMap> map;       ///< DirectionRequest::map
+  std::vector<Row> rows;                        ///< the largest change of the seen area first
+  /// Numbers of patches that only one of the scenes has, the other first.
+  std::array<PatchId, 2> unmatched{};
+};
+
+/// Compares directions; keeps the tree and the newest map of the other scene.
+///
+/// Threads: one at a time.
+class DirectionComparer {
+ public:
+  /// @throws Canceled, and what record_map() throws
+  DirectionComparison operator()(const DirectionRequest& request, const Cancellation& cancellation);
+
+ private:
+  std::shared_ptr<const LoadedScene> loaded_;
+  std::shared_ptr<const RecordedMap> map_;
+};
+
+/// The area over which each patch exchanges light along the direction of a map, m².
+std::vector<double> exchanged_areas(const RecordedMap& map);
+
+}  // namespace transillum::viewer
