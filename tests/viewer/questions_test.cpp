@@ -294,8 +294,8 @@ class QuestionsTest : public QObject {
     save_picture(*room.window, "question-area-wrong");
   }
 
-  // The values are those of the same solves; a curve that is twice as high differs by a factor of
-  // two at each point.
+  // The same solves give the values; a curve that is twice as high differs by a factor of two at
+  // each point.
   void a_curve_is_drawn_in_a_chart() {
     Class room;
     room.open(page_with(R"({"kind": "curve", "ask": "Draw it", "choices": [
@@ -332,8 +332,8 @@ class QuestionsTest : public QObject {
     QCOMPARE(mean_distance({1, 0}, {1, 1}), HUGE_VAL);
   }
 
-  // The corners that are clicked in the scene are those of the patch, which sees all of its
-  // projection: nothing is missing.
+  // The corners of the patch are clicked in the scene; it sees all of its projection: nothing is
+  // missing.
   void an_outline_is_drawn_on_a_patch_in_the_scene() {
     Class room;
     std::string lesson = page_with(R"({"kind": "outline", "ask": "Draw it", "unit": "m²",

@@ -64,7 +64,7 @@ struct GivenAnswer {
   PatchId patch = no_patch;
   std::optional<double> number = {};
   std::vector<Vec2> outline = {};    ///< corners of a polygon on the plane, m
-  std::vector<double> heights = {};  ///< of the points of a curve; 0 where none is given
+  std::vector<double> heights = {};  ///< a curve at its points; 0 where none is given
 
   friend bool operator==(const GivenAnswer& a, const GivenAnswer& b);
 };

@@ -106,7 +106,7 @@ MapCanvas* MapView::make_canvas(Selection& selection, const char* name) {
   auto* canvas = named(name, new MapCanvas(selection));
   canvas->setMinimumHeight(26);  // two of them above one another in a low panel
   auto* pointer = new PointerLabel(colors_, *canvas, [this, canvas](const QPoint& position) {
-    // The values are those of the open scene.
+    // Only the open scene has values.
     const auto shown = canvas->map_shown();
     if (shown && snapshot_ && shown->loaded != snapshot_->loaded) {
       return PointedPatch();

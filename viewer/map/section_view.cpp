@@ -22,7 +22,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double bar_height = 12;       // of the intervals, logical pixels
+constexpr double bar_height = 12;       // the intervals' height, logical pixels
 constexpr double click_distance = 10;   // logical pixels
 constexpr double least_for_label = 22;  // length of a segment or an interval, logical pixels
 

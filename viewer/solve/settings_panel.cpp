@@ -329,7 +329,9 @@ void SettingsPanel::connect_changes() {
 
 Sky SettingsPanel::sky() const {
   if (!(sky_value_->value() > 0) || !takes_directions(engine_of(*engine_))) {
-    return {};
+    Sky none;
+    none.sun = base_.sky.sun;
+    return none;
   }
   Sky sky = base_.sky;  // with all its digits, unless changed
   if (sky_value_->value() !=

@@ -41,7 +41,10 @@ class SettingsPanel : public QWidget {
   /// Whether the accuracy limits the sum of all errors, for which patches are divided.
   bool total() const;
   RunOptions options() const {
-    return {solve_options(), scene_options(), {}, refinement(), false, total()};
+    return {.solve = solve_options(),
+            .scene = scene_options(),
+            .refine = refinement(),
+            .total = total()};
   }
   /// The number of patches that the user has asked for, while set_patch_area() is awaited; else 0.
   std::int64_t patches_wanted() const { return patches_wanted_; }

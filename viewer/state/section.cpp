@@ -98,7 +98,7 @@ void add_intervals(Section& section, const Axes& axes, const MapRecord& record) 
   const Vec2 n{dot(axes.normal, frame.u), dot(axes.normal, frame.v)};
   const Vec2 t{dot(across, frame.u), dot(across, frame.v)};
   const double c = axes.c - dot(axes.normal, frame.origin);
-  // Places are measured from the origin of space, as those of the segments.
+  // Like segments, places are measured from the origin of space.
   const double shift = dot(across, frame.origin);
   std::vector<double> side, place;
   for (std::size_t r = 0; r < record.rows.size(); ++r) {

@@ -279,9 +279,8 @@ void add_sun(Table& t) {
     o.solve.sky.sun.direction = text == "none" ? Vec3{} : unit_vector_from_text(text);
   };
   direction.print = [](const RunOptions& o) {
-    const Sun& sun = o.solve.sky.sun;
-    const bool has_direction = sun.is_set() && !(sun.direction == Vec3{});
-    return has_direction ? exact_text(sun.direction) : std::string("none");
+    const Vec3& toward_sun = o.solve.sky.sun.direction;
+    return toward_sun == Vec3{} ? std::string("none") : exact_text(toward_sun);
   };
   Option& irradiance = t.add("sun-irradiance", "W[,W,W]", "one number or three, W/m2, or none",
                              "irradiance by the sun of a plane perpendicular to its direction, in "

@@ -15,8 +15,8 @@ namespace transillum::viewer {
 /// A run to show beside the open scene, along the direction of a map.
 struct DirectionRequest {
   std::shared_ptr<const SolverSnapshot> kept;     ///< the other run; its scene needs no tree
-  std::shared_ptr<const SolverSnapshot> current;  ///< of the open scene
-  std::shared_ptr<const RecordedMap> map;         ///< of the open scene
+  std::shared_ptr<const SolverSnapshot> current;  ///< the run of the open scene
+  std::shared_ptr<const RecordedMap> map;         ///< the open scene's map
 };
 
 struct DirectionComparison {
@@ -35,7 +35,7 @@ struct DirectionComparison {
       return std::abs(difference) > rounding ? difference : 0;
     }
   };
-  std::shared_ptr<const RecordedMap> kept_map;  ///< of the other scene
+  std::shared_ptr<const RecordedMap> kept_map;  ///< the other scene's map
   std::shared_ptr<const RecordedMap> map;       ///< DirectionRequest::map
   std::vector<Row> rows;                        ///< the largest change of the seen area first
   /// Numbers of patches that only one of the scenes has, the other first.
