@@ -22,6 +22,7 @@
 #include "scene/build/closed_surface.h"
 #include "transillum/at.h"
 #include "visibility/fast/boundary_view.h"
+#include "visibility/fast/cut_corners.h"
 #include "visibility/fast/exact_view.h"
 #include "visibility/fast/fast_engine.h"
 #include "visibility/fast/fragment_bins.h"
@@ -68,7 +69,14 @@ enum class Toward {
 /// Enumerates the candidates of one query, nearest first, by merging the lists of its bins.
 class CandidateSearch {
  public:
-  explicit CandidateSearch(const FragmentBins& bins) : bins_(bins) {}
+  /// A position in the list of a bin: a fragment whose box overlaps the window, or a sentinel (-1).
+  struct Cursor {
+    FragmentBins::Entry entry;
+    std::int32_t fragment;
+  };
+
+  CandidateSearch(const FragmentBins& bins, const ProjectedFragments& projected)
+      : bins_(bins), projected_(projected) {}
 
   /// Begins a search from `fragment`: in the bin of `entry` only, or in all its bins. `window`:
   /// here and in next(), the bounds within which candidates are sought.
@@ -88,6 +96,10 @@ class CandidateSearch {
       advance<toward>(cursor, window);
     }
   }
+
+  /// Where the search is, to be continued there later.
+  const std::vector<Cursor>& cursors() const { return cursors_; }
+  void resume(std::vector<Cursor> cursors) { cursors_ = std::move(cursors); }
 
   /// The next candidate, or -1.
   template <Toward toward>
@@ -121,21 +133,23 @@ class CandidateSearch {
   }
 
  private:
-  /// A position in the list of a bin: a fragment whose box overlaps the window, or a sentinel (-1).
-  struct Cursor {
-    FragmentBins::Entry entry;
-    std::int32_t fragment;
-  };
-
   template <Toward toward>
   void advance(Cursor& cursor, const FragmentWindow& window) const {
-    do {
-      cursor.entry += toward == Toward::source ? -1 : 1;
-    } while (!window.overlaps(bins_.box(cursor.entry)));
-    cursor.fragment = bins_.fragment(cursor.entry);
+    if constexpr (toward == Toward::source) {
+      do {
+        --cursor.entry;
+      } while (!window.overlaps(bins_.box(cursor.entry)));
+      cursor.fragment = bins_.fragment(cursor.entry);
+    } else {
+      // The lists may hold no boxes of front-facing fragments.
+      do {
+        cursor.fragment = bins_.fragment(++cursor.entry);
+      } while (cursor.fragment >= 0 && !window.overlaps(at(projected_.boxes, cursor.fragment)));
+    }
   }
 
   const FragmentBins& bins_;
+  const ProjectedFragments& projected_;
   std::vector<Cursor> cursors_;
 };
 
@@ -145,9 +159,13 @@ class FastPass {
   explicit FastPass(const FastScene& shared)
       : shared_(shared),
         bins_(projected_, shared.backs_hidden),
-        search_(bins_),
+        search_(bins_, projected_),
+        cut_corners_(shared.outlines, projected_),
         exact_view_(shared.outlines, projected_, transfers_.counts, shared.bases != nullptr),
-        boundary_view_(projected_, transfers_.counts, shared.backs_hidden) {
+        boundary_view_(projected_, cut_corners_, transfers_.counts, shared.backs_hidden,
+                       BoundaryView::Frame::plane),
+        needle_view_(projected_, cut_corners_, transfers_.counts, shared.backs_hidden,
+                     BoundaryView::Frame::needle) {
     if (shared.bases) {
       moments_.emplace(*shared.scene, shared.bases, projected_);
     }
@@ -162,8 +180,10 @@ class FastPass {
     const Clock::time_point binned = Clock::now();
     begin(omega);
     run_queries<Toward::source>(cancellation);
+    run_smaller<Toward::source, Toward::receiver>(cancellation);
     if (!shared_.backs_hidden) {
       run_queries<Toward::receiver>(cancellation);
+      run_smaller<Toward::receiver, Toward::source>(cancellation);
     }
     // With a shaft, fragments that would hide others may be missing.
     TRANSILLUM_INVARIANT(shared_.shaft || nothing_is_covered_twice(),
@@ -208,6 +228,8 @@ class FastPass {
     transfers_.backward.resize(patches);
     transfers_.back_seen.resize(patches);
     found_.clear();
+    smaller_.clear();
+    cut_corners_.begin();
     seen_from_front_.assign(projected_.fragments.size(), 0);
     area_unit_ = projected_.grid.unit * projected_.grid.unit;
     for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
@@ -235,7 +257,13 @@ class FastPass {
 
   struct VisibleArea {
     std::int32_t fragment;
-    double area;  ///< square grid units
+    double area;     ///< square grid units
+    bool too_small;  ///< the fragment is too small for this area to be accurate
+  };
+  /// A fragment, and a larger one that it sees, or may see.
+  struct SmallerOfTwo {
+    std::int32_t smaller, larger;
+    auto operator<=>(const SmallerOfTwo&) const = default;
   };
   /// An entry of found_ with its index.
   struct NumberedTransfer : Transfer {
@@ -286,19 +314,32 @@ class FastPass {
 
   template <Toward toward>
   void run_query(std::int32_t fragment, const FragmentBins::Bin* bin, FragmentBins::Entry entry) {
-    if (!query_with<toward>(boundary_view_, fragment, bin, entry)) {
-      ++transfers_.counts.exact_queries;
-      query_with<toward>(exact_view_, fragment, bin, entry);
-    }
+    find_visible<toward>(fragment, bin, entry);
     for (const VisibleArea& visible : visible_areas_) {
-      accumulate<toward>(fragment, visible);
+      if (visible.too_small) {
+        smaller_.push_back({visible.fragment, fragment});
+      } else {
+        accumulate<toward>(fragment, visible);
+      }
     }
     for (std::size_t k = 0; k < visible_moments_.size(); ++k) {
       accumulate_moments<toward>(fragment, visible_areas_[k].fragment, visible_moments_[k]);
     }
   }
 
-  /// Fills visible_areas_. Returns false if the view fails.
+  /// Fills visible_areas_, by the first view that does not fail.
+  template <Toward toward>
+  void find_visible(std::int32_t fragment, const FragmentBins::Bin* bin,
+                    FragmentBins::Entry entry) {
+    if (query_with<toward>(boundary_view_, fragment, bin, entry) ||
+        (!moments_ && query_with<toward>(needle_view_, fragment, bin, entry))) {
+      return;
+    }
+    ++transfers_.counts.exact_queries;
+    query_with<toward>(exact_view_, fragment, bin, entry);
+  }
+
+  /// Returns false if the view fails.
   template <Toward toward, class View>
   bool query_with(View& view, std::int32_t fragment, const FragmentBins::Bin* bin,
                   FragmentBins::Entry entry) {
@@ -310,25 +351,121 @@ class FastPass {
       view.begin_query(fragment);
     }
     search_.begin<toward>(fragment, bin != nullptr, entry, view.window());
+    waiting_.clear();
+    while (subtract_candidates<toward>(view, fragment, bin != nullptr)) {
+      if (view.waiting_parts() == 0) {
+        return true;
+      }
+      view.next_part();
+      search_.resume(std::move(waiting_.back()));
+      waiting_.pop_back();
+      if (view.is_crowded() && !divide(view)) {
+        return false;
+      }
+    }
+    return false;
+  }
+
+  /// Divides the view's region; the search goes on from here for each of its parts.
+  template <class View>
+  bool divide(View& view) {
+    if (!view.divide()) {
+      return false;
+    }
+    waiting_.resize(view.waiting_parts(), search_.cursors());
+    return true;
+  }
+
+  /// Subtracts the remaining candidates. Returns false if the view fails.
+  template <Toward toward, class View>
+  bool subtract_candidates(View& view, std::int32_t fragment, bool in_one_bin) {
     for (std::int32_t candidate = search_.next<toward>(view.window()); candidate >= 0;
          candidate = search_.next<toward>(view.window())) {
       const double area = view.subtract(candidate);
       if (view.failed()) {
         return false;
       }
-      if (area > 0) {
-        visible_areas_.push_back({candidate, area});
-        if (moments_) {
-          visible_moments_.push_back(
-              moments_->of_overlap(view, at(projected_.fragments, fragment).patch,
-                                   at(projected_.fragments, candidate).patch, area_unit_ * area));
+      if (area > 0 || view.is_too_small()) {
+        const bool too_small = in_one_bin ? is_too_small_in_bins(candidate) : view.is_too_small();
+        if (moments_ && (view.is_too_small() || at(projected_.fragments, candidate).cut_needle) &&
+            !std::is_same_v<View, ExactView>) {
+          return false;
         }
+        if (area > 0 || too_small) {
+          add_visible(view, fragment, {candidate, area, too_small && !moments_});
+        }
+      }
+      if (view.is_crowded() && !divide(view)) {
+        return false;
       }
       if (view.done()) {
         break;
       }
     }
     return true;
+  }
+
+  template <class View>
+  void add_visible(const View& view, std::int32_t fragment, const VisibleArea& visible) {
+    visible_areas_.push_back(visible);
+    if (moments_) {
+      visible_moments_.push_back(moments_->of_overlap(
+          view, at(projected_.fragments, fragment).patch,
+          at(projected_.fragments, visible.fragment).patch, area_unit_ * visible.area));
+    }
+  }
+
+  /// Whether a candidate is too small beside a fragment that is queried bin by bin: the same for
+  /// all bins, so that one of the two fragments finds all of the area.
+  bool is_too_small_in_bins(std::int32_t candidate) const {
+    std::int64_t size = 0;
+    for (auto e = bins_.last_entry(candidate); e != FragmentBins::none; e = bins_.entry_before(e)) {
+      size = std::max(size, bin_of(e).size);
+    }
+    return boundary_view_.is_too_small_beside(candidate, static_cast<double>(size));
+  }
+
+  const FragmentBins::Bin& bin_of(FragmentBins::Entry entry) const {
+    const auto after = std::upper_bound(
+        bins_.bins().begin(), bins_.bins().end(), entry,
+        [](FragmentBins::Entry e, const FragmentBins::Bin& bin) { return e < bin.begin; });
+    return *(after - 1);
+  }
+
+  /// What a small fragment and a large one exchange is decided by the smaller: its query, in the
+  /// opposite direction, finds the areas that the queries `toward` have left to it.
+  template <Toward toward, Toward opposite>
+  void run_smaller(const Cancellation& cancellation) {
+    std::sort(smaller_.begin(), smaller_.end());
+    smaller_.erase(std::unique(smaller_.begin(), smaller_.end()), smaller_.end());
+    for (std::size_t begin = 0, end = 0; begin < smaller_.size(); begin = end) {
+      const std::int32_t fragment = smaller_[begin].smaller;
+      while (end < smaller_.size() && smaller_[end].smaller == fragment) {
+        ++end;
+      }
+      cancellation.throw_if_canceled();
+      const auto first = smaller_.begin() + static_cast<std::ptrdiff_t>(begin);
+      const auto last = smaller_.begin() + static_cast<std::ptrdiff_t>(end);
+      const auto accumulate_found = [&] {
+        for (const VisibleArea& visible : visible_areas_) {
+          if (visible.area > 0 &&
+              std::binary_search(first, last, SmallerOfTwo{fragment, visible.fragment})) {
+            accumulate<toward>(visible.fragment, {fragment, visible.area, false});
+          }
+        }
+      };
+      if (bins_.entry_count(fragment) <= max_bins_per_query) {
+        find_visible<opposite>(fragment, nullptr, bins_.last_entry(fragment));
+        accumulate_found();
+        continue;
+      }
+      for (auto e = bins_.last_entry(fragment); e != FragmentBins::none;
+           e = bins_.entry_before(e)) {
+        find_visible<opposite>(fragment, &bin_of(e), e);
+        accumulate_found();
+      }
+    }
+    smaller_.clear();
   }
 
   template <Toward toward>
@@ -464,6 +601,8 @@ class FastPass {
   std::vector<Transfer> found_, sorted_;  ///< one entry per visible area
   std::vector<std::uint32_t> row_ends_;
   std::vector<VisibleArea> visible_areas_;
+  std::vector<SmallerOfTwo> smaller_;  ///< areas that the smaller fragment finds
+  std::vector<std::vector<CandidateSearch::Cursor>> waiting_;  ///< of the view's waiting parts
   // With moments: of visible_areas_ and found_; and found_, numbered.
   std::vector<TransferMoments> visible_moments_, found_moments_;
   std::vector<NumberedTransfer> numbered_, sorted_numbered_;
@@ -472,8 +611,10 @@ class FastPass {
   std::optional<FragmentMoments> moments_;  ///< nothing: passes have no moments
   FragmentBins bins_;
   CandidateSearch search_;
+  CutCorners cut_corners_;
   ExactView exact_view_;
   BoundaryView boundary_view_;
+  BoundaryView needle_view_;  ///< for fragments that are too thin for boundary_view_
 };
 
 /// Pool of FastPass objects not in use: as many as have run at the same time.
