@@ -225,7 +225,8 @@ double BoundaryView::subtract(std::int32_t candidate) {
   too_small_ = is_inaccurate(noise, by);
   failed_ = !add_edges(twice_area);
   const double area = per_area_ * 0.5 * twice_area;
-  if (failed_ || area <= noise) {
+  // A candidate that is too small is subtracted for the sake of small ones behind it.
+  if (failed_ || (area <= noise && !too_small_)) {
     return 0;
   }
   counts_.cuts += static_cast<std::int64_t>(cutter_.count);
