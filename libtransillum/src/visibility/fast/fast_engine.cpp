@@ -22,8 +22,10 @@
 #include "scene/build/closed_surface.h"
 #include "transillum/at.h"
 #include "visibility/fast/boundary_view.h"
+#include "visibility/fast/candidate_search.h"
 #include "visibility/fast/cut_corners.h"
 #include "visibility/fast/exact_view.h"
+#include "visibility/fast/exchange_rows.h"
 #include "visibility/fast/fast_engine.h"
 #include "visibility/fast/fragment_bins.h"
 #include "visibility/fast/fragment_moments.h"
@@ -59,99 +61,6 @@ double perimeter_of(const Scene& scene, PatchId patch) {
   }
   return sum;
 }
-
-/// The side to which a query is directed.
-enum class Toward {
-  source,   ///< along omega: from a front-facing fragment to those above it
-  receiver  ///< against omega: from a back-facing fragment to those below it
-};
-
-/// Enumerates the candidates of one query, nearest first, by merging the lists of its bins.
-class CandidateSearch {
- public:
-  /// A position in the list of a bin: a fragment whose box overlaps the window, or a sentinel (-1).
-  struct Cursor {
-    FragmentBins::Entry entry;
-    std::int32_t fragment;
-  };
-
-  CandidateSearch(const FragmentBins& bins, const ProjectedFragments& projected)
-      : bins_(bins), projected_(projected) {}
-
-  /// Begins a search from `fragment`: in the bin of `entry` only, or in all its bins. `window`:
-  /// here and in next(), the bounds within which candidates are sought.
-  template <Toward toward>
-  void begin(std::int32_t fragment, bool in_one_bin, FragmentBins::Entry entry,
-             const FragmentWindow& window) {
-    cursors_.clear();
-    if (in_one_bin) {
-      cursors_.push_back({entry, 0});
-    } else {
-      for (auto e = bins_.last_entry(fragment); e != FragmentBins::none;
-           e = bins_.entry_before(e)) {
-        cursors_.push_back({e, 0});
-      }
-    }
-    for (Cursor& cursor : cursors_) {
-      advance<toward>(cursor, window);
-    }
-  }
-
-  /// Where the search is, to be continued there later.
-  const std::vector<Cursor>& cursors() const { return cursors_; }
-  void resume(std::vector<Cursor> cursors) { cursors_ = std::move(cursors); }
-
-  /// The next candidate, or -1.
-  template <Toward toward>
-  std::int32_t next(const FragmentWindow& window) {
-    if (cursors_.size() == 1) {
-      const std::int32_t fragment = cursors_[0].fragment;
-      if (fragment >= 0) {
-        advance<toward>(cursors_[0], window);
-      }
-      return fragment;
-    }
-    std::int32_t nearest = -1;
-    for (const Cursor& cursor : cursors_) {
-      if (cursor.fragment < 0) {
-        continue;
-      }
-      if (nearest < 0 ||
-          (toward == Toward::source ? cursor.fragment > nearest : cursor.fragment < nearest)) {
-        nearest = cursor.fragment;
-      }
-    }
-    if (nearest < 0) {
-      return nearest;
-    }
-    for (Cursor& cursor : cursors_) {
-      if (cursor.fragment == nearest) {
-        advance<toward>(cursor, window);
-      }
-    }
-    return nearest;
-  }
-
- private:
-  template <Toward toward>
-  void advance(Cursor& cursor, const FragmentWindow& window) const {
-    if constexpr (toward == Toward::source) {
-      do {
-        --cursor.entry;
-      } while (!window.overlaps(bins_.box(cursor.entry)));
-      cursor.fragment = bins_.fragment(cursor.entry);
-    } else {
-      // The lists may hold no boxes of front-facing fragments.
-      do {
-        cursor.fragment = bins_.fragment(++cursor.entry);
-      } while (cursor.fragment >= 0 && !window.overlaps(at(projected_.boxes, cursor.fragment)));
-    }
-  }
-
-  const FragmentBins& bins_;
-  const ProjectedFragments& projected_;
-  std::vector<Cursor> cursors_;
-};
 
 /// Runs passes, one at a time; reuses its memory from pass to pass.
 class FastPass {
@@ -512,11 +421,11 @@ class FastPass {
     }
   }
 
-  /// Sorts found_ by receiver, then source, into one entry per pair; parts are summed in the order
-  /// in which they were found.
+  /// Sorts found_ into transfers_.exchanges.
   void sort_exchanges(const Cancellation& cancellation) {
     if (!moments_) {
-      sort_rows(found_, sorted_, cancellation, [](const Transfer&, bool) {});
+      rows_.sort(found_, transfers_.forward.size(), sorted_, transfers_.exchanges, cancellation,
+                 [](const Transfer&, bool) {});
       return;
     }
     numbered_.clear();
@@ -524,82 +433,24 @@ class FastPass {
       numbered_.push_back({found_[k], static_cast<std::uint32_t>(k)});
     }
     std::vector<TransferMoments>& moments = transfers_.moments;
-    sort_rows(numbered_, sorted_numbered_, cancellation,
-              [&](const NumberedTransfer& t, bool added) {
-                const TransferMoments& found = found_moments_[t.number];
-                if (!added) {
-                  moments.push_back(found);
-                  return;
-                }
-                for (std::size_t k = 0; k < found.value.size(); ++k) {
-                  moments.back().value[k] += found.value[k];
-                }
-              });
-  }
-
-  /// @tparam Entry Transfer, or derived from it
-  /// @param put called with each entry in order, and whether it was added to the entry before
-  template <class Entry, class Put>
-  void sort_rows(const std::vector<Entry>& found, std::vector<Entry>& sorted,
-                 const Cancellation& cancellation, Put put) {
-    const std::size_t patches = transfers_.forward.size();
-    row_ends_.assign(patches + 1, 0);
-    for (const Transfer& t : found) {
-      ++row_ends_[static_cast<std::size_t>(t.receiver) + 1];
-    }
-    for (std::size_t i = 0; i < patches; ++i) {
-      row_ends_[i + 1] += row_ends_[i];
-    }
-    sorted.resize(found.size());
-    for (const Entry& t : found) {
-      sorted[at(row_ends_, t.receiver)++] = t;
-    }
-    std::vector<Transfer>& exchanges = transfers_.exchanges;
-    exchanges.reserve(found.size());
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < patches; ++i) {
-      if (i % 4096 == 0) {
-        cancellation.throw_if_canceled();
-      }
-      sort_by_source(sorted.data() + begin, sorted.data() + row_ends_[i]);
-      const std::size_t row = exchanges.size();
-      for (; begin < row_ends_[i]; ++begin) {
-        const Entry& t = sorted[begin];
-        const bool added = exchanges.size() > row && exchanges.back().source == t.source;
-        if (added) {
-          exchanges.back().area += t.area;
-        } else {
-          exchanges.push_back(t);
-        }
-        put(t, added);
-      }
-    }
-  }
-
-  /// Stable.
-  template <class Entry>
-  static void sort_by_source(Entry* first, Entry* last) {
-    constexpr std::ptrdiff_t few = 24;
-    if (last - first > few) {
-      std::stable_sort(first, last,
-                       [](const Transfer& a, const Transfer& b) { return a.source < b.source; });
-      return;
-    }
-    for (Entry* next = first; next < last; ++next) {
-      const Entry moved = *next;
-      Entry* to = next;
-      for (; to > first && to[-1].source > moved.source; --to) {
-        *to = to[-1];
-      }
-      *to = moved;
-    }
+    rows_.sort(numbered_, transfers_.forward.size(), sorted_numbered_, transfers_.exchanges,
+               cancellation, [&](const NumberedTransfer& t, bool added) {
+                 const TransferMoments& found = found_moments_[t.number];
+                 if (!added) {
+                   moments.push_back(found);
+                   return;
+                 }
+                 for (std::size_t k = 0; k < found.value.size(); ++k) {
+                   moments.back().value[k] += found.value[k];
+                 }
+               });
   }
 
   const FastScene& shared_;
   double area_unit_ = 1;                  ///< m² per square grid unit
   std::vector<double> seen_from_front_;   ///< per fragment: square grid units
   std::vector<Transfer> found_, sorted_;  ///< one entry per visible area
-  std::vector<std::uint32_t> row_ends_;
+  ExchangeRows rows_;
   std::vector<VisibleArea> visible_areas_;
   std::vector<SmallerOfTwo> smaller_;  ///< areas that the smaller fragment finds
   std::vector<std::vector<CandidateSearch::Cursor>> waiting_;  ///< of the view's waiting parts
