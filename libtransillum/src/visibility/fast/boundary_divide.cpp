@@ -16,13 +16,24 @@ struct LineCrossing {
   int change;    ///< of the winding number, in the order of `along`
 };
 
-/// The median of the segments' first coordinates along an axis.
-double median(const std::array<double, BoundarySegments::capacity>& coordinates,
-              std::size_t count) {
-  std::array<double, BoundarySegments::capacity> sorted = coordinates;
+using Coordinates = std::array<double, BoundarySegments::capacity>;
+
+/// A line across an axis, and the number of segments that cross it.
+struct DividingLine {
+  double at;
+  std::size_t crossings;
+};
+
+/// The line through the median of the segments' first points.
+DividingLine median_line(const Coordinates& a, const Coordinates& b, std::size_t count) {
+  Coordinates sorted = a;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(count));
-  return *middle;
+  DividingLine line{*middle, 0};
+  for (std::size_t k = 0; k < count; ++k) {
+    line.crossings += (a[k] < line.at) != (b[k] < line.at) ? 1 : 0;
+  }
+  return line;
 }
 
 double twice_area_of(const BoundarySegments& segments) {
@@ -65,9 +76,10 @@ void BoundaryView::next_part() {
 bool BoundaryView::halve(BoundarySegments& high, double& high_area) {
   const BoundarySegments& whole = *region_;
   BoundarySegments& low = *next_region_;
-  const Extent extent = extent_of(whole);
-  const bool by_x = extent[0] + extent[4] >= extent[1] + extent[5];
-  const double limit = median(by_x ? whole.ax : whole.ay, whole.count);
+  const DividingLine across_x = median_line(whole.ax, whole.bx, whole.count);
+  const DividingLine across_y = median_line(whole.ay, whole.by, whole.count);
+  const bool by_x = across_x.crossings <= across_y.crossings;
+  const double limit = by_x ? across_x.at : across_y.at;
   std::array<LineCrossing, BoundarySegments::capacity> crossings;
   std::size_t crossing_count = 0;
   low.count = high.count = 0;

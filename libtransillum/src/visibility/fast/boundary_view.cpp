@@ -181,7 +181,7 @@ bool BoundaryView::is_outside_cutter() const {
 
 /// Sets the cutter to a candidate. Returns false if that is outside the region, or cannot be cut
 /// by.
-bool BoundaryView::load_cutter(std::int32_t candidate) {
+inline bool BoundaryView::load_cutter(std::int32_t candidate) {
   const ProjectedFragments::Fragment& by = at(projected_.fragments, candidate);
   if (in_frame_) {
     return !is_beside_frame(by) && load_cutter_in_frame(candidate) &&
@@ -239,15 +239,12 @@ double BoundaryView::subtract(std::int32_t candidate) {
 }
 
 bool BoundaryView::is_too_small_beside(std::int32_t candidate, double size) const {
-  const ProjectedFragments::Fragment& by = at(projected_.fragments, candidate);
-  const GridPoint* const corners = projected_.corners.data();
-  double perimeter = 0;
-  for (std::uint32_t k = by.begin; k < by.end; ++k) {
-    const GridPoint &a = corners[k], &b = corners[k + 1 < by.end ? k + 1 : by.begin];
-    perimeter +=
-        std::abs(static_cast<double>(b.x - a.x)) + std::abs(static_cast<double>(b.y - a.y));
-  }
-  return is_inaccurate(0.25 * rounding * size * std::min(perimeter, 8 * size), by);
+  // Of a convex polygon and its bounds, the perimeter in |dx| + |dy| is the same.
+  const auto& ends = at(projected_.boxes, candidate).ends;
+  const double perimeter = -2 * (static_cast<double>(ends[0]) + static_cast<double>(ends[1]) +
+                                 static_cast<double>(ends[4]) + static_cast<double>(ends[5]));
+  return is_inaccurate(0.25 * rounding * size * std::min(perimeter, 8 * size),
+                       at(projected_.fragments, candidate));
 }
 
 /// Loads the region when the first candidate is subtracted.

@@ -139,6 +139,10 @@ class FastPass {
     found_.clear();
     smaller_.clear();
     cut_corners_.begin();
+    largest_bin_ = 0;
+    for (const FragmentBins::Bin& bin : bins_.bins()) {
+      largest_bin_ = std::max(largest_bin_, static_cast<double>(bin.size));
+    }
     seen_from_front_.assign(projected_.fragments.size(), 0);
     area_unit_ = projected_.grid.unit * projected_.grid.unit;
     for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
@@ -327,6 +331,9 @@ class FastPass {
   /// Whether a candidate is too small beside a fragment that is queried bin by bin: the same for
   /// all bins, so that one of the two fragments finds all of the area.
   bool is_too_small_in_bins(std::int32_t candidate) const {
+    if (!boundary_view_.is_too_small_beside(candidate, largest_bin_)) {
+      return false;
+    }
     std::int64_t size = 0;
     for (auto e = bins_.last_entry(candidate); e != FragmentBins::none; e = bins_.entry_before(e)) {
       size = std::max(size, bin_of(e).size);
@@ -452,6 +459,7 @@ class FastPass {
   std::vector<Transfer> found_, sorted_;  ///< one entry per visible area
   ExchangeRows rows_;
   std::vector<VisibleArea> visible_areas_;
+  double largest_bin_ = 0;             ///< size, grid units
   std::vector<SmallerOfTwo> smaller_;  ///< areas that the smaller fragment finds
   std::vector<std::vector<CandidateSearch::Cursor>> waiting_;  ///< of the view's waiting parts
   // With moments: of visible_areas_ and found_; and found_, numbered.
