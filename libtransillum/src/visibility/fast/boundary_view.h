@@ -63,6 +63,8 @@ class BoundaryView {
 
   /// The same for a candidate and a fragment or bin with a given size.
   bool is_too_small_beside(std::int32_t candidate, double size) const;
+  /// Bound on the error of areas seen from a fragment or bin with a given size.
+  static double largest_error(double size) { return 2 * rounding * size * size; }
 
   /// Whether the region has too many segments for another subtract(): it has to be divided.
   bool is_crowded() const { return region_->count > BoundarySegments::max_count; }

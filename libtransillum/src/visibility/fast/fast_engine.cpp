@@ -143,6 +143,7 @@ class FastPass {
     for (const FragmentBins::Bin& bin : bins_.bins()) {
       largest_bin_ = std::max(largest_bin_, static_cast<double>(bin.size));
     }
+    surely_resolved_ = BoundaryView::largest_error(largest_bin_) / ProjectedFragments::accuracy;
     seen_from_front_.assign(projected_.fragments.size(), 0);
     area_unit_ = projected_.grid.unit * projected_.grid.unit;
     for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
@@ -331,7 +332,8 @@ class FastPass {
   /// Whether a candidate is too small beside a fragment that is queried bin by bin: the same for
   /// all bins, so that one of the two fragments finds all of the area.
   bool is_too_small_in_bins(std::int32_t candidate) const {
-    if (!boundary_view_.is_too_small_beside(candidate, largest_bin_)) {
+    if (at(projected_.fragments, candidate).area >= surely_resolved_ ||
+        !boundary_view_.is_too_small_beside(candidate, largest_bin_)) {
       return false;
     }
     std::int64_t size = 0;
@@ -460,6 +462,7 @@ class FastPass {
   ExchangeRows rows_;
   std::vector<VisibleArea> visible_areas_;
   double largest_bin_ = 0;             ///< size, grid units
+  double surely_resolved_ = 0;         ///< area that is not too small in any bin
   std::vector<SmallerOfTwo> smaller_;  ///< areas that the smaller fragment finds
   std::vector<std::vector<CandidateSearch::Cursor>> waiting_;  ///< of the view's waiting parts
   // With moments: of visible_areas_ and found_; and found_, numbered.
