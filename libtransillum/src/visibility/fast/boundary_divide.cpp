@@ -13,7 +13,7 @@ namespace {
 /// A crossing of the region's boundary and the dividing line.
 struct LineCrossing {
   double along;  ///< position on the line
-  int change;    ///< of the winding number, in the order of `along`
+  int change;    ///< winding number after it minus before, in the order of `along`
 };
 
 using Coordinates = std::array<double, BoundarySegments::capacity>;
@@ -51,7 +51,7 @@ double twice_area_of(const BoundarySegments& segments) {
 bool BoundaryView::divide() {
   constexpr int most_parts = 16;
   for (int part = 0; is_crowded(); ++part) {
-    Part high;
+    Waiting high;
     if (part == most_parts || !halve(high.segments, high.area)) {
       failed_ = true;
       return false;

@@ -239,7 +239,7 @@ double BoundaryView::subtract(std::int32_t candidate) {
 }
 
 bool BoundaryView::is_too_small_beside(std::int32_t candidate, double size) const {
-  // Of a convex polygon and its bounds, the perimeter in |dx| + |dy| is the same.
+  // A convex polygon and its bounds have the same perimeter in |dx| + |dy|.
   const auto& ends = at(projected_.boxes, candidate).ends;
   const double perimeter = -2 * (static_cast<double>(ends[0]) + static_cast<double>(ends[1]) +
                                  static_cast<double>(ends[4]) + static_cast<double>(ends[5]));

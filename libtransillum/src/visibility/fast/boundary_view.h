@@ -68,11 +68,11 @@ class BoundaryView {
 
   /// Whether the region has too many segments for another subtract(): it has to be divided.
   bool is_crowded() const { return region_->count > BoundarySegments::max_count; }
-  /// Divides a crowded region by lines. The query goes on with one part; the others wait, as many
-  /// as waiting_parts() has become more. Returns false if that fails.
+  /// Divides a crowded region by lines. The query continues with one part; the others wait.
+  /// Returns false if that fails.
   bool divide();
   std::size_t waiting_parts() const { return waiting_.size(); }
-  /// Goes on with the part that has waited least.
+  /// Continues with the part that has waited least.
   void next_part();
 
   /// The point that coordinates are relative to.
@@ -146,11 +146,11 @@ class BoundaryView {
   Extent origin_extent_;  ///< extent of origin_, to be added to extent_
   BoundarySegments* region_ = &segments_[0];
   BoundarySegments* next_region_ = &segments_[1];  ///< the rest of the region after subtract()
-  struct Part {
+  struct Waiting {
     BoundarySegments segments;
     double area;
   };
-  std::vector<Part> waiting_;  ///< parts of the region, by divide()
+  std::vector<Waiting> waiting_;  ///< parts of the region, by divide()
 };
 
 }  // namespace transillum

@@ -53,8 +53,8 @@ class CutCorners {
   const FragmentOutlines& outlines_;
   const ProjectedFragments& projected_;
   std::vector<Range> ranges_;  ///< per fragment, in edges_; empty if none was asked for
-  std::vector<Edge> edges_;    ///< of fragments that the tree has cut
-  std::vector<Edge> plain_;    ///< of the last other fragment
+  std::vector<Edge> edges_;    ///< outlines of fragments that the tree has cut
+  std::vector<Edge> plain_;    ///< outline of the last other fragment
 };
 
 }  // namespace transillum

@@ -280,7 +280,7 @@ class FastPass {
     return false;
   }
 
-  /// Divides the view's region; the search goes on from here for each of its parts.
+  /// Divides the view's region; the search continues from here for each of its parts.
   template <class View>
   bool divide(View& view) {
     if (!view.divide()) {
@@ -350,7 +350,7 @@ class FastPass {
     return *(after - 1);
   }
 
-  /// What a small fragment and a large one exchange is decided by the smaller: its query, in the
+  /// A small fragment and a large one exchange what the smaller one finds: its query, in the
   /// opposite direction, finds the areas that the queries `toward` have left to it.
   template <Toward toward, Toward opposite>
   void run_smaller(const Cancellation& cancellation) {
@@ -464,7 +464,8 @@ class FastPass {
   double largest_bin_ = 0;             ///< size, grid units
   double surely_resolved_ = 0;         ///< area that is not too small in any bin
   std::vector<SmallerOfTwo> smaller_;  ///< areas that the smaller fragment finds
-  std::vector<std::vector<CandidateSearch::Cursor>> waiting_;  ///< of the view's waiting parts
+  std::vector<std::vector<CandidateSearch::Cursor>>
+      waiting_;  ///< one search per waiting part of the view
   // With moments: of visible_areas_ and found_; and found_, numbered.
   std::vector<TransferMoments> visible_moments_, found_moments_;
   std::vector<NumberedTransfer> numbered_, sorted_numbered_;

@@ -25,7 +25,7 @@ struct NeedleFrame {
   GridPoint origin;  ///< maps to (0, 0)
   GridPoint along;   ///< vector that maps to (u, 0), u > 0
   Kept kept = Kept::both;
-  double scale = 1;  ///< of the determinant of `along` and a vector: the second coordinate
+  double scale = 1;  ///< factor of the second coordinate, the determinant of `along` and a vector
   double determinant = 1;
 
   struct Point {
