@@ -20,7 +20,7 @@ namespace transillum {
 /// The visibility query of one projected fragment, or of its part in one bin: the candidates,
 /// nearest first, are subtracted from its region (decisions/0023-boundary-segments.md). The region
 /// that remains is stored as boundary segments only, in doubles relative to the fragment or the
-/// bin, or in a NeedleFrame (decisions/0087-needles.md). If rounding makes the segments
+/// bin, or in a NeedleFrame (decisions/0088-needles.md). If rounding makes the segments
 /// inconsistent, the query fails and has to be repeated with another view.
 class BoundaryView {
  public:
@@ -78,9 +78,23 @@ class BoundaryView {
   /// The point that coordinates are relative to.
   const GridPoint& origin() const { return origin_; }
   /// Calls visit(px, py, qx, qy) for each directed segment that bounds what the last subtract()
-  /// covered, if that was more than 0. Not for Frame::needle.
+  /// covered, if that was more than 0; on the plane, relative to origin().
   template <class Visit>
   void for_each_covered_segment(Visit visit) const {
+    if (!in_frame_) {
+      for_each_segment(visit);
+      return;
+    }
+    for_each_segment([&](double px, double py, double qx, double qy) {
+      const NeedleFrame::Point p = frame_.unmap(px, py), q = frame_.unmap(qx, qy);
+      visit(p.x, p.y, q.x, q.y);
+    });
+  }
+
+ private:
+  /// The same in the coordinates of the frame.
+  template <class Visit>
+  void for_each_segment(Visit visit) const {
     for (std::uint64_t bits = cut_.inside; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
       visit(cut_.in_x[k], cut_.in_y[k], cut_.out_x[k], cut_.out_y[k]);
@@ -91,7 +105,6 @@ class BoundaryView {
     }
   }
 
- private:
   /// Bound on the rounding error of positions derived from a polygon's coordinates, relative to the
   /// largest coordinate.
   static constexpr double rounding = 0x1p-49;

@@ -62,6 +62,17 @@ double perimeter_of(const Scene& scene, PatchId patch) {
   return sum;
 }
 
+/// The moments with receiver and source exchanged.
+TransferMoments transposed(const TransferMoments& moments) {
+  TransferMoments turned;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      turned.of(a, b) = moments.of(b, a);
+    }
+  }
+  return turned;
+}
+
 /// Runs passes, one at a time; reuses its memory from pass to pass.
 class FastPass {
  public:
@@ -229,15 +240,16 @@ class FastPass {
   template <Toward toward>
   void run_query(std::int32_t fragment, const FragmentBins::Bin* bin, FragmentBins::Entry entry) {
     find_visible<toward>(fragment, bin, entry);
-    for (const VisibleArea& visible : visible_areas_) {
+    for (std::size_t k = 0; k < visible_areas_.size(); ++k) {
+      const VisibleArea& visible = visible_areas_[k];
       if (visible.too_small) {
         smaller_.push_back({visible.fragment, fragment});
-      } else {
-        accumulate<toward>(fragment, visible);
+        continue;
       }
-    }
-    for (std::size_t k = 0; k < visible_moments_.size(); ++k) {
-      accumulate_moments<toward>(fragment, visible_areas_[k].fragment, visible_moments_[k]);
+      accumulate<toward>(fragment, visible);
+      if (moments_) {
+        accumulate_moments<toward>(fragment, visible.fragment, visible_moments_[k]);
+      }
     }
   }
 
@@ -246,7 +258,7 @@ class FastPass {
   void find_visible(std::int32_t fragment, const FragmentBins::Bin* bin,
                     FragmentBins::Entry entry) {
     if (query_with<toward>(boundary_view_, fragment, bin, entry) ||
-        (!moments_ && query_with<toward>(needle_view_, fragment, bin, entry))) {
+        query_with<toward>(needle_view_, fragment, bin, entry)) {
       return;
     }
     ++transfers_.counts.exact_queries;
@@ -301,12 +313,8 @@ class FastPass {
       }
       if (area > 0 || view.is_too_small()) {
         const bool too_small = in_one_bin ? is_too_small_in_bins(candidate) : view.is_too_small();
-        if (moments_ && (view.is_too_small() || at(projected_.fragments, candidate).cut_needle) &&
-            !std::is_same_v<View, ExactView>) {
-          return false;
-        }
         if (area > 0 || too_small) {
-          add_visible(view, fragment, {candidate, area, too_small && !moments_});
+          add_visible(view, fragment, {candidate, area, too_small});
         }
       }
       if (view.is_crowded() && !divide(view)) {
@@ -322,10 +330,14 @@ class FastPass {
   template <class View>
   void add_visible(const View& view, std::int32_t fragment, const VisibleArea& visible) {
     visible_areas_.push_back(visible);
-    if (moments_) {
-      visible_moments_.push_back(moments_->of_overlap(
+    if (!moments_) {
+      return;
+    }
+    visible_moments_.emplace_back();
+    if (visible.area > 0) {
+      visible_moments_.back() = moments_->of_overlap(
           view, at(projected_.fragments, fragment).patch,
-          at(projected_.fragments, visible.fragment).patch, area_unit_ * visible.area));
+          at(projected_.fragments, visible.fragment).patch, area_unit_ * visible.area);
     }
   }
 
@@ -365,10 +377,15 @@ class FastPass {
       const auto first = smaller_.begin() + static_cast<std::ptrdiff_t>(begin);
       const auto last = smaller_.begin() + static_cast<std::ptrdiff_t>(end);
       const auto accumulate_found = [&] {
-        for (const VisibleArea& visible : visible_areas_) {
-          if (visible.area > 0 &&
-              std::binary_search(first, last, SmallerOfTwo{fragment, visible.fragment})) {
-            accumulate<toward>(visible.fragment, {fragment, visible.area, false});
+        for (std::size_t k = 0; k < visible_areas_.size(); ++k) {
+          const VisibleArea& visible = visible_areas_[k];
+          if (!(visible.area > 0) ||
+              !std::binary_search(first, last, SmallerOfTwo{fragment, visible.fragment})) {
+            continue;
+          }
+          accumulate<toward>(visible.fragment, {fragment, visible.area, false});
+          if (moments_) {
+            accumulate_moments<toward>(visible.fragment, fragment, transposed(visible_moments_[k]));
           }
         }
       };

@@ -3,7 +3,7 @@
 // Coordinates in which a needle is as high as it is long. One coordinate of the plane is kept, the
 // other replaced by the distance from the needle's longest edge, enlarged. The distance is a
 // determinant of grid points: exact in 128 bits, and rounded once. So doubles resolve what lies in
-// a needle as well as they resolve what lies in a square (decisions/0087-needles.md).
+// a needle as well as they resolve what lies in a square (decisions/0088-needles.md).
 #pragma once
 
 #include <cmath>
