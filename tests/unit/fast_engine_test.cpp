@@ -388,7 +388,7 @@ TEST(FastEngine, RarelyNeedsExactSigns) {
 }
 
 /// Faces thinner than doubles can resolve, and faces 10^4 times smaller than the faces behind them.
-TEST(FastEngine, UsesExactSignsForNeedlesAndTinyFaces) {
+TEST(FastEngine, NeedsNoExactSignsForNeedlesAndTinyFaces) {
   const auto exact_queries = [](const Fast& fast) {
     std::int64_t count = 0;
     for (const Vec3& omega : testing::test_directions(10, 15)) {
@@ -402,12 +402,12 @@ TEST(FastEngine, UsesExactSignsForNeedlesAndTinyFaces) {
   tiny.material(0.5, 1);
   needles.box({-1, -1, -1}, {2, 2, 2}, true, gray).box({0, 0, 0}, {1, 1e-5, 1}, false, gray);
   tiny.box({-1, -1, -1}, {2, 2, 2}, true, gray).box({0, 0, 0}, {1e-5, 1e-5, 1e-5}, false, gray);
-  EXPECT_GT(exact_queries(Fast(needles.scene())), 0);
-  EXPECT_GT(exact_queries(Fast(tiny.scene())), 0);
+  EXPECT_EQ(exact_queries(Fast(needles.scene())), 0);
+  EXPECT_EQ(exact_queries(Fast(tiny.scene())), 0);
 }
 
 /// The front of a floor is four edges on one line, the base of one wall first. Rounding on the
-/// plane bends it, and needles above it require ExactView. A wall was lost in 38 of 3,476
+/// plane bends it, and some needles above it require ExactView. A wall was lost in 38 of 3,476
 /// directions, with up to 0.37 m² of the floor.
 TEST(FastEngine, CutsAlongEdgesThatContinueOneAnother) {
   Sketch sketch;
@@ -429,7 +429,7 @@ TEST(FastEngine, CutsAlongEdgesThatContinueOneAnother) {
     expect_as_local(fast, omega);
     exact_queries += fast.run(omega, {}).counts.exact_queries;
   }
-  EXPECT_GT(exact_queries, 100);
+  EXPECT_GT(exact_queries, 0);
 }
 
 TEST(FastEngine, ThrowsWhenCanceled) {

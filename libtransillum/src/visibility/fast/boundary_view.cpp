@@ -11,52 +11,15 @@
 #include <cmath>
 
 #include "transillum/at.h"
+#include "visibility/fast/bin_clip.h"
 
 namespace transillum {
-namespace {
-
-/// Bound on the rounding error of positions derived from a polygon's coordinates, relative to
-/// the largest coordinate.
-constexpr double view_rounding = 0x1p-49;
-
-/// A point relative to a bin's center.
-struct WidePoint {
-  long double x, y;
-};
-using WidePolygon = std::array<WidePoint, FragmentOutlines::max_corners + 4>;
-
-/// Clips a polygon of `count` corners by one side (0 to 3) of a square of width 2 `half` around the
-/// origin; returns the number of corners in `clipped`.
-std::size_t clip_to_bin_side(const WidePolygon& polygon, std::size_t count, int side,
-                             long double half, WidePolygon& clipped) {
-  const bool along_x = side % 2 == 0;
-  const long double limit = side < 2 ? half : -half;
-  const auto depth = [&](const WidePoint& p) {
-    const long double coordinate = along_x ? p.x : p.y;
-    return side < 2 ? half - coordinate : half + coordinate;
-  };
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const WidePoint &p = polygon[k], &q = polygon[k + 1 < count ? k + 1 : 0];
-    const long double here = depth(p), there = depth(q);
-    if (here >= 0) {
-      clipped[n++] = p;
-    }
-    if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
-      const long double t = here / (here - there);
-      clipped[n++] = along_x ? WidePoint{limit, p.y + t * (q.y - p.y)}
-                             : WidePoint{p.x + t * (q.x - p.x), limit};
-    }
-  }
-  return n;
-}
-
-}  // namespace
 
 void BoundaryView::begin_query(std::int32_t fragment) {
   subject_ = &at(projected_.fragments, fragment);
   bin_ = nullptr;
-  loaded_ = failed_ = false;
+  loaded_ = failed_ = too_small_ = false;
+  waiting_.clear();
   window_ = window_of(at(projected_.boxes, fragment));
 }
 
@@ -79,10 +42,13 @@ void BoundaryView::start(double area, double reach) {
   const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
   origin_extent_ = {x, y, x + y, x - y, -x, -y, -x - y, y - x};
   area_ = region_area_ = area;
-  cutter_.tolerance = view_rounding * reach;
+  cutter_.tolerance = rounding * reach;
   reach_ = reach;
-  set_own_edges();
-  failed_ = subject_->cut_needle || is_inaccurate(cutter_.tolerance * reach, *subject_);
+  if (!in_frame_) {
+    set_own_edges();
+  }
+  failed_ = (subject_->cut_needle && !in_frame_) ||
+            is_inaccurate(per_area_ * cutter_.tolerance * reach, *subject_);
   find_window();
 }
 
@@ -107,17 +73,14 @@ void BoundaryView::load_whole() {
 void BoundaryView::load_part_in_bin() {
   const std::int64_t half = bin_->size / 2;
   origin_ = {bin_->x + half, bin_->y + half};
-  WidePolygon polygon, clipped;
+  WidePolygon polygon;
   std::size_t count = subject_->end - subject_->begin;
   for (std::size_t k = 0; k < count; ++k) {
     const GridPoint& p = projected_.corners[subject_->begin + k];
     polygon[k] = {static_cast<long double>(p.x - origin_.x),
-                  static_cast<long double>(p.y - origin_.y)};
+                  static_cast<long double>(p.y - origin_.y), 0};
   }
-  for (int side = 0; side < 4 && count > 0; ++side) {
-    count = clip_to_bin_side(polygon, count, side, static_cast<long double>(half), clipped);
-    polygon = clipped;
-  }
+  count = clip_to_bin(polygon, count, static_cast<long double>(half));
   region_->count = 0;
   long double twice_area = 0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -135,6 +98,10 @@ void BoundaryView::find_window() {
     return;
   }
   extent_ = extent_of(*region_);
+  if (in_frame_) {
+    find_window_in_frame();
+    return;
+  }
   for (std::size_t d = 0; d < 8; ++d) {
     window_.ends[d] = rounded_up(origin_extent_[d] + extent_[d]);
   }
@@ -173,8 +140,14 @@ bool BoundaryView::is_outside_own_edge(const ProjectedFragments::Fragment& by) c
     y[k] = static_cast<double>(corners[k].y - origin_.y);
     far = std::max(far, std::abs(x[k]) + std::abs(y[k]));
   }
+  return is_outside_own_edge(x.data(), y.data(), count, far);
+}
+
+/// @param far largest |x| + |y| of the candidate's corners
+inline bool BoundaryView::is_outside_own_edge(const double* x, const double* y, std::size_t count,
+                                              double far) const {
   // Far from the fragment rounding is larger: only what is certain counts.
-  const double limit = far <= 4 * reach_ ? view_rounding * reach_ : -view_rounding * far;
+  const double limit = far <= 4 * reach_ ? rounding * reach_ : -rounding * far;
   for (std::size_t m = 0; m < own_edges_.count; ++m) {
     counts_.decisions += static_cast<std::int64_t>(count);
     const double from_x = own_edges_.x[m], from_y = own_edges_.y[m];
@@ -206,25 +179,35 @@ bool BoundaryView::is_outside_cutter() const {
   return false;
 }
 
+/// Sets the cutter to a candidate. Returns false if that is outside the region, or cannot be cut
+/// by.
+inline bool BoundaryView::load_cutter(std::int32_t candidate) {
+  const ProjectedFragments::Fragment& by = at(projected_.fragments, candidate);
+  if (in_frame_) {
+    return !is_beside_frame(by) && load_cutter_in_frame(candidate) &&
+           !(!backs_hidden_ && is_cutter_outside_own_edge());
+  }
+  if (!backs_hidden_ && is_outside_own_edge(by)) {
+    return false;
+  }
+  if (by.cut_needle) {
+    return load_cutter_in_frame(candidate);
+  }
+  set_cutter(cutter_, projected_.corners.data() + by.begin, by.end - by.begin, origin_, 4 * reach_);
+  return true;
+}
+
 double BoundaryView::subtract(std::int32_t candidate) {
   const ProjectedFragments::Fragment& by = at(projected_.fragments, candidate);
+  too_small_ = false;
   if (!loaded_) {
-    loaded_ = true;
-    if (bin_) {
-      load_part_in_bin();
-    } else {
-      load_whole();
-    }
+    load();
     if (failed_ || region_->count == 0) {
       return 0;
     }
   }
   ++counts_.pairs;
-  if (!backs_hidden_ && is_outside_own_edge(by)) {
-    return 0;
-  }
-  set_cutter(cutter_, projected_.corners.data() + by.begin, by.end - by.begin, origin_, 4 * reach_);
-  if (is_outside_cutter()) {
+  if (!load_cutter(candidate) || is_outside_cutter()) {
     return 0;
   }
   // A point near the common area of both polygons.
@@ -237,11 +220,13 @@ double BoundaryView::subtract(std::int32_t candidate) {
   outside_count_ = next_region_->count;
   double twice_area = cut_.twice_area;
   // The part of a convex cutter's outline in the region is no longer than the region's bounds.
-  const double noise = 0.25 * cutter_.tolerance * std::min(cutter_.perimeter, 8 * reach_);
-  failed_ = by.cut_needle || is_inaccurate(noise, by) || !add_edges(twice_area) ||
-            next_region_->count > BoundarySegments::max_count;
-  const double area = 0.5 * twice_area;
-  if (failed_ || area <= noise) {
+  const double noise =
+      per_area_ * 0.25 * cutter_.tolerance * std::min(cutter_.perimeter, 8 * reach_);
+  too_small_ = is_inaccurate(noise, by);
+  failed_ = !add_edges(twice_area);
+  const double area = per_area_ * 0.5 * twice_area;
+  // A candidate that is too small is subtracted for the sake of small ones behind it.
+  if (failed_ || (area <= noise && !too_small_)) {
     return 0;
   }
   counts_.cuts += static_cast<std::int64_t>(cutter_.count);
@@ -251,6 +236,27 @@ double BoundaryView::subtract(std::int32_t candidate) {
     find_window();
   }
   return area;
+}
+
+bool BoundaryView::is_too_small_beside(std::int32_t candidate, double size) const {
+  // A convex polygon and its bounds have the same perimeter in |dx| + |dy|.
+  const auto& ends = at(projected_.boxes, candidate).ends;
+  const double perimeter = -2 * (static_cast<double>(ends[0]) + static_cast<double>(ends[1]) +
+                                 static_cast<double>(ends[4]) + static_cast<double>(ends[5]));
+  return is_inaccurate(0.25 * rounding * size * std::min(perimeter, 8 * size),
+                       at(projected_.fragments, candidate));
+}
+
+/// Loads the region when the first candidate is subtracted.
+void BoundaryView::load() {
+  loaded_ = true;
+  if (in_frame_) {
+    load_in_frame();
+  } else if (bin_) {
+    load_part_in_bin();
+  } else {
+    load_whole();
+  }
 }
 
 /// The points where the region's boundary crosses one edge of the cutter, in order along the edge.
@@ -293,8 +299,11 @@ bool BoundaryView::add_edges(double& twice_area) {
 }
 
 inline void BoundaryView::find_crossings(std::size_t m, EdgeCrossings& crossings) const {
+  // In a frame, corners far away have lost digits.
+  const double from_x = in_frame_ ? cutter_.pivot_x : cutter_.x[m];
+  const double from_y = in_frame_ ? cutter_.pivot_y : cutter_.y[m];
   const auto along = [&](double x, double y) {
-    return cutter_.dx[m] * (x - cutter_.x[m]) + cutter_.dy[m] * (y - cutter_.y[m]);
+    return cutter_.dx[m] * (x - from_x) + cutter_.dy[m] * (y - from_y);
   };
   crossings.count = 0;
   for (std::uint64_t bits = cut_.enters[m]; bits != 0; bits &= bits - 1) {

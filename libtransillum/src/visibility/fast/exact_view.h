@@ -85,8 +85,13 @@ class ExactView {
     }
   }
 
-  /// Never; for the same use as BoundaryView.
+  // Never; for the same use as BoundaryView.
   static constexpr bool failed() { return false; }
+  static constexpr bool is_too_small() { return false; }
+  static constexpr bool is_crowded() { return false; }
+  static constexpr bool divide() { return false; }
+  static constexpr std::size_t waiting_parts() { return 0; }
+  static constexpr void next_part() {}
 
   /// Whether nothing remains but rounding.
   bool done() const {

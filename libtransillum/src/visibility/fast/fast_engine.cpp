@@ -22,7 +22,10 @@
 #include "scene/build/closed_surface.h"
 #include "transillum/at.h"
 #include "visibility/fast/boundary_view.h"
+#include "visibility/fast/candidate_search.h"
+#include "visibility/fast/cut_corners.h"
 #include "visibility/fast/exact_view.h"
+#include "visibility/fast/exchange_rows.h"
 #include "visibility/fast/fast_engine.h"
 #include "visibility/fast/fragment_bins.h"
 #include "visibility/fast/fragment_moments.h"
@@ -59,85 +62,16 @@ double perimeter_of(const Scene& scene, PatchId patch) {
   return sum;
 }
 
-/// The side to which a query is directed.
-enum class Toward {
-  source,   ///< along omega: from a front-facing fragment to those above it
-  receiver  ///< against omega: from a back-facing fragment to those below it
-};
-
-/// Enumerates the candidates of one query, nearest first, by merging the lists of its bins.
-class CandidateSearch {
- public:
-  explicit CandidateSearch(const FragmentBins& bins) : bins_(bins) {}
-
-  /// Begins a search from `fragment`: in the bin of `entry` only, or in all its bins. `window`:
-  /// here and in next(), the bounds within which candidates are sought.
-  template <Toward toward>
-  void begin(std::int32_t fragment, bool in_one_bin, FragmentBins::Entry entry,
-             const FragmentWindow& window) {
-    cursors_.clear();
-    if (in_one_bin) {
-      cursors_.push_back({entry, 0});
-    } else {
-      for (auto e = bins_.last_entry(fragment); e != FragmentBins::none;
-           e = bins_.entry_before(e)) {
-        cursors_.push_back({e, 0});
-      }
-    }
-    for (Cursor& cursor : cursors_) {
-      advance<toward>(cursor, window);
+/// The moments with receiver and source exchanged.
+TransferMoments transposed(const TransferMoments& moments) {
+  TransferMoments turned;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      turned.of(a, b) = moments.of(b, a);
     }
   }
-
-  /// The next candidate, or -1.
-  template <Toward toward>
-  std::int32_t next(const FragmentWindow& window) {
-    if (cursors_.size() == 1) {
-      const std::int32_t fragment = cursors_[0].fragment;
-      if (fragment >= 0) {
-        advance<toward>(cursors_[0], window);
-      }
-      return fragment;
-    }
-    std::int32_t nearest = -1;
-    for (const Cursor& cursor : cursors_) {
-      if (cursor.fragment < 0) {
-        continue;
-      }
-      if (nearest < 0 ||
-          (toward == Toward::source ? cursor.fragment > nearest : cursor.fragment < nearest)) {
-        nearest = cursor.fragment;
-      }
-    }
-    if (nearest < 0) {
-      return nearest;
-    }
-    for (Cursor& cursor : cursors_) {
-      if (cursor.fragment == nearest) {
-        advance<toward>(cursor, window);
-      }
-    }
-    return nearest;
-  }
-
- private:
-  /// A position in the list of a bin: a fragment whose box overlaps the window, or a sentinel (-1).
-  struct Cursor {
-    FragmentBins::Entry entry;
-    std::int32_t fragment;
-  };
-
-  template <Toward toward>
-  void advance(Cursor& cursor, const FragmentWindow& window) const {
-    do {
-      cursor.entry += toward == Toward::source ? -1 : 1;
-    } while (!window.overlaps(bins_.box(cursor.entry)));
-    cursor.fragment = bins_.fragment(cursor.entry);
-  }
-
-  const FragmentBins& bins_;
-  std::vector<Cursor> cursors_;
-};
+  return turned;
+}
 
 /// Runs passes, one at a time; reuses its memory from pass to pass.
 class FastPass {
@@ -145,9 +79,13 @@ class FastPass {
   explicit FastPass(const FastScene& shared)
       : shared_(shared),
         bins_(projected_, shared.backs_hidden),
-        search_(bins_),
+        search_(bins_, projected_),
+        cut_corners_(shared.outlines, projected_),
         exact_view_(shared.outlines, projected_, transfers_.counts, shared.bases != nullptr),
-        boundary_view_(projected_, transfers_.counts, shared.backs_hidden) {
+        boundary_view_(projected_, cut_corners_, transfers_.counts, shared.backs_hidden,
+                       BoundaryView::Frame::plane),
+        needle_view_(projected_, cut_corners_, transfers_.counts, shared.backs_hidden,
+                     BoundaryView::Frame::needle) {
     if (shared.bases) {
       moments_.emplace(*shared.scene, shared.bases, projected_);
     }
@@ -162,8 +100,10 @@ class FastPass {
     const Clock::time_point binned = Clock::now();
     begin(omega);
     run_queries<Toward::source>(cancellation);
+    run_smaller<Toward::source, Toward::receiver>(cancellation);
     if (!shared_.backs_hidden) {
       run_queries<Toward::receiver>(cancellation);
+      run_smaller<Toward::receiver, Toward::source>(cancellation);
     }
     // With a shaft, fragments that would hide others may be missing.
     TRANSILLUM_INVARIANT(shared_.shaft || nothing_is_covered_twice(),
@@ -208,6 +148,13 @@ class FastPass {
     transfers_.backward.resize(patches);
     transfers_.back_seen.resize(patches);
     found_.clear();
+    smaller_.clear();
+    cut_corners_.begin();
+    largest_bin_ = 0;
+    for (const FragmentBins::Bin& bin : bins_.bins()) {
+      largest_bin_ = std::max(largest_bin_, static_cast<double>(bin.size));
+    }
+    surely_resolved_ = BoundaryView::largest_error(largest_bin_) / ProjectedFragments::accuracy;
     seen_from_front_.assign(projected_.fragments.size(), 0);
     area_unit_ = projected_.grid.unit * projected_.grid.unit;
     for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
@@ -235,7 +182,13 @@ class FastPass {
 
   struct VisibleArea {
     std::int32_t fragment;
-    double area;  ///< square grid units
+    double area;     ///< square grid units
+    bool too_small;  ///< the fragment is too small for this area to be accurate
+  };
+  /// A fragment, and a larger one that it sees, or may see.
+  struct SmallerOfTwo {
+    std::int32_t smaller, larger;
+    auto operator<=>(const SmallerOfTwo&) const = default;
   };
   /// An entry of found_ with its index.
   struct NumberedTransfer : Transfer {
@@ -286,19 +239,33 @@ class FastPass {
 
   template <Toward toward>
   void run_query(std::int32_t fragment, const FragmentBins::Bin* bin, FragmentBins::Entry entry) {
-    if (!query_with<toward>(boundary_view_, fragment, bin, entry)) {
-      ++transfers_.counts.exact_queries;
-      query_with<toward>(exact_view_, fragment, bin, entry);
-    }
-    for (const VisibleArea& visible : visible_areas_) {
+    find_visible<toward>(fragment, bin, entry);
+    for (std::size_t k = 0; k < visible_areas_.size(); ++k) {
+      const VisibleArea& visible = visible_areas_[k];
+      if (visible.too_small) {
+        smaller_.push_back({visible.fragment, fragment});
+        continue;
+      }
       accumulate<toward>(fragment, visible);
-    }
-    for (std::size_t k = 0; k < visible_moments_.size(); ++k) {
-      accumulate_moments<toward>(fragment, visible_areas_[k].fragment, visible_moments_[k]);
+      if (moments_) {
+        accumulate_moments<toward>(fragment, visible.fragment, visible_moments_[k]);
+      }
     }
   }
 
-  /// Fills visible_areas_. Returns false if the view fails.
+  /// Fills visible_areas_, by the first view that does not fail.
+  template <Toward toward>
+  void find_visible(std::int32_t fragment, const FragmentBins::Bin* bin,
+                    FragmentBins::Entry entry) {
+    if (query_with<toward>(boundary_view_, fragment, bin, entry) ||
+        query_with<toward>(needle_view_, fragment, bin, entry)) {
+      return;
+    }
+    ++transfers_.counts.exact_queries;
+    query_with<toward>(exact_view_, fragment, bin, entry);
+  }
+
+  /// Returns false if the view fails.
   template <Toward toward, class View>
   bool query_with(View& view, std::int32_t fragment, const FragmentBins::Bin* bin,
                   FragmentBins::Entry entry) {
@@ -310,25 +277,130 @@ class FastPass {
       view.begin_query(fragment);
     }
     search_.begin<toward>(fragment, bin != nullptr, entry, view.window());
+    waiting_.clear();
+    while (subtract_candidates<toward>(view, fragment, bin != nullptr)) {
+      if (view.waiting_parts() == 0) {
+        return true;
+      }
+      view.next_part();
+      search_.resume(std::move(waiting_.back()));
+      waiting_.pop_back();
+      if (view.is_crowded() && !divide(view)) {
+        return false;
+      }
+    }
+    return false;
+  }
+
+  /// Divides the view's region; the search continues from here for each of its parts.
+  template <class View>
+  bool divide(View& view) {
+    if (!view.divide()) {
+      return false;
+    }
+    waiting_.resize(view.waiting_parts(), search_.cursors());
+    return true;
+  }
+
+  /// Subtracts the remaining candidates. Returns false if the view fails.
+  template <Toward toward, class View>
+  bool subtract_candidates(View& view, std::int32_t fragment, bool in_one_bin) {
     for (std::int32_t candidate = search_.next<toward>(view.window()); candidate >= 0;
          candidate = search_.next<toward>(view.window())) {
       const double area = view.subtract(candidate);
       if (view.failed()) {
         return false;
       }
-      if (area > 0) {
-        visible_areas_.push_back({candidate, area});
-        if (moments_) {
-          visible_moments_.push_back(
-              moments_->of_overlap(view, at(projected_.fragments, fragment).patch,
-                                   at(projected_.fragments, candidate).patch, area_unit_ * area));
+      if (area > 0 || view.is_too_small()) {
+        const bool too_small = in_one_bin ? is_too_small_in_bins(candidate) : view.is_too_small();
+        if (area > 0 || too_small) {
+          add_visible(view, fragment, {candidate, area, too_small});
         }
+      }
+      if (view.is_crowded() && !divide(view)) {
+        return false;
       }
       if (view.done()) {
         break;
       }
     }
     return true;
+  }
+
+  template <class View>
+  void add_visible(const View& view, std::int32_t fragment, const VisibleArea& visible) {
+    visible_areas_.push_back(visible);
+    if (!moments_) {
+      return;
+    }
+    visible_moments_.emplace_back();
+    if (visible.area > 0) {
+      visible_moments_.back() = moments_->of_overlap(
+          view, at(projected_.fragments, fragment).patch,
+          at(projected_.fragments, visible.fragment).patch, area_unit_ * visible.area);
+    }
+  }
+
+  /// Whether a candidate is too small beside a fragment that is queried bin by bin: the same for
+  /// all bins, so that one of the two fragments finds all of the area.
+  bool is_too_small_in_bins(std::int32_t candidate) const {
+    if (at(projected_.fragments, candidate).area >= surely_resolved_ ||
+        !boundary_view_.is_too_small_beside(candidate, largest_bin_)) {
+      return false;
+    }
+    std::int64_t size = 0;
+    for (auto e = bins_.last_entry(candidate); e != FragmentBins::none; e = bins_.entry_before(e)) {
+      size = std::max(size, bin_of(e).size);
+    }
+    return boundary_view_.is_too_small_beside(candidate, static_cast<double>(size));
+  }
+
+  const FragmentBins::Bin& bin_of(FragmentBins::Entry entry) const {
+    const auto after = std::upper_bound(
+        bins_.bins().begin(), bins_.bins().end(), entry,
+        [](FragmentBins::Entry e, const FragmentBins::Bin& bin) { return e < bin.begin; });
+    return *(after - 1);
+  }
+
+  /// A small fragment and a large one exchange what the smaller one finds: its query, in the
+  /// opposite direction, finds the areas that the queries `toward` have left to it.
+  template <Toward toward, Toward opposite>
+  void run_smaller(const Cancellation& cancellation) {
+    std::sort(smaller_.begin(), smaller_.end());
+    smaller_.erase(std::unique(smaller_.begin(), smaller_.end()), smaller_.end());
+    for (std::size_t begin = 0, end = 0; begin < smaller_.size(); begin = end) {
+      const std::int32_t fragment = smaller_[begin].smaller;
+      while (end < smaller_.size() && smaller_[end].smaller == fragment) {
+        ++end;
+      }
+      cancellation.throw_if_canceled();
+      const auto first = smaller_.begin() + static_cast<std::ptrdiff_t>(begin);
+      const auto last = smaller_.begin() + static_cast<std::ptrdiff_t>(end);
+      const auto accumulate_found = [&] {
+        for (std::size_t k = 0; k < visible_areas_.size(); ++k) {
+          const VisibleArea& visible = visible_areas_[k];
+          if (!(visible.area > 0) ||
+              !std::binary_search(first, last, SmallerOfTwo{fragment, visible.fragment})) {
+            continue;
+          }
+          accumulate<toward>(visible.fragment, {fragment, visible.area, false});
+          if (moments_) {
+            accumulate_moments<toward>(visible.fragment, fragment, transposed(visible_moments_[k]));
+          }
+        }
+      };
+      if (bins_.entry_count(fragment) <= max_bins_per_query) {
+        find_visible<opposite>(fragment, nullptr, bins_.last_entry(fragment));
+        accumulate_found();
+        continue;
+      }
+      for (auto e = bins_.last_entry(fragment); e != FragmentBins::none;
+           e = bins_.entry_before(e)) {
+        find_visible<opposite>(fragment, &bin_of(e), e);
+        accumulate_found();
+      }
+    }
+    smaller_.clear();
   }
 
   template <Toward toward>
@@ -375,11 +447,11 @@ class FastPass {
     }
   }
 
-  /// Sorts found_ by receiver, then source, into one entry per pair; parts are summed in the order
-  /// in which they were found.
+  /// Sorts found_ into transfers_.exchanges.
   void sort_exchanges(const Cancellation& cancellation) {
     if (!moments_) {
-      sort_rows(found_, sorted_, cancellation, [](const Transfer&, bool) {});
+      rows_.sort(found_, transfers_.forward.size(), sorted_, transfers_.exchanges, cancellation,
+                 [](const Transfer&, bool) {});
       return;
     }
     numbered_.clear();
@@ -387,83 +459,30 @@ class FastPass {
       numbered_.push_back({found_[k], static_cast<std::uint32_t>(k)});
     }
     std::vector<TransferMoments>& moments = transfers_.moments;
-    sort_rows(numbered_, sorted_numbered_, cancellation,
-              [&](const NumberedTransfer& t, bool added) {
-                const TransferMoments& found = found_moments_[t.number];
-                if (!added) {
-                  moments.push_back(found);
-                  return;
-                }
-                for (std::size_t k = 0; k < found.value.size(); ++k) {
-                  moments.back().value[k] += found.value[k];
-                }
-              });
-  }
-
-  /// @tparam Entry Transfer, or derived from it
-  /// @param put called with each entry in order, and whether it was added to the entry before
-  template <class Entry, class Put>
-  void sort_rows(const std::vector<Entry>& found, std::vector<Entry>& sorted,
-                 const Cancellation& cancellation, Put put) {
-    const std::size_t patches = transfers_.forward.size();
-    row_ends_.assign(patches + 1, 0);
-    for (const Transfer& t : found) {
-      ++row_ends_[static_cast<std::size_t>(t.receiver) + 1];
-    }
-    for (std::size_t i = 0; i < patches; ++i) {
-      row_ends_[i + 1] += row_ends_[i];
-    }
-    sorted.resize(found.size());
-    for (const Entry& t : found) {
-      sorted[at(row_ends_, t.receiver)++] = t;
-    }
-    std::vector<Transfer>& exchanges = transfers_.exchanges;
-    exchanges.reserve(found.size());
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < patches; ++i) {
-      if (i % 4096 == 0) {
-        cancellation.throw_if_canceled();
-      }
-      sort_by_source(sorted.data() + begin, sorted.data() + row_ends_[i]);
-      const std::size_t row = exchanges.size();
-      for (; begin < row_ends_[i]; ++begin) {
-        const Entry& t = sorted[begin];
-        const bool added = exchanges.size() > row && exchanges.back().source == t.source;
-        if (added) {
-          exchanges.back().area += t.area;
-        } else {
-          exchanges.push_back(t);
-        }
-        put(t, added);
-      }
-    }
-  }
-
-  /// Stable.
-  template <class Entry>
-  static void sort_by_source(Entry* first, Entry* last) {
-    constexpr std::ptrdiff_t few = 24;
-    if (last - first > few) {
-      std::stable_sort(first, last,
-                       [](const Transfer& a, const Transfer& b) { return a.source < b.source; });
-      return;
-    }
-    for (Entry* next = first; next < last; ++next) {
-      const Entry moved = *next;
-      Entry* to = next;
-      for (; to > first && to[-1].source > moved.source; --to) {
-        *to = to[-1];
-      }
-      *to = moved;
-    }
+    rows_.sort(numbered_, transfers_.forward.size(), sorted_numbered_, transfers_.exchanges,
+               cancellation, [&](const NumberedTransfer& t, bool added) {
+                 const TransferMoments& found = found_moments_[t.number];
+                 if (!added) {
+                   moments.push_back(found);
+                   return;
+                 }
+                 for (std::size_t k = 0; k < found.value.size(); ++k) {
+                   moments.back().value[k] += found.value[k];
+                 }
+               });
   }
 
   const FastScene& shared_;
   double area_unit_ = 1;                  ///< m² per square grid unit
   std::vector<double> seen_from_front_;   ///< per fragment: square grid units
   std::vector<Transfer> found_, sorted_;  ///< one entry per visible area
-  std::vector<std::uint32_t> row_ends_;
+  ExchangeRows rows_;
   std::vector<VisibleArea> visible_areas_;
+  double largest_bin_ = 0;             ///< size, grid units
+  double surely_resolved_ = 0;         ///< area that is not too small in any bin
+  std::vector<SmallerOfTwo> smaller_;  ///< areas that the smaller fragment finds
+  std::vector<std::vector<CandidateSearch::Cursor>>
+      waiting_;  ///< one search per waiting part of the view
   // With moments: of visible_areas_ and found_; and found_, numbered.
   std::vector<TransferMoments> visible_moments_, found_moments_;
   std::vector<NumberedTransfer> numbered_, sorted_numbered_;
@@ -472,8 +491,10 @@ class FastPass {
   std::optional<FragmentMoments> moments_;  ///< nothing: passes have no moments
   FragmentBins bins_;
   CandidateSearch search_;
+  CutCorners cut_corners_;
   ExactView exact_view_;
   BoundaryView boundary_view_;
+  BoundaryView needle_view_;  ///< for fragments that are too thin for boundary_view_
 };
 
 /// Pool of FastPass objects not in use: as many as have run at the same time.
