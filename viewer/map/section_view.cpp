@@ -318,8 +318,8 @@ void SectionView::paintEvent(QPaintEvent*) {
   SectionPainting painting(*section, *map, focus_, colors, sheet);
   painting.paint(shown, selection_);
   const QString count = count_text(std::ssize(shown));
-  sheet.draw_caption(focus_.at_step() ? tr("V: %1 intervals").arg(count)
-                                      : tr("%1 exchanges along ω").arg(count));
+  sheet.draw_caption(focus_.at_step() ? tr("Intervals of V: %1").arg(count)
+                                      : tr("Exchanges along ω: %1").arg(count));
   std::vector<QRectF> taken;
   const std::int32_t step = focus_.picture_step();
   for (const Callout& callout : callouts_) {
