@@ -96,7 +96,7 @@ bool SceneView::at_rest() const { return !pressed_ && !rest_timer_->isActive(); 
 
 void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   // The scene is the same with other patches: the camera stays.
-  const bool stays = loaded_ && whole_of(loaded) == whole_of(loaded_);
+  const bool stays = loaded_ && is_same_origin(loaded, loaded_);
   loaded_ = std::move(loaded);
   snapshot_ = nullptr;
   surface_->show_scene(loaded_->scene);
@@ -477,7 +477,7 @@ void SceneView::place_callouts() {
   callout_layer_->show_sketch(polygon(sketch_.outline), std::move(right));
 }
 
-QPointF SceneView::pixel_of(const Vec3& point) {
+QPointF SceneView::pixel_of(const Vec3& point) const {
   const int* size = window_->GetSize();
   renderer_->SetWorldPoint(point.x, point.y, point.z, 1);
   renderer_->WorldToDisplay();
@@ -527,6 +527,13 @@ std::optional<PickedPoint> SceneView::hit_at(const QPoint& position) const {
   if (!loaded_) {
     return std::nullopt;
   }
+  auto [begin, direction] = ray_at(position);
+  // Back sides are culled in the picture.
+  return first_shown_hit(*loaded_, begin, direction,
+                         [this](const PickedPoint& point) { return in_picture(point); });
+}
+
+SceneView::Ray SceneView::ray_at(const QPointF& position) const {
   // VTK counts device pixels from the bottom.
   const double scale = canvas_->devicePixelRatioF();
   const double x = (position.x() + 0.5) * scale;
@@ -537,11 +544,8 @@ std::optional<PickedPoint> SceneView::hit_at(const QPoint& position) const {
     const double* p = renderer_->GetWorldPoint();
     return Vec3{p[0] / p[3], p[1] / p[3], p[2] / p[3]};
   };
-  // Back sides are culled in the picture.
-  Vec3 begin = world(0);
-  const Vec3 direction = normalized(world(1) - begin);
-  return first_shown_hit(*loaded_, begin, direction,
-                         [this](const PickedPoint& point) { return in_picture(point); });
+  const Vec3 begin = world(0);
+  return {begin, normalized(world(1) - begin)};
 }
 
 bool SceneView::eventFilter(QObject* watched, QEvent* event) {

@@ -151,6 +151,15 @@ class SceneView : public QWidget {
   /// The patch drawn at a point of canvas(), and its point there.
   std::optional<PickedPoint> hit_at(const QPoint& position) const;
   QWidget* canvas() const;
+  /// A line of sight.
+  struct Ray {
+    Vec3 origin;     ///< m
+    Vec3 direction;  ///< unit
+  };
+  /// The line of sight through a point of canvas().
+  Ray ray_at(const QPointF& position) const;
+  /// The point of canvas() at which a point is drawn, in logical pixels.
+  QPointF pixel_of(const Vec3& point) const;
   /// Whether the picture is final: no button is held, and no further step has come for a while.
   bool at_rest() const;
   /// Whether the left button is held in the picture.
@@ -185,8 +194,6 @@ class SceneView : public QWidget {
   Vec3 vertical_ = {0, 1, 0};
   void follow_camera();
   void place_callouts();
-  /// In logical pixels of the picture that is drawn.
-  QPointF pixel_of(const Vec3& point);
   void draw_callouts(QImage& image) const;
   void prepare_picture(double line_scale, bool smooth);
 

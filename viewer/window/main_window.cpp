@@ -62,6 +62,8 @@
 #include "window/base/notifier.h"
 #include "window/base/view_state_applier.h"
 #include "window/context_menus.h"
+#include "window/editing/editing.h"
+#include "window/editing/scene_edits.h"
 #include "window/files/export_actions.h"
 #include "window/files/file_actions.h"
 #include "window/files/frame_recorder.h"
@@ -437,6 +439,7 @@ void MainWindow::connect_failures() {
 void MainWindow::make_menus() {
   make_file_menu();
   inspection_->add_to(*menuBar());
+  edits_ = add_editing(frame(), docks_, *findChild<QMenu*>("edit_menu"));
 
   QMenu* solve = menuBar()->addMenu(tr("&Solve"));
   solve_actions_->add_to(*solve);
@@ -487,7 +490,10 @@ void MainWindow::make_file_menu() {
   QMenu* exporting = file->addMenu(tr("Export"));
   exports_->add_to(*exporting);
   recorder_->add_to(*exporting);
-  (new CommandActions(frame(), *map_view_))->add_to(*file);
+  (new CommandActions(frame(), *map_view_, [this] {
+    return exports_->save_edited();
+  }))->add_to(*file);
+  files_->set_saver([this] { return exports_->save_edited(); });
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
 }
@@ -553,9 +559,9 @@ bool MainWindow::settled() const {
   const bool idle =
       state_.runner.state() == RunState::paused || state_.runner.state() == RunState::finished;
   return idle && state_.scene.snapshot() && applier_->arrived() && !state_.relighting.busy() &&
-         !state_.colors.busy() && page_->sharp()->settled() && !inspection_->busy() &&
-         !compare_view_->busy() && (map_dock_->isHidden() || map_view_->up_to_date()) &&
-         direction_view_->up_to_date();
+         !state_.colors.busy() && !edits_->busy() && page_->sharp()->settled() &&
+         !inspection_->busy() && !compare_view_->busy() &&
+         (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
