@@ -527,6 +527,13 @@ std::optional<PickedPoint> SceneView::hit_at(const QPoint& position) const {
   if (!loaded_) {
     return std::nullopt;
   }
+  // Back sides are culled in the picture.
+  auto [begin, direction] = ray_at(position);
+  return first_shown_hit(*loaded_, begin, direction,
+                         [this](const PickedPoint& point) { return in_picture(point); });
+}
+
+std::pair<Vec3, Vec3> SceneView::ray_at(const QPoint& position) const {
   // VTK counts device pixels from the bottom.
   const double scale = canvas_->devicePixelRatioF();
   const double x = (position.x() + 0.5) * scale;
@@ -537,11 +544,8 @@ std::optional<PickedPoint> SceneView::hit_at(const QPoint& position) const {
     const double* p = renderer_->GetWorldPoint();
     return Vec3{p[0] / p[3], p[1] / p[3], p[2] / p[3]};
   };
-  // Back sides are culled in the picture.
-  Vec3 begin = world(0);
-  const Vec3 direction = normalized(world(1) - begin);
-  return first_shown_hit(*loaded_, begin, direction,
-                         [this](const PickedPoint& point) { return in_picture(point); });
+  const Vec3 begin = world(0);
+  return {begin, normalized(world(1) - begin)};
 }
 
 bool SceneView::eventFilter(QObject* watched, QEvent* event) {
@@ -561,9 +565,8 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
         } else {
           selection_.select(patch_at(mouse->pos()));
         }
-        if (const auto hit = hit_at(mouse->pos())) {
-          emit point_clicked(hit->patch, hit->point);
-        }
+        const auto [begin, direction] = ray_at(mouse->pos());
+        emit ray_clicked(begin, direction);
       }
       render();
     } else if (event->type() == QEvent::MouseButtonRelease) {

@@ -150,6 +150,9 @@ class SceneView : public QWidget {
   PatchId patch_at(const QPoint& position) const;
   /// The patch drawn at a point of canvas(), and its point there.
   std::optional<PickedPoint> hit_at(const QPoint& position) const;
+  /// The line of sight through a point of canvas(), in logical pixels.
+  /// @return its first point in the picture, and its direction, normalized
+  std::pair<Vec3, Vec3> ray_at(const QPoint& position) const;
   QWidget* canvas() const;
   /// Whether the picture is final: no button is held, and no further step has come for a while.
   bool at_rest() const;
@@ -157,8 +160,8 @@ class SceneView : public QWidget {
   bool pressed() const { return pressed_; }
 
  signals:
-  /// The left button was clicked on a patch.
-  void point_clicked(transillum::PatchId patch, const transillum::Vec3& point);
+  /// The left button was clicked: the line of sight through that point, from the eye on.
+  void ray_clicked(const transillum::Vec3& begin, const transillum::Vec3& direction);
   /// The right button was clicked at a point of canvas().
   void menu_requested(const QPoint& position);
   /// The picture is about to be drawn; what is shown may have changed.
