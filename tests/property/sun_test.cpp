@@ -383,7 +383,7 @@ TEST(Sun, AnEdgeHasTheKnownRadiosity) {
   accurate.goal = {.accuracy = 0.002};
   const Solution reached = solve(scene, accurate);
   ASSERT_TRUE(reached.accuracy && reached.accuracy->reached);
-  expect(reached, 0.004);  // of one surface; the goal is about all
+  expect(reached, 0.004);  // the goal is about both surfaces together
   // The adjoint and the light paths begin at the sun alone.
   RadiositySolver solver(scene, options);
   solver.advance(RadiositySolver::Until::finished);

@@ -65,8 +65,7 @@ QString light_from_outside(const PatchResponse& response, const Rgb& b) {
   };
   add(response.from_sun, tr("%1 % from the sun"));
   add(response.from_sky, tr("%1 % from the sky"));
-  return sources.isEmpty() ? QString()
-                           : tr("Of B of the selected patch: %1").arg(sources.join(", "));
+  return sources.isEmpty() ? QString() : tr("B of the selected patch: %1").arg(sources.join(", "));
 }
 
 PatchValues by_response(Quantity quantity, const SolverSnapshot& snapshot, PatchId selected,

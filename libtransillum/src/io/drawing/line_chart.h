@@ -145,7 +145,7 @@ struct ChartText {
   bool bold = false;  ///< else of normal weight
 };
 
-/// What charts are drawn on in place of Cairo's surfaces, y downward.
+/// Draws charts in place of Cairo, y downward.
 class ChartDevice {
  public:
   virtual ~ChartDevice() = default;
