@@ -213,7 +213,6 @@ std::shared_ptr<const SnapshotLight> SharpRenderer::light_of(
     light_ = nullptr;
     auto solution = std::make_shared<Solution>(solution_of(*snapshot));
     solution->scene = scene_of(*snapshot);
-    solution->sky = snapshot->options.sky;
     std::shared_ptr<const Scene> scene = solution->scene;
     light_ = std::make_shared<const SnapshotLight>(SnapshotLight{
         snapshot, std::move(scene), SurfaceLight(std::move(solution), 0, cancellation)});
