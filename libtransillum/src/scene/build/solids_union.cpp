@@ -185,7 +185,7 @@ std::int64_t unite_all(std::list<Solid>& solids, SolidsReport& report,
       if (!meet(*other, next)) {
         ++other;
       } else if (Solid both = *other; unite(both, next)) {
-        report.united += 1 + (other->united || next.united ? 0 : 1);
+        report.united += (other->united ? 0 : 1) + (next.united ? 0 : 1);
         both.outward = other->outward && next.outward;
         next = std::move(both);
         other = done.erase(other);
