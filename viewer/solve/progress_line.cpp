@@ -199,7 +199,7 @@ void ProgressLine::show_solve() {
     phase_->setToolTip({});
     phase_->setText(tr("No light: not solved"));
   } else if (finished && snapshot_->materials) {
-    // What the solve has reached is not said of another light.
+    // The accuracy of the solve is not that of another light.
     phase_->setToolTip({});
     phase_->setText(tr("Changed materials: light after %1")
                         .arg(iterations_text(snapshot_->statistics.iterations)));
