@@ -36,7 +36,8 @@ void add_box(SceneDescription& scene, const Vec3& low, const Vec3& high, bool in
 
 double area_of(const SceneDescription& description) {
   double sum = 0;
-  for (const Patch& patch : Scene(description).patches()) {
+  const Scene scene(description);
+  for (const Patch& patch : scene.patches()) {
     sum += patch.area;
   }
   return sum;
