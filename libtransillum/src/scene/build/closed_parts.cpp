@@ -62,19 +62,27 @@ std::vector<ConnectedFaces> connected_faces(const SceneDescription& description,
                                             const std::vector<std::vector<PointId>>& outlines) {
   const std::vector<FaceEdge> edges = sorted_edges(outlines);
   FaceSets sets(outlines.size());
-  const auto for_each_edge = [&](const auto& visit) {
-    for (auto begin = edges.begin(); begin != edges.end();) {
+  const auto for_each_edge = [](const std::vector<FaceEdge>& all, const auto& visit) {
+    for (auto begin = all.begin(); begin != all.end();) {
       const auto end = std::find_if_not(
-          begin, edges.end(), [&](const FaceEdge& edge) { return edge.same_points(*begin); });
+          begin, all.end(), [&](const FaceEdge& edge) { return edge.same_points(*begin); });
       visit(begin, end);
       begin = end;
     }
   };
-  for_each_edge([&](auto begin, auto end) {
-    if (end - begin == 2) {
+  const auto join_two = [&](auto begin, auto end) {
+    if (end - begin == 2 && begin->forward != std::next(begin)->forward) {
       sets.join(begin->face, std::next(begin)->face);
     }
-  });
+  };
+  for_each_edge(edges, join_two);
+  // Parts that touch along edges have points of their own in most files.
+  std::vector<std::vector<PointId>> as_numbered;
+  for (std::size_t f = 0; f < description.face_count(); ++f) {
+    const auto outline = description.outline(f);
+    as_numbered.emplace_back(outline.begin(), outline.end());
+  }
+  for_each_edge(sorted_edges(as_numbered), join_two);
   std::vector<ConnectedFaces> parts;
   std::vector<std::int32_t> part_of(outlines.size(), -1);
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(outlines.size()); ++f) {
@@ -87,7 +95,7 @@ std::vector<ConnectedFaces> connected_faces(const SceneDescription& description,
     at(part_of, f) = part;
     at(parts, part).closed &= at(outlines, f).size() >= 3 && !description.is_two_sided(f);
   }
-  for_each_edge([&](auto begin, auto end) {
+  for_each_edge(edges, [&](auto begin, auto end) {
     std::map<std::int32_t, std::pair<int, int>> uses;
     for (auto edge = begin; edge != end; ++edge) {
       auto& [forward, backward] = uses[at(part_of, edge->face)];

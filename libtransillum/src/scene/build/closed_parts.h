@@ -15,7 +15,8 @@ struct ConnectedFaces {
   bool closed = false;
 };
 
-/// The connected parts of a description, by their first face. Edges connect by coordinates.
+/// The connected parts of a description, by their first face. Two faces are connected by an edge
+/// that they alone share, by its coordinates or by the numbers of its points.
 /// @param outlines of all faces, as numbers of distinct points, without repeated corners
 std::vector<ConnectedFaces> connected_faces(const SceneDescription& description,
                                             const std::vector<std::vector<PointId>>& outlines);
