@@ -199,7 +199,7 @@ void ProgressLine::show_solve() {
     phase_->setToolTip({});
     phase_->setText(tr("No light: not solved"));
   } else if (finished && snapshot_->materials) {
-    // The accuracy of the solve is not that of another light.
+    // The solve reached its accuracy with other materials.
     phase_->setToolTip({});
     phase_->setText(tr("Changed materials: light after %1")
                         .arg(iterations_text(snapshot_->statistics.iterations)));

@@ -30,7 +30,7 @@ struct SurfacePower {
   Rgb emitted = {};          ///< sum A_i E_i
   Rgb received = {};         ///< sum A_i H_i, of all light
   Rgb from_sky = {};         ///< the part of it that comes from the sky
-  Rgb from_sun = {};         ///< the part of it that comes from the sun, if it is told apart
+  Rgb from_sun = {};         ///< the part of it that comes from the sun, if known separately
   Rgb absorbed = {};         ///< sum A_i (1 - rho_i) H_i
   Rgb escaped = {};          ///< sum A_i B_i times the fraction that meets no patch; 0 if not known
 };

@@ -25,8 +25,8 @@ struct LightPathOptions {
   /// Irradiance of each patch from a sky, as for relight(): it counts as if the patches that it
   /// meets first emitted what they reflect of it, so such a path begins there. Empty without a sky.
   std::span<const Rgb> sky_irradiance = {};
-  /// The part of sky_irradiance that the sun gives, as SunLight::irradiance: its paths are told
-  /// apart. Empty without a sun.
+  /// The part of sky_irradiance that the sun gives, as SunLight::irradiance: its paths are
+  /// listed separately. Empty without a sun.
   std::span<const Rgb> sun_irradiance = {};
   int threads = 0;  ///< threads of the solve; 0 uses all cores; the result does not depend on it
 };

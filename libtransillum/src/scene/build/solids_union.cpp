@@ -215,8 +215,8 @@ class RemainingFaces {
 
   /// The face is in no solid that was cut.
   void keep(std::int32_t face) { whole_.push_back(face); }
-  /// Takes the triangles of a solid. A face whose corners are those of its outline, with as many
-  /// triangles as they give, is whole.
+  /// Takes the triangles of a solid. A face is whole if it has the corners of its outline and no
+  /// others, and as many triangles as its outline gives.
   void add(Solid& solid) {
     const FaceNumbers numbers = face_numbers(solid.mesh);
     std::map<std::int32_t, std::vector<std::array<Vec3, 3>>> triangles;
