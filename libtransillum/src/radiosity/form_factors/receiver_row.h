@@ -34,8 +34,8 @@ Rgb sun_on_patch(const std::shared_ptr<const Scene>& scene,
                  const Cancellation& cancellation = {});
 
 /// The row of one patch computed again from the directions of a solve, with its engine: up to
-/// rounding the same as in RadiositySolver::form_factors(). Engine fast makes one visibility query per
-/// direction, others a pass.
+/// rounding the same as in RadiositySolver::form_factors(). Engine fast makes one visibility query
+/// per direction, others a pass.
 /// @param tree of the scene.
 /// @param directions of the passes.
 /// @param options of the solve; its normalization must not be symmetric, which needs all rows.
