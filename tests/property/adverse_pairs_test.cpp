@@ -71,11 +71,18 @@ void expect_agreement_of_unblocked(std::uint64_t first, std::uint64_t end) {
     const PairScene pair = random_pair(seed);
     const Scene scene(pair.description());
     const FaceExchange found = exchange_of_faces(scene, ExchangeFinder(scene));
-    const ReferenceExchange reference = reference_exchange(pair, 1e-8, 1e-12 * found.smaller);
-    const double allowed = 1e-8 * reference.area + 1e-12 * found.smaller + 3 * reference.error +
-                           geometric_error(pair, scene, found.smaller);
-    EXPECT_LE(std::abs(found.area - reference.area), allowed)
-        << pair.kind << ", seed " << seed << ": " << found.area << " is not " << reference.area;
+    ReferenceExchange reference = reference_exchange(pair, 1e-8, 1e-12 * found.smaller);
+    const auto differs = [&] {
+      const double allowed = 1e-8 * reference.area + 1e-12 * found.smaller + 3 * reference.error +
+                             geometric_error(pair, scene, found.smaller);
+      return std::abs(found.area - reference.area) > allowed;
+    };
+    if (differs()) {
+      // The error of a cell is estimated from two rules, which may agree by chance.
+      reference = reference_exchange(pair, 1e-10, 1e-14 * found.smaller, 20'000);
+    }
+    EXPECT_FALSE(differs()) << pair.kind << ", seed " << seed << ": " << found.area << " is not "
+                            << reference.area;
     positive[pair.kind] += reference.area > 0 ? 1 : 0;
   }
   for (const auto& [kind, count] : positive) {
@@ -103,8 +110,9 @@ void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
 
 TEST(AdversePairs, AgreeWithQuadratureInExtendedPrecision) {
   expect_agreement_of_unblocked(0, 180);
-  // Edges that meet 1e8 of their lengths away: 0.09 % off, 1.6e-5 of the factor and less.
-  for (const std::uint64_t seed : {424, 677, 775, 1351, 1369, 1892}) {
+  // Edges that meet 1e8 of their lengths away: 0.09 % off, 1.6e-5 of the factor and less. In 2377
+  // and 13361 the first quadrature is 7 times as wrong as it says.
+  for (const std::uint64_t seed : {424, 677, 775, 1351, 1369, 1892, 2377, 13361}) {
     expect_agreement_of_unblocked(seed, seed + 1);
   }
 }

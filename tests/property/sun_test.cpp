@@ -10,8 +10,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "radiosity/form_factors/light_paths.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
+#include "transillum/adjoint.h"
 #include "transillum/at.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/picture.h"
@@ -321,6 +323,87 @@ TEST(Sun, PicturesHaveItsSharpShadows) {
   }
   for (const double x : {-1.99, -1.01}) {
     EXPECT_EQ(light.direct_irradiance(0, {x, 0.3, 0}).g, 0) << x;
+  }
+}
+
+/// The known answer of a level plate: rho times irradiance times the cosine, of all kinds of
+/// solves.
+TEST(Sun, APlateHasTheKnownRadiosityInAllKindsOfSolves) {
+  Sketch sketch("plate");
+  add_rectangle(sketch, {0, 0, 0}, {2, 0, 0}, {0, 1, 0}, sketch.material(0.4, 0));
+  const double b = 0.4 * 1000 * std::sin(35 * degree);
+  const SolveOptions plain{.directions = 16, .tolerance = 1e-12, .sky = sunny(toward(200, 35))};
+  SolveOptions accurate = plain, averaged = plain;
+  accurate.goal = {.accuracy = 0.01};
+  accurate.replicas = 8;
+  averaged.scheme = Scheme::semi_iterative;
+  averaged.iterations = 20;
+  for (const bool two_sided : {false, true}) {
+    const auto scene = sketch.scene({.two_sided = two_sided});
+    ASSERT_EQ(scene->patch_count(), two_sided ? 2 : 1);
+    for (const SolveOptions& options : {plain, accurate, averaged}) {
+      const Solution solution = solve(scene, options);
+      EXPECT_NEAR(solution.radiosity[0].r, b, 1e-9);
+      if (two_sided) {
+        EXPECT_EQ(solution.radiosity[1].r, 0);  // the lower side
+      }
+      EXPECT_EQ(solution.accuracy.has_value(), options.goal.is_set());
+      EXPECT_TRUE(!solution.accuracy || solution.accuracy->reached);
+    }
+  }
+}
+
+/// Two unit squares with a common edge exchange F = 0.2000437761 (ALGORITHM.md, oracle 6), so that
+/// B_1 = rho (H_1 + F B_2), B_2 = rho (H_2 + F B_1) with the irradiances H of the sun.
+TEST(Sun, AnEdgeHasTheKnownRadiosity) {
+  Sketch sketch("edge");
+  const int gray = sketch.material(0.8, 0);
+  add_rectangle(sketch, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, gray);
+  add_rectangle(sketch, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, gray);  // faces along x
+  const Vec3 direction = toward(60, 50);
+  const double h1 = 1000 * direction.z, h2 = 1000 * direction.x, f = 0.2000437761, rho = 0.8;
+  const double b1 = rho * (h1 + rho * f * h2) / (1 - rho * rho * f * f);
+  const double b2 = rho * (h2 + f * b1);
+  const auto scene = sketch.scene();
+  SolveOptions options{.directions = 8192, .tolerance = 1e-12, .sky = sunny(direction)};
+  const auto expect = [&](const Solution& solution, double error) {
+    EXPECT_NEAR(solution.radiosity[0].r, b1, error * b1);
+    EXPECT_NEAR(solution.radiosity[1].r, b2, error * b2);
+  };
+  expect(solve(scene, options), 1e-4);
+  SolveOptions averaged = options;
+  averaged.scheme = Scheme::semi_iterative;
+  averaged.directions = 1024;
+  averaged.iterations = 60;
+  averaged.burn_in = 20;
+  expect(solve(scene, averaged), 1e-3);
+  SolveOptions accurate = options;
+  accurate.directions = 64;
+  accurate.replicas = 8;
+  accurate.goal = {.accuracy = 0.002};
+  const Solution reached = solve(scene, accurate);
+  ASSERT_TRUE(reached.accuracy && reached.accuracy->reached);
+  expect(reached, 0.004);  // the goal is about both surfaces together
+  // The adjoint and the light paths begin at the sun alone.
+  RadiositySolver solver(scene, options);
+  solver.advance(RadiositySolver::Until::finished);
+  const std::vector<Rgb> sun = solver.sky_irradiance();
+  const Adjoint adjoint =
+      solve_adjoint(*scene, solver.form_factors(), 0, scene->materials(), {.tolerance = 1e-13});
+  EXPECT_NEAR(rho * (adjoint.per_watt[0].r * sun[0].r + adjoint.per_watt[1].r * sun[1].r), b1,
+              1e-4 * b1);
+  const LightPaths paths =
+      find_light_paths(*scene, solver.form_factors(), 0, scene->materials(),
+                       {.count = 4, .sky_irradiance = sun, .sun_irradiance = sun});
+  ASSERT_EQ(paths.paths.size(), 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const LightPath& path = paths.paths[k];
+    EXPECT_EQ(path.origin, LightOrigin::sun);
+    EXPECT_EQ(path.reflections(), path.patches.size());
+    const double h = path.patches.front() == 0 ? h1 : h2;
+    const double reflected = std::pow(rho, path.reflections());
+    EXPECT_NEAR(path.contribution.r, reflected * std::pow(f, path.reflections() - 1) * h,
+                1e-3 * b1);
   }
 }
 

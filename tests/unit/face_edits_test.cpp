@@ -71,13 +71,13 @@ SceneDescription cube() {
   return d;
 }
 
-TEST(Placement, quarter_turns_are_exact) {
+TEST(FacePlacement, quarter_turns_are_exact) {
   EXPECT_EQ(turned({1, 2, 3}, {0, 0, 90}), (Vec3{-2, 1, 3}));
   EXPECT_EQ(turned({1, 2, 3}, {180, 0, 0}), (Vec3{1, -2, -3}));
   EXPECT_EQ(turned({1, 2, 3}, {0, -90, 0}), (Vec3{-3, 2, 1}));
 }
 
-TEST(Placement, turns_are_composed_about_the_axes_of_the_scene) {
+TEST(FacePlacement, turns_are_composed_about_the_axes_of_the_scene) {
   const Vec3 v{0.2, -1.5, 0.8};
   for (const Vec3& turn : {Vec3{20, 30, 40}, Vec3{-100, 80, 170}, Vec3{10, 90, 5}}) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -93,8 +93,8 @@ TEST(FaceEdits, translations_and_turns_keep_areas) {
   FaceList box;
   const SceneDescription before = with_box(box);
   const double area = area_of(Scene(before), before, box);
-  for (const Placement& placement :
-       {Placement{somewhere}, Placement{{}, {0, 0, 90}}, Placement{somewhere, {20, -35, 110}}}) {
+  for (const FacePlacement& placement : {FacePlacement{somewhere}, FacePlacement{{}, {0, 0, 90}},
+                                         FacePlacement{somewhere, {20, -35, 110}}}) {
     SceneDescription d = before;
     place_faces(d, box, {1, 1, 1}, placement);
     EXPECT_NEAR(area_of(Scene(d), d, box), area, 1e-12);

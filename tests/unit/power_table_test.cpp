@@ -17,6 +17,7 @@ namespace {
 using test::refusal;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Solved {
   Solution solution;
@@ -178,6 +179,14 @@ TEST(CliSolveBy, PrintsTheTable) {
   const ProgramResult sky =
       expect_success({"solve", folder / "open.obj", "-m", "16", "--sky", "2", "--by", "group"});
   EXPECT_THAT(sky.out, HasSubstr("from the sky, W"));
+  EXPECT_THAT(sky.out, Not(HasSubstr("from the sun, W")));
+  // Half a square meter below 1000 W/m² from 30 degrees above the horizon, and no sky.
+  const ProgramResult sun =
+      expect_success({"solve", folder / "open.obj", "-m", "16", "--sun", "90,30,1000", "--up",
+                      "0,0,1", "--by", "group", "-q"});
+  EXPECT_THAT(sun.out, ContainsRegex("from the sun, W"));
+  EXPECT_THAT(sun.out, ContainsRegex("total .* 250 "));
+  EXPECT_THAT(sun.out, Not(HasSubstr("from the sky, W")));
 }
 
 TEST(CliSolveSky, ChecksItsOptions) {

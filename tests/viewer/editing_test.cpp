@@ -48,9 +48,7 @@ struct Edited {
   }
 
   bool solved() const {
-    return wait_for([this] {
-      return window->snapshot() && window->snapshot()->progress.finished;
-    });
+    return wait_for([this] { return window->snapshot() && window->snapshot()->progress.finished; });
   }
   bool at_rest() const { return comes_to_rest(*window) && solved(); }
   /// Selects a patch of an object that is not the room.
@@ -187,7 +185,7 @@ class EditingTest : public QObject {
     e.key(Qt::Key_Right);
     e.key(Qt::Key_Right);
     e.key(Qt::Key_PageUp);
-    const Placement moved = e.edits->placement();
+    const FacePlacement moved = e.edits->placement();
     QVERIFY(std::abs(norm(moved.move) - std::sqrt(5.0) * step) < 1e-12);
     e.key(Qt::Key_Right, Qt::ShiftModifier);
     QVERIFY(!(e.edits->placement().turn == Vec3{}));
@@ -237,9 +235,9 @@ class EditingTest : public QObject {
                      e.canvas->mapToGlobal(end + QPoint(30, 10)), Qt::LeftButton, Qt::LeftButton,
                      Qt::NoModifier);
     QCoreApplication::sendEvent(e.canvas, &move);
-    QVERIFY(!(e.edits->placement() == Placement{}));
+    QVERIFY(!(e.edits->placement() == FacePlacement{}));
     e.key(Qt::Key_Escape);
-    QVERIFY(e.edits->placement() == Placement{});
+    QVERIFY(e.edits->placement() == FacePlacement{});
     QTest::mouseRelease(e.canvas, Qt::LeftButton, {}, end);
     QVERIFY(e.at_rest());
     QVERIFY(e.light() == before);

@@ -30,7 +30,8 @@ struct ShownPage {
   }
 
   bool contains(const QString& text) const {
-    return QString::fromStdString(page.text).contains(text);
+    return QString::fromStdString(page.text + (page.question ? page.question->then : std::string()))
+        .contains(text);
   }
   Vec3 omega() const {
     const RadiositySolver solver(scene, page.state.options.solve, {.tree = tree});

@@ -2,6 +2,7 @@
 //
 // The panel of light paths: listed with their fractions, drawn over the scene, written to files.
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDockWidget>
 #include <QFile>
 #include <QJsonArray>
@@ -15,8 +16,10 @@
 
 #include "inspected_window.h"
 #include "model/light_balance.h"
+#include "model/requests/slow_quantities.h"
 #include "patches/path_panel.h"
 #include "test_files.h"
+#include "transillum/relight.h"
 
 namespace transillum::viewer::light_paths_test {
 
@@ -163,6 +166,48 @@ class LightPathsTest : public QObject {
     QCOMPARE(root["paths"].toArray()[0].toObject()["patches"].toArray().last().toInt(), 4);
     QVERIFY_EXCEPTION_THROWN(shown.panel->write(folder.filePath("no/such/folder.csv")),
                              std::runtime_error);
+  }
+
+  void sun_and_sky_are_sources_of_their_own() {
+    SolveOptions options{.directions = 32, .first_shot = {}, .tolerance = 1e-10};
+    options.sky.exitance = {1, 1, 1};
+    options.sky.sun = {{1000, 900, 800}, normalized(Vec3{0.3, 0.2, -0.9})};
+    const Inspected shown("cornell-box:open=1", options);
+    QVERIFY(shown.ready && shown.raise("paths_dock"));
+    shown.window->selection.select(4);
+    auto* table = shown.part<QTableWidget>("path_table");
+    QVERIFY(wait_for([&] { return table->rowCount() == 20; }));
+    QStringList paths;
+    for (int row = 0; row < table->rowCount(); ++row) {
+      paths << table->item(row, 3)->text();
+    }
+    QVERIFY2(!paths.filter("sun → ").isEmpty(), qPrintable(paths.join('\n')));
+    const QTemporaryDir folder;
+    shown.part<PathPanel>("path_panel")->write(folder.filePath("paths.csv"));
+    const QByteArray csv = contents_of(folder.filePath("paths.csv"));
+    QVERIFY(csv.contains(",source\n") && csv.contains(",sun\n"));
+
+    // All sources together make B.
+    ColorChoice& colors = shown.window->colors;
+    auto* quantity = shown.part<QComboBox>("quantity");
+    quantity->setCurrentIndex(quantity->findText("What lights the selection"));
+    QTRY_VERIFY(!colors.values().empty() && !colors.busy());
+    const QString note = shown.text("color_note");
+    QVERIFY2(note.contains("% from the sun, ") && note.contains("% from the sky"),
+             qPrintable(note));
+    const auto snapshot = shown.window->snapshot();
+    const PatchResponse response = solve_response(*light_request(*snapshot, 4), {});
+    Rgb sum = response.from_sun + response.from_sky;
+    for (const Rgb& part : colors.values()) {
+      sum += part;
+    }
+    const Rgb b = relight(*snapshot->loaded->scene, *snapshot->form_factors,
+                          snapshot->loaded->scene->materials(),
+                          {.tolerance = 1e-12, .sky_irradiance = snapshot->sky_irradiance})
+                      .radiosity[4];
+    QVERIFY(max_abs(sum - b) < 1e-8 * max_abs(b));
+    QVERIFY(response.from_sun.r > 10 * response.from_sky.r && response.from_sky.r > 0);
+    save_picture(*shown.window, "sun-as-a-source");
   }
 
   void a_hidden_panel_neither_draws_nor_searches_light_paths() {

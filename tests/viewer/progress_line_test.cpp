@@ -67,6 +67,25 @@ class ProgressLineTest : public QObject {
     QVERIFY(phase.shown_text().startsWith("Good") && phase.shown_text().endsWith("passes"));
   }
 
+  // An accuracy that the solve has reached is no promise for other materials.
+  void changed_materials_have_their_own_iterations() {
+    const auto snapshot = reached("back wall");
+    auto materials = std::make_shared<PatchMaterials>();
+    const Scene& scene = *snapshot->loaded->scene;
+    materials->materials = scene.materials();
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      materials->of_patch.push_back(scene.patch(i).material);
+    }
+    snapshot->materials = materials;
+    snapshot->statistics.iterations = 34;
+    ProgressLine line;
+    line.show_state(RunState::finished);
+    line.show_snapshot(snapshot);
+    QCOMPARE(line.findChild<QLabel*>("phase")->text(),
+             QString("Changed materials: light after 34 iterations"));
+    QVERIFY(line.findChild<QLabel*>("phase")->toolTip().isEmpty());
+  }
+
   void a_surface_in_the_dark_is_said_to_be_so() {
     const auto snapshot = reached("cellar");
     snapshot->accuracy->is_dark = true;

@@ -345,16 +345,24 @@ class QuestionsTest : public QObject {
     const Solved right = solve_question(*page.question, computed);
     QVERIFY(std::abs(right.value / loaded->scene->patch(0).area - 1) < 1e-9);
     auto* view = room.window->findChild<SceneView*>();
+    const Vec3 eye = view->view_point().eye;
+    const auto see = [&](const Vec3& p) { emit view->ray_clicked(eye, normalized(p - eye)); };
     const auto take = [&](double shift) {
       for (const PointId p : loaded->scene->outline(0)) {
         const Vec3 edge = loaded->scene->point(loaded->scene->outline(0)[1]) -
                           loaded->scene->point(loaded->scene->outline(0)[0]);
-        emit view->point_clicked(0, loaded->scene->point(p) + shift * edge);
-        emit view->point_clicked(1, loaded->scene->point(p));  // another patch is ignored
+        see(loaded->scene->point(p) + shift * edge);
       }
     };
+    // The line of sight continues behind a patch in front. Points far outside are refused.
+    const Patch& floor = loaded->scene->patch(0);
+    see(floor.center + 9 * (loaded->scene->point(loaded->scene->outline(0)[0]) - floor.center));
+    QVERIFY(room.box->answer().outline.empty());
+    QVERIFY(room.text("question_given").contains("That point is not on patch 0"));
+    room.window->selection.select(3);
     take(0);
     QCOMPARE(room.box->answer().outline.size(), loaded->scene->outline(0).size());
+    QCOMPARE(room.window->selection.patch(), page.state.selection);
     room.reveal();
     QVERIFY2(room.text("question_result").contains("Right"),
              qPrintable(room.text("question_result")));

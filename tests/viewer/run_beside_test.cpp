@@ -8,6 +8,7 @@
 #include <QClipboard>
 #include <QTableWidget>
 #include <QToolButton>
+#include <set>
 
 #include "geometry/luminance.h"
 #include "inspected_window.h"
@@ -96,6 +97,24 @@ class RunBesideTest : public QObject {
     }
     QCOMPARE(changed > 0, kept != open);
     save_picture(*s.window, "beside-" + kept.section(':', 0, 0));
+  }
+
+  /// A run beside itself has the colors of the open scene, whatever they show.
+  void colors_are_of_the_same_quantity() {
+    const SolvedWindow solved("cornell-box");
+    QVERIFY(solved.ready);
+    ColorChoice& colors = solved.window->colors;
+    RunBeside beside(solved.window->focus, colors);
+    beside.show(solved.window->snapshot(), "itself");
+    std::set<std::vector<Color8>> different;
+    for (const Quantity quantity :
+         {Quantity::radiosity, Quantity::reflectance, Quantity::exitance, Quantity::irradiance,
+          Quantity::form_factor_sum, Quantity::sky_fraction, Quantity::difference}) {
+      colors.set_quantity(quantity);
+      QVERIFY(beside.patch_colors() == colors.patch_colors());
+      different.insert(beside.patch_colors());
+    }
+    QVERIFY(different.size() >= 5);
   }
 
   // The other map shows the step of the patch with the same number.

@@ -15,17 +15,6 @@ namespace transillum::viewer {
 
 namespace {
 
-// Shows B in dark grays where there are no values, so that the scene remains recognizable.
-void shade_gray(const Scene& scene, std::span<const Rgb> radiosity, std::vector<Color8>& colors) {
-  ColorScale scale;
-  scale.fit_exposure(scene, radiosity);
-  scale.color(radiosity, colors);
-  for (Color8& color : colors) {
-    const int brightness = (color[0] + color[1] + color[2]) / 3;
-    color.fill(static_cast<std::uint8_t>(0x38 + brightness / 3));
-  }
-}
-
 // Whether a quantity is 0 everywhere if nothing emits.
 bool needs_light(Quantity quantity) {
   return quantity == Quantity::radiosity || quantity == Quantity::exitance ||
@@ -417,7 +406,7 @@ void ColorChoice::color() {
   if (values_.values.empty() && !lit_) {
     shade_neutral(*snapshot_, patch_colors_);
   } else if (values_.values.empty()) {
-    shade_gray(*snapshot_->loaded->scene, snapshot_->radiosity, patch_colors_);
+    shade_gray(*snapshot_, patch_colors_);
   } else {
     scale_.color(values_.values, patch_colors_);
   }

@@ -104,6 +104,8 @@ class ColorChoice : public QObject {
   /// If values() is empty, the reason for the user; empty where nothing emits, which the window
   /// says.
   const QString& missing() const { return values_.missing; }
+  /// PatchValues::note
+  const QString& note() const { return values_.note; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
   /// Whether values() waits for a solve.
   bool busy() const { return response_.busy() || jumps_.busy() || eye_radiance_.busy(); }

@@ -59,7 +59,7 @@ QString ColorNote::text() const {
   if (snapshot && snapshot->of_file && colors_.missing().isEmpty()) {
     return text_on_file(*snapshot->loaded);
   }
-  return colors_.missing();
+  return colors_.missing().isEmpty() ? colors_.note() : colors_.missing();
 }
 
 void ColorNote::show_note() {

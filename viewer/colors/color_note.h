@@ -13,8 +13,8 @@ class QPushButton;
 
 namespace transillum::viewer {
 
-/// A line above the scene. It says why there are no values and how to get them, or that the values
-/// are from a result file. Hidden without a message.
+/// A line above the scene. It says why there are no values and how to get them, what they
+/// omit, or that they are from a result file. Hidden without a message.
 class ColorNote : public QFrame {
   Q_OBJECT
 

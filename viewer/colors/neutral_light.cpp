@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "colors/color_scale.h"
+
 namespace transillum::viewer {
 
 double neutral_brightness(const Vec3& normal) {
@@ -26,6 +28,16 @@ void shade_neutral(const SolverSnapshot& snapshot, std::vector<Color8>& colors) 
       return static_cast<std::uint8_t>(std::lround(255 * std::pow(value, 1 / gamma)));
     };
     at(colors, i) = {level(rho.r), level(rho.g), level(rho.b)};
+  }
+}
+
+void shade_gray(const SolverSnapshot& snapshot, std::vector<Color8>& colors) {
+  ColorScale scale;
+  scale.fit_exposure(*snapshot.loaded->scene, snapshot.radiosity);
+  scale.color(snapshot.radiosity, colors);
+  for (Color8& color : colors) {
+    const int brightness = (color[0] + color[1] + color[2]) / 3;
+    color.fill(static_cast<std::uint8_t>(0x38 + brightness / 3));
   }
 }
 

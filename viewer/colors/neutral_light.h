@@ -14,5 +14,7 @@ double neutral_brightness(const Vec3& normal);
 /// The reflectances of all patches in that light, one color per patch; black ones are raised to
 /// dark gray.
 void shade_neutral(const SolverSnapshot& snapshot, std::vector<Color8>& colors);
+/// B in dark grays, for where there are no values, so that the scene remains recognizable.
+void shade_gray(const SolverSnapshot& snapshot, std::vector<Color8>& colors);
 
 }  // namespace transillum::viewer

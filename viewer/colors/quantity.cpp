@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/luminance.h"
 #include "model/run_comparison.h"
 #include "model/snapshot_values.h"
 #include "support/has_index.h"
@@ -54,6 +55,19 @@ PatchValues form_factors_of(const SolverSnapshot& snapshot, PatchId selected, bo
           {}};
 }
 
+/// How much of B comes from sky and sun, which no patch shows; empty without them.
+QString light_from_outside(const PatchResponse& response, const Rgb& b) {
+  QStringList sources;
+  const auto add = [&](const Rgb& light, const QString& text) {
+    if (luminance(light) > 1e-12 * luminance(b)) {
+      sources << text.arg(100 * luminance(light) / luminance(b), 0, 'f', 1);
+    }
+  };
+  add(response.from_sun, tr("%1 % from the sun"));
+  add(response.from_sky, tr("%1 % from the sky"));
+  return sources.isEmpty() ? QString() : tr("B of the selected patch: %1").arg(sources.join(", "));
+}
+
 PatchValues by_response(Quantity quantity, const SolverSnapshot& snapshot, PatchId selected,
                         const PatchResponse* response) {
   const Scene& scene = *snapshot.loaded->scene;
@@ -68,6 +82,7 @@ PatchValues by_response(Quantity quantity, const SolverSnapshot& snapshot, Patch
   }
   PatchValues result{response->adjoint.per_watt, {}};
   if (quantity == Quantity::origin) {
+    result.note = light_from_outside(*response, at(snapshot.radiosity, selected));
     for (PatchId j = 0; j < scene.patch_count(); ++j) {
       Rgb& value = at(result.values, j);
       value = scene.patch(j).area * (value * material_of(snapshot, j).exitance);
@@ -208,7 +223,7 @@ constexpr QuantityTraits all_traits[] = {
      .meaning = QT_TRANSLATE_NOOP("Quantity",
                                   "Fraction of the radiosity of the selected patch i that comes "
                                   "from the emission of each patch "
-                                  "j, by all light paths; the parts sum to Bᵢ"),
+                                  "j, by all light paths; these, sky and sun sum to Bᵢ"),
      .section = "6.7",
      .has_channels = true,
      .of_selection = true,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "colors/neutral_light.h"
 #include "support/number_text.h"
 
 namespace transillum::viewer {
@@ -55,8 +56,18 @@ std::shared_ptr<const DirectionComparison> RunBeside::comparison() const {
 
 std::vector<Color8> RunBeside::patch_colors() const {
   std::vector<Color8> colors;
-  if (run_) {
-    colors_.scale().color(run_->radiosity, colors);
+  if (!run_) {
+    return colors;
+  }
+  // A kept run has no tree and no form factors.
+  const Quantity quantity = colors_.quantity();
+  const PatchValues of_run = quantity == Quantity::fragments
+                                 ? PatchValues()
+                                 : values_of(quantity, *run_, no_patch, nullptr);
+  if (of_run.values.empty()) {
+    shade_gray(*run_, colors);
+  } else {
+    colors_.scale().color(of_run.values, colors);
   }
   return colors;
 }

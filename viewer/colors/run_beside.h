@@ -33,7 +33,8 @@ class RunBeside : public QObject {
   std::shared_ptr<const DirectionComparison> comparison() const;
   /// Why there is no comparison; else empty.
   const QString& error() const { return error_; }
-  /// The colors of the patches of the run, on the scale of the open scene.
+  /// The patches of the run in the quantity shown, on the scale of the open scene; dark grays where
+  /// the run does not have it.
   std::vector<Color8> patch_colors() const;
   /// The step of the other map that processes the patch of a step of the open one; -1 if none does.
   std::int32_t step_beside(std::int32_t step) const;

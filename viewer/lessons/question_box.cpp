@@ -440,7 +440,7 @@ QString QuestionBox::tally_text(const AnswerCounts& counts) const {
   for (const auto& [count, answer] : sorted) {
     parts << tr("%1: %2").arg(answer).arg(-count);
   }
-  return tr("The class: %1").arg(parts.join(QStringLiteral(" · ")));
+  return tr("Answers of the class: %1").arg(parts.join(QStringLiteral(" · ")));
 }
 
 void QuestionBox::show_state() {

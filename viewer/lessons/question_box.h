@@ -63,8 +63,9 @@ class QuestionBox : public QFrame {
   /// the appearance.
   void set_text_font(const QFont& font);
 
-  /// Takes a point of a patch in the scene as a corner of the answer, if one is asked for there.
-  void take_surface_point(PatchId patch, const Vec3& point);
+  /// Where a corner in the scene is asked for, takes the point in which a line of sight meets the
+  /// plane of the patch asked about, whatever is in front of it. Far from the patch, says so.
+  void take_ray(const Vec3& begin, const Vec3& direction);
 
   /// Reveal, count and reset, for a menu.
   std::vector<QAction*> actions() const { return {reveal_, count_, reset_}; }

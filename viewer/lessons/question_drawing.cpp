@@ -74,17 +74,42 @@ void QuestionBox::take_point() {
   set_answer(std::move(answer));
 }
 
-void QuestionBox::take_surface_point(PatchId patch, const Vec3& point) {
+namespace {
+
+// Corners may be clicked beside the patch, too.
+bool is_near(const Scene& scene, PatchId patch, const Vec3& point) {
+  constexpr double margin = 1.5;
+  const Vec3& center = scene.patch(patch).center;
+  double radius = 0;
+  for (const PointId corner : scene.outline(patch)) {
+    radius = std::max(radius, norm(scene.point(corner) - center));
+  }
+  return norm(point - center) <= margin * radius;
+}
+
+}  // namespace
+
+void QuestionBox::take_ray(const Vec3& begin, const Vec3& direction) {
   if (!page_ || solved_ || page_->question->kind != Question::Kind::outline) {
     return;
   }
   // The answer is on the plane of the direction that the question is about.
   const LessonValue& wanted = page_->question->wanted;
   const auto map = focus_.map();
-  if (patch == wanted.patch && map && map->direction == wanted.direction) {
+  if (!map || map->direction != wanted.direction) {
+    return;
+  }
+  selection_.select(page_->state.selection);  // the click was for a corner
+  const Scene& scene = *map->loaded->scene;
+  const Patch& patch = scene.patch(wanted.patch);
+  const Vec3 point =
+      begin + dot(patch.center - begin, patch.normal) / dot(direction, patch.normal) * direction;
+  if (dot(point - begin, direction) > 0 && is_near(scene, wanted.patch, point)) {
     GivenAnswer answer = answer_;
     answer.outline.push_back(map->record().frame.project(point));
     set_answer(std::move(answer));
+  } else {
+    given_->setText(tr("That point is not on patch %1. %2").arg(wanted.patch).arg(given_text()));
   }
 }
 

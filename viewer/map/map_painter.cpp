@@ -304,7 +304,7 @@ class MapPainting {
     const QPolygonF polygon = polygon_of(step_row_);
     switch (request_.phase) {
       case Phase::before:
-        outline(polygons_of(history_.cut_at(step)), theme::on_dark, 1.2);
+        mark_edges(polygons_of(history_.cut_at(step)));
         veil({polygon}, theme::processed, 70);
         break;
       case Phase::split:
@@ -313,8 +313,8 @@ class MapPainting {
           veil({polygon_of(r)}, theme::inside, history_.exchanges(r) ? 255 : 120);
         }
         // The cutting edges, where the parts meet.
-        outline(outside, theme::on_dark, 1.2);
-        outline(inside, theme::on_dark, 1.2);
+        mark_edges(outside);
+        mark_edges(inside);
         break;
       case Phase::after:
         outline(outside, theme::outside, 1.4);
@@ -323,6 +323,12 @@ class MapPainting {
     outline({polygon}, Qt::black, 4);
     outline({polygon}, theme::processed, 2);
     ring_if_small(polygon);
+  }
+
+  // Bright lines with a dark border, for polygons of any color.
+  void mark_edges(const std::vector<QPolygonF>& polygons) {
+    outline(polygons, QColor(0, 0, 0, 150), 2.6);
+    outline(polygons, theme::on_dark, 1.2);
   }
 
   void ring_if_small(const QPolygonF& polygon) {

@@ -15,36 +15,36 @@ using Term = LightBalance::Term;
 
 /// The light that entry `k` of the row brings from patch j, without what the first shot has
 /// brought.
-Rgb irradiance_of(const SolverSnapshot& snapshot, std::size_t k, PatchId j) {
-  const FormFactors& f = *snapshot.form_factors;
+Rgb irradiance_of(const SolverSnapshot& snapshot, const ReceiverRow& row, std::size_t k) {
+  const PatchId j = row.source[k];
   const bool shot = snapshot.shot && !snapshot.shot->sources.empty();
-  Rgb h = f.value[k] * (shot ? at(snapshot.radiosity, j) - at(snapshot.shot->exitance, j)
-                             : at(snapshot.radiosity, j));
-  if (!f.moments.empty() && !snapshot.linear_terms.empty()) {
+  Rgb h = row.value[k] * (shot ? at(snapshot.radiosity, j) - at(snapshot.shot->exitance, j)
+                               : at(snapshot.radiosity, j));
+  if (!row.moments.empty() && !snapshot.linear_terms.empty()) {
     const LinearTerm& linear = at(snapshot.linear_terms, j);
-    h += f.moments[k].of(0, 1) * linear.first + f.moments[k].of(0, 2) * linear.second;
+    h += row.moments[k][0] * linear.first + row.moments[k][1] * linear.second;
   }
   return h;
 }
 
-std::vector<Term> all_terms(const SolverSnapshot& snapshot, PatchId i, const Rgb& rho) {
-  const FormFactors& f = *snapshot.form_factors;
+std::vector<Term> all_terms(const SolverSnapshot& snapshot, const ReceiverRow& row,
+                            const Rgb& rho) {
   const Scene& scene = *snapshot.loaded->scene;
   std::map<std::pair<int, int>, std::size_t> numbers;
   std::vector<Term> terms;
   std::vector<double> largest;
-  for (std::size_t k = at(f.row_begin, i); k < at(f.row_begin, i + 1); ++k) {
-    const PatchId j = f.source[k];
+  for (std::size_t k = 0; k < row.source.size(); ++k) {
+    const PatchId j = row.source[k];
     const auto [number, added] = numbers.emplace(source_of(scene.patch(j)), terms.size());
     if (added) {
       terms.emplace_back();
       largest.push_back(-1);
     }
     Term& term = terms[number->second];
-    const Rgb part = rho * irradiance_of(snapshot, k, j);
+    const Rgb part = rho * irradiance_of(snapshot, row, k);
     term.patches.push_back(j);
-    term.form_factor += f.value[k];
-    term.radiosity += f.value[k] * at(snapshot.radiosity, j);
+    term.form_factor += row.value[k];
+    term.radiosity += row.value[k] * at(snapshot.radiosity, j);
     term.contribution += part;
     if (luminance(part) > largest[number->second]) {
       largest[number->second] = luminance(part);
@@ -64,13 +64,14 @@ std::pair<int, int> source_of(const Patch& patch) {
                                  : std::pair(1, static_cast<int>(patch.group));
 }
 
-LightBalance light_balance(const SolverSnapshot& snapshot, PatchId receiver, std::size_t most) {
+LightBalance light_balance(const SolverSnapshot& snapshot, PatchId receiver, const ReceiverRow& row,
+                           std::size_t most) {
   LightBalance balance;
   balance.receiver = receiver;
   balance.radiosity = at(snapshot.radiosity, receiver);
   balance.exitance = material_of(snapshot, receiver).exitance;
   balance.reflectance = material_of(snapshot, receiver).reflectance;
-  balance.terms = all_terms(snapshot, receiver, balance.reflectance);
+  balance.terms = all_terms(snapshot, row, balance.reflectance);
   std::stable_sort(balance.terms.begin(), balance.terms.end(), [](const Term& a, const Term& b) {
     return luminance(a.contribution) > luminance(b.contribution);
   });
@@ -84,10 +85,11 @@ LightBalance light_balance(const SolverSnapshot& snapshot, PatchId receiver, std
     balance.shot = balance.reflectance * at(snapshot.shot->irradiance, receiver);
   }
   if (!snapshot.sky_irradiance.empty()) {
-    balance.sky = balance.reflectance * at(snapshot.sky_irradiance, receiver);
+    balance.sun = balance.reflectance * row.sun;
+    balance.sky = balance.reflectance * (at(snapshot.sky_irradiance, receiver) - row.sun);
   }
-  balance.remainder =
-      balance.radiosity - (balance.exitance + listed + balance.others + balance.shot + balance.sky);
+  balance.remainder = balance.radiosity - (balance.exitance + listed + balance.others +
+                                           balance.shot + balance.sky + balance.sun);
   return balance;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/snapshot.h"
+#include "radiosity/form_factors/receiver_row.h"
 
 namespace transillum::viewer {
 
@@ -30,14 +31,16 @@ struct LightBalance {
   Rgb others;               ///< contribution of all other sources
   std::size_t other_count = 0;
   Rgb shot;  ///< reflected light of the first shot, which `terms` omit
-  Rgb sky;   ///< reflected light of the sky
+  Rgb sky;   ///< reflected light of the sky, without the sun
+  Rgb sun;   ///< reflected light of the sun
   /// The rest: the change by the last iteration, and reflection by lobes.
   Rgb remainder;
 };
 /// The group or face whose patches are summed as one source.
 std::pair<int, int> source_of(const Patch& patch);
-/// @param snapshot with form factors
+/// @param row of the receiver, of the directions of the snapshot
 /// @param most length of `terms`
-LightBalance light_balance(const SolverSnapshot& snapshot, PatchId receiver, std::size_t most = 10);
+LightBalance light_balance(const SolverSnapshot& snapshot, PatchId receiver, const ReceiverRow& row,
+                           std::size_t most = 10);
 
 }  // namespace transillum::viewer

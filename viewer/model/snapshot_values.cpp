@@ -19,6 +19,7 @@ Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
   solution.statistics = snapshot.statistics;
   solution.complete = snapshot.of_file ? snapshot.loaded->stored->complete : complete;
   solution.accuracy = snapshot.accuracy;
+  solution.sky = snapshot.of_file ? snapshot.loaded->stored->sky : snapshot.options.sky;
   if (snapshot.passes_done == 0) {  // the snapshot has zeros in place of what is not known
     const SolvedLight unknown;
     const SolvedLight& known = snapshot.of_file ? *snapshot.loaded->stored : unknown;

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The section "Why this number?" of the panel of a patch. Its numbers come from light_balance() of
-// the newest snapshot, which needs form factors.
+// the newest snapshot and the patch's row of form factors.
 #include "patches/balance_view.h"
 
 #include <algorithm>
@@ -54,7 +54,15 @@ QString source_name(const Scene& scene, const LightBalance::Term& term) {
 }  // namespace
 
 BalanceView::BalanceView(Focus& focus, Selection& selection, QWidget* parent)
-    : QLabel(parent), focus_(focus), selection_(selection) {
+    : QLabel(parent),
+      focus_(focus),
+      selection_(selection),
+      rows_(
+          *this,
+          [this](const RowRequest& request, const Cancellation& cancellation) {
+            return compute(request, cancellation);
+          },
+          [this] { refresh(); }, CurrentJob::cancel) {
   setObjectName("balance");
   setTextFormat(Qt::RichText);
   setWordWrap(true);
@@ -66,17 +74,73 @@ BalanceView::BalanceView(Focus& focus, Selection& selection, QWidget* parent)
 
 void BalanceView::show_balance(std::shared_ptr<const SolverSnapshot> snapshot, PatchId patch) {
   snapshot_ = std::move(snapshot);
-  if (!snapshot_ || patch < 0 || patch >= snapshot_->loaded->scene->patch_count()) {
+  patch_ = patch;
+  refresh();
+}
+
+void BalanceView::showEvent(QShowEvent* event) {
+  QLabel::showEvent(event);
+  refresh();
+}
+
+void BalanceView::refresh() {
+  if (!snapshot_ || patch_ < 0 || patch_ >= snapshot_->loaded->scene->patch_count()) {
+    rows_.clear();
     setText({});
     return;
   }
-  if (!snapshot_->form_factors) {
+  if (!isVisible()) {
+    return;
+  }
+  const std::optional<RowRequest> request = row_request(*snapshot_, patch_);
+  if (!request) {
     setText(why_no_form_factors(*snapshot_));
     emit form_factors_requested();
     return;
   }
-  balance_ = light_balance(*snapshot_, patch);
-  show_text();
+  if (request == canceled_) {
+    setText(tr("Not computed.") + QLatin1Char(' ') +
+            link_to(QStringLiteral("compute"), tr("Compute"), {}));
+    return;
+  }
+  canceled_.reset();
+  rows_.request(*request);
+  if (has_row()) {
+    balance_ = light_balance(*snapshot_, patch_, rows_.result()->row);
+    show_text();
+  } else if (!rows_.error().isEmpty()) {
+    setText(rows_.error());
+  } else {
+    show_progress();
+  }
+}
+
+bool BalanceView::has_row() const {
+  const std::shared_ptr<const PatchRow> row = rows_.result();
+  return row && row->loaded == snapshot_->loaded && row->receiver == patch_;
+}
+
+void BalanceView::show_progress() {
+  setText(tr("Finding the form factors of patch %1… %2 %").arg(patch_).arg(percent_) +
+          QLatin1Char(' ') + link_to(QStringLiteral("cancel"), tr("Cancel"), {}));
+}
+
+PatchRow BalanceView::compute(const RowRequest& request, const Cancellation& cancellation) {
+  int shown = -1;
+  return compute_row(request, cancellation, [&](double fraction) {
+    const int percent = static_cast<int>(100 * fraction);
+    if (percent == shown || cancellation.canceled()) {
+      return;
+    }
+    shown = percent;
+    const auto show = [this, percent, receiver = request.receiver] {
+      percent_ = percent;
+      if (rows_.busy() && receiver == patch_ && isVisible() && !has_row()) {
+        show_progress();
+      }
+    };
+    QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
+  });
 }
 
 double BalanceView::channel_of(const Rgb& value) const {
@@ -146,9 +210,11 @@ void BalanceView::show_text() {
   };
   add(tr("%1 others").arg(balance_.other_count), balance_.others, balance_.other_count > 0);
   add(tr("first shot"), balance_.shot, channel_of(balance_.shot) > 0);
-  add(tr("sky"), balance_.sky, channel_of(balance_.sky) > 0);
+  add(tr("sky"), balance_.sky, channel_of(balance_.sky) > 1e-12 * channel_of(balance_.radiosity));
+  add(tr("sun"), balance_.sun, channel_of(balance_.sun) > 0);
   add(symbol("E", i), balance_.exitance, channel_of(balance_.exitance) > 0);
-  add(snapshot_->glossy ? tr("lobes, last iteration") : tr("last iteration"), balance_.remainder,
+  const bool renews = traits_of(snapshot_->options.scheme).renews_directions;
+  add(renews ? tr("differences of iterations") : tr("last iteration"), balance_.remainder,
       std::abs(channel_of(balance_.remainder)) > 1e-12 * channel_of(balance_.radiosity));
   add(symbol("B", i), balance_.radiosity, true);
   setText(text + QStringLiteral("</table>"));
@@ -157,6 +223,17 @@ void BalanceView::show_text() {
 void BalanceView::follow(const QString& link) {
   const QString what = link.section(':', 0, 0);
   const int number = link.section(':', 1).toInt();
+  if (what == QLatin1String("cancel")) {
+    canceled_ = row_request(*snapshot_, patch_);
+    rows_.clear();
+    refresh();
+    return;
+  }
+  if (what == QLatin1String("compute")) {
+    canceled_.reset();
+    refresh();
+    return;
+  }
   if (what == QLatin1String("channel")) {
     channel_ = number;
     show_text();

@@ -3,17 +3,21 @@
 
 #include <QLabel>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "model/light_balance.h"
+#include "model/requests/slow_quantities.h"
 #include "state/focus.h"
 #include "state/selection.h"
+#include "support/newest_result.h"
 
 namespace transillum::viewer {
 
 /// The equation of B of the selected patch, with its numbers in one channel of color. The numbers
 /// are links: to the source, to the directions in which it was seen, and to a step that exchanges
-/// its light.
+/// its light. While it is visible, it computes the row of form factors of the patch on its own
+/// thread.
 class BalanceView : public QLabel {
   Q_OBJECT
 
@@ -23,12 +27,22 @@ class BalanceView : public QLabel {
   /// @param patch no_patch shows nothing
   void show_balance(std::shared_ptr<const SolverSnapshot> snapshot, PatchId patch);
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  signals:
+  /// Where one row alone cannot be computed.
   void form_factors_requested();
   /// @param panel that is to show what a link names: received or map
   void panel_wanted(const std::string& panel);
 
  private:
+  /// Shows the balance, or begins to compute its row.
+  void refresh();
+  /// Whether the row of the patch was computed.
+  bool has_row() const;
+  void show_progress();
+  PatchRow compute(const RowRequest& request, const Cancellation& cancellation);
   void show_text();
   /// The equation, and the choice of the channel.
   QString equation() const;
@@ -44,9 +58,13 @@ class BalanceView : public QLabel {
   Focus& focus_;
   Selection& selection_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
+  PatchId patch_ = no_patch;
   LightBalance balance_;
-  int channel_ = 0;                    ///< 0 red, 1 green, 2 blue
-  QMetaObject::Connection other_way_;  ///< searches forward where nothing was found backward
+  int channel_ = 0;                     ///< 0 red, 1 green, 2 blue
+  QMetaObject::Connection other_way_;   ///< searches forward where nothing was found backward
+  int percent_ = 0;                     ///< finished part of the row
+  std::optional<RowRequest> canceled_;  ///< not to be begun again unasked
+  KeptResult<RowRequest, PatchRow> rows_;
 };
 
 }  // namespace transillum::viewer

@@ -186,9 +186,7 @@ void PatchInspector::show_sums() {
 void PatchInspector::show_balance() {
   const bool one = snapshot_ && selection_.patches().size() == 1;
   why_->setVisible(one);
-  if (why_->is_open()) {
-    balance_->show_balance(snapshot_, one ? selection_.patch() : no_patch);
-  }
+  balance_->show_balance(snapshot_, one && why_->is_open() ? selection_.patch() : no_patch);
 }
 
 void PatchInspector::show_patch() {

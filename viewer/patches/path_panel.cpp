@@ -37,8 +37,20 @@ double fraction_of(const LightPaths& paths, const Rgb& light) {
   return all > 0 ? luminance(light) / all : 0;
 }
 
+/// The kind of source, as in files.
+const char* name_of(LightOrigin origin) {
+  return origin == LightOrigin::sky ? "sky" : origin == LightOrigin::sun ? "sun" : "patch";
+}
+
+/// Begins the texts of paths from the sky or the sun.
+QStringList origin_text(const LightPath& path) {
+  return path.origin == LightOrigin::sky   ? QStringList(PathPanel::tr("sky"))
+         : path.origin == LightOrigin::sun ? QStringList(PathPanel::tr("sun"))
+                                           : QStringList();
+}
+
 QString path_text(const LightPath& path) {
-  QStringList patches;
+  QStringList patches = origin_text(path);
   for (const PatchId patch : path.patches) {
     patches << QString::number(patch);
   }
@@ -47,7 +59,7 @@ QString path_text(const LightPath& path) {
 
 /// The groups, or faces without one, that a path goes through; the last patch by its number.
 QString group_text(const LightPath& path, const Scene& scene) {
-  QStringList names;
+  QStringList names = origin_text(path);
   for (const PatchId patch : path.patches) {
     const Patch& one = scene.patch(patch);
     names << (one.group == no_group ? PathPanel::tr("face %1").arg(one.face)
@@ -166,11 +178,10 @@ void PathPanel::search() {
     show_caption();
     return;
   }
-  Request request{*std::move(light), count_->value(), by_group_->isChecked(), {}, {}};
+  Request request{*std::move(light), count_->value(), by_group_->isChecked(), {}};
   if (!(request == requested_) || (!paths_ && error_.isEmpty() && !finder_.busy())) {
     requested_ = request;
     request.start = snapshot_->radiosity;
-    request.sky = snapshot_->sky_irradiance;
     finder_.request(std::move(request));
   }
   show_caption();
@@ -181,7 +192,9 @@ LightPaths PathPanel::find(const Request& request, const Cancellation& cancellat
   LightPathOptions options;
   options.count = request.by_group ? most_paths : request.count;
   options.start = request.start;
-  options.sky_irradiance = request.sky;
+  options.sky_irradiance = light.sky;
+  const std::vector<Rgb> sun = light_of_sun(light, cancellation);
+  options.sun_irradiance = sun;
   options.patch_materials = light.patch_materials();
   LightPaths paths = find_light_paths(light.scene(), *light.form_factors, light.receiver,
                                       light.material_list(), options, cancellation);
@@ -194,7 +207,7 @@ LightPaths sums_of_paths(const LightPaths& paths, const Scene& scene, std::size_
   LightPaths sums{{}, paths.radiosity, paths.cut_off, paths.complete};
   std::map<std::vector<std::pair<int, int>>, std::size_t> numbers;
   for (const LightPath& path : paths.paths) {
-    std::vector<std::pair<int, int>> key;
+    std::vector<std::pair<int, int>> key{{-1, static_cast<int>(path.origin)}};
     for (const PatchId patch : path.patches) {
       key.push_back(source_of(scene.patch(patch)));
     }
@@ -227,10 +240,10 @@ void PathPanel::show_paths() {
     const LightPath& path = at(paths_->paths, row);
     const QString texts[] = {fraction_format.text(100 * fraction_of(*paths_, path.contribution)),
                              light_format.text(luminance(path.contribution)),
-                             QString::number(path.patches.size() - 1),
-                             path.patches.size() <= 1 ? tr("emitted by the patch itself")
-                             : requested_.by_group    ? group_text(path, *snapshot_->loaded->scene)
-                                                      : path_text(path)};
+                             QString::number(path.reflections()),
+                             path.reflections() == 0 ? tr("emitted by the patch itself")
+                             : requested_.by_group   ? group_text(path, *snapshot_->loaded->scene)
+                                                     : path_text(path)};
     for (int column = 0; column < 4; ++column) {
       auto* item = new QTableWidgetItem(texts[column]);
       const auto side = column < 3 ? Qt::AlignRight : Qt::AlignLeft;
@@ -270,12 +283,12 @@ void PathPanel::show_caption() {
 }
 
 void write_paths_csv(const LightPaths& paths, std::ostream& out) {
-  out << "rank,share,B_r,B_g,B_b,patches\n";
-  const auto write_line = [&](const std::string& rank, const Rgb& light,
-                              const std::string& patches) {
+  out << "rank,share,B_r,B_g,B_b,patches,source\n";
+  const auto write_line = [&](const std::string& rank, const Rgb& light, const std::string& patches,
+                              const char* source) {
     const auto number = [](double value) { return QString::number(value, 'g', 17).toStdString(); };
     out << rank << ',' << number(fraction_of(paths, light)) << ',' << number(light.r) << ','
-        << number(light.g) << ',' << number(light.b) << ',' << patches << '\n';
+        << number(light.g) << ',' << number(light.b) << ',' << patches << ',' << source << '\n';
   };
   int rank = 0;
   for (const LightPath& path : paths.paths) {
@@ -283,9 +296,9 @@ void write_paths_csv(const LightPaths& paths, std::ostream& out) {
     for (const PatchId patch : path.patches) {
       patches += (patches.empty() ? "" : " ") + std::to_string(patch);
     }
-    write_line(std::to_string(++rank), path.contribution, patches);
+    write_line(std::to_string(++rank), path.contribution, patches, name_of(path.origin));
   }
-  write_line("others", paths.cut_off, "");
+  write_line("others", paths.cut_off, "", "");
 }
 
 void write_paths_json(const LightPaths& paths, PatchId receiver, std::ostream& out) {
@@ -293,7 +306,8 @@ void write_paths_json(const LightPaths& paths, PatchId receiver, std::ostream& o
   for (const LightPath& path : paths.paths) {
     list.push_back({{"share", fraction_of(paths, path.contribution)},
                     {"contribution", json_of(path.contribution)},
-                    {"patches", path.patches}});
+                    {"patches", path.patches},
+                    {"source", name_of(path.origin)}});
   }
   const nlohmann::json file = {{"receiver", receiver},
                                {"radiosity", json_of(paths.radiosity)},

@@ -50,10 +50,9 @@ class PathPanel : public QWidget {
     int count = 0;
     bool by_group = false;  ///< sum paths through the same groups or faces
     std::vector<Rgb> start;
-    std::vector<Rgb> sky;  ///< light that each patch receives from a sky; may be empty
 
     friend bool operator==(const Request& a, const Request& b) {
-      // `start` changes only the time, and the sky's light belongs to the form factors.
+      // `start` changes only the time.
       return a.light == b.light && a.count == b.count && a.by_group == b.by_group;
     }
   };
@@ -85,7 +84,7 @@ class PathPanel : public QWidget {
 /// @param most  number of sums; what the others bring is added to `cut_off`
 LightPaths sums_of_paths(const LightPaths& paths, const Scene& scene, std::size_t most);
 /// One line per path: its rank from 1, fraction of B by luminance, contribution, patches from the
-/// source on. The last line is the sum of all other paths.
+/// source on, kind of source. The last line is the sum of all other paths.
 void write_paths_csv(const LightPaths& paths, std::ostream& out);
 void write_paths_json(const LightPaths& paths, PatchId receiver, std::ostream& out);
 

@@ -222,6 +222,11 @@ PatchRows rows_of_parts(const PowerTable& table, bool received_known) {
                 surface_text("The part of the power received that comes from the sky"), "from_sky",
                 &SurfacePower::from_sky);
     }
+    if (max_abs(table.total.from_sun) > 0) {
+      add_power(surface_text("From sun, W"),
+                surface_text("The part of the power received that comes from the sun"), "from_sun",
+                &SurfacePower::from_sun);
+    }
     if (max_abs(table.total.escaped) > 0) {
       add_power(surface_text("Escaped, W"), surface_text("Power that leaves and meets no patch"),
                 "escaped", &SurfacePower::escaped);

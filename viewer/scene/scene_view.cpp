@@ -527,8 +527,8 @@ std::optional<PickedPoint> SceneView::hit_at(const QPoint& position) const {
   if (!loaded_) {
     return std::nullopt;
   }
-  auto [begin, direction] = ray_at(position);
   // Back sides are culled in the picture.
+  auto [begin, direction] = ray_at(position);
   return first_shown_hit(*loaded_, begin, direction,
                          [this](const PickedPoint& point) { return in_picture(point); });
 }
@@ -565,9 +565,8 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
         } else {
           selection_.select(patch_at(mouse->pos()));
         }
-        if (const auto hit = hit_at(mouse->pos())) {
-          emit point_clicked(hit->patch, hit->point);
-        }
+        const auto [begin, direction] = ray_at(mouse->pos());
+        emit ray_clicked(begin, direction);
       }
       render();
     } else if (event->type() == QEvent::MouseButtonRelease) {

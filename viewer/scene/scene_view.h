@@ -153,10 +153,10 @@ class SceneView : public QWidget {
   QWidget* canvas() const;
   /// A line of sight.
   struct Ray {
-    Vec3 origin;     ///< m
+    Vec3 origin;     ///< its first point in the picture, m
     Vec3 direction;  ///< unit
   };
-  /// The line of sight through a point of canvas().
+  /// The line of sight through a point of canvas(), in logical pixels.
   Ray ray_at(const QPointF& position) const;
   /// The point of canvas() at which a point is drawn, in logical pixels.
   QPointF pixel_of(const Vec3& point) const;
@@ -166,8 +166,8 @@ class SceneView : public QWidget {
   bool pressed() const { return pressed_; }
 
  signals:
-  /// The left button was clicked on a patch.
-  void point_clicked(transillum::PatchId patch, const transillum::Vec3& point);
+  /// The left button was clicked: the line of sight through that point, from the eye on.
+  void ray_clicked(const transillum::Vec3& begin, const transillum::Vec3& direction);
   /// The right button was clicked at a point of canvas().
   void menu_requested(const QPoint& position);
   /// The picture is about to be drawn; what is shown may have changed.

@@ -86,18 +86,19 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
   iteration_chart_->setToolTip(symbol_tip(
       tr("remainder: bound of the light that further iterations add to all patches, or to the "
          "dimmest tenth of their area, relative to the reflected light\n"
-         "eq. 25: the paper's rule, the largest change of B over the largest B, with E\n"
-         "eq. 22: bound of that change: the first one, reduced by the contraction with eq. 21\n"
+         "change (eq. 25): the paper's rule, the largest change of B over the largest B, with E\n"
+         "its bound (eq. 22): the first one, reduced by the contraction with eq. 21\n"
          "error: estimate of the error of B from the replicas, between its limits\n"
          "Click to go to an iteration"),
       "6"));
   direction_chart_->setObjectName("direction_chart");
-  direction_chart_->setToolTip(symbol_tip(
-      tr("change of B: relative change of the running estimate by each direction\n"
-         "ε/π: largest error of a sum of form factors with the directions so far (eq. 17)\n"
-         "eq. 21: bound of ε for evenly spread directions, divided by π\n"
-         "Click to go to a direction"),
-      "7.1"));
+  direction_chart_->setToolTip(
+      symbol_tip(tr("change of B: relative change of the running estimate by each direction\n"
+                    "worst Σ F, ε/π: largest error of a sum of form factors with the directions so "
+                    "far (eq. 17)\n"
+                    "its bound (eq. 21): of ε, for evenly spread directions, divided by π\n"
+                    "Click to go to a direction"),
+                 "7.1"));
   connect(iteration_chart_, &LogChart::clicked, this,
           [this](int x) { focus_.go_to_direction(x - 1, focus_.target().direction); });
   connect(direction_chart_, &LogChart::clicked, this,
@@ -132,10 +133,10 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   }
   std::vector<LogChart::Line> lines{
       {tr("remainder"), theme::accent, std::move(remainders), true},
-      {tr("eq. 25"), theme::good, std::move(changes)},
+      {tr("change (eq. 25)"), theme::good, std::move(changes)},
       averages ? LogChart::Line{tr("error of the mean"), theme::good, std::move(mean_errors)}
-               : LogChart::Line{tr("eq. 22"), theme::good, predicted_changes(snapshot), false,
-                                ChartDashes::dash_dot}};
+               : LogChart::Line{tr("its bound (eq. 22)"), theme::good, predicted_changes(snapshot),
+                                false, ChartDashes::dash_dot}};
   add_error_band(snapshot, lines);
   iteration_chart_->show_lines(std::move(lines), levels_of(snapshot),
                                std::max(snapshot.options.iterations, 8));
@@ -153,8 +154,8 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   }
   direction_chart_->show_lines(
       {{tr("change of B"), theme::accent, snapshot.estimate_changes, false, ChartDashes::solid, 2},
-       {tr("ε/π"), theme::good, std::move(errors), false, ChartDashes::solid, 0.9},
-       {tr("eq. 21"), theme::warm, std::move(bounds), false, ChartDashes::dashes}},
+       {tr("worst Σ F, ε/π"), theme::good, std::move(errors), false, ChartDashes::solid, 0.9},
+       {tr("its bound (eq. 21)"), theme::warm, std::move(bounds), false, ChartDashes::dashes}},
       {}, passes);
   shown_iteration_ = snapshot.estimate_iteration;
   show_position();

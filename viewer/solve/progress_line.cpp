@@ -198,6 +198,11 @@ void ProgressLine::show_solve() {
   if (!running && !has_light(*snapshot_)) {
     phase_->setToolTip({});
     phase_->setText(tr("No light: not solved"));
+  } else if (finished && snapshot_->materials) {
+    // The solve reached its accuracy with other materials.
+    phase_->setToolTip({});
+    phase_->setText(tr("Changed materials: light after %1")
+                        .arg(iterations_text(snapshot_->statistics.iterations)));
   } else if (finished && total && total->end && !total->stages.empty()) {
     phase_->setText(total_text(*snapshot_));
   } else if (finished && accuracy) {

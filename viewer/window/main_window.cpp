@@ -290,8 +290,8 @@ void MainWindow::connect_views() {
           &AlgorithmView::set_values_hidden);
   connect(lesson_panel_, &LessonPanel::enlarged, &docks_, &DockLayouts::enlarge);
   connect(lesson_panel_, &LessonPanel::sketched, map_view_->canvas(), &MapCanvas::show_sketch);
-  connect(page_->scene_view(), &SceneView::point_clicked, &lesson_panel_->question(),
-          &QuestionBox::take_surface_point);
+  connect(page_->scene_view(), &SceneView::ray_clicked, &lesson_panel_->question(),
+          &QuestionBox::take_ray);
   connect(&lesson_panel_->question(), &QuestionBox::surface_sketched, page_->scene_view(),
           &SceneView::show_sketch);
   connect(&state_.runner, &SolveRunner::state_changed, &lesson_panel_->question(),

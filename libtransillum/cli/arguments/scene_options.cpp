@@ -18,6 +18,7 @@
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/solids.h"
 #include "visibility/bsp/coplanar_overlap.h"
 
 namespace transillum::cli {
@@ -208,6 +209,14 @@ SceneDescription describe_input(const SceneInput& input, const Cancellation& can
   change_materials(description, input.run.input.changes);
   if (input.run.input.orient) {
     orient_input(input, description, cancellation);
+  }
+  if (input.run.input.unite_solids) {
+    const SolidsReport report = unite_solids(description, cancellation);
+    for (const std::string& sentence : report.sentences) {
+      if (!is_quiet(*input.command)) {
+        print_message("solids: " + sentence);
+      }
+    }
   }
   return description;
 }

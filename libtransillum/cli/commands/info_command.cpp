@@ -19,6 +19,7 @@
 #include "transillum/at.h"
 #include "transillum/orientation.h"
 #include "transillum/radiosity_solver.h"
+#include "transillum/solids.h"
 #include "transillum/solve_options.h"
 #include "visibility/bsp/coplanar_overlap.h"
 
@@ -206,10 +207,21 @@ void print_directions(const std::shared_ptr<const Scene>& scene, const InfoCall&
   print_backs_along_directions(*scene, solver.back_seen_fractions());
 }
 
+void print_inside_solids(const SceneDescription& description, const Cancellation& cancellation) {
+  constexpr double worth_a_hint = 0.05;
+  const double share = share_inside_solids(description, cancellation);
+  if (share > 0) {
+    print_row(
+        "inside solids",
+        fmt::format("about {} of the area lies inside or against another closed part{}",
+                    fraction_text(share), share > worth_a_hint ? " (try --solids union)" : ""));
+  }
+}
+
 int run(const InfoCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
-  const auto scene =
-      make_input_scene(call.scene, describe_input(call.scene, cancellation), cancellation);
+  const SceneDescription description = describe_input(call.scene, cancellation);
+  const auto scene = make_input_scene(call.scene, description, cancellation);
   print_counts(*scene);
   print_size_and_light(*scene);
   const BackFraction backs = print_rays(*scene, call.scene.run.solve.threads, cancellation);
@@ -217,6 +229,7 @@ int run(const InfoCall& call) {
     print_directions(scene, call, cancellation);
   }
   print_overlaps(*scene, cancellation);
+  print_inside_solids(description, cancellation);
   print_repairs(scene->report());
   if (const std::string advice = orientation_advice(call.scene, backs); !advice.empty()) {
     print_row("warning", advice);

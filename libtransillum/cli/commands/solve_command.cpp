@@ -25,6 +25,7 @@
 #include "io/results/error_report_files.h"
 #include "io/runs/shard_files.h"
 #include "options/option_table.h"
+#include "radiosity/sun_light.h"
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/glossy.h"
@@ -36,8 +37,10 @@ using Clock = std::chrono::steady_clock;
 
 /// The table of --by, on standard output unless a result is there.
 void print_powers(const SolveCall& call, const Solution& solution) {
-  const std::string text =
-      power_report(power_table(solution, *call.by, solution.form_factors.get()), *call.by) + "\n";
+  const SunLight sun = sun_light(solution.scene, nullptr, {.sky = solution.sky}, {});
+  const PowerTable table =
+      power_table(solution, *call.by, solution.form_factors.get(), {}, {}, sun.irradiance);
+  const std::string text = power_report(table, *call.by) + "\n";
   if (std::any_of(call.out.begin(), call.out.end(), is_standard_output)) {
     print_diagnostics(text);
   } else {

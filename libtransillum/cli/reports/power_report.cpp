@@ -100,11 +100,14 @@ std::string exchange_text(const PowerTable& table, SurfaceKind by, bool gray) {
 
 std::string power_report(const PowerTable& table, SurfaceKind by) {
   const bool gray = is_gray(table);
-  const bool sky = max_abs(table.total.from_sky) > 0;
+  const bool sky = max_abs(table.total.from_sky) > 0, sun = max_abs(table.total.from_sun) > 0;
   std::vector<Row> rows{{names_of<SurfaceKind>().at(static_cast<std::size_t>(by)), "patches",
                          "area, m2", "emitted, W", "received, W", "absorbed, W"}};
   if (sky) {
     rows.front().emplace_back("from the sky, W");
+  }
+  if (sun) {
+    rows.front().emplace_back("from the sun, W");
   }
   if (table.escape_known) {
     rows.front().emplace_back("escaped, W");
@@ -120,6 +123,9 @@ std::string power_report(const PowerTable& table, SurfaceKind by) {
                     power_text(surface.received, gray), power_text(surface.absorbed, gray)});
     if (sky) {
       rows.back().push_back(power_text(surface.from_sky, gray));
+    }
+    if (sun) {
+      rows.back().push_back(power_text(surface.from_sun, gray));
     }
     if (table.escape_known) {
       rows.back().push_back(power_text(surface.escaped, gray));

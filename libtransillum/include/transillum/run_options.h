@@ -22,6 +22,7 @@ struct SceneInput {
   ReadOptions read = {};                     ///< how the file is read
   std::vector<MaterialChange> changes = {};  ///< changes of materials, in their order
   bool orient = false;                       ///< faces are turned by orient()
+  bool unite_solids = false;                 ///< then closed parts are united by unite_solids()
   /// About how many patches to make, instead of SceneOptions::max_patch_area; 0 if not given. Once
   /// the scene is loaded, that area says the same.
   std::int64_t patches = 0;

@@ -26,6 +26,7 @@ namespace transillum {}
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
 #include "transillum/scene.h"
+#include "transillum/solids.h"
 
 // Solving: options, progress, solution.
 #include "transillum/accuracy_goal.h"

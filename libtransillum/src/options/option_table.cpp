@@ -444,6 +444,20 @@ void add_reading(Table& t) {
     o.input.orient = text == "auto";
   };
   orient.print = [](const RunOptions& o) { return std::string(o.input.orient ? "auto" : "keep"); };
+  Option& solids =
+      t.add("solids", "NAME", "a name",
+            "union: unite closed parts that cross or touch, and remove what is inside them; keep: "
+            "as in the file");
+  solids.choices = {"keep", "union"};
+  solids.parse = [](RunOptions& o, const std::string& text) {
+    if (text != "keep" && text != "union") {
+      throw InputError(fmt::format("\"{}\" is neither keep nor union", text));
+    }
+    o.input.unite_solids = text == "union";
+  };
+  solids.print = [](const RunOptions& o) {
+    return std::string(o.input.unite_solids ? "union" : "keep");
+  };
   Option& divide =
       t.add("divide", "PATCHES", "names of surfaces or numbers of patches, or none",
             "divide each patch of a surface into about four; all: of all surfaces; patch:3,7-20: "

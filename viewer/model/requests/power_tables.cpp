@@ -4,6 +4,7 @@
 #include <span>
 
 #include "model/snapshot_values.h"
+#include "radiosity/sun_light.h"
 
 namespace transillum::viewer {
 
@@ -22,8 +23,13 @@ PowerTables power_tables(const std::shared_ptr<const SolverSnapshot>& snapshot) 
     materials = snapshot->materials->materials;
     patch_materials = snapshot->materials->of_patch;
   }
+  const SunLight sun =
+      solution.sky_irradiance.empty()
+          ? SunLight()
+          : sun_light(snapshot->loaded->scene, snapshot->loaded->tree, {.sky = solution.sky}, {});
   const auto table = [&](SurfaceKind by) {
-    return power_table(solution, by, snapshot->form_factors.get(), materials, patch_materials);
+    return power_table(solution, by, snapshot->form_factors.get(), materials, patch_materials,
+                       sun.irradiance);
   };
   tables.groups = table(SurfaceKind::group);
   tables.materials = table(SurfaceKind::material);

@@ -171,6 +171,7 @@ std::shared_ptr<const SolverSnapshot> Relighting::lit(
   lit->linear_terms = light_->linear_terms;
   lit->irradiance = light_->irradiance;
   lit->statistics.iteration_records = light_->iteration_records;
+  lit->statistics.iterations = light_->iterations;
   const double rho_max = materials_->rho_max();
   if (lit->statistics.rho_max > 0) {
     lit->statistics.predicted_contraction *= rho_max / lit->statistics.rho_max;

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "model/snapshot.h"
+#include "radiosity/form_factors/receiver_row.h"
 #include "transillum/adjoint.h"
 #include "transillum/cancellation.h"
 #include "transillum/glossy.h"
@@ -22,7 +24,8 @@ struct LightRequest {
   std::shared_ptr<const FormFactors> form_factors;
   std::shared_ptr<const PatchMaterials> materials;  ///< null for the materials of the scene
   PatchId receiver = no_patch;
-  double tolerance = 0;  ///< tolerance of the solve run
+  SolveOptions options;  ///< options of the solve run
+  std::vector<Rgb> sky;  ///< light that each patch receives from sky and sun; may be empty
 
   const Scene& scene() const { return *loaded->scene; }
   const std::vector<Material>& material_list() const {
@@ -33,16 +36,22 @@ struct LightRequest {
     return materials ? std::span<const std::int32_t>(materials->of_patch)
                      : std::span<const std::int32_t>();
   }
-  friend bool operator==(const LightRequest&, const LightRequest&) = default;
+  friend bool operator==(const LightRequest& a, const LightRequest& b) {
+    // The light of the sky belongs to the form factors.
+    return a.loaded == b.loaded && a.form_factors == b.form_factors && a.materials == b.materials &&
+           a.receiver == b.receiver && a.options == b.options;
+  }
 };
+/// The part of LightRequest::sky that the sun gives; empty without a sun.
+std::vector<Rgb> light_of_sun(const LightRequest& request, const Cancellation& cancellation);
 
 /// The request for a snapshot; not set where the snapshot has no form factors or no such patch.
 inline std::optional<LightRequest> light_request(const SolverSnapshot& snapshot, PatchId receiver) {
   if (!snapshot.form_factors || receiver < 0 || receiver >= snapshot.loaded->scene->patch_count()) {
     return std::nullopt;
   }
-  return LightRequest{snapshot.loaded, snapshot.form_factors, snapshot.materials, receiver,
-                      snapshot.options.tolerance};
+  return LightRequest{snapshot.loaded, snapshot.form_factors, snapshot.materials,
+                      receiver,        snapshot.options,      snapshot.sky_irradiance};
 }
 
 /// The difference between B of each patch and B of its neighbors.
@@ -74,8 +83,35 @@ struct PatchResponse {
   std::shared_ptr<const LoadedScene> loaded;
   PatchId receiver = no_patch;
   Adjoint adjoint;
+  Rgb from_sky = {},
+      from_sun = {};  ///< parts of its B that come from sky and sun, by all light paths, W/m²
 };
 /// Solves the adjoint for a patch, from the form factors of a snapshot.
 PatchResponse solve_response(const LightRequest& request, const Cancellation& cancellation);
+
+/// A row of form factors, to be computed again from the directions of a solve.
+struct RowRequest {
+  std::shared_ptr<const LoadedScene> loaded;
+  std::shared_ptr<const FormFactors> form_factors;  ///< that have the row; may be null
+  /// One set; several where each iteration has its own.
+  std::vector<std::shared_ptr<const std::vector<Vec3>>> directions;
+  std::size_t passes = 0;  ///< how many directions of each set, from the first
+  SolveOptions options;
+  PatchId receiver = no_patch;
+
+  friend bool operator==(const RowRequest&, const RowRequest&) = default;
+};
+/// The request for the row that the last iteration of a snapshot had; not set before its first
+/// iteration has ended, and where only all rows together can be computed.
+std::optional<RowRequest> row_request(const SolverSnapshot& snapshot, PatchId receiver);
+/// A row that was computed, and of what.
+struct PatchRow {
+  std::shared_ptr<const LoadedScene> loaded;
+  PatchId receiver = no_patch;
+  ReceiverRow row;
+};
+/// @param progress called with the fraction done, on the same thread
+PatchRow compute_row(const RowRequest& request, const Cancellation& cancellation,
+                     const std::function<void(double)>& progress);
 
 }  // namespace transillum::viewer

@@ -10,6 +10,7 @@
 #include "transillum/files.h"
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
+#include "transillum/solids.h"
 
 namespace transillum::viewer {
 
@@ -58,6 +59,12 @@ SceneDescription describe(const std::string& spec, const SceneInput& input,
     });
     for (const std::string& sentence : report.sentences) {
       description.notes.push_back("orientation: " + sentence);
+    }
+  }
+  if (input.unite_solids) {
+    progress(tr("Uniting solids"), 0);
+    for (const std::string& sentence : unite_solids(description, cancellation).sentences) {
+      description.notes.push_back("solids: " + sentence);
     }
   }
   return description;

@@ -47,8 +47,10 @@ SolverSnapshot snapshot_of(const SolveSession& session, std::shared_ptr<const Lo
 
 namespace {
 
-// Limit for all B(n) together, and for all directions; later ones are not stored.
+// Limit for all directions; later ones are not stored.
 constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
+// Limit for all B(n) together. Beyond it, only the newest two are stored, for the last change.
+constexpr std::size_t most_radiosity_bytes = std::size_t{32} << 20;
 
 template <class Value>
 std::shared_ptr<const std::vector<Value>> shared(std::vector<Value> values) {
@@ -98,14 +100,20 @@ void SolveHistory::store_radiosity(const SolveSession& session) {
   const std::size_t patches = radiosity.size();
   radiosity_.resize(iteration + 1);
   const bool linear = session.options().basis == Basis::linear;
-  if (patches * (iteration + 1) * sizeof(Rgb) * (linear ? 3 : 1) > most_kept_bytes) {
-    return;
-  }
+  const std::size_t bytes = patches * sizeof(Rgb) * (linear ? 3 : 1);
   radiosity_[iteration] = shared(std::move(radiosity));
+  if (linear) {
+    linear_terms_.resize(iteration + 1);
+  }
+  if (iteration >= 2 && bytes * (iteration - 1) > most_radiosity_bytes) {
+    radiosity_[iteration - 2] = nullptr;
+    if (linear) {
+      linear_terms_[iteration - 2] = nullptr;
+    }
+  }
   if (!linear) {
     return;
   }
-  linear_terms_.resize(iteration + 1);
   if (iteration == 0) {
     // The solver's parts may already belong to the estimate.
     linear_terms_[0] = shared(parts_of_start(session));

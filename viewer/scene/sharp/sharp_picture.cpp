@@ -19,7 +19,8 @@ namespace transillum::viewer {
 namespace {
 
 constexpr PatchId unknown = -2;  ///< the pixel is not visited; neither a patch nor no_patch
-constexpr std::chrono::milliseconds delivery_pause{100};
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds delivery_pause{100};  ///< at least
 
 /// Pixels whose columns and rows are multiples of `step` get the samples up to `end`.
 struct Pass {
@@ -213,7 +214,6 @@ std::shared_ptr<const SnapshotLight> SharpRenderer::light_of(
     light_ = nullptr;
     auto solution = std::make_shared<Solution>(solution_of(*snapshot));
     solution->scene = scene_of(*snapshot);
-    solution->sky = snapshot->options.sky;
     std::shared_ptr<const Scene> scene = solution->scene;
     light_ = std::make_shared<const SnapshotLight>(SnapshotLight{
         snapshot, std::move(scene), SurfaceLight(std::move(solution), 0, cancellation)});
@@ -232,7 +232,8 @@ void SharpRenderer::render(const SharpSubject& subject, bool begins_fine,
   const QSize& size = subject.size;
   const CameraRays rays(*light->scene, camera, size.width(), size.height());
   Pixels pixels(subject, light->light, rays, cancellation);
-  auto delivered = std::chrono::steady_clock::now();
+  const Clock::time_point begun = Clock::now();
+  Clock::time_point delivered = begun;
   double done = 0;
   for (const Pass& pass : std::span(passes).subspan(begins_fine ? first_fine_pass : 0)) {
     // Three quarters of the pixels of a smaller step are new.
@@ -242,8 +243,9 @@ void SharpRenderer::render(const SharpSubject& subject, bool begins_fine,
         {size.width(), size.height(), pass.step}, snapshot.options.threads, cancellation,
         [&](int column, int row) { pixels.visit(column, row, pass); },
         [&](double fraction) {
-          const auto now = std::chrono::steady_clock::now();
-          if (now - delivered < delivery_pause) {
+          const auto now = Clock::now();
+          // To draw a picture costs as much time as many pixels.
+          if (now - delivered < std::max<Clock::duration>(delivery_pause, (now - begun) / 20)) {
             return;
           }
           delivered = now;

@@ -38,7 +38,7 @@ std::vector<Rgb> by_face(const std::vector<Rgb>& values, const Scene& before, co
 LiveScene live_scene(const LiveRequest& request, const Cancellation& cancellation) {
   LiveScene live;
   auto description = request.base;
-  if (!(request.placement == Placement{})) {
+  if (!(request.placement == FacePlacement{})) {
     auto placed = std::make_shared<SceneDescription>(*request.base);
     place_faces(*placed, request.faces, request.pivot, request.placement);
     description = std::move(placed);

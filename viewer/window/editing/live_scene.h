@@ -24,7 +24,7 @@ struct LiveRequest {
   std::shared_ptr<const SceneDescription> base;
   FaceList faces;
   Vec3 pivot;
-  Placement placement;
+  FacePlacement placement;
   std::vector<std::string> divided;  ///< SceneInput::divided
   std::optional<MapRequest> map;     ///< its `loaded` is not used; not set if no map is shown
   /// The number of the edit that is to be solved, whose scene is complete; not set while the hand

@@ -183,7 +183,7 @@ void MoveHandles::move_to(const QPointF& position, bool other_grid) {
   }
   const bool snaps = panel_.on_grid() != other_grid;
   const int axis = drag_->handle.axis;
-  Placement placement = drag_->placement;
+  FacePlacement placement = drag_->placement;
   const Vec3 axis_direction = axis_of(drag_->handle, drag_->placement.turn);
   const Vec3 arm = *drag_->grip - drag_->center, arm_now = *grip - drag_->center;
   switch (drag_->handle.kind) {
@@ -223,7 +223,7 @@ void MoveHandles::move_to(const QPointF& position, bool other_grid) {
 }
 
 void MoveHandles::step_by(int axis, double steps) {
-  Placement placement = edits_.placement();
+  FacePlacement placement = edits_.placement();
   coordinate(placement.move, axis) += steps * panel_.step();
   edits_.place(placement);
 }
@@ -262,7 +262,7 @@ bool MoveHandles::take_key(int key, Qt::KeyboardModifiers modifiers) {
     std::swap(across, away);
   }
   const auto sign = [](double v) { return v < 0 ? -1.0 : 1.0; };
-  Placement placement = edits_.placement();
+  FacePlacement placement = edits_.placement();
   const bool is_positive =
       key == Qt::Key_Right || key == Qt::Key_Up || key == Qt::Key_PageUp || key == Qt::Key_Plus;
   const double direction = is_positive ? 1 : -1;

@@ -43,7 +43,7 @@ class MoveHandles : public QWidget {
  private:
   struct Drag {
     Handle handle;
-    Placement placement;  ///< at its start
+    FacePlacement placement;  ///< at its start
     Vec3 center;
     double size = 0;                          ///< world_size()
     std::optional<Vec3> grip = std::nullopt;  ///< place of the handle under the pointer at first

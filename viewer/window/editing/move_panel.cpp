@@ -193,7 +193,7 @@ void MovePanel::place() {
   if (shows_ || !edits_.has_target()) {
     return;
   }
-  Placement placement = edits_.placement();
+  FacePlacement placement = edits_.placement();
   for (int k = 0; k < 3; ++k) {
     const auto* changed = sender();
     const auto index = static_cast<std::size_t>(k);

@@ -74,12 +74,15 @@ SceneEdits::SceneEdits(const WindowFrame& frame)
 SceneEdits::~SceneEdits() = default;
 
 QString SceneEdits::why_unavailable() const {
-  if (!frame_.state.scene.snapshot()) {
+  if (!frame_.state.scene.loaded()) {
     return tr("Open a scene to move its faces.");
   }
   return state_.description ? QString()
                             : tr("A result file has patches alone: open its scene to move faces.");
 }
+
+/// After a change of the scene, not before its first snapshot is here.
+bool SceneEdits::can_begin() const { return state_.description && frame_.state.scene.snapshot(); }
 
 bool SceneEdits::busy() const {
   return scenes_.busy() || lights_.busy() || awaits_solve_ || pinned_ || rest_timer_->isActive();
@@ -230,8 +233,8 @@ void SceneEdits::begin_live() {
   frame_.page.sharp()->set_solving(true);
 }
 
-void SceneEdits::place(const Placement& placement) {
-  if (state_.faces.empty() || !why_unavailable().isEmpty() || placement == placement_) {
+void SceneEdits::place(const FacePlacement& placement) {
+  if (state_.faces.empty() || !can_begin() || placement == placement_) {
     return;
   }
   begin_live();
@@ -481,7 +484,7 @@ void SceneEdits::remove() {
 
 void SceneEdits::add(AddedSolid solid) {
   finish();
-  if (!why_unavailable().isEmpty()) {
+  if (!can_begin()) {
     return;
   }
   const Bounds all = frame_.state.scene.loaded()->scene->bounds();

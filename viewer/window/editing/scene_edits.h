@@ -49,9 +49,9 @@ class SceneEdits : public QObject {
   /// The point about which the target turns, m.
   Vec3 center() const { return state_.pivot + placement_.move; }
   /// What was done to the target since it was chosen.
-  const Placement& placement() const { return placement_; }
+  const FacePlacement& placement() const { return placement_; }
   /// Shows the target as placed, and solves the scene when no further call comes for a while.
-  void place(const Placement& placement);
+  void place(const FacePlacement& placement);
   /// Solves the scene now.
   void finish();
   /// Goes back to the last edit.
@@ -86,7 +86,7 @@ class SceneEdits : public QObject {
     std::shared_ptr<const SceneDescription> base;
     FaceList faces = {};
     Vec3 pivot = {};
-    Placement placement = {};
+    FacePlacement placement = {};
   };
 
   void follow_scene();
@@ -94,6 +94,7 @@ class SceneEdits : public QObject {
   void follow_selection();
   void choose_target();
   void select_target();
+  bool can_begin() const;
   void begin_live();
   void request(const State& state, std::optional<int> edit);
   void take_scene(const LiveRequest& request, const std::shared_ptr<const LiveScene>& scene,
@@ -111,9 +112,9 @@ class SceneEdits : public QObject {
 
   WindowFrame frame_;
   bool active_ = false;
-  bool selecting_ = false;  ///< this object changes the selection
-  State state_;             ///< after the newest edit
-  Placement placement_;     ///< of the target now
+  bool selecting_ = false;   ///< this object changes the selection
+  State state_;              ///< after the newest edit
+  FacePlacement placement_;  ///< of the target now
   Vec3 extents_;
   int edit_ = 0;         ///< number of the newest edit
   int solved_edit_ = 0;  ///< the newest one that was handed to the solver

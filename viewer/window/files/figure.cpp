@@ -15,6 +15,7 @@
 #include <QSvgGenerator>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "colors/color_bar.h"
 #include "map/map_canvas.h"
@@ -79,6 +80,67 @@ struct FigurePlaces {
 bool has_bar(const FigurePlan& plan, const ColorChoice& colors) {
   return plan.explained && ColorBarSheet::applies(colors);
 }
+
+/// Draws charts as vectors, with text as text.
+class PainterDevice : public ChartDevice {
+ public:
+  /// @param font  its family and style
+  PainterDevice(QPainter& painter, const QFont& font) : painter_(painter), font_(font) {}
+
+  void fill(std::span<const ChartPoint> corners, const ChartColor& color) override {
+    painter_.setPen(Qt::NoPen);
+    painter_.setBrush(color_of(color));
+    painter_.drawPolygon(polygon_of(corners));
+  }
+  void stroke(std::span<const ChartPoint> points, bool closed, const ChartColor& color,
+              double width, std::span<const double> dashes) override {
+    QPen pen(color_of(color), width, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin);
+    QVector<qreal> pattern;
+    for (const double length : dashes) {
+      pattern << length / width;  // Qt's unit
+    }
+    if (!pattern.isEmpty()) {
+      pen.setDashPattern(pattern);
+    }
+    painter_.setPen(pen);
+    painter_.setBrush(Qt::NoBrush);
+    closed ? painter_.drawPolygon(polygon_of(points)) : painter_.drawPolyline(polygon_of(points));
+  }
+  void text(const std::string& text, const ChartPoint& at, double align, const ChartText& look,
+            bool upward) override {
+    font_.setPixelSize(qRound(look.size));
+    font_.setBold(look.bold);
+    const QFontMetricsF metrics(font_);
+    const QString line = QString::fromStdString(text);
+    painter_.save();
+    painter_.setFont(font_);
+    painter_.setPen(color_of(look.color));
+    painter_.translate(at.x, at.y);
+    painter_.rotate(upward ? -90 : 0);
+    painter_.drawText(QPointF(-align * metrics.horizontalAdvance(line),
+                              (metrics.ascent() - metrics.descent()) / 2),
+                      line);
+    painter_.restore();
+  }
+  void clip(const ChartArea& area) override {
+    painter_.save();
+    painter_.setClipRect(QRectF(QPointF(area.left, area.top), QPointF(area.right, area.bottom)));
+  }
+  void clip_nothing() override { painter_.restore(); }
+
+ private:
+  static QColor color_of(const ChartColor& color) { return {color.red, color.green, color.blue}; }
+  static QPolygonF polygon_of(std::span<const ChartPoint> points) {
+    QPolygonF polygon;
+    for (const ChartPoint& point : points) {
+      polygon << QPointF(point.x, point.y);
+    }
+    return polygon;
+  }
+
+  QPainter& painter_;
+  QFont font_;
+};
 
 /// Draws a figure in units of its layout.
 class FigurePainting {
@@ -147,7 +209,6 @@ class FigurePainting {
         QFontMetricsF(font).elidedText(plan_.title, Qt::ElideRight, layout_.title.width()));
   }
 
-  // A picture at the resolution of the figure: charts are drawn by Cairo.
   void paint_charts() {
     std::vector<LineChart> charts = views_.charts.charts();
     QRectF box = layout_.chart;
@@ -158,10 +219,11 @@ class FigurePainting {
       style.dim = chart_color(ink_);
       style.paper = chart_color(paper_);
       style.grid = is_dark_ ? ChartColor{60, 66, 74} : ChartColor{219, 222, 227};
-      const double scale = std::max(layout_.unit, 1.0);
-      QImage picture;
-      paint_chart(chart, picture, (box.size() * scale).toSize(), scale);
-      painter_.drawImage(box, picture);
+      style.font = font_.family().toStdString();
+      at(box, [&] {
+        PainterDevice device(painter_, font_);
+        draw_chart(chart, box.width(), box.height(), device);
+      });
       box.translate(0, box.height());
     }
   }

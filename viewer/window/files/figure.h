@@ -47,8 +47,8 @@ struct FigureViews {
   const ConvergenceView& charts;
 };
 
-/// Writes a figure whole or not at all: .png, or with text as text and the map as vectors, .svg or
-/// .pdf.
+/// Writes a figure whole or not at all: .png, or with text as text, and map and charts as vectors,
+/// .svg or .pdf.
 /// @param sharp  sharp picture in scene_pixels(); null without one
 /// @throws InputError as FigurePlan::validate(), or where the name has another ending;
 /// std::runtime_error where it cannot be written

@@ -121,7 +121,7 @@ void FigureDialog::show_state() {
   const QSize size = plan().pixels();
   save_->setEnabled(problem.isEmpty());
   note_->setText(problem.isEmpty()
-                     ? tr("%1 × %2 pixels; .svg and .pdf keep text and map as vectors")
+                     ? tr("%1 × %2 pixels; .svg and .pdf keep text, map and charts as vectors")
                            .arg(size.width())
                            .arg(size.height())
                      : problem);

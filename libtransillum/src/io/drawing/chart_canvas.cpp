@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Texts, lines and markers of charts, by Cairo.
+// Texts, lines and markers of charts, by Cairo or by another device.
 #include "io/drawing/chart_canvas.h"
 
 #include <algorithm>
@@ -67,6 +67,44 @@ void ChartCanvas::set(const ChartColor& color) {
   cairo_set_source_rgb(cairo_, color.red / 255.0, color.green / 255.0, color.blue / 255.0);
 }
 
+std::pair<std::vector<ChartPoint>, bool> ChartCanvas::path() const {
+  std::vector<ChartPoint> points;
+  bool closed = false;
+  cairo_path_t* path = cairo_copy_path_flat(cairo_);
+  for (int k = 0; k < path->num_data; k += path->data[k].header.length) {
+    const cairo_path_data_t* data = path->data + k;
+    if (data->header.type == CAIRO_PATH_CLOSE_PATH) {
+      closed = true;
+    } else if (!closed) {  // after it stands a move to the begin
+      points.push_back({data[1].point.x, data[1].point.y});
+    }
+  }
+  cairo_path_destroy(path);
+  return {std::move(points), closed};
+}
+
+void ChartCanvas::fill_path(const ChartColor& color) {
+  if (device_) {
+    device_->fill(path().first, color);
+    return;
+  }
+  set(color);
+  cairo_fill_preserve(cairo_);
+}
+
+void ChartCanvas::stroke_path(const ChartColor& color, double width,
+                              const std::vector<double>& dashes) {
+  if (device_) {
+    const auto [points, closed] = path();
+    device_->stroke(points, closed, color, width, dashes);
+    return;
+  }
+  set(color);
+  cairo_set_dash(cairo_, dashes.data(), static_cast<int>(dashes.size()), 0);
+  cairo_set_line_width(cairo_, width);
+  cairo_stroke(cairo_);
+}
+
 void ChartCanvas::select(const ChartText& look) {
   cairo_select_font_face(cairo_, font_.c_str(), CAIRO_FONT_SLANT_NORMAL,
                          look.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -101,6 +139,10 @@ std::string ChartCanvas::elided(const std::string& text, double room, const Char
 
 void ChartCanvas::draw(const std::string& text, const ChartPoint& at, double align,
                        const ChartText& look, bool upward) {
+  if (device_) {
+    device_->text(text, at, align, look, upward);
+    return;
+  }
   const double begin = -align * width_of(text, look);
   cairo_font_extents_t font;
   cairo_font_extents(cairo_, &font);
@@ -114,9 +156,10 @@ void ChartCanvas::draw(const std::string& text, const ChartPoint& at, double ali
 }
 
 void ChartCanvas::fill(const ChartArea& area, const ChartColor& color) {
-  set(color);
+  cairo_new_path(cairo_);
   cairo_rectangle(cairo_, area.left, area.top, area.right - area.left, area.bottom - area.top);
-  cairo_fill(cairo_);
+  fill_path(color);
+  cairo_new_path(cairo_);
 }
 
 /// The nearest point where the edges of a vertical or horizontal line are edges of pixels.
@@ -136,20 +179,18 @@ void ChartCanvas::draw(std::span<const ChartPoint> points, const ChartPen& pen) 
   const bool is_horizontal = points.size() == 2 && points[0].y == points[1].y;
   cairo_new_path(cairo_);
   for (const ChartPoint& point : points) {
-    const ChartPoint at =
-        is_vertical || is_horizontal ? on_pixels(point, pen.width, is_vertical) : point;
+    const ChartPoint at = !device_ && (is_vertical || is_horizontal)
+                              ? on_pixels(point, pen.width, is_vertical)
+                              : point;
     cairo_line_to(cairo_, at.x, at.y);
   }
   std::vector<double> dashes = dashes_of(pen.dashes);
   for (double& length : dashes) {
     length *= pen.width;
   }
-  cairo_set_dash(cairo_, dashes.data(), static_cast<int>(dashes.size()), 0);
-  cairo_set_line_width(cairo_, pen.width);
   // Round joins of a dense line take most of the drawing time and are not visible.
   cairo_set_line_join(cairo_, points.size() > 100 ? CAIRO_LINE_JOIN_BEVEL : CAIRO_LINE_JOIN_ROUND);
-  set(pen.color);
-  cairo_stroke(cairo_);
+  stroke_path(pen.color, pen.width, dashes);
 }
 
 void ChartCanvas::draw_marker(const ChartPoint& center, const ChartSeries& series,
@@ -159,15 +200,19 @@ void ChartCanvas::draw_marker(const ChartPoint& center, const ChartSeries& serie
   }
   const double half = std::max(5.5, 1.6 * series.width), edge = 0.36 * half;
   cairo_new_path(cairo_);
-  set(series.hollow ? paper : series.color);
+  const ChartColor& inside = series.hollow ? paper : series.color;
   if (series.marker == ChartMarker::dot || series.marker == ChartMarker::circle) {
     const double radius = series.marker == ChartMarker::dot ? half / 2.5 : half;
     // A disk includes its edge: one step instead of two, for lines of many dots.
     cairo_arc(cairo_, center.x, center.y, radius + (series.hollow ? 0 : edge / 2), 0,
               2 * std::numbers::pi);
     if (!series.hollow) {
-      cairo_fill(cairo_);
+      fill_path(inside);
+      cairo_new_path(cairo_);
       return;
+    }
+    if (device_) {
+      cairo_close_path(cairo_);
     }
   } else {
     for (const ChartPoint& corner : marker_corners(series.marker, half)) {
@@ -175,15 +220,24 @@ void ChartCanvas::draw_marker(const ChartPoint& center, const ChartSeries& serie
     }
     cairo_close_path(cairo_);
   }
-  cairo_fill_preserve(cairo_);
-  set(series.color);
-  cairo_set_dash(cairo_, nullptr, 0, 0);
-  cairo_set_line_width(cairo_, edge);
+  fill_path(inside);
   cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
-  cairo_stroke(cairo_);
+  stroke_path(series.color, edge, {});
+}
+
+void ChartCanvas::clip_nothing() {
+  if (device_) {
+    device_->clip_nothing();
+    return;
+  }
+  cairo_reset_clip(cairo_);
 }
 
 void ChartCanvas::clip(const ChartArea& area) {
+  if (device_) {
+    device_->clip(area);
+    return;
+  }
   cairo_rectangle(cairo_, area.left, area.top, area.right - area.left, area.bottom - area.top);
   cairo_clip(cairo_);
 }

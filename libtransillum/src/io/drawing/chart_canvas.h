@@ -5,17 +5,12 @@
 
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "io/drawing/line_chart.h"
 
 namespace transillum {
-
-/// How a text looks.
-struct ChartText {
-  double size;  ///< size of the font
-  ChartColor color;
-  bool bold = false;
-};
 
 /// How a line looks.
 struct ChartPen {
@@ -24,12 +19,15 @@ struct ChartPen {
   ChartDashes dashes = ChartDashes::solid;
 };
 
-/// Draws the parts of charts on a Cairo context, in its user units, y downward.
+/// Draws the parts of charts on a Cairo context, in its user units, y downward; or on another
+/// device, for which the context measures texts and makes paths.
 class ChartCanvas {
  public:
   /// @param cairo  must outlive this object
   /// @param font  family of all texts
-  ChartCanvas(cairo_t* cairo, std::string font) : cairo_(cairo), font_(std::move(font)) {}
+  /// @param device  null for Cairo
+  ChartCanvas(cairo_t* cairo, std::string font, ChartDevice* device = nullptr)
+      : cairo_(cairo), font_(std::move(font)), device_(device) {}
 
   double width_of(const std::string& text, const ChartText& look);
   /// `text`, shortened with an ellipsis if it is wider than `room`; empty if there is no room.
@@ -49,20 +47,30 @@ class ChartCanvas {
 
   /// Limits drawing to `area`, until clip_nothing().
   void clip(const ChartArea& area);
-  void clip_nothing() { cairo_reset_clip(cairo_); }
+  void clip_nothing();
 
  private:
   void set(const ChartColor& color);
+  /// Fills the path, which remains.
+  void fill_path(const ChartColor& color);
+  /// Draws the path, which is removed.
+  /// @param dashes  lengths of dashes and gaps
+  void stroke_path(const ChartColor& color, double width, const std::vector<double>& dashes);
+  /// The points of the path, and whether it is closed.
+  std::pair<std::vector<ChartPoint>, bool> path() const;
   void select(const ChartText& look);
   ChartPoint on_pixels(const ChartPoint& point, double width, bool is_vertical);
 
   cairo_t* cairo_;
   std::string font_;
+  ChartDevice* device_;
 };
 
 /// Paints `chart` at the origin of `cairo`.
 /// @param width, height of the chart, in user units of `cairo`
+/// @param device  draws in place of `cairo`, without the paper; null for `cairo`
 /// @returns the plot's area in the same units
-ChartArea paint_chart(cairo_t* cairo, const LineChart& chart, double width, double height);
+ChartArea paint_chart(cairo_t* cairo, const LineChart& chart, double width, double height,
+                      ChartDevice* device = nullptr);
 
 }  // namespace transillum

@@ -100,6 +100,19 @@ ChartArea paint_chart(const LineChart& chart, const ChartPixels& pixels, double 
   return area;
 }
 
+void draw_chart(const LineChart& chart, double width, double height, ChartDevice& device) {
+  const CairoSurface surface = make_surface(1, 1);
+  const CairoContext cairo(cairo_create(surface.get()), cairo_destroy);
+  // Flattens circles; sizes of texts are those without a grid of pixels.
+  cairo_set_tolerance(cairo.get(), 0.02);
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(cairo.get(), options);
+  cairo_font_options_destroy(options);
+  paint_chart(cairo.get(), chart, width, height, &device);
+  check_drawn(cairo_status(cairo.get()));
+}
+
 void check_chart_path(const std::filesystem::path& path) {
   chart_writer_for(path);
   check_writable(path);

@@ -75,12 +75,14 @@ std::vector<ChartPoint> thinned(const std::vector<ChartPoint>& points) {
 /// One chart and the layout of its parts.
 class ChartPainter {
  public:
-  ChartPainter(cairo_t* cairo, const LineChart& chart, double width, double height)
+  ChartPainter(cairo_t* cairo, const LineChart& chart, double width, double height,
+               ChartDevice* device)
       : chart_(with_clean_texts(chart)),
         style_(chart.style),
         width_(width),
         height_(height),
-        canvas_(cairo, style_.font),
+        canvas_(cairo, style_.font, device),
+        has_paper_(device == nullptr),
         title_{style_.title_size, style_.ink, style_.bold_title},
         axis_title_{style_.text_size, style_.dim},
         label_{style_.label_size, style_.ink},
@@ -116,6 +118,7 @@ class ChartPainter {
   const ChartStyle& style_;
   double width_, height_;
   ChartCanvas canvas_;
+  bool has_paper_;
   ChartText title_, axis_title_, label_, legend_text_;
   ChartArea plot_;
   std::vector<std::size_t> legend_;      ///< named series
@@ -391,7 +394,9 @@ void ChartPainter::draw_legend_column() {
 
 ChartArea ChartPainter::paint() {
   lay_out();
-  canvas_.fill({0, 0, width_, height_}, style_.paper);
+  if (has_paper_) {
+    canvas_.fill({0, 0, width_, height_}, style_.paper);
+  }
   draw_title();
   if (width_of(plot_) < 40 || height_of(plot_) < 20) {
     return plot_;
@@ -414,8 +419,9 @@ ChartArea ChartPainter::paint() {
 
 }  // namespace
 
-ChartArea paint_chart(cairo_t* cairo, const LineChart& chart, double width, double height) {
-  return ChartPainter(cairo, chart, width, height).paint();
+ChartArea paint_chart(cairo_t* cairo, const LineChart& chart, double width, double height,
+                      ChartDevice* device) {
+  return ChartPainter(cairo, chart, width, height, device).paint();
 }
 
 }  // namespace transillum

@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
-
 
 namespace transillum {
 
@@ -137,6 +137,42 @@ struct ChartPixels {
 /// @returns the plot area, in pixels of a screen with scale 1.
 /// @throws std::runtime_error if drawing fails.
 ChartArea paint_chart(const LineChart& chart, const ChartPixels& pixels, double scale = 1);
+
+/// How a text looks.
+struct ChartText {
+  double size;        ///< size of the font
+  ChartColor color;   ///< color of the letters
+  bool bold = false;  ///< else of normal weight
+};
+
+/// Draws charts in place of Cairo, y downward.
+class ChartDevice {
+ public:
+  virtual ~ChartDevice() = default;
+  /// Fills a polygon.
+  virtual void fill(std::span<const ChartPoint> corners, const ChartColor& color) = 0;
+  /// Draws a polyline, or the edges of a polygon.
+  /// @param dashes lengths of dashes and gaps in turn; empty for a continuous line.
+  virtual void stroke(std::span<const ChartPoint> points, bool closed, const ChartColor& color,
+                      double width, std::span<const double> dashes) = 0;
+  /// Draws a line of text.
+  /// @param at middle of its height, and of its width the fraction `align` from its begin.
+  /// @param upward turned by 90 degrees, to be read from below.
+  virtual void text(const std::string& text, const ChartPoint& at, double align,
+                    const ChartText& look, bool upward) = 0;
+  /// Limits drawing to an area until clip_nothing().
+  virtual void clip(const ChartArea& area) = 0;
+  /// Ends the limit.
+  virtual void clip_nothing() = 0;
+};
+/// Draws a chart, without its paper, at the origin of a device. Texts are measured with Cairo's
+/// fonts.
+/// @param chart the chart.
+/// @param width width of the chart.
+/// @param height height of the chart.
+/// @param device the device; it has the font of the chart's style.
+/// @throws std::runtime_error if drawing fails.
+void draw_chart(const LineChart& chart, double width, double height, ChartDevice& device);
 
 /// The size of a chart in a file.
 struct ChartPage {

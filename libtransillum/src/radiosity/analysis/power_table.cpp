@@ -54,11 +54,13 @@ void add(SurfacePower& to, const SurfacePower& surface) {
   to.emitted += surface.emitted;
   to.received += surface.received;
   to.from_sky += surface.from_sky;
+  to.from_sun += surface.from_sun;
   to.absorbed += surface.absorbed;
   to.escaped += surface.escaped;
 }
 
-SurfacePower power_of(const Solution& solution, PatchId i, const Material& material) {
+SurfacePower power_of(const Solution& solution, PatchId i, const Material& material,
+                      std::span<const Rgb> sun) {
   const double area = solution.scene->patch(i).area;
   const Rgb h = at(solution.irradiance, i);
   const Rgb reflected = solution.statistics.glossy.patches > 0
@@ -70,7 +72,8 @@ SurfacePower power_of(const Solution& solution, PatchId i, const Material& mater
                      .received = area * h,
                      .absorbed = area * ((Rgb{1, 1, 1} - reflected) * h)};
   if (!solution.sky_irradiance.empty()) {
-    power.from_sky = area * at(solution.sky_irradiance, i);
+    power.from_sun = sun.empty() ? Rgb() : area * at(sun, i);
+    power.from_sky = area * at(solution.sky_irradiance, i) - power.from_sun;
   }
   if (!solution.sky_fractions.empty()) {
     power.escaped = (area * at(solution.sky_fractions, i)) * at(solution.radiosity, i);
@@ -169,7 +172,7 @@ const Choices& choices_of<SurfaceKind>() {
 }
 
 double escaped_share(const SurfacePower& total) {
-  const Rgb all = total.emitted + total.from_sky;
+  const Rgb all = total.emitted + total.from_sky + total.from_sun;
   return ratio_or_zero(total.escaped.r + total.escaped.g + total.escaped.b, all.r + all.g + all.b);
 }
 
@@ -180,7 +183,7 @@ bool is_open(const SolveStatistics& statistics) {
 
 PowerTable power_table(const Solution& solution, SurfaceKind by, const FormFactors* form_factors,
                        std::span<const Material> materials,
-                       std::span<const std::int32_t> patch_materials) {
+                       std::span<const std::int32_t> patch_materials, std::span<const Rgb> sun) {
   const Division division = divide(*solution.scene, by);
   PowerTable table;
   table.escape_known = !solution.sky_fractions.empty();
@@ -192,7 +195,7 @@ PowerTable power_table(const Solution& solution, SurfaceKind by, const FormFacto
     const Material& material =
         materials.empty() ? solution.scene->material(i) : at(materials, at(patch_materials, i));
     exitance.push_back(material.exitance);
-    add(table.surfaces[at(division.of_patch, i)], power_of(solution, i, material));
+    add(table.surfaces[at(division.of_patch, i)], power_of(solution, i, material, sun));
   }
   table.total.name = "total";
   for (const SurfacePower& surface : table.surfaces) {

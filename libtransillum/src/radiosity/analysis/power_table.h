@@ -30,12 +30,13 @@ struct SurfacePower {
   Rgb emitted = {};          ///< sum A_i E_i
   Rgb received = {};         ///< sum A_i H_i, of all light
   Rgb from_sky = {};         ///< the part of it that comes from the sky
+  Rgb from_sun = {};         ///< the part of it that comes from the sun, if known separately
   Rgb absorbed = {};         ///< sum A_i (1 - rho_i) H_i
   Rgb escaped = {};          ///< sum A_i B_i times the fraction that meets no patch; 0 if not known
 };
 
-/// Fraction of the light that escapes: the escaped power over the emitted and that from the sky,
-/// all channels together; 0 without light.
+/// Fraction of the light that escapes: the escaped power over the emitted and that from sky and
+/// sun, all channels together; 0 without light.
 /// @param total over all patches
 double escaped_share(const SurfacePower& total);
 
@@ -46,7 +47,8 @@ bool is_open(const SolveStatistics& statistics);
 /// Powers by group or by material.
 ///
 /// Up to the tolerance of the solve, and the error of row sums (eq. 17) where they are not
-/// normalized, emitted + from_sky = absorbed + escaped in total, if no light meets a back side.
+/// normalized, emitted + from_sky + from_sun = absorbed + escaped in total, if no light meets a
+/// back side.
 struct PowerTable {
   std::vector<SurfacePower> surfaces;  ///< parts with patches, in the order of the scene; the
                                        ///< patches of no group come last
@@ -54,8 +56,8 @@ struct PowerTable {
   bool escape_known = false;           ///< Solution::sky_fractions is known
   /// Entry [i][j]: power that leaves part j and arrives directly at part i, sum A_k F_kl B_l over
   /// their patches, with linear functions sum_b T^0b(k,l) b_lb, W; empty without form factors. What
-  /// a first shot found the sources to send more or less is included: rows and `from_sky` add up to
-  /// `received`.
+  /// a first shot found the sources to send more or less is included: rows, `from_sky` and
+  /// `from_sun` add up to `received`.
   std::vector<std::vector<Rgb>> exchanged;
 };
 
@@ -66,11 +68,13 @@ struct PowerTable {
 /// @param materials E and rho that the solution has, where they differ from the scene's
 /// (relight()); if empty, the scene's apply.
 /// @param patch_materials index into `materials` for each patch; read with `materials` only.
+/// @param sun SunLight::irradiance of the solution; if empty, `from_sky` includes the sun.
 /// @throws InputError where the form factors are of another number of patches, or have no moments
 /// for a solution with linear functions.
 PowerTable power_table(const Solution& solution, SurfaceKind by,
                        const FormFactors* form_factors = nullptr,
                        std::span<const Material> materials = {},
-                       std::span<const std::int32_t> patch_materials = {});
+                       std::span<const std::int32_t> patch_materials = {},
+                       std::span<const Rgb> sun = {});
 
 }  // namespace transillum

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <iterator>
@@ -37,6 +38,10 @@ void check(const Scene& scene, PatchId receiver, const LightPathOptions& options
   if (!options.start.empty() && options.start.size() != scene.patches().size()) {
     throw InputError(
         "the initial radiosity belongs to another scene: the number of patches differs");
+  }
+  if (!options.sun_irradiance.empty() &&
+      options.sun_irradiance.size() != options.sky_irradiance.size()) {
+    throw InputError("the light of the sun is of another number of patches than that of the sky");
   }
 }
 
@@ -81,17 +86,23 @@ class Search {
   const Material& material(PatchId k) const {
     return material_of_patch(scene_, materials_, options_.patch_materials, k);
   }
-  /// Light that it emits, and reflects from the sky.
-  Rgb emission(PatchId k) const {
+  /// Light with which paths from it begin.
+  Rgb emission(PatchId k, LightOrigin origin) const {
     const Material& of_patch = material(k);
-    return options_.sky_irradiance.empty()
-               ? of_patch.exitance
-               : of_patch.exitance + of_patch.reflectance * at(options_.sky_irradiance, k);
+    if (origin == LightOrigin::emission) {
+      return of_patch.exitance;
+    }
+    const auto received = [k](std::span<const Rgb> irradiance) {
+      return irradiance.empty() ? Rgb() : at(irradiance, k);
+    };
+    const Rgb sun = received(options_.sun_irradiance);
+    return of_patch.reflectance *
+           (origin == LightOrigin::sun ? sun : received(options_.sky_irradiance) - sun);
   }
   /// Paths that carry no more need not be found.
   double threshold() const {
     const bool full = std::ssize(found_) == options_.count;
-    return full ? std::max(smallest_, found_.top().first) : smallest_;
+    return full ? std::max(smallest_, found_.top().luminance) : smallest_;
   }
   void cut_off(const Node& node) { result_.cut_off += node.weight * at(b_, node.patch); }
 
@@ -107,20 +118,28 @@ class Search {
       unfinished_.emplace(total, -(std::ssize(nodes_) - 1));
     }
   }
-  /// The path that starts at the node.
+  /// The light of the path that starts at the node.
+  Rgb light_of(const Node& node, LightOrigin origin) const {
+    return node.weight * emission(node.patch, origin);
+  }
+  /// The paths that start at the node.
   void finish(std::int64_t index) {
-    const Node& node = at(nodes_, index);
-    const Rgb light = node.weight * emission(node.patch);
+    for (const LightOrigin origin : {LightOrigin::emission, LightOrigin::sky, LightOrigin::sun}) {
+      finish(index, origin);
+    }
+  }
+  void finish(std::int64_t index, LightOrigin origin) {
+    const Rgb light = light_of(at(nodes_, index), origin);
     if (luminance(light) <= threshold()) {
       result_.cut_off += light;
       return;
     }
     if (std::ssize(found_) == options_.count) {
-      const Node& weakest = at(nodes_, found_.top().second);
-      result_.cut_off += weakest.weight * emission(weakest.patch);
+      const Found& weakest = found_.top();
+      result_.cut_off += light_of(at(nodes_, weakest.first), weakest.origin);
       found_.pop();
     }
-    found_.emplace(luminance(light), index);
+    found_.push({luminance(light), index, origin});
   }
   void extend(std::int64_t index) {
     const Node node = at(nodes_, index);  // a copy: push() may move them
@@ -132,9 +151,9 @@ class Search {
   }
   LightPaths collect() {
     for (; !found_.empty(); found_.pop()) {
-      const Node& first = at(nodes_, found_.top().second);
-      LightPath path{{}, first.weight * emission(first.patch)};
-      for (std::int64_t k = found_.top().second; k >= 0; k = at(nodes_, k).toward) {
+      const Found& weakest = found_.top();
+      LightPath path{{}, light_of(at(nodes_, weakest.first), weakest.origin), weakest.origin};
+      for (std::int64_t k = weakest.first; k >= 0; k = at(nodes_, k).toward) {
         path.patches.push_back(at(nodes_, k).patch);
       }
       result_.paths.push_back(std::move(path));
@@ -152,7 +171,13 @@ class Search {
   std::vector<Node> nodes_;
   /// Light that a node carries, and minus its index: of equal ones the oldest is next.
   std::priority_queue<std::pair<double, std::int64_t>> unfinished_;
-  using Found = std::pair<double, std::int64_t>;  ///< luminance and index of the first node
+  /// A path: its luminance, the index of its first node, and where it begins.
+  struct Found {
+    double luminance;
+    std::int64_t first;
+    LightOrigin origin;
+    auto operator<=>(const Found&) const = default;
+  };
   std::priority_queue<Found, std::vector<Found>, std::greater<>> found_;  ///< the weakest on top
   LightPaths result_;
 };

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,13 +25,29 @@ struct LightPathOptions {
   /// Irradiance of each patch from a sky, as for relight(): it counts as if the patches that it
   /// meets first emitted what they reflect of it, so such a path begins there. Empty without a sky.
   std::span<const Rgb> sky_irradiance = {};
+  /// The part of sky_irradiance that the sun gives, as SunLight::irradiance: its paths are
+  /// listed separately. Empty without a sun.
+  std::span<const Rgb> sun_irradiance = {};
   int threads = 0;  ///< threads of the solve; 0 uses all cores; the result does not depend on it
+};
+
+/// Where a light path begins.
+enum class LightOrigin {
+  emission,  ///< with light that its first patch emits
+  sky,       ///< with light of the sky that its first patch reflects
+  sun,       ///< with light of the sun that its first patch reflects
 };
 
 /// Light that leaves a source and reaches a patch by way of others.
 struct LightPath {
   std::vector<PatchId> patches;  ///< from the source to the receiver
   Rgb contribution;              ///< to B of the receiver, W/m²
+  LightOrigin origin = LightOrigin::emission;
+
+  /// Number of reflections, by the receiver included.
+  std::size_t reflections() const {
+    return patches.size() - (origin == LightOrigin::emission ? 1 : 0);
+  }
 };
 
 /// The result of find_light_paths().

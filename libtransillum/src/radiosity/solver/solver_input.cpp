@@ -75,7 +75,8 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
       tree(std::move(resources.tree)),
       engine(std::move(resources.engine)),
       sums(resources.sums ? resources.sums : sums_in_memory()),
-      cancellation(sums->own(requested)) {
+      cancellation(sums->own(requested)),
+      makes_engine_(!engine) {
   sums->agree([this] { prepare(); });
 }
 
@@ -91,11 +92,15 @@ void SolverInput::prepare() {
                                            options.threads);
     seconds_bsp = seconds_since(start);
   }
+  require_engine();
+  sun = sun_light(scene, tree, options, requested);
+  unknowns = std::make_shared<const Unknowns>(*scene, options.basis, *shot, sun);
+}
+
+void SolverInput::require_engine() {
   if (!engine) {
     engine = make_engine(options.engine, scene, tree, used_engine_options(options));
   }
-  sun = sun_light(scene, tree, options, requested);
-  unknowns = std::make_shared<const Unknowns>(*scene, options.basis, *shot, sun);
 }
 
 }  // namespace transillum

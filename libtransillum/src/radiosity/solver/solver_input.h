@@ -26,7 +26,7 @@ DirectLight first_shot(const Scene& scene, const SolveOptions& options,
                        const Cancellation& cancellation,
                        const std::function<void(double)>& progress = {});
 
-/// The input of a solve; constant once constructed, so any thread may read it.
+/// The input of a solve; constant while passes are made, so any thread may read it.
 struct SolverInput {
   std::shared_ptr<const Scene> scene;
   SolveOptions options;                     ///< validated
@@ -34,8 +34,8 @@ struct SolverInput {
   int threads = 1;                          ///< options.threads, or the number of cores
   std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
   std::shared_ptr<const BspTree> tree;
-  SunLight sun;  ///< empty without a sun
-  TransferEngine engine;
+  SunLight sun;                     ///< empty without a sun
+  TransferEngine engine;            ///< null between release_engine() and require_engine()
   std::shared_ptr<PatchSums> sums;  ///< where they are kept
   Cancellation cancellation;        ///< PatchSums::own() of `requested`
   std::shared_ptr<const Unknowns> unknowns;
@@ -46,6 +46,15 @@ struct SolverInput {
   SolverInput(std::shared_ptr<const Scene> scene, const SolveOptions& options,
               SolverResources resources, const Cancellation& cancellation);
 
+  /// Frees the memory of an engine that was made here: no pass follows.
+  void release_engine() {
+    if (makes_engine_) {
+      engine = {};
+    }
+  }
+  /// Makes the engine if there is none.
+  void require_engine();
+
   int directions_per_pass() const { return options.two_way ? 2 : 1; }
   OwnedPatches owned() const { return {*sums, scene->patch_count()}; }
   /// @throws Canceled, in every process
@@ -54,6 +63,8 @@ struct SolverInput {
 
  private:
   void prepare();
+
+  bool makes_engine_;  ///< none was passed in
 };
 
 }  // namespace transillum

@@ -217,6 +217,9 @@ void RadiositySolver::Impl::finish_iteration() {
   history.update(whole, changes, iteration.seconds + seconds, complete);
   iteration.end(history.b());
   owned.check_same(history.b());
+  if (history.finished()) {
+    input.release_engine();
+  }
 }
 
 void RadiositySolver::Impl::add_replica() {
@@ -225,6 +228,7 @@ void RadiositySolver::Impl::add_replica() {
       (scheme != Scheme::fixed && !traits_of(scheme).is_symmetric)) {
     throw std::logic_error("add_replica: the solve is unfinished or has no replicas of one set");
   }
+  input.require_engine();
   append_replica();
   iteration.directions = plan.directions(0);
   history.reopen(input.options.directions);

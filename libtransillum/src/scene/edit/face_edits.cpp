@@ -190,7 +190,7 @@ Bounds bounds_of(const SceneDescription& description, std::span<const std::int32
 }
 
 void place_faces(SceneDescription& description, std::span<const std::int32_t> faces,
-                 const Vec3& pivot, const Placement& placement) {
+                 const Vec3& pivot, const FacePlacement& placement) {
   const Vec3& scale = placement.scale;
   if (!(scale.x > 0 && scale.y > 0 && scale.z > 0)) {
     throw InputError("scale: the factors must be > 0");
@@ -198,7 +198,7 @@ void place_faces(SceneDescription& description, std::span<const std::int32_t> fa
   if (!is_finite(placement.move) || !is_finite(placement.turn) || !is_finite(scale)) {
     throw InputError("placement: the numbers must be finite");
   }
-  if (placement == Placement{}) {
+  if (placement == FacePlacement{}) {
     return;
   }
   std::vector<std::int32_t> uses(description.points.size());

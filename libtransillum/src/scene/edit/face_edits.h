@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/edit/placement.h"
+#include "scene/edit/face_placement.h"
 #include "transillum/scene.h"
 
 namespace transillum {
@@ -35,7 +35,7 @@ Bounds bounds_of(const SceneDescription& description, std::span<const std::int32
 /// Moves faces. A corner that others share stays theirs, and the moved faces get a new point.
 /// @throws InputError where a factor is not positive, or a coordinate is not finite
 void place_faces(SceneDescription& description, std::span<const std::int32_t> faces,
-                 const Vec3& pivot, const Placement& placement);
+                 const Vec3& pivot, const FacePlacement& placement);
 /// Removes faces; the numbers of the others stay.
 void remove_faces(SceneDescription& description, std::span<const std::int32_t> faces);
 /// Copies faces, translated by `move`, with new numbers.

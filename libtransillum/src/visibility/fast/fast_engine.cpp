@@ -564,25 +564,29 @@ TransferEngine engine_of(std::shared_ptr<const FastScene> shared) {
   };
 }
 
-}  // namespace
-
-TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
-                           bool moments) {
+std::shared_ptr<FastScene> fast_scene(std::shared_ptr<const Scene> scene,
+                                      std::shared_ptr<const BspTree> tree, bool moments) {
   auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
   shared->backs_hidden = hides_all_backs(*shared);
   if (moments) {
     shared->bases = std::make_shared<const std::vector<LinearBasis>>(linear_bases(*shared->scene));
   }
-  return engine_of(std::move(shared));
+  return shared;
+}
+
+}  // namespace
+
+TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
+                           bool moments) {
+  return engine_of(fast_scene(std::move(scene), std::move(tree), moments));
 }
 
 TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
-                                 std::shared_ptr<const BspTree> tree, PatchId patch) {
-  auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
-  // Holds for the whole scene, and so for the fragments in the shaft.
-  shared->backs_hidden = hides_all_backs(*shared);
+                                 std::shared_ptr<const BspTree> tree, PatchId patch, bool moments) {
+  // That no backs are seen holds for the whole scene, and so for the fragments in the shaft.
+  const auto shared = fast_scene(std::move(scene), std::move(tree), moments);
   shared->shaft.emplace(*shared->scene, *shared->tree, patch);
-  return engine_of(std::move(shared));
+  return engine_of(shared);
 }
 
 }  // namespace transillum

@@ -14,7 +14,8 @@ TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<c
                            bool moments = false);
 /// Engine `fast`, restricted to the exchanges of one patch; all other transfers are incomplete.
 TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
-                                 std::shared_ptr<const BspTree> tree, PatchId patch);
+                                 std::shared_ptr<const BspTree> tree, PatchId patch,
+                                 bool moments = false);
 /// Engine `corrected`: no cutting; partly hidden areas are corrected (the paper's section 8).
 TransferEngine corrected_engine(std::shared_ptr<const Scene> scene,
                                 std::shared_ptr<const BspTree> tree);

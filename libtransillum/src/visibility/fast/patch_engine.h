@@ -8,9 +8,10 @@
 namespace transillum {
 
 /// Makes an engine restricted to one patch: its Transfers list only the exchanges in which `patch`
-/// is the receiver or the source, equal up to rounding to those of make_engine(); all other fields
-/// are empty. Engine fast processes only the fragments above and below the patch, which in large
-/// scenes is a small part of a pass; other engines run a whole pass.
+/// is the receiver or the source, with moments if `options` ask for them, equal up to rounding to
+/// the Transfers of make_engine(). Coverages are right for the patch only; all other fields are
+/// empty. Engine fast processes only the fragments above and below the patch, which in large scenes
+/// is a small part of a pass; other engines run a whole pass.
 ///
 /// Keeps scene and tree alive. Threads as for TransferEngine.
 /// @param engine any that takes_directions().

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/edit/placement.h"
+#include "scene/edit/face_placement.h"
 
 #include <array>
 #include <cmath>
@@ -78,7 +78,7 @@ Vec3 turned_further(const Vec3& turn, int axis, double degrees) {
   return angles_of(columns);
 }
 
-Vec3 placed(const Vec3& point, const Vec3& pivot, const Placement& placement) {
+Vec3 placed(const Vec3& point, const Vec3& pivot, const FacePlacement& placement) {
   if (placement.turn == Vec3{} && placement.scale == Vec3{1, 1, 1}) {
     return point + placement.move;
   }
