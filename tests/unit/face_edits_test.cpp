@@ -192,7 +192,7 @@ TEST(FaceEdits, added_solids_face_the_right_way) {
   }
 }
 
-// What is solved in memory is what a saved file gives.
+// A scene that was edited in memory and the file saved from it are one scene.
 TEST(FaceEdits, an_edited_scene_and_its_file_have_the_same_light) {
   const test::TemporaryFolder folder;
   SceneDescription d = describe_scene("cornell-box");

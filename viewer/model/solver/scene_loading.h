@@ -34,8 +34,8 @@ std::shared_ptr<const LoadedScene> loaded_scene(
     const Cancellation& cancellation,
     const std::shared_ptr<const SceneDescription>& faces = nullptr);
 
-/// The scene of a description whose faces were edited, without picker and measures: those of
-/// `before` are kept if it has as many patches.
+/// The scene of a description whose faces were edited, without a picker and measures of its own: it
+/// keeps the ones of `before` if both have as many patches.
 /// @param divided  SceneInput::divided
 /// @throws InputError, Canceled
 std::shared_ptr<LoadedScene> edited_scene(const LoadedScene& before,

@@ -350,7 +350,7 @@ void MoveHandles::paintEvent(QPaintEvent*) {
   for (const Handle& handle : handles()) {
     const bool held = drag_ ? drag_->handle.is_like(handle) : hovered_ && hovered_->is_like(handle);
     if (drag_ && !held) {
-      continue;  // what is moved shows better alone
+      continue;  // the target shows better alone
     }
     const QColor color = held ? theme::processed : color_of(handle.axis);
     const double width = held ? 3 : 2;

@@ -19,8 +19,8 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double angle_step = 15;  // degrees
-constexpr double largest = 1e6;    // of coordinates, m
+constexpr double angle_step = 15;           // degrees
+constexpr double largest_coordinate = 1e6;  // m
 
 /// 1, 2 or 5 times a power of ten, not above a value.
 double round_step_below(double value) {
@@ -56,7 +56,7 @@ MovePanel::MovePanel(SceneEdits& edits, QWidget* parent) : QWidget(parent), edit
   column->addWidget(fields);
   step_ = named("move_step", new QDoubleSpinBox);
   step_->setDecimals(4);
-  step_->setRange(1e-4, largest);
+  step_->setRange(1e-4, largest_coordinate);
   grid_ = named("move_grid", new QCheckBox(tr("Snap")),
                 tr("Drags move in steps, and turn by 15°; the Ctrl key does the other"));
   auto* grid = new QWidget;
@@ -86,7 +86,7 @@ QWidget* MovePanel::make_fields(const char* name, Fields& fields) {
     field->setKeyboardTracking(false);
     field->setButtonSymbols(QAbstractSpinBox::NoButtons);
     field->setDecimals(turns ? 2 : 4);
-    field->setRange(scales ? 1e-3 : -largest, scales ? 1e3 : largest);
+    field->setRange(scales ? 1e-3 : -largest_coordinate, scales ? 1e3 : largest_coordinate);
     field->setSingleStep(turns ? angle_step : 0.1);
     field->setMinimumWidth(58);
     row->addWidget(field, 1);

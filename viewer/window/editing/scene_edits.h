@@ -48,7 +48,7 @@ class SceneEdits : public QObject {
   Vec3 extents() const { return extents_; }
   /// The point about which the target turns, m.
   Vec3 center() const { return state_.pivot + placement_.move; }
-  /// What was done to the target since it was chosen.
+  /// The target's move, turn and scale since it was chosen.
   const FacePlacement& placement() const { return placement_; }
   /// Shows the target as placed, and solves the scene when no further call comes for a while.
   void place(const FacePlacement& placement);
@@ -114,7 +114,7 @@ class SceneEdits : public QObject {
   bool active_ = false;
   bool selecting_ = false;   ///< this object changes the selection
   State state_;              ///< after the newest edit
-  FacePlacement placement_;  ///< of the target now
+  FacePlacement placement_;  ///< the target's, now
   Vec3 extents_;
   int edit_ = 0;         ///< number of the newest edit
   int solved_edit_ = 0;  ///< the newest one that was handed to the solver

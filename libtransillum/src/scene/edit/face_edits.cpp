@@ -104,7 +104,7 @@ void append(SceneDescription& description, const std::vector<PointId>& outline, 
             int group, bool two_sided) {
   const std::int32_t number = next_number(description);
   description.add_face(outline, material, 0, group);
-  description.face_group.back() = group;
+  description.face_two_sided.resize(description.face_count(), 0);
   description.face_two_sided.back() = two_sided ? 1 : 0;
   description.face_number.push_back(number);
 }

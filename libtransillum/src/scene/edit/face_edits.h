@@ -43,7 +43,7 @@ void remove_faces(SceneDescription& description, std::span<const std::int32_t> f
 FaceList copy_faces(SceneDescription& description, std::span<const std::int32_t> faces,
                     const Vec3& move);
 
-/// What add_solid() adds.
+/// The kinds of things that add_solid() adds.
 enum class AddedSolid {
   box,    ///< six faces that light outward
   board,  ///< a level two-sided face
