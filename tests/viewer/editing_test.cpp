@@ -152,6 +152,22 @@ class EditingTest : public QObject {
     QVERIFY(e.light() == before);
   }
 
+  void the_plate_of_a_patch_does_not_cover_a_handle() {
+    const Edited e;
+    QVERIFY(e.ready);
+    const auto* plate = e.canvas->findChild<QWidget*>("pointer_label");
+    const auto move_to = [&](const QPointF& place) {
+      QMouseEvent move(QEvent::MouseMove, place, e.canvas->mapToGlobal(place.toPoint()),
+                       Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+      QCoreApplication::sendEvent(e.canvas, &move);
+    };
+    const QPointF tip = e.handle(MoveHandles::Kind::move, 0)->shape.back();
+    move_to(tip + QPointF(0, 60));
+    QVERIFY(plate->isVisible());
+    move_to(tip);
+    QVERIFY(!plate->isVisible());
+  }
+
   void handles_slide_turn_and_scale() {
     const Edited e;
     QVERIFY(e.ready);

@@ -4,6 +4,7 @@
 // and now gives the move, the angle or the factor.
 #include "window/editing/move_handles.h"
 
+#include <QCoreApplication>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
@@ -307,8 +308,12 @@ bool MoveHandles::eventFilter(QObject* watched, QEvent* event) {
       if (now.has_value() != hovered_.has_value() || (now && !now->is_like(*hovered_))) {
         hovered_ = now;
         update();
+        if (now) {  // the plate of the patch below goes
+          QEvent leave(QEvent::Leave);
+          QCoreApplication::sendEvent(view_.canvas(), &leave);
+        }
       }
-      return false;
+      return now.has_value();
     }
     case QEvent::MouseButtonRelease:
       if (drag_) {
