@@ -104,6 +104,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   glyph_->hide();
   turn_preview_->hide();
   feature_edges_->show_scene(loaded_);
+  paths_ = nullptr;
   path_glyph_->hide();
   selected_->show(loaded_.get(), selection_.patches(), 1.5e-3 * radius_);
   if (!stays) {
@@ -225,11 +226,23 @@ void SceneView::hide_turn() {
 }
 
 void SceneView::show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized) {
-  if (!loaded_ || (!paths && !path_glyph_->shown())) {
+  paths_ = paths;
+  emphasized_path_ = emphasized;
+  draw_paths();
+}
+
+void SceneView::set_paths_hidden(bool hidden) {
+  paths_hidden_ = hidden;
+  draw_paths();
+}
+
+void SceneView::draw_paths() {
+  const bool drawn = paths_ && !paths_hidden_;
+  if (!loaded_ || (!drawn && !path_glyph_->shown())) {
     return;
   }
-  if (paths) {
-    path_glyph_->show(*loaded_->scene, *paths, emphasized);
+  if (drawn) {
+    path_glyph_->show(*loaded_->scene, *paths_, emphasized_path_);
   } else {
     path_glyph_->hide();
   }

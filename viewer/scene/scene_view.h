@@ -80,6 +80,8 @@ class SceneView : public QWidget {
   /// @param paths  null if there are none
   /// @param emphasized  index of a path, or -1
   void show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized);
+  /// While hidden, paths are not drawn.
+  void set_paths_hidden(bool hidden);
   bool previews_turn() const { return turn_preview_->shown(); }
   /// Keeps the viewing direction and fits the whole scene.
   void fit_all();
@@ -186,6 +188,7 @@ class SceneView : public QWidget {
   void recolor();
   std::shared_ptr<const SolverSnapshot> lit_snapshot() const;
   void show_direction();
+  void draw_paths();
   bool stepping() const;
   void show_step();
   void leave_out_hidden();
@@ -240,6 +243,9 @@ class SceneView : public QWidget {
   std::unique_ptr<SceneOverlays> overlays_;
   std::unique_ptr<TurnPreview> turn_preview_;
   std::unique_ptr<PathGlyph> path_glyph_;
+  std::shared_ptr<const LightPaths> paths_;  ///< of show_paths()
+  int emphasized_path_ = -1;
+  bool paths_hidden_ = false;
 };
 
 }  // namespace transillum::viewer

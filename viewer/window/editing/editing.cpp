@@ -5,6 +5,8 @@
 #include <QMainWindow>
 #include <QMenu>
 
+#include "scene/scene_page.h"
+#include "scene/scene_view.h"
 #include "widgets/build.h"
 #include "widgets/scrolling.h"
 #include "window/base/dock_layouts.h"
@@ -21,6 +23,8 @@ SceneEdits* add_editing(const WindowFrame& frame, DockLayouts& docks, QMenu& edi
   new MoveHandles(*edits, *panel);
   const QDockWidget* dock = docks.add(SceneEdits::tr("Move"), "move_dock", scrollable(panel));
   QObject::connect(dock, &QDockWidget::visibilityChanged, edits, &SceneEdits::set_active);
+  SceneView* view = frame.page.scene_view();
+  QObject::connect(dock, &QDockWidget::visibilityChanged, view, &SceneView::set_paths_hidden);
   QObject::connect(edits, &SceneEdits::failed, &frame.notifier, &Notifier::show_failure);
   edit.addSeparator();
   QAction* move = make_action(edits, "move_faces", SceneEdits::tr("Move, turn or scale"),
