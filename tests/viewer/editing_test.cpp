@@ -315,6 +315,30 @@ class EditingTest : public QObject {
                                                          e.folder.filePath("saved.obj")));
   }
 
+  void edits_that_no_file_has_are_not_lost_unasked() {
+    const Edited e;
+    QVERIFY(e.ready);
+    const WorkGuard& guard = e.window->work_guard();
+    const auto asks = [&](WorkGuard::Lost lost) {
+      bool asked = false;
+      QTimer::singleShot(0, e.window.get(), [&] {
+        if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget())) {
+          asked = true;
+          box->reject();
+        }
+      });
+      return guard.may_lose(e.window.get(), "Open", lost) != asked && asked;
+    };
+    QVERIFY(!asks(WorkGuard::Lost::scene));
+    e.edits->place({{0.03, 0, 0}});
+    e.edits->finish();
+    QVERIFY(e.at_rest());
+    QVERIFY(asks(WorkGuard::Lost::scene));
+    QVERIFY(!asks(WorkGuard::Lost::solve));
+    (void)e.light_of_file();
+    QVERIFY(!asks(WorkGuard::Lost::scene));
+  }
+
   // In the window, as in the library: crossing and coinciding faces stop nothing.
   void a_box_is_dragged_through_a_wall() {
     const Edited e;

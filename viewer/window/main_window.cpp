@@ -216,7 +216,8 @@ void MainWindow::make_whole_window_actions() {
   connect(lesson_panel_, &LessonPanel::option_chosen, applier_, &ViewStateApplier::set_option);
   connect(lesson_panel_, &LessonPanel::open_clicked, files_, &FileActions::choose_lesson);
   lesson_panel_->set_guard([this] {
-    return applier_->in_lesson() || work_guard_.may_lose(this, tr("Begin the lesson"));
+    return applier_->in_lesson() ||
+           work_guard_.may_lose(this, tr("Begin the lesson"), WorkGuard::Lost::scene);
   });
   state_.breakpoints.set_undo_stack(&state_.undo);
   state_.watches.set_undo_stack(&state_.undo);
@@ -538,7 +539,7 @@ void MainWindow::fill_built_in_menu(QMenu& menu) {
 }
 
 bool MainWindow::may_close() {
-  if (!work_guard_.may_lose(this, tr("Quit"))) {
+  if (!work_guard_.may_lose(this, tr("Quit"), WorkGuard::Lost::scene)) {
     return false;
   }
   if (!session_->has_unsaved_notes()) {

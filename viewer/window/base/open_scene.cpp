@@ -158,17 +158,26 @@ void OpenScene::take_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   emit snapshot_shown();
 }
 
-bool WorkGuard::may_lose(QWidget* parent, const QString& what) const {
+bool WorkGuard::may_lose(QWidget* parent, const QString& what, Lost lost) const {
   const auto snapshot = scene_.snapshot();
   const double seconds = snapshot && !scene_.at_start() ? snapshot->statistics.seconds_total : 0;
-  if (!(seconds > long_seconds_)) {
+  QStringList losses;
+  if (lost == Lost::scene && scene_.has_unsaved_faces()) {
+    losses << QObject::tr(
+        "Faces of the scene were edited, and no file has them yet (File → Save "
+        "scene).");
+  }
+  if (seconds > long_seconds_) {
+    losses << QObject::tr(
+                  "The solve took %1 so far. It is kept only in results that you export "
+                  "(File → Export).")
+                  .arg(duration_text(seconds));
+  }
+  if (losses.isEmpty()) {
     return true;
   }
-  QMessageBox box(QMessageBox::Question, what,
-                  QObject::tr("The solve took %1 so far. It is kept only in results that you "
-                              "export (File → Export).")
-                      .arg(duration_text(seconds)),
-                  QMessageBox::Cancel, parent);
+  QMessageBox box(QMessageBox::Question, what, losses.join(QLatin1Char('\n')), QMessageBox::Cancel,
+                  parent);
   box.setObjectName("long_work");
   const QPushButton* lose = box.addButton(what, QMessageBox::DestructiveRole);
   box.setDefaultButton(QMessageBox::Cancel);

@@ -131,16 +131,18 @@ class OpenScene : public QObject {
 
 class OpenScene;
 
-/// Asks before a solve that took long is discarded.
+/// Asks before a solve that took long, or edited faces that no file has, are discarded.
 class WorkGuard {
  public:
+  enum class Lost { solve, scene };
+
   /// @param scene must outlive this object
   explicit WorkGuard(const OpenScene& scene) : scene_(scene) {}
 
-  /// Whether the solve of the open scene may be discarded: it took less than a minute, or the user
-  /// agrees.
+  /// Whether the solve of the open scene, or the scene with it, may be discarded: the solve took
+  /// less than a minute and no edit of faces is lost, or the user agrees.
   /// @param what  text of the button, such as "Quit"
-  bool may_lose(QWidget* parent, const QString& what) const;
+  bool may_lose(QWidget* parent, const QString& what, Lost lost = Lost::solve) const;
   /// For tests: the time from which a solve took long.
   void set_long_seconds(double seconds) { long_seconds_ = seconds; }
 

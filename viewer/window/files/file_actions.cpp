@@ -225,7 +225,7 @@ void FileActions::open(const QString& path, std::optional<Goal> goal, const Scen
 
 void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& input,
                              bool as_given) {
-  if (frame_.guard.may_lose(&frame_.window, tr("Open"))) {
+  if (frame_.guard.may_lose(&frame_.window, tr("Open"), WorkGuard::Lost::scene)) {
     leave_scene(spec);
     load_scene(spec, goal, input, as_given);
   }
@@ -377,7 +377,7 @@ void FileActions::open_session(const QString& path) {
   const std::string name = path.toStdString();
   const Session session =
       session_from_text(read_json_file(name), name, QFileInfo(path).path().toStdString());
-  if (frame_.guard.may_lose(&frame_.window, tr("Open"))) {
+  if (frame_.guard.may_lose(&frame_.window, tr("Open"), WorkGuard::Lost::scene)) {
     session_.restore(session);
   }
 }
