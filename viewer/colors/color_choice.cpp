@@ -213,6 +213,12 @@ void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
   emit fitted();
 }
 
+void ColorChoice::fit_moved(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  refit();
+  emit fitted();
+}
+
 void ColorChoice::change() {
   refit();
   emit changed();

@@ -89,6 +89,8 @@ class ColorChoice : public QObject {
   /// Fits range and exposure to a new snapshot. Emits fitted(), not changed(): the caller shows the
   /// snapshot in the views afterward.
   void fit(std::shared_ptr<const SolverSnapshot> snapshot);
+  /// The same, for the light of the scene while its faces are moved: range and kept runs stay.
+  void fit_moved(std::shared_ptr<const SolverSnapshot> snapshot);
 
   /// One color per patch of the newest snapshot; grays if there are no values, and a neutral light
   /// where nothing emits.

@@ -196,4 +196,9 @@ Question question_from_json(const json& value, const std::string& where, const j
   return question;
 }
 
+bool is_drawn(const Question& question) {
+  return question.kind == Question::Kind::area || question.kind == Question::Kind::outline ||
+         question.kind == Question::Kind::curve;
+}
+
 }  // namespace transillum::viewer

@@ -72,11 +72,6 @@ bool operator==(const GivenAnswer& a, const GivenAnswer& b) {
                     [](const Vec2& p, const Vec2& q) { return p.x == q.x && p.y == q.y; });
 }
 
-bool is_drawn(const Question& question) {
-  return question.kind == Question::Kind::area || question.kind == Question::Kind::outline ||
-         question.kind == Question::Kind::curve;
-}
-
 bool is_of_direction(const Question& question) {
   return uses_direction(question.wanted) ||
          std::any_of(question.choices.begin(), question.choices.end(),

@@ -124,6 +124,12 @@ void MaterialEdits::start_with(std::shared_ptr<const Scene> scene) {
   put({});
 }
 
+void MaterialEdits::continue_with(std::shared_ptr<const Scene> scene) {
+  scene_ = std::move(scene);
+  faces_ = faces_of(*scene_);
+  put(std::move(changes_));
+}
+
 std::vector<PatchId> MaterialEdits::patches_of(const std::string& target) const {
   if (!scene_) {
     return {};
@@ -265,7 +271,16 @@ void MaterialEdits::put(std::vector<MaterialChange> changes) {
 
 void MaterialEdits::apply() {
   SceneDescription changed_faces = faces_;
-  change_materials(changed_faces, changes_);
+  try {
+    change_materials(changed_faces, changes_);
+  } catch (const InputError&) {  // a face was removed
+    for (const MaterialChange& change : changes_) {
+      try {
+        change_materials(changed_faces, std::vector{change});
+      } catch (const InputError&) {
+      }
+    }
+  }
   auto materials = std::make_shared<PatchMaterials>();
   materials->materials = std::move(changed_faces.materials);
   materials->of_patch.reserve(scene_->patches().size());

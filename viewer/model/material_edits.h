@@ -42,6 +42,9 @@ class MaterialEdits : public QObject {
 
   /// Discards all changes, for another scene.
   void start_with(std::shared_ptr<const Scene> scene);
+  /// Keeps the changes and what can be undone, for the same scene with edited faces. Changes of
+  /// faces that it does not have are ignored.
+  void continue_with(std::shared_ptr<const Scene> scene);
   /// Whether any face differs from the scene.
   bool any() const { return any_; }
   /// E and rho of all patches, with the changes; null before the first scene.

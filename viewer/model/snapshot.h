@@ -44,12 +44,20 @@ struct LoadedScene {
   std::shared_ptr<const LoadedScene> whole;
   /// The divisions that make these patches from `whole`, as in SceneInput::divided.
   std::vector<std::string> divided = {};
+  /// The same object in all that was made of one opened scene, with moved faces or other patches.
+  std::shared_ptr<const int> origin = nullptr;
 };
 
 /// The scene as it was read, before rounds of refinement.
 inline std::shared_ptr<const LoadedScene> whole_of(
     const std::shared_ptr<const LoadedScene>& loaded) {
   return loaded && loaded->whole ? loaded->whole : loaded;
+}
+
+/// Whether both were made of one opened scene.
+inline bool is_same_origin(const std::shared_ptr<const LoadedScene>& a,
+                           const std::shared_ptr<const LoadedScene>& b) {
+  return whole_of(a) == whole_of(b) || (a && b && a->origin && a->origin == b->origin);
 }
 
 /// The progress of a refinement; its finished rounds are in SolveStatistics::refinement.

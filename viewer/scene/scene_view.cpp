@@ -96,7 +96,7 @@ bool SceneView::at_rest() const { return !pressed_ && !rest_timer_->isActive(); 
 
 void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   // The scene is the same with other patches: the camera stays.
-  const bool stays = loaded_ && whole_of(loaded) == whole_of(loaded_);
+  const bool stays = loaded_ && is_same_origin(loaded, loaded_);
   loaded_ = std::move(loaded);
   snapshot_ = nullptr;
   surface_->show_scene(loaded_->scene);
@@ -104,6 +104,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   glyph_->hide();
   turn_preview_->hide();
   feature_edges_->show_scene(loaded_);
+  paths_ = nullptr;
   path_glyph_->hide();
   selected_->show(loaded_.get(), selection_.patches(), 1.5e-3 * radius_);
   if (!stays) {
@@ -225,11 +226,23 @@ void SceneView::hide_turn() {
 }
 
 void SceneView::show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized) {
-  if (!loaded_ || (!paths && !path_glyph_->shown())) {
+  paths_ = paths;
+  emphasized_path_ = emphasized;
+  draw_paths();
+}
+
+void SceneView::set_paths_hidden(bool hidden) {
+  paths_hidden_ = hidden;
+  draw_paths();
+}
+
+void SceneView::draw_paths() {
+  const bool drawn = paths_ && !paths_hidden_;
+  if (!loaded_ || (!drawn && !path_glyph_->shown())) {
     return;
   }
-  if (paths) {
-    path_glyph_->show(*loaded_->scene, *paths, emphasized);
+  if (drawn) {
+    path_glyph_->show(*loaded_->scene, *paths_, emphasized_path_);
   } else {
     path_glyph_->hide();
   }
@@ -477,7 +490,7 @@ void SceneView::place_callouts() {
   callout_layer_->show_sketch(polygon(sketch_.outline), std::move(right));
 }
 
-QPointF SceneView::pixel_of(const Vec3& point) {
+QPointF SceneView::pixel_of(const Vec3& point) const {
   const int* size = window_->GetSize();
   renderer_->SetWorldPoint(point.x, point.y, point.z, 1);
   renderer_->WorldToDisplay();
@@ -533,7 +546,7 @@ std::optional<PickedPoint> SceneView::hit_at(const QPoint& position) const {
                          [this](const PickedPoint& point) { return in_picture(point); });
 }
 
-std::pair<Vec3, Vec3> SceneView::ray_at(const QPoint& position) const {
+SceneView::Ray SceneView::ray_at(const QPointF& position) const {
   // VTK counts device pixels from the bottom.
   const double scale = canvas_->devicePixelRatioF();
   const double x = (position.x() + 0.5) * scale;

@@ -80,6 +80,8 @@ class SceneView : public QWidget {
   /// @param paths  null if there are none
   /// @param emphasized  index of a path, or -1
   void show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized);
+  /// While hidden, paths are not drawn.
+  void set_paths_hidden(bool hidden);
   bool previews_turn() const { return turn_preview_->shown(); }
   /// Keeps the viewing direction and fits the whole scene.
   void fit_all();
@@ -150,10 +152,16 @@ class SceneView : public QWidget {
   PatchId patch_at(const QPoint& position) const;
   /// The patch drawn at a point of canvas(), and its point there.
   std::optional<PickedPoint> hit_at(const QPoint& position) const;
-  /// The line of sight through a point of canvas(), in logical pixels.
-  /// @return its first point in the picture, and its direction, normalized
-  std::pair<Vec3, Vec3> ray_at(const QPoint& position) const;
   QWidget* canvas() const;
+  /// A line of sight.
+  struct Ray {
+    Vec3 origin;     ///< its first point in the picture, m
+    Vec3 direction;  ///< unit
+  };
+  /// The line of sight through a point of canvas(), in logical pixels.
+  Ray ray_at(const QPointF& position) const;
+  /// The point of canvas() at which a point is drawn, in logical pixels.
+  QPointF pixel_of(const Vec3& point) const;
   /// Whether the picture is final: no button is held, and no further step has come for a while.
   bool at_rest() const;
   /// Whether the left button is held in the picture.
@@ -180,6 +188,7 @@ class SceneView : public QWidget {
   void recolor();
   std::shared_ptr<const SolverSnapshot> lit_snapshot() const;
   void show_direction();
+  void draw_paths();
   bool stepping() const;
   void show_step();
   void leave_out_hidden();
@@ -188,8 +197,6 @@ class SceneView : public QWidget {
   Vec3 vertical_ = {0, 1, 0};
   void follow_camera();
   void place_callouts();
-  /// In logical pixels of the picture that is drawn.
-  QPointF pixel_of(const Vec3& point);
   void draw_callouts(QImage& image) const;
   void prepare_picture(double line_scale, bool smooth);
 
@@ -236,6 +243,9 @@ class SceneView : public QWidget {
   std::unique_ptr<SceneOverlays> overlays_;
   std::unique_ptr<TurnPreview> turn_preview_;
   std::unique_ptr<PathGlyph> path_glyph_;
+  std::shared_ptr<const LightPaths> paths_;  ///< of show_paths()
+  int emphasized_path_ = -1;
+  bool paths_hidden_ = false;
 };
 
 }  // namespace transillum::viewer

@@ -351,6 +351,15 @@ bool Focus::shows(const RecordedMap& map, const RunPosition& position) const {
   return map.direction == position.direction && (!renews_ || map.iteration == position.iteration);
 }
 
+void Focus::replace_map(std::shared_ptr<const RecordedMap> map) {
+  if (!map_ || !shows(*map, position_)) {
+    return;
+  }
+  map_ = std::move(map);
+  position_.step = nearest_step(map_->history, position_.step);
+  emit moved();
+}
+
 void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
   const bool stale = !under_way_ || map->passes != passes_;
   const bool superseded = !shows(*map, target_);

@@ -137,6 +137,10 @@ class Focus : public QObject {
   /// Reports the newest direction of the solve run.
   void follow(int iteration, int direction);
 
+  /// Shows the map of the same direction in a scene whose faces are moved. A step that it does not
+  /// have becomes its last.
+  void replace_map(std::shared_ptr<const RecordedMap> map);
+
   /// Delivers a map after map_requested().
   void show_map(std::shared_ptr<const RecordedMap> map);
 

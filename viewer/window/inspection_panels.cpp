@@ -98,6 +98,7 @@ void InspectionPanels::add_tables_to(DockLayouts& docks) {
 
 void InspectionPanels::add_to(QMenuBar& bar) {
   QMenu* edit = bar.addMenu(tr("&Edit"));
+  edit->setObjectName("edit_menu");
   QAction* undo = undo_.createUndoAction(this, tr("Undo"));
   undo->setObjectName("undo");
   undo->setShortcut(QKeySequence(QStringLiteral("Ctrl+Z")));

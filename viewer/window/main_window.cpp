@@ -62,6 +62,8 @@
 #include "window/base/notifier.h"
 #include "window/base/view_state_applier.h"
 #include "window/context_menus.h"
+#include "window/editing/editing.h"
+#include "window/editing/scene_edits.h"
 #include "window/files/export_actions.h"
 #include "window/files/file_actions.h"
 #include "window/files/frame_recorder.h"
@@ -214,7 +216,8 @@ void MainWindow::make_whole_window_actions() {
   connect(lesson_panel_, &LessonPanel::option_chosen, applier_, &ViewStateApplier::set_option);
   connect(lesson_panel_, &LessonPanel::open_clicked, files_, &FileActions::choose_lesson);
   lesson_panel_->set_guard([this] {
-    return applier_->in_lesson() || work_guard_.may_lose(this, tr("Begin the lesson"));
+    return applier_->in_lesson() ||
+           work_guard_.may_lose(this, tr("Begin the lesson"), WorkGuard::Lost::scene);
   });
   state_.breakpoints.set_undo_stack(&state_.undo);
   state_.watches.set_undo_stack(&state_.undo);
@@ -437,6 +440,7 @@ void MainWindow::connect_failures() {
 void MainWindow::make_menus() {
   make_file_menu();
   inspection_->add_to(*menuBar());
+  edits_ = add_editing(frame(), docks_, *findChild<QMenu*>("edit_menu"));
 
   QMenu* solve = menuBar()->addMenu(tr("&Solve"));
   solve_actions_->add_to(*solve);
@@ -487,7 +491,10 @@ void MainWindow::make_file_menu() {
   QMenu* exporting = file->addMenu(tr("Export"));
   exports_->add_to(*exporting);
   recorder_->add_to(*exporting);
-  (new CommandActions(frame(), *map_view_))->add_to(*file);
+  (new CommandActions(frame(), *map_view_, [this] {
+    return exports_->save_edited();
+  }))->add_to(*file);
+  files_->set_saver([this] { return exports_->save_edited(); });
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
 }
@@ -532,7 +539,7 @@ void MainWindow::fill_built_in_menu(QMenu& menu) {
 }
 
 bool MainWindow::may_close() {
-  if (!work_guard_.may_lose(this, tr("Quit"))) {
+  if (!work_guard_.may_lose(this, tr("Quit"), WorkGuard::Lost::scene)) {
     return false;
   }
   if (!session_->has_unsaved_notes()) {
@@ -553,9 +560,9 @@ bool MainWindow::settled() const {
   const bool idle =
       state_.runner.state() == RunState::paused || state_.runner.state() == RunState::finished;
   return idle && state_.scene.snapshot() && applier_->arrived() && !state_.relighting.busy() &&
-         !state_.colors.busy() && page_->sharp()->settled() && !inspection_->busy() &&
-         !compare_view_->busy() && (map_dock_->isHidden() || map_view_->up_to_date()) &&
-         direction_view_->up_to_date();
+         !state_.colors.busy() && !edits_->busy() && page_->sharp()->settled() &&
+         !inspection_->busy() && !compare_view_->busy() &&
+         (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -31,6 +31,7 @@ class PatchInspector;
 class ProgressLine;
 class ProjectorMode;
 class ReceivedView;
+class SceneEdits;
 class SolveActions;
 class SolveSummary;
 class StepActions;
@@ -125,6 +126,7 @@ class MainWindow : public QMainWindow {
   SolveActions* solve_actions_;
   StepActions* step_actions_;
   QAction* study_action_;
+  SceneEdits* edits_;
   ViewStateApplier* applier_;
   VerticalControl* vertical_;
   WindowSession* session_;

@@ -64,6 +64,7 @@ std::shared_ptr<const SolveUndo::Light> SolveUndo::shown() const {
   auto loaded = std::make_shared<LoadedScene>(*snapshot->loaded);
   loaded->stored = std::make_shared<const Solution>(solution_of(*snapshot, true));
   loaded->file = loaded->scene->name();
+  loaded->origin = std::make_shared<const int>(0);  // counts as another scene
   loaded->divided_faces = 0;
   return std::make_shared<const Light>(
       Light{std::move(loaded), snapshot->options, frame_.state.scene.input()});

@@ -57,13 +57,17 @@ RelightResult Relighting::relit(const Request& request, const Cancellation& canc
                  cancellation);
 }
 
-void Relighting::show_scene(std::shared_ptr<const Scene> scene) {
+void Relighting::show_scene(std::shared_ptr<const Scene> scene, bool edited) {
   snapshot_ = nullptr;
   used_ = nullptr;
   light_ = nullptr;
   materials_ = asked_ = nullptr;
   relighter_.clear();
-  edits_.start_with(std::move(scene));
+  if (edited) {
+    edits_.continue_with(std::move(scene));
+  } else {
+    edits_.start_with(std::move(scene));
+  }
 }
 
 /// Whether the scene is not solved because nothing emits.

@@ -25,7 +25,8 @@ class Relighting : public QObject {
 
   MaterialEdits& edits() { return edits_; }
   /// Starts with the unedited materials of a new scene.
-  void show_scene(std::shared_ptr<const Scene> scene);
+  /// @param edited  it is the same scene with edited faces: MaterialEdits::continue_with()
+  void show_scene(std::shared_ptr<const Scene> scene, bool edited = false);
   /// The snapshot to show in place of one of the solver: the same, or one with the edited materials
   /// and their light once it is computed.
   std::shared_ptr<const SolverSnapshot> lit(std::shared_ptr<const SolverSnapshot> snapshot);

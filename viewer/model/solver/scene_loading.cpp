@@ -48,8 +48,10 @@ std::shared_ptr<const Scene> make_scene(const SceneDescription& description,
 }
 
 SceneDescription describe(const std::string& spec, const SceneInput& input,
-                          const LoadProgress& progress, const Cancellation& cancellation) {
-  SceneDescription description = describe_scene(spec, input.read, cancellation);
+                          const LoadProgress& progress, const Cancellation& cancellation,
+                          const SceneDescription* faces) {
+  SceneDescription description =
+      faces != nullptr ? *faces : describe_scene(spec, input.read, cancellation);
   change_materials(description, input.changes);
   if (input.orient) {
     const OrientationReport report = orient(description, 0, cancellation, [&](double fraction) {
@@ -91,23 +93,24 @@ std::function<void(Preparation, double)> phase_reporter(LoadProgress progress) {
   };
 }
 
-std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, RunOptions& options,
-                                                bool first_look, const LoadProgress& progress,
-                                                const Cancellation& cancellation) {
+std::shared_ptr<const LoadedScene> loaded_scene(
+    const std::string& spec, RunOptions& options, bool first_look, const LoadProgress& progress,
+    const Cancellation& cancellation, const std::shared_ptr<const SceneDescription>& faces) {
   QElapsedTimer timer;
   timer.start();
   auto loaded = std::make_shared<LoadedScene>();
+  loaded->origin = std::make_shared<const int>(0);
   progress(tr("Loading %1").arg(QString::fromStdString(spec)), -1);
-  if (is_result_file(spec)) {
+  if (!faces && is_result_file(spec)) {
     loaded->stored = std::make_shared<const Solution>(read_result(spec, cancellation));
     loaded->scene = loaded->stored->scene;
     loaded->file = spec;
   } else {
     loaded->description = std::make_shared<const SceneDescription>(
-        describe(spec, options.input, progress, cancellation));
-    const std::size_t faces = loaded->description->face_count();
-    if (first_look && set_window_defaults(options, usual_patches(faces))) {
-      loaded->divided_faces = faces;
+        describe(spec, options.input, progress, cancellation, faces.get()));
+    const std::size_t count = loaded->description->face_count();
+    if (first_look && set_window_defaults(options, usual_patches(count))) {
+      loaded->divided_faces = count;
     }
     loaded->scene = make_scene(*loaded->description, options, cancellation);
   }
@@ -123,6 +126,39 @@ std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, RunOpti
   });
   loaded->seconds_bsp = seconds(timer);
   return loaded;
+}
+
+std::shared_ptr<LoadedScene> edited_scene(const LoadedScene& before,
+                                          std::shared_ptr<const SceneDescription> description,
+                                          const std::vector<std::string>& divided,
+                                          const Cancellation& cancellation) {
+  QElapsedTimer timer;
+  timer.start();
+  auto loaded = std::make_shared<LoadedScene>();
+  loaded->origin = before.origin;
+  RunOptions options;
+  options.scene = before.scene->options();
+  options.input.divided = divided;
+  loaded->scene = make_scene(*description, options, cancellation);
+  loaded->description = std::move(description);
+  loaded->back_fraction = before.back_fraction;
+  loaded->open_fraction = before.open_fraction;
+  loaded->measures = before.measures;
+  loaded->picker = loaded->scene->patch_count() == before.scene->patch_count()
+                       ? before.picker
+                       : std::make_shared<const Picker>(loaded->scene, cancellation);
+  loaded->seconds_load = seconds(timer);
+  timer.start();
+  loaded->tree = std::make_shared<const BspTree>(*loaded->scene, cancellation);
+  loaded->seconds_bsp = seconds(timer);
+  return loaded;
+}
+
+void complete(LoadedScene& edited, const Cancellation& cancellation) {
+  const BackFraction backs = back_fraction(*edited.scene, 0, cancellation);
+  edited.back_fraction = backs.fraction;
+  edited.open_fraction = has_two_sided_faces(*edited.scene) ? 1 : backs.open;
+  examine(edited, cancellation);
 }
 
 std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
@@ -141,6 +177,7 @@ std::shared_ptr<const LoadedScene> with_patches_of(const SolveSession& session,
   loaded->seconds_load = start->seconds_load;
   loaded->seconds_bsp = session.statistics().seconds_bsp;
   loaded->whole = whole_of(start);
+  loaded->origin = start->origin;
   loaded->divided = start->divided;
   loaded->divided.insert(loaded->divided.end(), divisions.begin(), divisions.end());
   examine(*loaded, cancellation);

@@ -27,10 +27,24 @@ std::function<void(Preparation, double)> phase_reporter(LoadProgress progress);
 /// @param options  they get linear functions where faces are divided for a first look
 /// @param first_look  whether the faces of a scene of few are divided, unless `options` say
 /// otherwise
+/// @param faces  the description that is used instead of reading `spec`; null to read it
 /// @throws InputError, Canceled
-std::shared_ptr<const LoadedScene> loaded_scene(const std::string& spec, RunOptions& options,
-                                                bool first_look, const LoadProgress& progress,
-                                                const Cancellation& cancellation);
+std::shared_ptr<const LoadedScene> loaded_scene(
+    const std::string& spec, RunOptions& options, bool first_look, const LoadProgress& progress,
+    const Cancellation& cancellation,
+    const std::shared_ptr<const SceneDescription>& faces = nullptr);
+
+/// The scene of a description whose faces were edited, without a picker and measures of its own: it
+/// keeps the ones of `before` if both have as many patches.
+/// @param divided  SceneInput::divided
+/// @throws InputError, Canceled
+std::shared_ptr<LoadedScene> edited_scene(const LoadedScene& before,
+                                          std::shared_ptr<const SceneDescription> description,
+                                          const std::vector<std::string>& divided,
+                                          const Cancellation& cancellation);
+/// Sets the picker and the measures of an edited scene.
+/// @throws Canceled
+void complete(LoadedScene& edited, const Cancellation& cancellation);
 
 /// The scene of a session with its tree, which must be prepared.
 /// @param divisions the divisions that make the session's patches from the patches of `start`, as

@@ -26,7 +26,7 @@ void SolveMessages::post_scene(std::shared_ptr<const LoadedScene> loaded) {
     pending_snapshot_ = nullptr;
   }
   post([this, loaded = std::move(loaded)] {
-    const bool is_open = announced_ && whole_of(announced_) == whole_of(loaded);
+    const bool is_open = announced_ && is_same_origin(announced_, loaded);
     announced_ = loaded;
     if (is_open) {
       emit patches_changed(loaded);

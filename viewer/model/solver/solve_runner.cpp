@@ -187,7 +187,7 @@ void SolveRunner::load(const OpenRequest& request, const Cancellation& cancellat
         request.earlier ? worker_.prepare(request.earlier, SolveWorker::choice_of(request.options),
                                           cancellation, cancellation)
                         : worker_.load(request.spec, request.options, request.first_look,
-                                       cancellation, runs_on);
+                                       cancellation, runs_on, request.faces);
     {
       const std::lock_guard lock(mutex_);
       cancellation.throw_if_canceled();

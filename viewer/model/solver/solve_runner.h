@@ -34,6 +34,8 @@ class SolveRunner : public SolveMessages {
     bool first_look = false;  ///< the argument of loaded_scene()
     /// A scene with the light of an earlier solve, which is shown instead of reading `spec`.
     std::shared_ptr<const LoadedScene> earlier = nullptr;
+    /// Faces that were edited, instead of reading `spec`; null to read it.
+    std::shared_ptr<const SceneDescription> faces = nullptr;
   };
 
   explicit SolveRunner(QObject* parent = nullptr);

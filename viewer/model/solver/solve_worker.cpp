@@ -48,9 +48,10 @@ std::vector<std::string> divisions_of(const SolveWorker::Choice& choice,
 
 SolveWorker::Prepared SolveWorker::load(const std::string& spec, RunOptions options,
                                         bool first_look, const Cancellation& cancellation,
-                                        bool runs_on) {
+                                        bool runs_on,
+                                        const std::shared_ptr<const SceneDescription>& faces) {
   options.solve.validate();
-  const auto loaded = loaded_scene(spec, options, first_look, report_, cancellation);
+  const auto loaded = loaded_scene(spec, options, first_look, report_, cancellation, faces);
   return prepare(loaded, choice_of(options), cancellation, cancellation, runs_on);
 }
 
@@ -151,7 +152,7 @@ void SolveWorker::start(Choice choice, const Cancellation& cancellation, bool ru
   unstarted_ = choice;
   cancellation_ = cancellation;
   // Another scene may have been opened since.
-  if (choice.from && whole_of(choice.from) != whole_of(loaded_)) {
+  if (choice.from && !is_same_origin(choice.from, loaded_)) {
     choice.from = nullptr;
     choice.division.clear();
   }

@@ -60,9 +60,11 @@ class SolveWorker {
   /// @param spec file or built-in
   /// @param first_look  as for loaded_scene()
   /// @param runs_on  the solve is advanced to its end next
+  /// @param faces  as for loaded_scene()
   /// @throws InputError, Canceled
   Prepared load(const std::string& spec, RunOptions options, bool first_look,
-                const Cancellation& cancellation, bool runs_on);
+                const Cancellation& cancellation, bool runs_on,
+                const std::shared_ptr<const SceneDescription>& faces = nullptr);
   /// Prepares a solve of a scene that was loaded before.
   /// @param preparing  checked before the first pass, in place of `cancellation`
   /// @param drafted_first  the session is not prepared where a draft comes before

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/snapshot_values.h"
 #include "support/number_text.h"
 
 namespace transillum::viewer {
@@ -26,7 +27,45 @@ void OpenScene::open(const std::string& spec, const RunOptions& options, Goal go
   emit opening();
   requested_spec_ = spec;
   requested_input_ = options.input;
-  runner_.open({requested_spec_, options, goal, first_look});
+  requested_edited_ = spec == spec_ ? edited_ : nullptr;
+  runner_.open({requested_spec_, options, goal, first_look, nullptr, requested_edited_});
+}
+
+void OpenScene::solve_faces(const std::shared_ptr<const LoadedScene>& loaded, const Faces& faces,
+                            const SolverSnapshot& before, bool runs) {
+  const RunOptions options = run_options_of(before, options_, faces.input);
+  Goal goal{Goal::Kind::finished};
+  if (!options.solve.why_dark(loaded->scene->has_light()).empty()) {
+    goal = {};
+  } else if (!runs && !before.progress.finished) {
+    goal = {Goal::Kind::passes, before.passes_done};
+  }
+  spec_ = faces.spec;
+  input_ = faces.input;
+  edited_ = faces.edited;
+  saved_changes_.reset();
+  awaits_faces_ = true;
+  SolveWorker::Choice choice = SolveWorker::choice_of(options);
+  choice.from = loaded;
+  runner_.restart(std::move(choice), goal);
+}
+
+void OpenScene::hold(bool held) {
+  held_ = held;
+  if (!held) {
+    show_again();
+  }
+}
+
+bool OpenScene::has_unsaved_faces() const {
+  return edited_ && saved_changes_ != relighting_.edits().changes();
+}
+
+void OpenScene::set_saved(const std::string& file, const std::vector<MaterialChange>& changes) {
+  if (edited_) {
+    spec_ = file;
+    saved_changes_ = changes;
+  }
 }
 
 void OpenScene::show_earlier(const std::shared_ptr<const LoadedScene>& loaded,
@@ -35,6 +74,7 @@ void OpenScene::show_earlier(const std::shared_ptr<const LoadedScene>& loaded,
   emit opening();
   requested_spec_ = spec_;
   requested_input_ = input;
+  requested_edited_ = edited_;
   runner_.open({.spec = spec_, .options = {.solve = options}, .then = {}, .earlier = loaded});
 }
 
@@ -68,6 +108,11 @@ void OpenScene::take_scene(std::shared_ptr<const LoadedScene> loaded) {
   loaded_ = std::move(loaded);
   newest_ = shown_ = nullptr;
   spec_ = requested_spec_;
+  if (edited_ != requested_edited_) {
+    saved_changes_.reset();
+  }
+  edited_ = requested_edited_;
+  awaits_faces_ = false;
   options_ = loaded_->scene->options();
   input_ = requested_input_;
   input_.patches = 0;
@@ -77,14 +122,18 @@ void OpenScene::take_scene(std::shared_ptr<const LoadedScene> loaded) {
 }
 
 void OpenScene::take_patches(std::shared_ptr<const LoadedScene> loaded) {
-  if (whole_of(loaded) != whole_of(loaded_)) {
+  if (!is_same_origin(loaded, loaded_)) {
     return;  // the snapshot is of the previous scene
   }
+  const bool edited = whole_of(loaded) != whole_of(loaded_);
   loaded_ = std::move(loaded);
   newest_ = shown_ = nullptr;
   const std::vector<MaterialChange> edits = relighting_.edits().changes();
-  relighting_.show_scene(loaded_->scene);
-  relighting_.edits().start_over(edits);  // all fit: faces, groups and materials are the same
+  awaits_faces_ = awaits_faces_ && !edited;
+  relighting_.show_scene(loaded_->scene, edited);
+  if (!edited) {
+    relighting_.edits().start_over(edits);  // all fit: faces, groups and materials are the same
+  }
   emit patches_changed(loaded_);
 }
 
@@ -95,6 +144,9 @@ void OpenScene::take_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   QElapsedTimer timer;
   timer.start();
   newest_ = std::move(snapshot);
+  if (held_) {
+    return;
+  }
   shown_ = relighting_.lit(newest_);
   emit snapshot_ready(shown_);
   // A large scene is refreshed less often, so that the window stays responsive. While a draft
@@ -106,17 +158,26 @@ void OpenScene::take_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   emit snapshot_shown();
 }
 
-bool WorkGuard::may_lose(QWidget* parent, const QString& what) const {
+bool WorkGuard::may_lose(QWidget* parent, const QString& what, Lost lost) const {
   const auto snapshot = scene_.snapshot();
   const double seconds = snapshot && !scene_.at_start() ? snapshot->statistics.seconds_total : 0;
-  if (!(seconds > long_seconds_)) {
+  QStringList losses;
+  if (lost == Lost::scene && scene_.has_unsaved_faces()) {
+    losses << QObject::tr(
+        "Faces of the scene were edited, and no file has them yet (File → Save "
+        "scene).");
+  }
+  if (seconds > long_seconds_) {
+    losses << QObject::tr(
+                  "The solve took %1 so far. It is kept only in results that you export "
+                  "(File → Export).")
+                  .arg(duration_text(seconds));
+  }
+  if (losses.isEmpty()) {
     return true;
   }
-  QMessageBox box(QMessageBox::Question, what,
-                  QObject::tr("The solve took %1 so far. It is kept only in results that you "
-                              "export (File → Export).")
-                      .arg(duration_text(seconds)),
-                  QMessageBox::Cancel, parent);
+  QMessageBox box(QMessageBox::Question, what, losses.join(QLatin1Char('\n')), QMessageBox::Cancel,
+                  parent);
   box.setObjectName("long_work");
   const QPushButton* lose = box.addButton(what, QMessageBox::DestructiveRole);
   box.setDefaultButton(QMessageBox::Cancel);

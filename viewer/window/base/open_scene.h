@@ -4,7 +4,9 @@
 #include <QObject>
 #include <QString>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "model/requests/relighting.h"
 #include "model/run_options.h"
@@ -36,6 +38,38 @@ class OpenScene : public QObject {
   /// @param loaded  with the light
   void show_earlier(const std::shared_ptr<const LoadedScene>& loaded, const SolveOptions& options,
                     const SceneInput& input);
+
+  /// How the faces of the open scene came about.
+  struct Faces {
+    std::string spec;  ///< scene whose solve these faces are; no file while they are not saved
+    SceneInput input;  ///< how the scene was read
+    /// Edited faces that no file has; null for the scene as `spec` names it.
+    std::shared_ptr<const SceneDescription> edited = nullptr;
+  };
+  Faces faces() const { return {spec_, input_, edited_}; }
+  /// Solves the open scene with other faces, in the same way as before.
+  /// @param loaded  with the patches of these faces
+  /// @param before  snapshot of the solve before
+  /// @param runs    whether to solve to the end, even if `before` is not finished
+  void solve_faces(const std::shared_ptr<const LoadedScene>& loaded, const Faces& faces,
+                   const SolverSnapshot& before, bool runs);
+  /// While held, snapshots of the solver are kept and not shown.
+  void hold(bool held);
+  /// Whether faces were edited, and no file has them with the present materials: spec() then names
+  /// nothing that can be read.
+  bool has_unsaved_faces() const;
+  /// Whether faces were edited and saved with the changed materials, in the file spec().
+  bool has_saved_faces() const { return edited_ && !has_unsaved_faces(); }
+  /// Whether solve_faces() was called and patches_changed() has not been emitted yet.
+  bool awaits_faces() const { return awaits_faces_; }
+  /// Edited faces were written to a file, with these changes of materials.
+  void set_saved(const std::string& file, const std::vector<MaterialChange>& changes);
+  /// The next open() of a saved scene reads its file.
+  void read_saved() {
+    if (has_saved_faces()) {
+      edited_ = nullptr;
+    }
+  }
 
   /// The scene that open() was called with last.
   const std::string& requested_spec() const { return requested_spec_; }
@@ -83,9 +117,13 @@ class OpenScene : public QObject {
   SolveRunner& runner_;
   Relighting& relighting_;
   std::string requested_spec_, spec_;
+  std::shared_ptr<const SceneDescription> requested_edited_, edited_;  ///< Faces::edited
   SceneInput requested_input_, input_;
   SceneOptions options_;
   bool opening_ = false;
+  bool held_ = false;
+  bool awaits_faces_ = false;
+  std::optional<std::vector<MaterialChange>> saved_changes_;  ///< not set: edited_ is not saved
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> newest_;  ///< the snapshot that the solver posted
   std::shared_ptr<const SolverSnapshot> shown_;   ///< with the light of changed materials
@@ -93,16 +131,18 @@ class OpenScene : public QObject {
 
 class OpenScene;
 
-/// Asks before a solve that took long is discarded.
+/// Asks before a solve that took long, or edited faces that no file has, are discarded.
 class WorkGuard {
  public:
+  enum class Lost { solve, scene };
+
   /// @param scene must outlive this object
   explicit WorkGuard(const OpenScene& scene) : scene_(scene) {}
 
-  /// Whether the solve of the open scene may be discarded: it took less than a minute, or the user
-  /// agrees.
+  /// Whether the solve of the open scene, or the scene with it, may be discarded: the solve took
+  /// less than a minute and no edit of faces is lost, or the user agrees.
   /// @param what  text of the button, such as "Quit"
-  bool may_lose(QWidget* parent, const QString& what) const;
+  bool may_lose(QWidget* parent, const QString& what, Lost lost = Lost::solve) const;
   /// For tests: the time from which a solve took long.
   void set_long_seconds(double seconds) { long_seconds_ = seconds; }
 

@@ -6,6 +6,8 @@
 #include <QGuiApplication>
 #include <QMainWindow>
 #include <QMenu>
+#include <QMessageBox>
+#include <QPushButton>
 #include <algorithm>
 #include <optional>
 #include <ostream>
@@ -121,7 +123,7 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
   connect(save_figure_, &QAction::triggered, this, &ExportActions::choose_figure);
   save_scene_ =
       make_action(this, "save_scene", tr("Save scene…"),
-                  tr("Write the scene with its changed materials and turned faces as OBJ and MTL"));
+                  tr("Write the scene with its changed materials and edited faces as OBJ and MTL"));
   connect(save_scene_, &QAction::triggered, this, &ExportActions::choose_scene_file);
   export_colors_ =
       make_action(this, "export_colors", tr("Export for Blender or the web…"),
@@ -204,8 +206,19 @@ void ExportActions::write_scene_file(const QString& path) {
     throw InputError("there is no scene yet");
   }
   const std::string file = path.toStdString();
+  if (frame_.state.scene.awaits_faces()) {
+    throw InputError("the scene is being edited");
+  }
   check_writable(file);
   check_distinct({file, materials_file_of(file).string()}, loaded->scene->files());
+  if (frame_.state.scene.faces().edited) {
+    const std::vector<MaterialChange> changes = frame_.state.relighting.edits().changes();
+    SceneDescription description = *whole_of(loaded)->description;
+    change_materials(description, changes);
+    write_obj(file, description);
+    frame_.state.scene.set_saved(file, changes);
+    return;
+  }
   const MaterialEdits& edits = frame_.state.relighting.edits();
   writer_.request({path, [file, loaded, changes = edits.changes(), materials = edits.materials()] {
                      if (!loaded->description) {
@@ -336,6 +349,21 @@ void ExportActions::choose_errors() {
 void ExportActions::choose_scene_file() {
   write_chosen(tr("Save scene"), tr("Wavefront OBJ (*.obj)"), name_with("-changed.obj"),
                [this](const QString& path) { write_scene_file(path); });
+}
+
+bool ExportActions::save_edited() {
+  if (frame_.state.scene.has_unsaved_faces()) {
+    QMessageBox box(QMessageBox::Question, tr("Save scene"),
+                    tr("Faces of the scene were edited, and no file has them yet."),
+                    QMessageBox::Cancel, &frame_.window);
+    box.setObjectName("unsaved_faces");
+    const QPushButton* save = box.addButton(tr("Save scene…"), QMessageBox::AcceptRole);
+    box.exec();
+    if (box.clickedButton() == save) {
+      choose_scene_file();
+    }
+  }
+  return !frame_.state.scene.has_unsaved_faces();
 }
 
 void ExportActions::choose_map() {

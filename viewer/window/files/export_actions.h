@@ -46,6 +46,9 @@ class ExportActions : public QObject {
   /// meters. A worker thread writes, as in write_result().
   /// @throws InputError where it is clear at once that it cannot be written
   void write_scene_file(const QString& path);
+  /// Asks to save a scene whose faces were edited, if no file has them.
+  /// @returns whether the open scene can be read from OpenScene::spec()
+  bool save_edited();
   /// For the menu File.
   QAction* figure_action() const { return save_figure_; }
   /// For the menu File.

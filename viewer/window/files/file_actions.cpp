@@ -65,6 +65,7 @@ FileActions::FileActions(const WindowFrame& frame, DockLayouts& docks, SettingsP
   connect(save_session_, &QAction::triggered, this, &FileActions::choose_session);
   connect(reload_, &QAction::triggered, this, [this] {
     if (frame_.guard.may_lose(&frame_.window, tr("Reload"))) {
+      frame_.state.scene.read_saved();
       applier_.reload();
     }
   });
@@ -124,6 +125,10 @@ void FileActions::make_division_bar() {
 }
 
 void FileActions::choose_reading() {
+  if (frame_.state.scene.faces().edited) {
+    frame_.notifier.show_failure(tr("Faces were edited: save the scene, and open it again."));
+    return;
+  }
   ReadingDialog dialog(QString::fromStdString(frame_.state.scene.spec()),
                        frame_.state.scene.input(), &frame_.window);
   if (dialog.exec() == QDialog::Accepted && !(dialog.input() == frame_.state.scene.input())) {
@@ -220,7 +225,7 @@ void FileActions::open(const QString& path, std::optional<Goal> goal, const Scen
 
 void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& input,
                              bool as_given) {
-  if (frame_.guard.may_lose(&frame_.window, tr("Open"))) {
+  if (frame_.guard.may_lose(&frame_.window, tr("Open"), WorkGuard::Lost::scene)) {
     leave_scene(spec);
     load_scene(spec, goal, input, as_given);
   }
@@ -372,12 +377,15 @@ void FileActions::open_session(const QString& path) {
   const std::string name = path.toStdString();
   const Session session =
       session_from_text(read_json_file(name), name, QFileInfo(path).path().toStdString());
-  if (frame_.guard.may_lose(&frame_.window, tr("Open"))) {
+  if (frame_.guard.may_lose(&frame_.window, tr("Open"), WorkGuard::Lost::scene)) {
     session_.restore(session);
   }
 }
 
 void FileActions::choose_session() {
+  if (!saved_()) {
+    return;
+  }
   const QString path = ask_where_to_write(
       &frame_.window, tr("Save session"), tr("Sessions (*.json)"),
       QStringLiteral("session.transillum.json"), QStringLiteral("transillum.json"));
@@ -452,6 +460,7 @@ void FileActions::reload_if_written() {
     return;
   }
   watch_scene();
+  frame_.state.scene.read_saved();
   applier_.reload();
 }
 

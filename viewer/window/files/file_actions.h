@@ -6,8 +6,10 @@
 #include <QString>
 #include <QStringList>
 #include <QTimer>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "window/base/window_views.h"
 #include "window/files/reading.h"
@@ -78,6 +80,8 @@ class FileActions : public QObject {
 
   /// Asks where, and saves the session there.
   void choose_session();
+  /// @param saved  asks to save edited faces before a session; returns whether it can name them
+  void set_saver(std::function<bool()> saved) { saved_ = std::move(saved); }
 
  private:
   void choose_lobes(const QString& spec, SolveOptions& solve);
@@ -101,6 +105,7 @@ class FileActions : public QObject {
   void watch_scene();
   void reload_if_written();
 
+  std::function<bool()> saved_ = [] { return true; };
   WindowFrame frame_;
   DockLayouts& docks_;
   SettingsPanel& settings_;

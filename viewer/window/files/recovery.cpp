@@ -141,7 +141,7 @@ void Recovery::offer() {
 }
 
 void Recovery::restore() {
-  if (!frame_.guard.may_lose(&frame_.window, tr("Continue"))) {
+  if (!frame_.guard.may_lose(&frame_.window, tr("Continue"), WorkGuard::Lost::scene)) {
     return;
   }
   frame_.page.recovery_bar()->dismiss();

@@ -5,6 +5,7 @@
 #include <QClipboard>
 #include <QMainWindow>
 #include <QMenu>
+#include <utility>
 
 #include "map/map_view.h"
 #include "model/command_text.h"
@@ -14,8 +15,9 @@
 
 namespace transillum::viewer {
 
-CommandActions::CommandActions(const WindowFrame& frame, const MapView& view)
-    : QObject(&frame.window), frame_(frame), view_(view) {
+CommandActions::CommandActions(const WindowFrame& frame, const MapView& view,
+                               std::function<bool()> saved)
+    : QObject(&frame.window), frame_(frame), view_(view), saved_(std::move(saved)) {
   const auto add = [this](const char* name, const QString& text, const char* key,
                           const QString& tip) {
     auto* action = make_action(this, name, text, tip, QKeySequence(QString::fromLatin1(key)));
@@ -51,15 +53,25 @@ RunOptions CommandActions::options() const {
                         frame_.state.scene.input());
 }
 
+std::vector<MaterialChange> CommandActions::changes() const {
+  return frame_.state.scene.has_saved_faces() ? std::vector<MaterialChange>()
+                                              : frame_.state.relighting.edits().changes();
+}
+
 void CommandActions::copy_solve() {
-  const std::string command = solve_command(frame_.state.scene.spec(), options(),
-                                            frame_.state.relighting.edits().changes());
+  if (!saved_()) {
+    return;
+  }
+  const std::string command = solve_command(frame_.state.scene.spec(), options(), changes());
   QApplication::clipboard()->setText(QString::fromStdString(command));
 }
 
 void CommandActions::copy_map(std::optional<std::int32_t> steps) {
+  if (!saved_()) {
+    return;
+  }
   QApplication::clipboard()->setText(QString::fromStdString(map_command(
-      frame_.state.scene.spec(), options(), frame_.state.relighting.edits().changes(),
+      frame_.state.scene.spec(), options(), changes(),
       frame_.state.focus.map()->record().frame.omega, steps, steps ? no_patch : view_.receiver())));
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <QObject>
+#include <functional>
+#include <optional>
+#include <vector>
 
 #include "window/base/window_views.h"
 
@@ -15,8 +18,9 @@ class CommandActions : public QObject {
   Q_OBJECT
 
  public:
-  /// The objects that `parts` refers to must outlive this object.
-  CommandActions(const WindowFrame& frame, const MapView& view);
+  /// The objects that `frame` refers to must outlive this object.
+  /// @param saved  asks to save edited faces; returns whether a command can name the scene
+  CommandActions(const WindowFrame& frame, const MapView& view, std::function<bool()> saved);
 
   void add_to(QMenu& menu) const;
 
@@ -25,9 +29,12 @@ class CommandActions : public QObject {
   void copy_map(std::optional<std::int32_t> steps);
   void copy_step();
   RunOptions options() const;
+  /// The changed materials that are not in the scene's file.
+  std::vector<MaterialChange> changes() const;
 
   WindowFrame frame_;
   const MapView& view_;
+  std::function<bool()> saved_;
   QAction *solve_, *map_, *step_;
 };
 

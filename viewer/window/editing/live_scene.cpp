@@ -1,0 +1,105 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/editing/live_scene.h"
+
+#include <QElapsedTimer>
+#include <map>
+#include <utility>
+
+#include "model/solver/draft.h"
+#include "model/solver/scene_loading.h"
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+/// The mean over the patches of each face, for the patches of another scene.
+std::vector<Rgb> by_face(const std::vector<Rgb>& values, const Scene& before, const Scene& after) {
+  struct Mean {
+    Rgb sum;
+    double area = 0;
+  };
+  std::map<std::int32_t, Mean> means;
+  for (PatchId i = 0; i < before.patch_count() && i < std::ssize(values); ++i) {
+    Mean& mean = means[before.patch(i).face];
+    mean.sum += before.patch(i).area * at(values, i);
+    mean.area += before.patch(i).area;
+  }
+  std::vector<Rgb> spread;
+  for (const Patch& patch : after.patches()) {
+    const auto found = means.find(patch.face);
+    spread.push_back(found == means.end() ? Rgb{} : (1 / found->second.area) * found->second.sum);
+  }
+  return spread;
+}
+
+}  // namespace
+
+LiveScene live_scene(const LiveRequest& request, const Cancellation& cancellation) {
+  LiveScene live;
+  auto description = request.base;
+  if (!(request.placement == FacePlacement{})) {
+    auto placed = std::make_shared<SceneDescription>(*request.base);
+    place_faces(*placed, request.faces, request.pivot, request.placement);
+    description = std::move(placed);
+  }
+  const auto loaded =
+      edited_scene(*request.before, std::move(description), request.divided, cancellation);
+  if (request.edit) {
+    complete(*loaded, cancellation);
+  }
+  live.loaded = loaded;
+  live.bases = std::make_shared<const std::vector<LinearBasis>>(linear_bases(*loaded->scene));
+  if (request.map) {
+    QElapsedTimer timer;
+    timer.start();
+    MapRequest wanted = *request.map;
+    wanted.loaded = loaded;
+    live.map = std::make_shared<const RecordedMap>(record_map(wanted, cancellation));
+    live.seconds_map = 1e-9 * static_cast<double>(timer.nsecsElapsed());
+  }
+  return live;
+}
+
+Solution live_light(const LiveLightRequest& request, const Cancellation& cancellation) {
+  LoadedScene loaded = *request.loaded;
+  const auto& materials = request.materials;
+  if (materials && std::ssize(materials->of_patch) == loaded.scene->patch_count()) {
+    loaded.scene =
+        std::make_shared<const Scene>(*loaded.scene, materials->materials, materials->of_patch);
+  }
+  SolveOptions options = request.options;
+  options.glossy = false;
+  if (!takes_directions(options.engine)) {
+    options.engine = SolveOptions{}.engine;
+  }
+  Draft draft = prepare_draft(options, loaded, nullptr, cancellation);
+  draft.session.advance(SolveSession::Until::finished);
+  return draft.solution();
+}
+
+std::shared_ptr<const SolverSnapshot> live_snapshot(
+    const SolverSnapshot& solved, const LiveScene& scene, const Solution* light,
+    const std::shared_ptr<const PatchMaterials>& materials) {
+  auto live = std::make_shared<SolverSnapshot>(solved);
+  const Scene& before = *solved.loaded->scene;
+  const Scene& after = *scene.loaded->scene;
+  live->loaded = scene.loaded;
+  live->glossy = nullptr;
+  live->form_factors = nullptr;
+  if (!live->linear_terms.empty() || light != nullptr) {
+    live->bases = scene.bases;
+  }
+  const bool same_patches = before.patch_count() == after.patch_count();
+  live->materials = same_patches ? materials : nullptr;
+  if (light != nullptr) {
+    show_light_of(*light, *live);
+  } else if (!same_patches) {
+    live->radiosity = by_face(solved.radiosity, before, after);
+    live->irradiance = by_face(solved.irradiance, before, after);
+    live->linear_terms.clear();
+  }
+  return live;
+}
+
+}  // namespace transillum::viewer
