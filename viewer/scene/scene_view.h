@@ -243,7 +243,7 @@ class SceneView : public QWidget {
   std::unique_ptr<SceneOverlays> overlays_;
   std::unique_ptr<TurnPreview> turn_preview_;
   std::unique_ptr<PathGlyph> path_glyph_;
-  std::shared_ptr<const LightPaths> paths_;  ///< of show_paths()
+  std::shared_ptr<const LightPaths> paths_;  ///< given to show_paths()
   int emphasized_path_ = -1;
   bool paths_hidden_ = false;
 };
