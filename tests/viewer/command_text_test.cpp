@@ -16,6 +16,7 @@
 
 #include "options/option_table.h"
 #include "patches/error_page.h"
+#include "scene/color_controls.h"
 #include "session/next_steps.h"
 #include "solved_window.h"
 #include "test_files.h"
@@ -223,6 +224,51 @@ class CommandTextTest : public QObject {
       QCOMPARE(polygon["facing"].toString(), QString(expected.front_facing ? "front" : "back"));
       QCOMPARE(polygon["area"].toDouble(), expected.area);
     }
+  }
+
+  void a_copied_picture_is_of_the_same_solve_from_the_same_eye() {
+    const SolvedWindow solved("cornell-box", {.directions = 8});
+    QVERIFY(solved.ready);
+    solved.window->runner.run();
+    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.finished; }));
+    solved.scene_view->turn(10, 5);
+    QVERIFY(comes_to_rest(*solved.window));
+    const QString command = copied(solved, "copy_picture");
+    const QSize size = solved.scene_view->canvas()->size();
+    const QString all = QString("--size %1x%2 ").arg(size.width()).arg(size.height());
+    QVERIFY(command.contains(all));
+    const QTemporaryDir folder;
+    const QSize small = QSize(120, 120 * size.height() / size.width());
+    const QString smaller = QString("--size %1x%2 ").arg(small.width()).arg(small.height());
+    QVERIFY(!output_of(QString(command).replace(all, smaller) + " && echo done", folder.path())
+                 .isEmpty());
+    const Solution result = read_result(folder.filePath("scene.vtp").toStdString());
+    QVERIFY(result.radiosity == solved.window->snapshot()->radiosity);
+    const QImage picture(folder.filePath("scene.png"));
+    QCOMPARE(picture.size(), small);
+    // Sharp in the window too: the same surfaces in the same places, and as bright.
+    SharpView& sharp = *solved.window->views().page.sharp();
+    solved.window->views().page.color_controls()->set_outlines(false);
+    solved.window->views().page.color_controls()->set_direction(false);
+    sharp.action()->setChecked(true);
+    QVERIFY(wait_for([&] { return !solved.scene_view->sharp().isNull(); }));
+    const auto shown = sharp.make(small, solved.window.get());
+    QVERIFY(shown && shown->size() == small);
+    double difference = 0;
+    int surfaces = 0;  // pixels
+    for (int y = 0; y < small.height(); ++y) {
+      for (int x = 0; x < small.width(); ++x) {
+        if (qRed(picture.pixel(x, y)) > 0) {
+          difference += std::abs(qGreen(picture.pixel(x, y)) - qGreen(shown->pixel(x, y)));
+          ++surfaces;
+        }
+      }
+    }
+    QVERIFY(surfaces > small.width() * small.height() / 3);
+    difference /= surfaces;
+    QVERIFY2(difference < 6, qPrintable(QString::number(difference)));
+    solved.window->colors.set_quantity(Quantity::reflectance);
+    QVERIFY(!solved.window->findChild<QAction*>("copy_picture")->isEnabled());
   }
 
   void a_copied_map_is_that_of_the_direction() {

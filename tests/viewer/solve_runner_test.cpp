@@ -155,6 +155,15 @@ class SolveRunnerTest : public QObject {
       all += std::pow(max_abs(expected[i].first), 2) + std::pow(max_abs(expected[i].second), 2);
     }
     QVERIFY2(errors < 0.25 * all, qPrintable(QString::number(std::sqrt(errors / all))));
+    // A black corner shows: patches that a shadow's edge crosses are nowhere below 0 either.
+    const Scene& scene = *draft->loaded->scene;
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      for (const PointId corner : scene.outline(i)) {
+        const auto [u, v] = at(*draft->bases, i).at(scene.point(corner));
+        const Rgb b = at(draft->radiosity, i) + u * at(terms, i).first + v * at(terms, i).second;
+        QVERIFY(std::min({b.r, b.g, b.b}) > -1e-12);
+      }
+    }
   }
 
   // A killed program leaves its checkpoint. The next one continues from there.

@@ -35,6 +35,8 @@ class Line {
   explicit Line(const std::string& begin) : text_(begin) {}
 
   void add(const std::string& word) { text_ += ' ' + quoted(word); }
+  /// A program that runs if the one before succeeds.
+  void add_program(const std::string& begin) { text_ += " && " + begin; }
   void add(const std::string& option, const std::string& value) {
     add("--" + option);
     add(value);
@@ -91,6 +93,31 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
     asked.solve.tolerance = SolveOptions{}.tolerance;  // chosen by the goal
   }
   line.add_differences(asked, [](const Option& option) { return option.name != "threads"; });
+  return line.text();
+}
+
+std::string picture_command(const std::string& solve, const PictureCommand& picture) {
+  constexpr const char* result = "scene.vtp";
+  const auto text = [](const Vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
+  Line line(solve);
+  line.add("out", result);
+  line.add_program("transillum picture");
+  line.add(result);
+  const Camera& camera = picture.camera;
+  line.add("eye", text(camera.eye));
+  line.add("target", text(camera.target));
+  if (camera.up) {
+    line.add("camera-up", text(*camera.up));
+  }
+  if (camera.field_of_view) {
+    line.add("fov", fmt::format("{}", *camera.field_of_view));
+  }
+  line.add("size", fmt::format("{}x{}", picture.width, picture.height));
+  if (picture.false_colors) {
+    line.add("--false-color");
+  }
+  line.add("exposure", fmt::format("{:.4g}", picture.exposure));
+  line.add("out", "scene.png");
   return line.text();
 }
 

@@ -8,6 +8,7 @@
 
 #include "model/run_options.h"
 #include "transillum/material_changes.h"
+#include "transillum/picture.h"
 #include "transillum/scene.h"
 #include "transillum/vec3.h"
 
@@ -26,5 +27,16 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
 std::string map_command(const std::string& scene, const RunOptions& options,
                         const std::vector<MaterialChange>& changes, const Vec3& omega,
                         std::optional<std::int32_t> steps = {}, PatchId receiver = no_patch);
+
+/// How the program `transillum` shows a solve.
+struct PictureCommand {
+  Camera camera;              ///< a perspective
+  int width = 0, height = 0;  ///< pixels
+  bool false_colors = false;  ///< a color map, up to 1 / `exposure`
+  double exposure = 1;        ///< B times it is the color
+};
+/// The line that makes a solve, and of its result a picture.
+/// @param solve  of solve_command()
+std::string picture_command(const std::string& solve, const PictureCommand& picture);
 
 }  // namespace transillum::viewer

@@ -1,10 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "model/solver/draft.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "transillum/at.h"
 #include "transillum/glossy.h"
+#include "transillum/linear_basis.h"
 
 namespace transillum::viewer {
 
@@ -33,6 +36,23 @@ std::shared_ptr<const DirectLight> shoot_few_points(const SolveOptions& options,
   return sources.empty()
              ? nullptr
              : std::make_shared<const DirectLight>(shoot(scene, sources, shot, cancellation));
+}
+
+/// The largest factor up to 1 of a term with which the light is below 0 in no corner of patch i:
+/// the best linear function of a patch half in a shadow is, and a black corner shows.
+double factor_above_zero(const LinearTerm& term, const Rgb& mean, const Scene& scene, PatchId i) {
+  const LinearBasis basis = linear_basis(scene, i);
+  double factor = 1;
+  for (const PointId corner : scene.outline(i)) {
+    const auto [u, v] = basis.at(scene.point(corner));
+    const Rgb slope = u * term.first + v * term.second;
+    for (double Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+      if (mean.*channel + factor * slope.*channel < 0) {
+        factor = std::clamp(mean.*channel / -(slope.*channel), 0.0, factor);
+      }
+    }
+  }
+  return factor;
 }
 
 }  // namespace
@@ -83,9 +103,12 @@ Draft prepare_draft(SolveOptions options, const LoadedScene& loaded,
 
 Solution Draft::solution() const {
   Solution light = session.solution();
-  for (std::size_t i = 0; i < slopes.size(); ++i) {
-    const Rgb& rho = session.scene()->reflectance(static_cast<PatchId>(i));
-    light.linear_terms.push_back({rho * slopes[i].first, rho * slopes[i].second});
+  const Scene& scene = *session.scene();
+  for (PatchId i = 0; i < std::ssize(slopes); ++i) {
+    const Rgb& rho = scene.reflectance(i);
+    const LinearTerm term{rho * at(slopes, i).first, rho * at(slopes, i).second};
+    const double factor = factor_above_zero(term, at(light.radiosity, i), scene, i);
+    light.linear_terms.push_back({factor * term.first, factor * term.second});
   }
   return light;
 }

@@ -4,6 +4,7 @@
 #include <QObject>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "window/base/window_views.h"
@@ -13,7 +14,8 @@ class QMenu;
 
 namespace transillum::viewer {
 
-/// Copies the shown solve, the map of the direction, or V at the step as a line for a shell.
+/// Copies the shown solve, its picture, the map of the direction, or V at the step as a line for a
+/// shell.
 class CommandActions : public QObject {
   Q_OBJECT
 
@@ -25,7 +27,10 @@ class CommandActions : public QObject {
   void add_to(QMenu& menu) const;
 
  private:
+  void show_state();
   void copy_solve();
+  void copy_picture();
+  std::string solve() const;
   void copy_map(std::optional<std::int32_t> steps);
   void copy_step();
   RunOptions options() const;
@@ -35,7 +40,7 @@ class CommandActions : public QObject {
   WindowFrame frame_;
   const MapView& view_;
   std::function<bool()> saved_;
-  QAction *solve_, *map_, *step_;
+  QAction *solve_, *picture_, *map_, *step_;
 };
 
 }  // namespace transillum::viewer
