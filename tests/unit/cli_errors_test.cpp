@@ -167,7 +167,7 @@ TEST(CliErrors, HintsNameTheOption) {
               "the form factors exceed the memory limit", " (try a larger --memory)");
   expect_hint({"factors", "furnace", "--engine", "hemicube", "--memory", "1"}, 1,
               "the form factors exceed the memory limit", " (try a larger --memory)");
-  expect_hint({"solve", "furnace", "--engine", "pairs", "--memory", "1"}, 1,
+  expect_hint({"solve", "furnace", "--engine", "pairs", "--memory", "1", "-q"}, 1,
               "the form factors exceed the memory limit", " (try a larger --memory)");
   expect_hint({"transfers", "furnace", "--direction", "1,2,3", "--engine", "hemicube"}, 2,
               "has no directions", " (try solve, factors or study)");
