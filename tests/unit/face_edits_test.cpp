@@ -185,10 +185,10 @@ TEST(FaceEdits, added_solids_face_the_right_way) {
     const FaceList board = add_solid(d, AddedSolid::board, {}, size, up);
     const Scene scene(d);
     EXPECT_EQ(scene.patches().back().face, board.front());
-    const Patch& shines = scene.patch(scene.patch_count() - 3);
-    EXPECT_EQ(shines.face, lamp.front());
-    EXPECT_NEAR(dot(shines.normal, unit_of_axis(up)), -1, 1e-12);
-    EXPECT_NEAR(shines.area, 6 / coordinate(size, up), 1e-12);
+    const Patch& lamp_patch = scene.patch(scene.patch_count() - 3);
+    EXPECT_EQ(lamp_patch.face, lamp.front());
+    EXPECT_NEAR(dot(lamp_patch.normal, unit_of_axis(up)), -1, 1e-12);
+    EXPECT_NEAR(lamp_patch.area, 6 / coordinate(size, up), 1e-12);
   }
 }
 

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What follows the hand while faces are moved, computed on threads of their own: the scene with its
-// tree and the map of the direction shown; and its light, by a draft.
+// The scene while faces are moved, computed on worker threads: with its tree, the map of the
+// direction shown, and the light of a draft.
 #pragma once
 
 #include <memory>
