@@ -313,6 +313,22 @@ TEST(Folders, ProgramsUsePublicHeadersAndThoseOfTheTable) {
   EXPECT_EQ(used, allowed);
 }
 
+/// A file that a command left in the root of the repository would be committed with the next
+/// change.
+TEST(Folders, TheRootHasNoOtherFiles) {
+  const Names expected{
+      "CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md",
+      "CITATION.cff",   "LICENSE",           "check",     "demo"};
+  Names found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(repository)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file() && !name.starts_with('.') && name != "demo.png") {
+      found.insert(name);
+    }
+  }
+  EXPECT_EQ(found, expected);
+}
+
 /// Two classes of one name are one for the linker, which keeps one destructor for both.
 TEST(Folders, TypesOfTheLibraryHaveOneDefinition) {
   static const std::regex definition(
