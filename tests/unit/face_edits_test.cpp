@@ -123,7 +123,7 @@ TEST(FaceEdits, a_shared_corner_stays_with_the_faces_that_stay) {
   }
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(at(d.points, d.outline(0)[k]),
-              at(before.points, before.outline(0)[k]) + Vec3(0, 0, -0.5));
+              (at(before.points, before.outline(0)[k]) + Vec3{0, 0, -0.5}));
   }
 }
 

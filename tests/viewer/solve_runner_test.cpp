@@ -132,7 +132,7 @@ class SolveRunnerTest : public QObject {
     QVERIFY2(worst < 0.05, qPrintable(QString::number(worst)));
   }
 
-  // The draft has constant functions; what makes it smooth are the slopes of direct light.
+  // The draft has constant functions; linear ones are fitted to them.
   void a_draft_of_linear_functions_is_smooth() {
     Watched watched;
     watched.runner.set_drafts(true);

@@ -2,6 +2,8 @@
 #include "model/solver/draft.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -38,10 +40,57 @@ std::shared_ptr<const DirectLight> shoot_few_points(const SolveOptions& options,
              : std::make_shared<const DirectLight>(shoot(scene, sources, shot, cancellation));
 }
 
-/// The largest factor up to 1 of a term with which the light is below 0 in no corner of patch i:
-/// the best linear function of a patch half in a shadow is, and a black corner shows.
-double factor_above_zero(const LinearTerm& term, const Rgb& mean, const Scene& scene, PatchId i) {
-  const LinearBasis basis = linear_basis(scene, i);
+/// The patches with a common corner in the same plane, by PatchId; ascending.
+std::vector<std::vector<PatchId>> neighbors_of(const Scene& scene) {
+  constexpr double same_plane = 1 - 1e-6;
+  std::map<PointId, std::vector<PatchId>> around;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    for (const PointId corner : scene.outline(i)) {
+      around[corner].push_back(i);
+    }
+  }
+  std::vector<std::vector<PatchId>> neighbors(static_cast<std::size_t>(scene.patch_count()));
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    std::set<PatchId> found;
+    for (const PointId corner : scene.outline(i)) {
+      for (const PatchId j : around[corner]) {
+        if (j != i && dot(scene.patch(i).normal, scene.patch(j).normal) > same_plane) {
+          found.insert(j);
+        }
+      }
+    }
+    at(neighbors, i).assign(found.begin(), found.end());
+  }
+  return neighbors;
+}
+
+/// The linear function about `mean` that fits the means of the neighbors best: least squares, and
+/// no slope across where there are no neighbors.
+LinearTerm fitted_term(const LinearBasis& basis, const Rgb& mean,
+                       const std::vector<PatchId>& neighbors, const std::vector<LinearBasis>& bases,
+                       const std::vector<Rgb>& means) {
+  constexpr double regular = 1e-6;
+  double uu = 0, uv = 0, vv = 0;
+  Rgb by_u, by_v;
+  for (const PatchId j : neighbors) {
+    const auto [u, v] = basis.at(at(bases, j).center);
+    const Rgb rise = at(means, j) - mean;
+    uu += u * u, uv += u * v, vv += v * v;
+    by_u += u * rise, by_v += v * rise;
+  }
+  const double added = regular * (uu + vv);
+  uu += added, vv += added;
+  const double determinant = uu * vv - uv * uv;
+  if (!(determinant > 0)) {
+    return {};
+  }
+  return {1 / determinant * (vv * by_u - uv * by_v), 1 / determinant * (uu * by_v - uv * by_u)};
+}
+
+/// The largest factor up to 1 of a term with which the light is below 0 in no corner of patch i: a
+/// black corner shows.
+double factor_above_zero(const LinearTerm& term, const LinearBasis& basis, const Rgb& mean,
+                         const Scene& scene, PatchId i) {
   double factor = 1;
   for (const PointId corner : scene.outline(i)) {
     const auto [u, v] = basis.at(scene.point(corner));
@@ -76,15 +125,14 @@ Draft prepare_draft(SolveOptions options, const LoadedScene& loaded,
   if (!options.first_shot) {
     options.first_shot = first_shot_where_it_pays;
   }
+  const bool linear = std::exchange(options.basis, Basis::constant) == Basis::linear;
   options.validate();
   if (!shot) {
     shot = shoot_few_points(options, *loaded.scene, cancellation);
   }
-  std::vector<LinearTerm> slopes;
   if (shot && !shot->linear_terms.empty()) {
-    options.basis = Basis::constant;
     auto constant = std::make_shared<DirectLight>(*shot);
-    slopes = std::exchange(constant->linear_terms, {});
+    constant->linear_terms.clear();
     constant->linear_term_errors.clear();
     for (DirectLight::Contribution& contribution : constant->contributions) {
       contribution.linear_terms.clear();
@@ -96,19 +144,27 @@ Draft prepare_draft(SolveOptions options, const LoadedScene& loaded,
                             .tree = loaded.tree,
                             .shot = std::move(shot)},
                            cancellation),
-              std::move(slopes)};
+              linear};
   draft.session.prepare();
   return draft;
 }
 
 Solution Draft::solution() const {
   Solution light = session.solution();
+  if (!linear) {
+    return light;
+  }
   const Scene& scene = *session.scene();
-  for (PatchId i = 0; i < std::ssize(slopes); ++i) {
+  const std::vector<LinearBasis> bases = linear_bases(scene);
+  const std::vector<std::vector<PatchId>> neighbors = neighbors_of(scene);
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const LinearBasis& basis = at(bases, i);
+    const LinearTerm h =
+        fitted_term(basis, at(light.irradiance, i), at(neighbors, i), bases, light.irradiance);
     const Rgb& rho = scene.reflectance(i);
-    const LinearTerm term{rho * at(slopes, i).first, rho * at(slopes, i).second};
-    const double factor = factor_above_zero(term, at(light.radiosity, i), scene, i);
-    light.linear_terms.push_back({factor * term.first, factor * term.second});
+    const LinearTerm b{rho * h.first, rho * h.second};
+    const double factor = factor_above_zero(b, basis, at(light.radiosity, i), scene, i);
+    light.linear_terms.push_back({factor * b.first, factor * b.second});
   }
   return light;
 }

@@ -20,12 +20,10 @@ namespace transillum::viewer {
 bool can_be_drafted(const SolveOptions& options, const Scene& scene);
 
 /// A solve of few directions, prepared and not finished. Linear functions would take most of its
-/// time: where there is direct light, the functions are constant, and the light of the result has
-/// the slopes of direct light.
+/// time: the functions are constant, and linear ones are fitted to the means of the neighbors.
 struct Draft {
   SolveSession session;
-  /// Linear terms of H by direct light; empty with the functions of the solve.
-  std::vector<LinearTerm> slopes = {};
+  bool linear = false;  ///< the functions of the solve
 
   /// The light of the finished session.
   Solution solution() const;
