@@ -66,6 +66,9 @@ void SceneView::draw_callouts(QImage& image) const {
 }
 
 QImage SceneView::picture(int scale) {
+  if (draw_timer_->isActive()) {
+    draw();
+  }
   taking_picture_ = true;
   QImage image = image_of_window(*window_, scale);
   if (scale > 1) {

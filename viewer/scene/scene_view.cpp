@@ -81,6 +81,10 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   rest_timer_->setSingleShot(true);
   rest_timer_->setInterval(rest_ms);
   connect(rest_timer_, &QTimer::timeout, this, &SceneView::render);
+  draw_timer_ = new QTimer(this);
+  draw_timer_->setSingleShot(true);
+  draw_timer_->setInterval(0);
+  connect(draw_timer_, &QTimer::timeout, this, &SceneView::draw);
   connect(&focus_, &Focus::moved, this, &SceneView::show_step);
   connect(&colors_, &ColorChoice::changed, this, [this] {
     recolor();
@@ -504,6 +508,12 @@ void SceneView::show_sketch(const SceneSketch& sketch) {
 }
 
 void SceneView::render() {
+  renderer_->ResetCameraClippingRange();
+  draw_timer_->start();
+}
+
+void SceneView::draw() {
+  draw_timer_->stop();
   prepare_picture(1, antialiased_ && at_rest());
   if (canvas_->isVisible() && !held_) {
     window_->Render();

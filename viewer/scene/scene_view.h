@@ -146,7 +146,7 @@ class SceneView : public QWidget {
   /// Shows the map of a snapshot wherever its light would be shown in a sharp picture, from the
   /// next picture on. Without a map, patches are shown again.
   void show_map(const SurfaceMap& map);
-  /// Draws the picture again.
+  /// Draws the picture again, once for all changes until the event loop is reached.
   void render();
   /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
   PatchId patch_at(const QPoint& position) const;
@@ -198,6 +198,7 @@ class SceneView : public QWidget {
   void follow_camera();
   void place_callouts();
   void draw_callouts(QImage& image) const;
+  void draw();
   void prepare_picture(double line_scale, bool smooth);
 
   const Focus& focus_;
@@ -219,6 +220,7 @@ class SceneView : public QWidget {
   bool antialiased_ = true;
   bool stepped_ = false;  ///< a step is drawn
   QTimer* rest_timer_;    ///< runs while steps follow each other quickly
+  QTimer* draw_timer_;    ///< runs from a change until it is drawn
   QPoint press_position_;
   bool pressed_ = false;
 
