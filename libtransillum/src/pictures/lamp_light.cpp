@@ -150,6 +150,7 @@ Rgb LampLight::at_point(PatchId patch, const Vec3& x, const Cancellation& cancel
   const Vec3& normal = scene_->patch(patch).normal;
   Rgb sum;
   for (View& view : views_of(patch, cancellation)) {
+    cancellation.throw_if_canceled();
     if (view.shared) {
       sum += view.shared->form_factor(scaled, normal, tick) * view.lamp->exitance;
     } else if (auto own = finder_.view_from(scaled, *view.lamp)) {
