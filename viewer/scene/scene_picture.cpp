@@ -66,7 +66,7 @@ void SceneView::draw_callouts(QImage& image) const {
 }
 
 QImage SceneView::picture(int scale) {
-  if (draw_timer_->isActive()) {
+  if (!drawn()) {
     draw();
   }
   taking_picture_ = true;

@@ -512,6 +512,8 @@ void SceneView::render() {
   draw_timer_->start();
 }
 
+bool SceneView::drawn() const { return !draw_timer_->isActive(); }
+
 void SceneView::draw() {
   draw_timer_->stop();
   prepare_picture(1, antialiased_ && at_rest());

@@ -148,6 +148,8 @@ class SceneView : public QWidget {
   void show_map(const SurfaceMap& map);
   /// Draws the picture again, once for all changes until the event loop is reached.
   void render();
+  /// Whether all changes are drawn.
+  bool drawn() const;
   /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
   PatchId patch_at(const QPoint& position) const;
   /// The patch drawn at a point of canvas(), and its point there.

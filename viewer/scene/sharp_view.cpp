@@ -91,6 +91,8 @@ void SharpView::set_solving(bool solving) {
   }
 }
 
+bool SharpView::settled() const { return view_.drawn() && (!wanted() || finished_); }
+
 /// Compares what the view shows with what was requested; called before each picture is drawn.
 void SharpView::follow() {
   std::optional<SharpSubject> now;

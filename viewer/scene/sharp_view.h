@@ -32,7 +32,7 @@ class SharpView : public QObject {
   /// While a solve runs or a scene is loaded, none is made.
   void set_solving(bool solving);
   /// Whether the picture of the scene is final: the sharp picture is finished, or none is made.
-  bool settled() const { return !wanted() || finished_; }
+  bool settled() const;
   /// Whether the light map is finished, or none is made.
   bool has_map() const { return !map_requested_ || map_finished_; }
   /// Makes the sharp picture of another size, pixels, behind a dialog.
