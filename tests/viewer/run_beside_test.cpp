@@ -6,8 +6,11 @@
 #include <QAction>
 #include <QApplication>
 #include <QClipboard>
+#include <QComboBox>
 #include <QTableWidget>
 #include <QToolButton>
+#include <array>
+#include <cmath>
 #include <set>
 
 #include "geometry/luminance.h"
@@ -87,13 +90,22 @@ class RunBesideTest : public QObject {
     double changed = 0;
     for (int row = 0; row < s.table->rowCount(); ++row) {
       const PatchId patch = s.table->item(row, 0)->text().toInt();
-      QCOMPARE(s.table->item(row, 1)->text(), number_text(at(here, patch)));
+      QCOMPARE(s.table->item(row, 1)->text(), number_text(at(there, patch)));
+      QCOMPARE(s.table->item(row, 2)->text(), number_text(at(here, patch)));
       const double exact = at(here, patch) - at(there, patch);
       const double change = std::abs(exact) > 1e-12 ? exact : 0;  // areas of a meter, rounded
-      QCOMPARE(s.table->item(row, 2)->text(), number_text(change));
+      QCOMPARE(s.table->item(row, 3)->text(), number_text(change));
       changed = std::max(changed, std::abs(change));
-      QCOMPARE(s.table->item(row, 5)->text(),
+    }
+    s.part<QComboBox>("beside_quantity")->setCurrentIndex(2);
+    double before = HUGE_VAL;
+    for (int row = 0; row < s.table->rowCount(); ++row) {
+      const PatchId patch = s.table->item(row, 0)->text().toInt();
+      QCOMPARE(s.table->item(row, 2)->text(),
                number_text(luminance(at(s.window->snapshot()->radiosity, patch))));
+      const double size = std::abs(s.table->item(row, 3)->text().toDouble());
+      QVERIFY(size <= before);
+      before = size;
     }
     QCOMPARE(changed > 0, kept != open);
     save_picture(*s.window, "beside-" + kept.section(':', 0, 0));
@@ -104,7 +116,7 @@ class RunBesideTest : public QObject {
     const SolvedWindow solved("cornell-box");
     QVERIFY(solved.ready);
     ColorChoice& colors = solved.window->colors;
-    RunBeside beside(solved.window->focus, colors);
+    RunBeside beside(solved.window->focus, colors, solved.window->selection);
     beside.show(solved.window->snapshot(), "itself");
     std::set<std::vector<Color8>> different;
     for (const Quantity quantity :
@@ -115,6 +127,47 @@ class RunBesideTest : public QObject {
       different.insert(beside.patch_colors());
     }
     QVERIFY(different.size() >= 5);
+  }
+
+  // Oracle: the form factors of a solve of each scene, with the same directions.
+  void form_factors_are_compared_pair_by_pair() {
+    const Beside s("boards:n=4", "boards:n=5");
+    QVERIFY(s.ready);
+    s.part<QComboBox>("beside_quantity")->setCurrentIndex(3);
+    QCOMPARE(s.table->rowCount(), 0);
+    constexpr PatchId receiver = 2;
+    s.window->selection.select(receiver);
+    QVERIFY(wait_for([&] { return s.table->rowCount() > 0; }));
+    const SolveOptions& options = s.window->snapshot()->options;
+    std::array<std::vector<double>, 2> expected;
+    for (const auto& [name, row] :
+         {std::pair{"boards:n=4", &expected[0]}, {"boards:n=5", &expected[1]}}) {
+      const auto scene = load_scene(name);
+      RadiositySolver solver(scene, options);
+      solver.keep_form_factors();
+      solver.advance(RadiositySolver::Until::finished);
+      row->resize(static_cast<std::size_t>(scene->patch_count()));
+      const ReceiverRow of_solve = row_of(solver.form_factors(), receiver);
+      for (std::size_t k = 0; k < of_solve.source.size(); ++k) {
+        at(*row, of_solve.source[k]) = of_solve.value[k];
+      }
+    }
+    double changed = 0;
+    for (int row = 0; row < s.table->rowCount(); ++row) {
+      const PatchId j = s.table->item(row, 0)->text().toInt();
+      for (int side = 0; side < 2; ++side) {
+        QCOMPARE(s.table->item(row, 1 + side)->text(),
+                 number_text(at(expected[static_cast<std::size_t>(side)], j)));
+      }
+      changed = std::max(changed, std::abs(s.table->item(row, 3)->text().toDouble()));
+    }
+    QVERIFY(changed > 1e-3);
+    s.table->setCurrentCell(0, 0);  // the receiver stays
+    QCOMPARE(s.window->selection.patch(), receiver);
+    QCOMPARE(s.window->selection.patches().size(), std::size_t{2});
+    s.part<QToolButton>("copy_beside")->click();
+    QVERIFY(QApplication::clipboard()->text().contains("F(2,j) there"));
+    save_picture(*s.window, "beside-factors");
   }
 
   // The other map shows the step of the patch with the same number.

@@ -9,10 +9,12 @@
 
 namespace transillum::viewer {
 
-RunBeside::RunBeside(const Focus& focus, const ColorChoice& colors, QObject* parent)
+RunBeside::RunBeside(const Focus& focus, const ColorChoice& colors, const Selection& selection,
+                     QObject* parent)
     : QObject(parent),
       focus_(focus),
       colors_(colors),
+      selection_(selection),
       comparer_(
           *this,
           [comparer = DirectionComparer()](const DirectionRequest& request,
@@ -31,6 +33,7 @@ RunBeside::RunBeside(const Focus& focus, const ColorChoice& colors, QObject* par
     }
   });
   connect(&colors_, &ColorChoice::fitted, this, &RunBeside::request);
+  connect(&selection_, &Selection::changed, this, &RunBeside::request);
 }
 
 void RunBeside::show(std::shared_ptr<const SolverSnapshot> run, const QString& name) {
@@ -46,7 +49,9 @@ void RunBeside::request() {
   const auto map = focus_.map();
   const auto snapshot = colors_.snapshot();
   if (run_ && map && snapshot && snapshot->loaded == map->loaded) {
-    comparer_.request({run_, snapshot, map});
+    const PatchId patch = selection_.patch();
+    comparer_.request(
+        {run_, snapshot, map, patch == no_patch ? std::nullopt : row_request(*snapshot, patch)});
   }
 }
 
@@ -110,6 +115,14 @@ QString RunBeside::summary() const {
       for (const auto& pair : {row.seen, row.factors, row.radiosity}) {
         cells << number_text(pair[0]) << number_text(pair[1]);
       }
+      text += cells.join(QLatin1Char('\t')) + QLatin1Char('\n');
+    }
+  }
+  if (shown->receiver != no_patch) {
+    text += tr("\nj\tF(%1,j) there\tF(%1,j) here\n").arg(shown->receiver);
+    for (const DirectionComparison::Factor& factor : shown->factors) {
+      const QStringList cells{QString::number(factor.source), number_text(factor.value[0]),
+                              number_text(factor.value[1])};
       text += cells.join(QLatin1Char('\t')) + QLatin1Char('\n');
     }
   }

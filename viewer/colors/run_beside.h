@@ -9,6 +9,7 @@
 #include "colors/color_choice.h"
 #include "model/requests/direction_comparison.h"
 #include "state/focus.h"
+#include "state/selection.h"
 #include "support/newest_result.h"
 
 namespace transillum::viewer {
@@ -21,7 +22,8 @@ class RunBeside : public QObject {
   Q_OBJECT
 
  public:
-  RunBeside(const Focus& focus, const ColorChoice& colors, QObject* parent = nullptr);
+  RunBeside(const Focus& focus, const ColorChoice& colors, const Selection& selection,
+            QObject* parent = nullptr);
 
   /// Shows a run; null ends that.
   void show(std::shared_ptr<const SolverSnapshot> run, const QString& name);
@@ -29,7 +31,7 @@ class RunBeside : public QObject {
   const std::shared_ptr<const SolverSnapshot>& run() const { return run_; }
   const QString& name() const { return name_; }
   /// The comparison along the direction in focus; null while it is being computed, or without a
-  /// run.
+  /// run. Its form factors may still be those of the patch selected before.
   std::shared_ptr<const DirectionComparison> comparison() const;
   /// Why there is no comparison; else empty.
   const QString& error() const { return error_; }
@@ -49,6 +51,7 @@ class RunBeside : public QObject {
 
   const Focus& focus_;
   const ColorChoice& colors_;
+  const Selection& selection_;
   std::shared_ptr<const SolverSnapshot> run_;
   QString name_, error_;
   std::shared_ptr<const DirectionComparison> comparison_;

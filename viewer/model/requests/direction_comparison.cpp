@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "geometry/luminance.h"
 #include "transillum/at.h"
@@ -24,6 +25,41 @@ std::vector<double> exchanged_areas(const RecordedMap& map) {
   return areas;
 }
 
+namespace {
+
+/// Whether both scenes have a patch, as part of the same face.
+bool is_in_both(const Scene& a, const Scene& b, PatchId i) {
+  return i < std::min(a.patch_count(), b.patch_count()) && a.patch(i).face == b.patch(i).face;
+}
+
+}  // namespace
+
+void DirectionComparer::compare_factors(const RowRequest& row, const Cancellation& cancellation) {
+  if (row_ == row) {
+    return;
+  }
+  row_.reset();
+  factors_.clear();
+  RowRequest there = row;
+  there.loaded = loaded_;
+  there.form_factors = nullptr;
+  std::map<PatchId, std::array<double, 2>> by_source;
+  const auto add = [&](const RowRequest& request, std::size_t side) {
+    const ReceiverRow found = compute_row(request, cancellation, {}).row;
+    for (std::size_t k = 0; k < found.source.size(); ++k) {
+      by_source[found.source[k]][side] = found.value[k];
+    }
+  };
+  add(there, 0);
+  add(row, 1);
+  for (const auto& [source, value] : by_source) {
+    if (is_in_both(*row.loaded->scene, *loaded_->scene, source)) {
+      factors_.push_back({source, value});
+    }
+  }
+  row_ = row;
+}
+
 DirectionComparison DirectionComparer::operator()(const DirectionRequest& request,
                                                   const Cancellation& cancellation) {
   const std::shared_ptr<const Scene>& other = request.kept->loaded->scene;
@@ -34,6 +70,7 @@ DirectionComparison DirectionComparer::operator()(const DirectionRequest& reques
                                                        : std::make_shared<const BspTree>(*other);
     loaded_ = std::move(loaded);
     map_ = nullptr;
+    row_.reset();
   }
   const Vec3& omega = request.map->record().frame.omega;
   if (!map_ || !(map_->record().frame.omega == omega)) {
@@ -42,7 +79,7 @@ DirectionComparison DirectionComparer::operator()(const DirectionRequest& reques
                     request.map->passes, request.kept->options.memory},
                    cancellation));
   }
-  DirectionComparison result{map_, request.map, {}, {}};
+  DirectionComparison result{.kept_map = map_, .map = request.map, .rows = {}};
   const Scene& open = *request.map->loaded->scene;
   const std::vector<double> seen_there = exchanged_areas(*map_),
                             seen = exchanged_areas(*request.map);
@@ -52,7 +89,7 @@ DirectionComparison DirectionComparer::operator()(const DirectionRequest& reques
   const auto itself = [](double x) { return x; };
   const auto light = [](const Rgb& b) { return luminance(b); };
   for (PatchId i = 0; i < std::min(open.patch_count(), other->patch_count()); ++i) {
-    if (open.patch(i).face != other->patch(i).face) {
+    if (!is_in_both(open, *other, i)) {
       continue;
     }
     result.rows.push_back(
@@ -67,6 +104,11 @@ DirectionComparison DirectionComparer::operator()(const DirectionRequest& reques
   std::stable_sort(result.rows.begin(), result.rows.end(), [](const auto& a, const auto& b) {
     return std::abs(a.change()) > std::abs(b.change());
   });
+  if (request.row && is_in_both(open, *other, request.row->receiver)) {
+    compare_factors(*request.row, cancellation);
+    result.receiver = request.row->receiver;
+    result.factors = factors_;
+  }
   return result;
 }
 

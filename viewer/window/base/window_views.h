@@ -41,7 +41,7 @@ struct SharedState {
   OpenScene scene{runner, relighting};
   Focus focus;
   FocusFeed focus_feed{focus};
-  RunBeside beside{focus, colors};
+  RunBeside beside{focus, colors, selection};
   Breakpoints breakpoints;
   Watches watches;
   PerDirectionVisibility visibility;
