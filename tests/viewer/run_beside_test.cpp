@@ -47,6 +47,10 @@ struct Beside : Inspected {
   }
 };
 
+double number_in(const QTableWidgetItem& cell) {
+  return cell.text().replace(QChar(0x2212), QLatin1Char('-')).toDouble();
+}
+
 /// The area over which each patch exchanges light, by the engine's own transfers.
 std::vector<double> areas_of(const Scene& scene, const BspTree& tree, const Vec3& omega) {
   std::vector<double> areas(static_cast<std::size_t>(scene.patch_count()));
@@ -103,7 +107,7 @@ class RunBesideTest : public QObject {
       const PatchId patch = s.table->item(row, 0)->text().toInt();
       QCOMPARE(s.table->item(row, 2)->text(),
                number_text(luminance(at(s.window->snapshot()->radiosity, patch))));
-      const double size = std::abs(s.table->item(row, 3)->text().toDouble());
+      const double size = std::abs(number_in(*s.table->item(row, 3)));
       QVERIFY(size <= before);
       before = size;
     }
@@ -159,7 +163,7 @@ class RunBesideTest : public QObject {
         QCOMPARE(s.table->item(row, 1 + side)->text(),
                  number_text(at(expected[static_cast<std::size_t>(side)], j)));
       }
-      changed = std::max(changed, std::abs(s.table->item(row, 3)->text().toDouble()));
+      changed = std::max(changed, std::abs(number_in(*s.table->item(row, 3))));
     }
     QVERIFY(changed > 1e-3);
     s.table->setCurrentCell(0, 0);  // the receiver stays

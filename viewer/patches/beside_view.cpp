@@ -113,9 +113,10 @@ void BesideView::show_state() {
         tr("Select a patch that both scenes have, to compare its form factors. They "
            "exist once an iteration has ended."));
   } else {
-    words_->setText(tr("F of patch %1 to every patch j, in both scenes with the directions of the "
-                       "open one: only the scenes differ.")
-                        .arg(comparison->receiver));
+    words_->setText(tr("F of patch %1 to each other patch, in %2 (there) and in the open scene "
+                       "(here), with the same directions.")
+                        .arg(comparison->receiver)
+                        .arg(beside_.name()));
   }
   show_table();
 }

@@ -109,19 +109,22 @@ KeptRunPanel::KeptRunPanel(ColorChoice& colors, Selection& selection, RunBeside&
   // A layout does not count further lines of wrapped text, and would lay the table over them.
   hint_->setMinimumHeight(2 * hint_->fontMetrics().lineSpacing() + 2);
   table_->setMinimumHeight(38);
+  auto* list = new QWidget;
+  auto* of_list = make_column(list, {}, 2);
+  of_list->addWidget(table_, 1);
+  of_list->addWidget(hint_);
+  of_list->addLayout(make_choices());
+  of_list->addLayout(make_values());
   auto* layout = make_column(this, {}, 2);
   layout->addLayout(make_buttons(keep, difference));
-  layout->addWidget(table_, 1);
-  layout->addWidget(hint_);
-  layout->addLayout(make_choices());
-  layout->addLayout(make_values());
+  layout->addWidget(list, 1);
   layout->addWidget(named("beside_view", new BesideView(beside, selection)), 1);
   connect(&runs_, &KeptRuns::changed, this, &KeptRunPanel::show_list);
-  connect(&beside_, &RunBeside::changed, this, [this] {
+  connect(&beside_, &RunBeside::changed, this, [this, list] {
     const bool shown = beside_.run() != nullptr;
     side_->setChecked(shown);
-    values_->setVisible(!shown);  // the comparison of all directions needs the room
-    go_->setVisible(!shown);
+    list->setVisible(!shown);  // one comparison at a time
+    remove_->setVisible(!shown);
   });
   connect(&runs_, &KeptRuns::compared_changed, this, &KeptRunPanel::show_choices);
   connect(&colors_, &ColorChoice::fitted, this, &KeptRunPanel::show_difference);
