@@ -94,8 +94,15 @@ void draw_pressed_button(QPainter& painter, const QStyleOption& option) {
   painter.restore();
 }
 
-/// Scales icons and indicators with the font; marks active buttons and boxes so that they are
-/// recognized in every appearance.
+/// Whether a button opens a menu wherever it is pressed.
+bool opens_menu(const QStyleOption* option) {
+  const auto* button = qstyleoption_cast<const QStyleOptionToolButton*>(option);
+  return button != nullptr && (button->features & QStyleOptionToolButton::HasMenu) &&
+         !(button->features & QStyleOptionToolButton::MenuButtonPopup);
+}
+
+/// Scales icons and indicators with the font; marks active buttons and boxes, and buttons that open
+/// a menu, so that they are recognized in every appearance.
 class ScaledStyle : public QProxyStyle {
  public:
   ScaledStyle() : QProxyStyle(QStringLiteral("Fusion")) {}
@@ -115,6 +122,28 @@ class ScaledStyle : public QProxyStyle {
       default:
         return QProxyStyle::pixelMetric(metric, option, widget);
     }
+  }
+
+  QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& size,
+                         const QWidget* widget) const override {
+    const QSize usual = QProxyStyle::sizeFromContents(type, option, size, widget);
+    return type == CT_ToolButton && opens_menu(option) ? usual + QSize(scaled(10), 0) : usual;
+  }
+
+  /// Fusion's triangle in the corner of a button with a menu has two pixels.
+  void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
+                          QPainter* painter, const QWidget* widget) const override {
+    if (control != CC_ToolButton || !opens_menu(option)) {
+      QProxyStyle::drawComplexControl(control, option, painter, widget);
+      return;
+    }
+    QStyleOptionToolButton plain(*qstyleoption_cast<const QStyleOptionToolButton*>(option));
+    plain.features &= ~QStyleOptionToolButton::HasMenu;
+    QProxyStyle::drawComplexControl(control, &plain, painter, widget);
+    const int size = scaled(8);
+    plain.rect = QRect(option->rect.right() - size - scaled(3),
+                       option->rect.center().y() - size / 2 + scaled(1), size, size);
+    drawPrimitive(PE_IndicatorArrowDown, &plain, painter, widget);
   }
 
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
