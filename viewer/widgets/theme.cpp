@@ -124,13 +124,8 @@ class ScaledStyle : public QProxyStyle {
     }
   }
 
-  QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& size,
-                         const QWidget* widget) const override {
-    const QSize usual = QProxyStyle::sizeFromContents(type, option, size, widget);
-    return type == CT_ToolButton && opens_menu(option) ? usual + QSize(scaled(10), 0) : usual;
-  }
-
-  /// Fusion's triangle in the corner of a button with a menu has two pixels.
+  /// Fusion's triangle in the corner of a button with a menu has two pixels; this one lies beside
+  /// the text, in its margin.
   void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
                           QPainter* painter, const QWidget* widget) const override {
     if (control != CC_ToolButton || !opens_menu(option)) {
@@ -141,7 +136,7 @@ class ScaledStyle : public QProxyStyle {
     plain.features &= ~QStyleOptionToolButton::HasMenu;
     QProxyStyle::drawComplexControl(control, &plain, painter, widget);
     const int size = scaled(8);
-    plain.rect = QRect(option->rect.right() - size - scaled(3),
+    plain.rect = QRect(option->rect.right() - size - scaled(1),
                        option->rect.center().y() - size / 2 + scaled(1), size, size);
     drawPrimitive(PE_IndicatorArrowDown, &plain, painter, widget);
   }
