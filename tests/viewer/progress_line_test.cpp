@@ -42,8 +42,8 @@ class ProgressLineTest : public QObject {
     line.show_state(RunState::finished);
     line.show_snapshot(reached("back wall"));
     QCOMPARE(line.findChild<QLabel*>("phase")->text(),
-             QString("Good enough: error of the worst surface, back wall, at most 0.873 % (limit "
-                     "1 %), %1 passes")
+             QString("Good enough: error by directions of the worst surface, back wall, at most "
+                     "0.873 % (limit 1 %), %1 passes")
                  .arg(count_text(12'345)));
   }
 

@@ -31,7 +31,7 @@ class RunBeside : public QObject {
   const std::shared_ptr<const SolverSnapshot>& run() const { return run_; }
   const QString& name() const { return name_; }
   /// The comparison along the direction in focus; null while it is being computed, or without a
-  /// run. Its form factors may still be those of the patch selected before.
+  /// run. Its form factors may still belong to the patch selected before.
   std::shared_ptr<const DirectionComparison> comparison() const;
   /// Why there is no comparison; else empty.
   const QString& error() const { return error_; }

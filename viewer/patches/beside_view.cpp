@@ -33,7 +33,8 @@ BesideView::BesideView(const RunBeside& beside, Selection& selection, QWidget* p
   connect(copy_, &QToolButton::clicked, this,
           [this] { QGuiApplication::clipboard()->setText(beside_.summary()); });
   shown_ = named("beside_quantity", new QComboBox,
-                 tr("What is compared, patch by patch: along ω, after all directions, or all that "
+                 tr("The values that are compared, patch by patch: along ω, after all directions, "
+                    "or of all that "
                     "the selected patch sees"));
   shown_->addItems({tr("Area along ω, m²"), tr("Sum of form factors ΣF"), tr("B, W/m²"),
                     tr("F of the selected patch")});

@@ -23,7 +23,7 @@ class BesideView : public QWidget {
   BesideView(const RunBeside& beside, Selection& selection, QWidget* parent = nullptr);
 
  private:
-  /// What the table shows, in the order of the list.
+  /// The quantity of the table, in the order of the list.
   enum class Shown { area, factor_sum, radiosity, factors };
   /// A row of the table.
   struct Line {

@@ -28,12 +28,12 @@ QString percent(double fraction) {
   return ProgressLine::tr("%1 %").arg(number_text(100 * fraction));
 }
 
-// "error of the worst surface, floor,": where the goal is about surfaces. Names of files can be
-// longer than the window is wide.
+// "error by directions of the worst surface, floor,": where the goal is about surfaces. Names of
+// files can be longer than the window is wide.
 QString error_name(const AccuracyReport& report, int longest_name) {
   return report.surface.empty()
-             ? ProgressLine::tr("error")
-             : ProgressLine::tr("error of the worst surface, %1,")
+             ? ProgressLine::tr("error by directions")
+             : ProgressLine::tr("error by directions of the worst surface, %1,")
                    .arg(elided_name(QString::fromStdString(report.surface), longest_name));
 }
 
@@ -54,7 +54,11 @@ QString accuracy_text(const AccuracyReport& report, int longest_name) {
 
 // The same without shortening.
 QString accuracy_tip(const AccuracyReport& report) {
-  const QString text = accuracy_text(report, INT_MAX);
+  const QString text =
+      ProgressLine::tr(
+          "%1.\nThe size of the patches adds to it: Errors, in the panel Surfaces, "
+          "measures every cause")
+          .arg(accuracy_text(report, INT_MAX));
   return report.is_dark ? ProgressLine::tr(
                               "%1.\nThe error is relative to a thousandth of the brightest "
                               "surface, as the surface is in the dark")

@@ -75,7 +75,7 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, Watches& watches,
   connect(&focus_, &Focus::target_changed, this, &TimelineBar::show_position);
   connect(&focus_, &Focus::seek_ended, this, [this](bool found) {
     if (!found) {
-      text_->set_clauses({tr("Not found in any direction of the run")});
+      text_->set_clauses({tr("No further hit in the run")});
     }
   });
   connect(&focus_, &Focus::seek_stopped, this, [this](int searched) {

@@ -52,7 +52,7 @@ struct DirectionComparison {
   /// Numbers of patches that only one of the scenes has, the other first.
   std::array<PatchId, 2> unmatched{};
   PatchId receiver = no_patch;       ///< RowRequest::receiver; no_patch where only one scene has it
-  std::vector<Factor> factors = {};  ///< of the receiver, above 0 in a scene; by source
+  std::vector<Factor> factors = {};  ///< F of the receiver, above 0 in a scene; by source
 };
 
 /// Compares directions; keeps the tree, the newest map and the newest row of the other scene.
