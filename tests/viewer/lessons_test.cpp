@@ -351,6 +351,30 @@ class LessonsTest : public QObject {
     QCOMPARE(taught.panel->lesson(), -1);
   }
 
+  // Turning pages leads through the first hour, and after it to the lesson that follows its last.
+  void the_first_hour_is_turned_from_lesson_to_lesson() {
+    Taught taught;
+    const auto& lessons = taught.panel->lessons();
+    std::vector<int> hour;
+    for (int k = 0; k < std::ssize(lessons); ++k) {
+      if (at(lessons, k).first_hour) {
+        hour.push_back(k);
+      }
+    }
+    QVERIFY(hour.size() > 2 && hour.back() - hour.front() >= std::ssize(hour));
+    for (std::size_t k = 0; k < hour.size(); ++k) {
+      const int next = k + 1 < hour.size() ? hour[k + 1] : hour[k] + 1;
+      taught.panel->show_page(hour[k], static_cast<int>(at(lessons, hour[k]).pages.size()) - 1);
+      QVERIFY(taught.settles());
+      taught.trigger("lesson_next");
+      QCOMPARE(taught.panel->lesson(), next);
+      QVERIFY(taught.settles());
+      taught.trigger("lesson_previous");
+      QCOMPARE(taught.panel->lesson(), hour[k]);
+      QVERIFY(taught.settles());
+    }
+  }
+
   void a_missing_scene_is_reported_and_the_next_page_works() {
     Taught taught;
     const QTemporaryDir folder;

@@ -224,6 +224,28 @@ class QuestionsTest : public QObject {
     QCOMPARE(QDir(room.data.path() + "/tallies").entryList(QDir::Files).size(), 1);
   }
 
+  // The patch that a page calls "this fragment" is the patch of the step that it shows.
+  void a_question_about_the_fragment_of_a_step_is_about_its_patch() {
+    Class room;
+    int pages = 0;
+    for (std::size_t lesson = 0; lesson < room.panel->lessons().size(); ++lesson) {
+      for (std::size_t k = 0; k < room.panel->lessons()[lesson].pages.size(); ++k) {
+        const Lesson::Page& page = room.panel->lessons()[lesson].pages[k];
+        const auto& shown = page.state.focus;
+        if (!page.question || page.question->kind != Question::Kind::patch || !shown ||
+            shown->step != StepChoice(StepName::exchange)) {
+          continue;
+        }
+        const PatchId patch = page.question->wanted.patch;
+        room.open_built_in(static_cast<int>(lesson) + 1, static_cast<int>(k) + 1);
+        const Focus& focus = room.window->focus;
+        QCOMPARE(focus.map()->history.step(focus.position().step).patch, patch);
+        ++pages;
+      }
+    }
+    QVERIFY(pages > 0);
+  }
+
   void a_number_is_guessed() {
     Class room;
     room.open(page_with(R"({"kind": "number", "ask": "How much?", "unit": "%", "within": 0.05,

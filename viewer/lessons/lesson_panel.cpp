@@ -292,12 +292,23 @@ void LessonPanel::turn(int pages) {
   if (lesson_ < 0) {
     show_page(0, 0);
   } else if (page < 0) {
-    show_page(lesson_ - 1, pages_of(lesson_ - 1) - 1);
+    const int before = neighbor(-1);
+    show_page(before, pages_of(before) - 1);
   } else if (page == pages_of(lesson_)) {
-    show_page(lesson_ + 1, 0);
+    show_page(neighbor(1), 0);
   } else {
     show_page(lesson_, page);
   }
+}
+
+int LessonPanel::neighbor(int step) const {
+  for (int k = lesson_ + step; at(lessons_, lesson_).first_hour && has_index(lessons_, k);
+       k += step) {
+    if (at(lessons_, k).first_hour) {
+      return k;
+    }
+  }
+  return lesson_ + step;
 }
 
 int LessonPanel::pages_of(int lesson) const {

@@ -101,6 +101,9 @@ class LessonPanel : public QWidget {
   /// Turns pages, past the last (first) page to the next (previous) lesson.
   void turn(int pages);
   int pages_of(int lesson) const;
+  /// The lesson before (-1) or after (1) the open one: within the first hour its next one, while
+  /// there is one.
+  int neighbor(int step) const;
   void show_state();
   QString list_of_lessons() const;
   /// "First hour, 1 of 5"; empty for other lessons.
