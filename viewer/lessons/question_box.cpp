@@ -108,22 +108,30 @@ void QuestionBox::make_widgets() {
   layout_->addWidget(ask_);
   layout_->addWidget(result_);
   layout_->addWidget(progress_);
-  layout_->addWidget(counts_);
-  layout_->addWidget(make_buttons());
+  auto* tally = make_row({});
+  tally->addWidget(counts_, 1);
+  tally->addWidget(text_button(*reset_), 0, Qt::AlignBottom);
+  layout_->addLayout(tally);
+  layout_->addLayout(make_buttons());
 }
 
-QWidget* QuestionBox::make_buttons() {
-  auto* buttons = new QWidget;
-  auto* row = make_row(buttons, {});
-  for (QAction* action : actions()) {
-    auto* button = button_for(action);
-    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+QToolButton* QuestionBox::text_button(QAction& action) {
+  auto* button = button_for(&action);
+  button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  button->setVisible(action.isVisible());
+  connect(&action, &QAction::changed, button,
+          [&action, button] { button->setVisible(action.isVisible()); });
+  return button;
+}
+
+QLayout* QuestionBox::make_buttons() {
+  auto* row = make_row({});
+  for (QAction* action : {reveal_, count_}) {
+    auto* button = text_button(*action);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     row->addWidget(button);
-    connect(action, &QAction::changed, button,
-            [action, button] { button->setVisible(action->isVisible()); });
   }
-  return buttons;
+  return row;
 }
 
 void QuestionBox::show_page(std::shared_ptr<const Lesson::Page> page, int number,

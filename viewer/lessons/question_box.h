@@ -93,7 +93,8 @@ class QuestionBox : public QFrame {
  private:
   void make_actions();
   void make_widgets();
-  QWidget* make_buttons();
+  QLayout* make_buttons();
+  QToolButton* text_button(QAction& action);
   void fill_answers();
   void add_choice(int k);
   void add_number();
