@@ -113,6 +113,15 @@ class InspectTest : public QObject {
     QCOMPARE(shown.text("patch_irradiance"), rgb_text(shown.window->snapshot()->irradiance[4]));
   }
 
+  void the_inspector_shows_the_error_of_the_patch() {
+    const Inspected shown("cornell-box", {.directions = 48, .first_shot = {}, .replicas = 4});
+    QVERIFY(shown.ready);
+    shown.window->selection.select(4);
+    const auto& errors = shown.window->snapshot()->error.standard_error;
+    QVERIFY(max_abs(errors.at(4)) > 0);
+    QCOMPARE(shown.text("patch_error"), rgb_text(errors[4]));
+  }
+
   void tips_name_sections_that_hold_their_equations() {
     const Inspected shown("cornell-box");
     QVERIFY(shown.ready);

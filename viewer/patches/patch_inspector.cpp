@@ -27,6 +27,7 @@ PatchInspector::PatchInspector(Focus& focus, Selection& selection, const ColorCh
   material_ = values_->add_row(tr("Material"), {});
   group_ = values_->add_row(tr("Group"), {});
   radiosity_ = add_quantity(Quantity::radiosity, "patch_radiosity");
+  error_ = add_quantity(Quantity::error, "patch_error");
   irradiance_ = add_quantity(Quantity::irradiance, "patch_irradiance");
   exitance_ = add_quantity(Quantity::exitance, "patch_exitance");
   reflectance_ = add_quantity(Quantity::reflectance, "patch_reflectance");
@@ -215,9 +216,11 @@ void PatchInspector::show_patch() {
   exitance_->setText(rgb_text(material_of(*snapshot_, patch).exitance));
   reflectance_->setText(rgb_text(material_of(*snapshot_, patch).reflectance));
   radiosity_->setText(rgb_text(at(snapshot_->radiosity, patch)));
-  const PatchValues irradiance = values_of(Quantity::irradiance, *snapshot_, no_patch, nullptr);
-  irradiance_->setText(irradiance.values.empty() ? QStringLiteral("–")
-                                                 : rgb_text(at(irradiance.values, patch)));
+  for (const auto& [quantity, label] :
+       {std::pair{Quantity::error, error_}, {Quantity::irradiance, irradiance_}}) {
+    const PatchValues found = values_of(quantity, *snapshot_, no_patch, nullptr);
+    label->setText(found.values.empty() ? QStringLiteral("–") : rgb_text(at(found.values, patch)));
+  }
   form_factor_sum_->setText(QString::number(at(snapshot_->form_factor_sums, patch), 'f', 6));
   sky_fraction_->setText(snapshot_->sky_fractions.empty()
                              ? QStringLiteral("–")

@@ -55,7 +55,7 @@ class PatchInspector : public QWidget {
   QLabel *count_, *total_area_, *emitted_, *leaving_, *received_, *mean_;  ///< shown for several
                                                                            ///< patches
   QLabel *id_, *face_, *material_, *group_, *area_, *center_, *normal_, *exitance_, *reflectance_,
-      *radiosity_, *irradiance_, *form_factor_sum_, *sky_fraction_, *swatch_;
+      *radiosity_, *error_, *irradiance_, *form_factor_sum_, *sky_fraction_, *swatch_;
 };
 
 }  // namespace transillum::viewer

@@ -157,7 +157,7 @@ void StepPanel::show_line_tab() {
       !focus_.probe() ? tr("Click the map to list the patches along a line parallel to ω.")
       : events.empty()
           ? tr("The line hits no patch.")
-          : tr("Patches along the line, the nearest to the source first; %1 of them receive light "
+          : tr("Patches along the line, the nearest to the source first; %1 receiving light "
                "there. The areas are of the fragment at the point, and of the whole pair.")
                 .arg(exchanges);
   list(line_, text, std::move(events));
