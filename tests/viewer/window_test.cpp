@@ -177,6 +177,7 @@ class WindowTest : public QObject {
     for (const double below : {2.0, 0.2, -0.2, -2.0}) {
       view.eye = patch.center + Vec3{-1, -8, 0} + below * patch.normal;
       solved.scene_view->set_view_point(view);
+      QVERIFY(wait_for([&] { return solved.scene_view->drawn(); }));
       save_picture(*solved.window, QString("outline-%1").arg(below));
       const double pink = fraction_of(picture_of(solved.scene_view->canvas()), theme::selection);
       QVERIFY2(pink > 4e-4, qPrintable(QString("%1: %2").arg(below).arg(pink)));
