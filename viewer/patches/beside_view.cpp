@@ -34,8 +34,7 @@ BesideView::BesideView(const RunBeside& beside, Selection& selection, QWidget* p
           [this] { QGuiApplication::clipboard()->setText(beside_.summary()); });
   shown_ = named("beside_quantity", new QComboBox,
                  tr("The values that are compared, patch by patch: along ω, after all directions, "
-                    "or of all that "
-                    "the selected patch sees"));
+                    "or of all that the selected patch sees"));
   shown_->addItems({tr("Area along ω, m²"), tr("Sum of form factors ΣF"), tr("B, W/m²"),
                     tr("F of the selected patch")});
   connect(shown_, qOverload<int>(&QComboBox::currentIndexChanged), this, &BesideView::show_state);

@@ -64,8 +64,8 @@ std::vector<std::vector<PatchId>> neighbors_of(const Scene& scene) {
   return neighbors;
 }
 
-/// The linear function about `mean` that fits the means of the neighbors best: least squares, and
-/// no slope across where there are no neighbors.
+/// The linear function about `mean` that fits the means of the neighbors best, by least squares; it
+/// has no slope in a direction without neighbors.
 LinearTerm fitted_term(const LinearBasis& basis, const Rgb& mean,
                        const std::vector<PatchId>& neighbors, const std::vector<LinearBasis>& bases,
                        const std::vector<Rgb>& means) {
