@@ -141,6 +141,20 @@ class ScaledStyle : public QProxyStyle {
     drawPrimitive(PE_IndicatorArrowDown, &plain, painter, widget);
   }
 
+  /// A text that is too long ends in an ellipsis; Qt cuts it at both ends.
+  void drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                   const QWidget* widget) const override {
+    const auto* button = qstyleoption_cast<const QStyleOptionToolButton*>(option);
+    if (element != CE_ToolButtonLabel || button == nullptr || !button->icon.isNull()) {
+      QProxyStyle::drawControl(element, option, painter, widget);
+      return;
+    }
+    QStyleOptionToolButton fitting(*button);
+    fitting.text = button->fontMetrics.elidedText(button->text, Qt::ElideRight,
+                                                  button->rect.width(), Qt::TextShowMnemonic);
+    QProxyStyle::drawControl(element, &fitting, painter, widget);
+  }
+
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override {
     const bool pressed = option->state & (State_On | State_Sunken);
