@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "scene/callout_layer.h"
+#include "scene/direction_glyph.h"
 #include "scene/scene_view.h"
 #include "scene/window_image.h"
 #include "widgets/theme.h"
@@ -53,6 +54,27 @@ std::optional<SharpSubject> SceneView::sharp_subject() const {
     subject.half = ShownHalf{vec3_of(clip_plane_->GetOrigin()), vec3_of(clip_plane_->GetNormal())};
   }
   return subject;
+}
+
+void SceneView::show_callouts(const std::vector<Callout>& callouts) {
+  callouts_ = callouts;
+  place_callouts();
+}
+
+std::optional<Vec3> SceneView::anchor_of(const Callout& callout) const {
+  switch (callout.anchor) {
+    case Callout::Anchor::patch:
+      if (callout.patch < 0 || callout.patch >= loaded_->scene->patch_count()) {
+        return std::nullopt;
+      }
+      return loaded_->scene->patch(callout.patch).center;
+    case Callout::Anchor::point:
+      return callout.point;
+    case Callout::Anchor::direction:
+      return glyph_->shown() ? std::optional(glyph_->tip()) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
 }
 
 void SceneView::draw_callouts(QImage& image) const {

@@ -447,27 +447,6 @@ void SceneView::follow_camera() {
   }
 }
 
-void SceneView::show_callouts(const std::vector<Callout>& callouts) {
-  callouts_ = callouts;
-  place_callouts();
-}
-
-std::optional<Vec3> SceneView::anchor_of(const Callout& callout) const {
-  switch (callout.anchor) {
-    case Callout::Anchor::patch:
-      if (callout.patch < 0 || callout.patch >= loaded_->scene->patch_count()) {
-        return std::nullopt;
-      }
-      return loaded_->scene->patch(callout.patch).center;
-    case Callout::Anchor::point:
-      return callout.point;
-    case Callout::Anchor::direction:
-      return glyph_->shown() ? std::optional(glyph_->tip()) : std::nullopt;
-    default:
-      return std::nullopt;
-  }
-}
-
 // After each rendering: the camera may have moved.
 void SceneView::place_callouts() {
   std::vector<CalloutLayer::Placed> placed;
