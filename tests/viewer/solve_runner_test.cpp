@@ -98,7 +98,8 @@ class SolveRunnerTest : public QObject {
     QVERIFY(std::abs(power / area / (5 * 10.0 / 94) - 1) < 0.01);
   }
 
-  // Until the solve is finished, the light is whole; afterwards it is what it is without a draft.
+  // Until the solve is finished, the light is whole, without blocks, and never less accurate than
+  // the draft: stages of few directions are not shown. Afterwards it is what it is without a draft.
   void a_draft_comes_before_a_long_solve() {
     SolveOptions options;
     options.goal.accuracy = 0.01;
@@ -119,17 +120,21 @@ class SolveRunnerTest : public QObject {
     };
     Watched watched;
     watched.runner.set_drafts(true);
-    double worst = 0;
+    watched.runner.set_refresh_interval(0);
+    double worst = 0, of_draft = 0;
     int drafts = 0;
     QObject::connect(&watched.runner, &SolveRunner::snapshot_ready, &watched.runner,
                      [&](const std::shared_ptr<const SolverSnapshot>& snapshot) {
                        drafts += snapshot->of_draft ? 1 : 0;
                        const bool before = drafts == 0 && snapshot->passes_done == 0;
                        worst = before ? worst : std::max(worst, error(*snapshot));
+                       of_draft = drafts == 1 ? error(*snapshot) : of_draft;
+                       QCOMPARE(snapshot->linear_terms.empty(), !snapshot->of_draft);
                      });
     QVERIFY(solved(watched) == expected);
     QVERIFY(drafts > 0 && !watched.snapshot->of_draft);
     QVERIFY2(worst < 0.05, qPrintable(QString::number(worst)));
+    QVERIFY2(worst <= of_draft, qPrintable(QString("%1 of %2").arg(worst).arg(of_draft)));
   }
 
   // The draft has constant functions; linear ones are fitted to them.

@@ -33,7 +33,9 @@ struct LoadedScene {
   std::shared_ptr<const Picker> picker;
   SceneMeasures measures;
   double back_fraction = 0;  ///< BackFraction::fraction
-  double open_fraction = 1;  ///< BackFraction::open; 1 with two-sided faces, which have an outside
+  /// BackFraction::open, 1 with two-sided faces, which have an outside; not set where a built-in
+  /// scene has light, which needs neither fraction
+  std::optional<double> open_fraction;
   std::shared_ptr<const Solution>
       stored;                     ///< solution of the result file that was opened; else null
   std::string file;               ///< path of the result file

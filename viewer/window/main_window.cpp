@@ -94,7 +94,7 @@ std::optional<double> escape_of(const SolverSnapshot& snapshot) {
   if (snapshot.passes_done > 0) {
     return snapshot.statistics.escaped;
   }
-  return has_light(snapshot) ? std::nullopt : std::optional(snapshot.loaded->open_fraction);
+  return has_light(snapshot) ? std::nullopt : snapshot.loaded->open_fraction;
 }
 
 QString dropped_file(const QMimeData& data) {

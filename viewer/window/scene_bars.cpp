@@ -29,7 +29,8 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr int delay_ms = 200;
+/// Each bar that comes and goes moves the picture, and has it drawn again.
+constexpr int delay_ms = 1000;
 
 }  // namespace
 

@@ -2,8 +2,6 @@
 #include "model/solver/draft.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -43,23 +41,24 @@ std::shared_ptr<const DirectLight> shoot_few_points(const SolveOptions& options,
 /// The patches with a common corner in the same plane, by PatchId; ascending.
 std::vector<std::vector<PatchId>> neighbors_of(const Scene& scene) {
   constexpr double same_plane = 1 - 1e-6;
-  std::map<PointId, std::vector<PatchId>> around;
+  std::vector<std::vector<PatchId>> around(scene.points().size());
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     for (const PointId corner : scene.outline(i)) {
-      around[corner].push_back(i);
+      at(around, corner).push_back(i);
     }
   }
   std::vector<std::vector<PatchId>> neighbors(static_cast<std::size_t>(scene.patch_count()));
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    std::set<PatchId> found;
+    std::vector<PatchId>& found = at(neighbors, i);
     for (const PointId corner : scene.outline(i)) {
-      for (const PatchId j : around[corner]) {
+      for (const PatchId j : at(around, corner)) {
         if (j != i && dot(scene.patch(i).normal, scene.patch(j).normal) > same_plane) {
-          found.insert(j);
+          found.push_back(j);
         }
       }
     }
-    at(neighbors, i).assign(found.begin(), found.end());
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
   }
   return neighbors;
 }
@@ -106,6 +105,10 @@ double factor_above_zero(const LinearTerm& term, const LinearBasis& basis, const
 
 }  // namespace
 
+bool is_better_than_draft(const SolveStatistics& statistics) {
+  return statistics.passes >= least_ratio * draft_directions;
+}
+
 bool can_be_drafted(const SolveOptions& options, const Scene& scene) {
   const bool is_large = options.goal.is_set() || traits_of(options.scheme).renews_directions ||
                         options.directions >= least_ratio * draft_directions;
@@ -113,8 +116,9 @@ bool can_be_drafted(const SolveOptions& options, const Scene& scene) {
          scene.patch_count() <= most_patches;
 }
 
-Draft prepare_draft(SolveOptions options, const LoadedScene& loaded,
-                    std::shared_ptr<const DirectLight> shot, const Cancellation& cancellation) {
+SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
+                           std::shared_ptr<const DirectLight> shot,
+                           const Cancellation& cancellation) {
   options.goal = {};
   options.directions = draft_directions;
   options.replicas = 1;
@@ -125,7 +129,7 @@ Draft prepare_draft(SolveOptions options, const LoadedScene& loaded,
   if (!options.first_shot) {
     options.first_shot = first_shot_where_it_pays;
   }
-  const bool linear = std::exchange(options.basis, Basis::constant) == Basis::linear;
+  options.basis = Basis::constant;
   options.validate();
   if (!shot) {
     shot = shoot_few_points(options, *loaded.scene, cancellation);
@@ -139,22 +143,20 @@ Draft prepare_draft(SolveOptions options, const LoadedScene& loaded,
     }
     shot = std::move(constant);
   }
-  Draft draft{SolveSession({.scene = loaded.scene,
-                            .options = std::move(options),
-                            .tree = loaded.tree,
-                            .shot = std::move(shot)},
-                           cancellation),
-              linear};
-  draft.session.prepare();
+  SolveSession draft({.scene = loaded.scene,
+                      .options = std::move(options),
+                      .tree = loaded.tree,
+                      .shot = std::move(shot)},
+                     cancellation);
+  draft.prepare();
   return draft;
 }
 
-Solution Draft::solution() const {
-  Solution light = session.solution();
-  if (!linear) {
+Solution smoothed(Solution light) {
+  if (!light.linear_terms.empty()) {
     return light;
   }
-  const Scene& scene = *session.scene();
+  const Scene& scene = *light.scene;
   const std::vector<LinearBasis> bases = linear_bases(scene);
   const std::vector<std::vector<PatchId>> neighbors = neighbors_of(scene);
   for (PatchId i = 0; i < scene.patch_count(); ++i) {

@@ -20,22 +20,23 @@ namespace transillum::viewer {
 bool can_be_drafted(const SolveOptions& options, const Scene& scene);
 
 /// A solve of few directions, prepared and not finished. Linear functions would take most of its
-/// time: the functions are constant, and linear ones are fitted to the means of the neighbors.
-struct Draft {
-  SolveSession session;
-  bool linear = false;  ///< the functions of the solve
-
-  /// The light of the finished session.
-  Solution solution() const;
-};
-
+/// time: the functions are constant.
 /// @param options  of the solve
 /// @param loaded   what is solved, and its tree
 /// @param shot     the direct light of the solve's first shot; null for one of few points, where it
 ///                 pays
 /// @throws InputError where some options need many directions; Canceled
-Draft prepare_draft(SolveOptions options, const LoadedScene& loaded,
-                    std::shared_ptr<const DirectLight> shot, const Cancellation& cancellation);
+SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
+                           std::shared_ptr<const DirectLight> shot,
+                           const Cancellation& cancellation);
+
+/// Light to look at: constant functions get the slopes that fit the means of the neighbors in the
+/// same plane best, and nowhere less than 0. Means are as before, and so are linear functions.
+Solution smoothed(Solution light);
+
+/// Whether the light of a finished stage is nearer to the result than that of a draft. A stage has
+/// several replicas of few directions each, whose mean is less accurate than one set of all.
+bool is_better_than_draft(const SolveStatistics& statistics);
 
 /// Replaces the light of a snapshot by the light of another solve of the same patches. The progress
 /// of its own solve stays.

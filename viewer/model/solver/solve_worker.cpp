@@ -17,6 +17,10 @@ namespace transillum::viewer {
 
 namespace {
 
+/// Without a GPU, a drawing of the dark scene would take a third of the time of its draft. A draft
+/// of so many patches is there soon enough to be the first picture.
+constexpr PatchId most_patches_of_quick_draft = 4000;
+
 /// Whether the scene as it was read gives light in a solve.
 bool is_lit(const Scene& scene, const SolveOptions& options) {
   return options.why_dark(scene.has_light()).empty();
@@ -105,19 +109,30 @@ SolveWorker::Prepared SolveWorker::prepare(const std::shared_ptr<const LoadedSce
 void SolveWorker::open(Prepared prepared) {
   loaded_ = prepared.loaded;
   materials_ = nullptr;
-  patches_to_announce_ = false;
+  patches_to_announce_ = true;
   replace_session(std::move(prepared));
-  messages_.post_scene(loaded_);
   if (!session_->is_prepared()) {
     try {
+      if (loaded_->scene->patch_count() > most_patches_of_quick_draft) {
+        announce_patches();
+      }
       begin_with_draft();
+      announce_patches();
       prepare_stage();
     } catch (const Canceled&) {
+      announce_patches();
       post_emission();
       return;
     }
   }
   post_snapshot();
+}
+
+/// Posts the patches, unless that is done.
+void SolveWorker::announce_patches() {
+  if (std::exchange(patches_to_announce_, false)) {
+    messages_.post_scene(loaded_);
+  }
 }
 
 /// Posts the state before the first shot, where a new scene would otherwise have none.
@@ -259,21 +274,22 @@ void SolveWorker::begin_with_draft() {
   }
   const Preparing preparing(*this);
   try {
-    Draft draft =
+    SolveSession draft =
         prepare_draft(choice_.solve, *loaded_,
                       prepared ? session_->diffuse()->direct_light() : nullptr, interruption());
-    SolverSnapshot start = snapshot_at_start(draft.session);
-    draft.session.advance(SolveSession::Until::finished,
-                          [this](const SolveSession&) { return !interrupted_; });
-    if (!draft.session.finished() || interrupted_) {
+    SolverSnapshot start = snapshot_at_start(draft);
+    draft.advance(SolveSession::Until::finished,
+                  [this](const SolveSession&) { return !interrupted_; });
+    if (!draft.finished() || interrupted_) {
       return;
     }
-    whole_ = draft.solution();
+    whole_ = smoothed(draft.solution());
     if (prepared) {
       post_snapshot();
       return;
     }
     show_light_of(*whole_, start);
+    announce_patches();
     messages_.post_snapshot(std::make_shared<const SolverSnapshot>(std::move(start)));
   } catch (...) {
     whole_.reset();  // the solve itself meets the same problem, and tells it
@@ -435,9 +451,7 @@ void SolveWorker::post_snapshot() {
   }
   QElapsedTimer cost;
   cost.start();
-  if (std::exchange(patches_to_announce_, false)) {
-    messages_.post_scene(loaded_);
-  }
+  announce_patches();
   std::shared_ptr<const SolverSnapshot> snapshot = make_snapshot();
   since_snapshot_.start();
   snapshot_cost_ms_ = static_cast<double>(cost.nsecsElapsed()) * 1e-6;
@@ -474,9 +488,13 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   }
   snapshot->measured_errors = errors_;
   snapshot->materials = session.glossy() != nullptr ? materials_ : nullptr;
-  if (whole_ && session.progress().finished) {
-    whole_ = session.solution();
-  } else if (whole_ && drafts_ && !interrupted_) {
+  const bool stage_ends = session.progress().finished;
+  // Where the time is limited, each stage may be the last that ends.
+  const bool is_result = stage_ends && (session.finished() || choice_.solve.goal.seconds > 0);
+  if (whole_ && stage_ends && is_better_than_draft(session.statistics())) {
+    whole_ = smoothed(session.solution());
+  }
+  if (whole_ && drafts_ && !interrupted_ && !is_result) {
     show_light_of(*whole_, *snapshot);
   }
   history_.write_to(*snapshot);

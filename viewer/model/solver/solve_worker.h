@@ -123,6 +123,7 @@ class SolveWorker {
   SolverSnapshot snapshot_at_start(const SolveSession& other) const;
   void prepare_stage();
   std::shared_ptr<const LoadedScene> begun(const Choice& choice) const;
+  void announce_patches();
   void begin_with_draft();
   bool advance_stage(const Goal& goal);
   void end_stage_of_total();

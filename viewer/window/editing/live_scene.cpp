@@ -73,9 +73,9 @@ Solution live_light(const LiveLightRequest& request, const Cancellation& cancell
   if (!takes_directions(options.engine)) {
     options.engine = SolveOptions{}.engine;
   }
-  Draft draft = prepare_draft(options, loaded, nullptr, cancellation);
-  draft.session.advance(SolveSession::Until::finished);
-  return draft.solution();
+  SolveSession draft = prepare_draft(options, loaded, nullptr, cancellation);
+  draft.advance(SolveSession::Until::finished);
+  return smoothed(draft.solution());
 }
 
 std::shared_ptr<const SolverSnapshot> live_snapshot(
