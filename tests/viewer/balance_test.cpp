@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // "Why this number?": the terms of B of a patch, and the links of their numbers.
+#include <QRegularExpression>
+#include <algorithm>
 #include <cmath>
 
 #include "inspected_window.h"
@@ -31,6 +33,16 @@ LightBalance balance_of(const SolverSnapshot& snapshot, PatchId i) {
   RowRequest request = *row_request(snapshot, i);
   request.form_factors = nullptr;
   return light_balance(snapshot, i, compute_row(request, {}, [](double) {}).row);
+}
+
+/// What the sources contribute, as the text shows it.
+std::vector<double> shown_terms(const QString& text) {
+  static const QRegularExpression link("<a href='step:[^>]*>([^<]*)<");
+  std::vector<double> terms;
+  for (auto match = link.globalMatch(text); match.hasNext();) {
+    terms.push_back(match.next().captured(1).toDouble());
+  }
+  return terms;
 }
 
 }  // namespace
@@ -154,6 +166,8 @@ class BalanceTest : public QObject {
     QVERIFY(wait_for([&] { return shown.part<QWidget>("received_light")->isVisible(); }));
     emit balance->linkActivated("channel:2");
     QVERIFY(balance->text().contains("<b>blue</b>"));
+    const std::vector<double> terms = shown_terms(balance->text());
+    QVERIFY(terms.size() > 5 && std::is_sorted(terms.rbegin(), terms.rend()));
     emit balance->linkActivated("source:0");
     QCOMPARE(shown.window->selection.patch(), lamp);
     save_picture(*shown.window, "balance-of-a-lamp");

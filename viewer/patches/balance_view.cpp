@@ -179,6 +179,10 @@ QString BalanceView::row(const QString& source, const QString& form_factor,
 
 void BalanceView::show_text() {
   const Scene& scene = *snapshot_->loaded->scene;
+  std::stable_sort(balance_.terms.begin(), balance_.terms.end(),
+                   [this](const LightBalance::Term& a, const LightBalance::Term& b) {
+                     return channel_of(a.contribution) > channel_of(b.contribution);
+                   });
   double largest_f = 0, largest_b = 0;
   for (const LightBalance::Term& term : balance_.terms) {
     largest_f = std::max(largest_f, term.form_factor);
