@@ -143,8 +143,9 @@ void TimelineBar::show_position() {
       step.cut == 1
           ? tr("%1; it cuts 1 piece of V").arg(facing.arg(step.patch))
           : tr("%1; it cuts %2 pieces of V").arg(facing.arg(step.patch), count_text(step.cut));
-  const QString size = step.map_size == 1 ? tr("V has 1 polygon")
-                                          : tr("V has %1 polygons").arg(count_text(step.map_size));
+  const QString size = step.map_size == 1
+                           ? tr("then V has 1 polygon")
+                           : tr("then V has %1 polygons").arg(count_text(step.map_size));
   QStringList clauses{cuts, tr("exchanges light with %1 of them").arg(count_text(step.exchanges)),
                       size};
   text_->set_clauses(clauses);

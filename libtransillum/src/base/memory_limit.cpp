@@ -3,6 +3,7 @@
 // proc(5), cgroups(7), getrlimit(2).
 #include "base/memory_limit.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -66,5 +67,7 @@ std::uint64_t free_addresses() {
 std::uint64_t free_memory() {
   return std::min({free_on_machine(), free_in_group(), free_addresses()});
 }
+
+void return_freed_memory() { malloc_trim(0); }
 
 }  // namespace transillum

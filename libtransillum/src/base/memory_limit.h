@@ -21,4 +21,8 @@ inline std::uint64_t memory_limit(std::uint64_t requested) {
 /// its swap space, what its control group allows, and its own limit of addresses (ulimit -v).
 std::uint64_t free_memory();
 
+/// Returns memory that this process has freed to the machine, after a large part of the work. The
+/// allocator would keep it in the pools of threads. Takes milliseconds.
+void return_freed_memory();
+
 }  // namespace transillum

@@ -28,26 +28,28 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
   std::shared_ptr<const Solution> solution;
   const Scene& scene;
   bool is_interpolated;
-  EmbreeScene embree;
+  std::shared_ptr<const Picker> picker;
+  const EmbreeScene& embree;
   PlanePoints points;
   LampLight lamps;
   HitLight hits;
   GatheredLight gathered;
   InterpolatedLight interpolated;
   std::optional<LobeLight> lobes;
-  Picker picker;
 
-  Impl(std::shared_ptr<const Solution> shown, int gather, const Cancellation& cancellation)
+  Impl(std::shared_ptr<const Solution> shown, int gather, const Cancellation& cancellation,
+       std::shared_ptr<const Picker> known)
       : solution(std::move(shown)),
         scene(*solution->scene),
         is_interpolated(gather == 0),
-        embree(scene, cancellation),
+        picker(known ? std::move(known)
+                     : std::make_shared<const Picker>(solution->scene, cancellation)),
+        embree(picker->embree()),
         points(scene, cancellation),
         lamps(*solution, embree, cancellation),
         hits(*solution, embree, points, lamps),
         gathered(*solution, embree, hits, gather > 0 ? gather : interpolated_rays(scene)),
-        interpolated(scene, points, gathered, lamps),
-        picker(solution->scene, cancellation) {
+        interpolated(scene, points, gathered, lamps) {
     if (solution->glossy) {
       lobes.emplace(scene, gathered, lamps.patches(), std::max(gather, least_lobe_rays),
                     cancellation);
@@ -75,8 +77,8 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
 };
 
 SurfaceLight::SurfaceLight(std::shared_ptr<const Solution> solution, int gather,
-                           const Cancellation& cancellation)
-    : impl_(std::make_unique<Impl>(std::move(solution), gather, cancellation)) {}
+                           const Cancellation& cancellation, std::shared_ptr<const Picker> picker)
+    : impl_(std::make_unique<Impl>(std::move(solution), gather, cancellation, std::move(picker))) {}
 SurfaceLight::~SurfaceLight() = default;
 SurfaceLight::SurfaceLight(SurfaceLight&&) noexcept = default;
 SurfaceLight& SurfaceLight::operator=(SurfaceLight&&) noexcept = default;
@@ -95,7 +97,7 @@ Rgb SurfaceLight::direct_irradiance(PatchId patch, const Vec3& point,
 Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt,
                            const Cancellation& cancellation) const {
   const Vec3 along = normalized(direction);
-  const auto hit = impl_->picker.first_lit_hit(origin, along);
+  const auto hit = impl_->picker->first_lit_hit(origin, along);
   const Sky& sky = impl_->solution->sky;
   Rgb light;
   if (hit) {
@@ -112,7 +114,7 @@ Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint6
 
 Rgb SurfaceLight::irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt,
                              const Cancellation& cancellation) const {
-  const auto hit = impl_->picker.first_lit_hit(origin, direction);
+  const auto hit = impl_->picker->first_lit_hit(origin, direction);
   return hit ? impl_->irradiance(hit->patch, hit->point, {cancellation, salt}) : Rgb();
 }
 

@@ -76,6 +76,7 @@ class Measuring {
     }
   }
   std::vector<PatchId> patches_to_divide(std::int64_t most_patches);
+  double finished_fraction(const SolveSession& session) const;
   /// Solves with other options or another scene.
   Solution solve_again(SolveOptions options, const std::shared_ptr<const Scene>& scene,
                        const std::shared_ptr<const DirectLight>& shot, Measurement what) const;
@@ -92,6 +93,22 @@ class Measuring {
   ErrorReport report_;
 };
 
+/// As many iterations are expected as the solve itself took. They are short unless each makes all
+/// passes again.
+double Measuring::finished_fraction(const SolveSession& session) const {
+  const SolveProgress progress = session.progress();
+  const double of_passes =
+      ratio_or_zero(static_cast<double>(progress.direction), static_cast<double>(progress.passes));
+  const double expected = std::max(1, solve_.solution.statistics.iterations);
+  if (!session.statistics().kept_form_factors) {
+    return std::min(1.0, (progress.iteration + of_passes) / expected);
+  }
+  constexpr double of_first = 0.9;
+  return progress.iteration == 0
+             ? of_first * of_passes
+             : of_first + (1 - of_first) * std::min(1.0, progress.iteration / expected);
+}
+
 Solution Measuring::solve_again(SolveOptions options, const std::shared_ptr<const Scene>& scene,
                                 const std::shared_ptr<const DirectLight>& shot,
                                 Measurement what) const {
@@ -105,10 +122,7 @@ Solution Measuring::solve_again(SolveOptions options, const std::shared_ptr<cons
                         .shot = shot},
                        cancellation_);
   session.advance(SolveSession::Until::finished, [&](const SolveSession& watched) {
-    const SolveProgress progress = watched.progress();
-    observe(what, progress.iteration == 0 && progress.passes > 0
-                      ? static_cast<double>(progress.direction) / progress.passes
-                      : 1.0);
+    observe(what, finished_fraction(watched));
     return true;
   });
   return session.solution();

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/memory_limit.h"
 #include "model/measured_errors.h"
 #include "model/solver/draft.h"
 #include "model/solver/session_snapshot.h"
@@ -315,6 +316,9 @@ bool SolveWorker::advance_stage(const Goal& goal) {
     }
     if (session_->is_prepared() && !session_->finished()) {
       checkpoints_.save_if_due(*session_, true);
+    }
+    if (session_->finished()) {
+      return_freed_memory();
     }
     if (session_->finished() && has_more()) {
       end_stage_of_total();

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "base/memory_limit.h"
 #include "model/snapshot_values.h"
 #include "pictures/visit_pixels.h"
 #include "scene/sharp/shown_hit.h"
@@ -216,7 +217,9 @@ std::shared_ptr<const SnapshotLight> SharpRenderer::light_of(
     solution->scene = scene_of(*snapshot);
     std::shared_ptr<const Scene> scene = solution->scene;
     light_ = std::make_shared<const SnapshotLight>(SnapshotLight{
-        snapshot, std::move(scene), SurfaceLight(std::move(solution), 0, cancellation)});
+        snapshot, std::move(scene),
+        SurfaceLight(std::move(solution), 0, cancellation, snapshot->loaded->picker)});
+    return_freed_memory();
   }
   return light_;
 }

@@ -9,6 +9,8 @@
 
 namespace transillum {
 
+class EmbreeScene;
+
 /// The first intersection of a ray with the scene.
 struct PickedPoint {
   PatchId patch = no_patch;  ///< the patch hit
@@ -42,6 +44,9 @@ class Picker {
   /// The first hit on a front side; back sides are transparent, as when a room is seen from
   /// outside.
   std::optional<PickedPoint> first_lit_hit(const Vec3& origin, const Vec3& direction) const;
+
+  /// What the picker asks, for other rays in the same scene; lives as long as the picker.
+  const EmbreeScene& embree() const;
 
  private:
   struct Impl;

@@ -115,19 +115,18 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
     boxes.push_back(bounds_of(corners_of(piece)));
   }
   const BoxTree pieces(boxes);
-  std::vector<std::vector<OpenPiece>> by_patch(static_cast<std::size_t>(scene.patch_count()));
+  open_pieces_.reserve(scene.pieces().size());
   for (std::size_t k = 0; k < scene.pieces().size(); ++k) {
     cancellation.throw_if_canceled();
-    auto& of_patch = at(by_patch, scene.pieces()[k].patch);
     const double bend = bend_of(corners_of(scene.pieces()[k]));
     for (Corners& open : open_pieces(k, pieces)) {
       const HalfSpace front = lit_half_space(open);
-      of_patch.push_back({std::move(open), front, bend});
+      open_pieces_.push_back({std::move(open), front, bend});
     }
+    at(open_begin_, scene.pieces()[k].patch + 1) = open_pieces_.size();
   }
-  for (std::size_t i = 0; i < by_patch.size(); ++i) {
-    std::move(by_patch[i].begin(), by_patch[i].end(), std::back_inserter(open_pieces_));
-    open_begin_[i + 1] = open_pieces_.size();
+  for (std::size_t i = 1; i < open_begin_.size(); ++i) {
+    open_begin_[i] = std::max(open_begin_[i], open_begin_[i - 1]);
   }
   for (MergedFace& face : merged_faces(scene)) {
     // The patches of both sides of a two-sided face alternate.
