@@ -35,7 +35,7 @@ LightBalance balance_of(const SolverSnapshot& snapshot, PatchId i) {
   return light_balance(snapshot, i, compute_row(request, {}, [](double) {}).row);
 }
 
-/// What the sources contribute, as the text shows it.
+/// The contributions of the sources, as the text shows them.
 std::vector<double> shown_terms(const QString& text) {
   static const QRegularExpression link("<a href='step:[^>]*>([^<]*)<");
   std::vector<double> terms;

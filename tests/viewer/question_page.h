@@ -20,8 +20,9 @@ inline std::shared_ptr<const LoadedScene> loaded_for(const ViewState& page) {
 }
 
 /// A page of the furnace with one question.
-inline std::string page_with(const std::string& question) {
-  return R"({"title": "T", "pages": [{"text": "x", "show": {"scene": "furnace", "layout": "teach",
+inline std::string page_with(const std::string& question, const std::string& text = "x") {
+  return R"({"title": "T", "pages": [{"text": ")" + text +
+         R"(", "show": {"scene": "furnace", "layout": "teach",
     "options": {"directions": 32, "sampling": "fibonacci"}, "focus": {"direction": 8}},
     "question": )" +
          question + "}]}";

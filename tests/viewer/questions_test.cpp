@@ -9,6 +9,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QScrollBar>
 #include <QTemporaryDir>
 #include <QTextBrowser>
 #include <QToolButton>
@@ -122,7 +123,11 @@ class QuestionsTest : public QObject {
   // Predict, reveal, see what is right, ask again; the tally is beside the lesson, and undone.
   void a_choice_is_predicted_revealed_and_counted() {
     Class room;
-    room.open(page_with(boards_question));
+    std::string long_text;
+    for (int k = 0; k < 100; ++k) {
+      long_text += "A line.\\n\\n";
+    }
+    room.open(page_with(boards_question, long_text));
     QVERIFY(room.box->isVisible());
     QVERIFY(!room.window->findChild<QTextBrowser*>("lesson_text")->toPlainText().contains("That"));
     QVERIFY(!room.action("question_count")->isEnabled());
@@ -134,6 +139,13 @@ class QuestionsTest : public QObject {
     wrong->click();
     room.reveal();
     QVERIFY(room.text("question_result").contains("Not this time"));
+    const double steps_of_patch = room.box->solved()->value;
+    QVERIFY(room.text("question_result")
+                .contains(QString("Your number is %1 times this.")
+                              .arg(QString::number(2 / steps_of_patch, 'g', 2))));
+    const QScrollBar* bar =
+        room.window->findChild<QTextBrowser*>("lesson_text")->verticalScrollBar();
+    QVERIFY(bar->maximum() > 0 && wait_for([&] { return bar->value() == bar->maximum(); }));
     QCOMPARE(room.counted("many"), 2);
     QVERIFY(room.window->findChild<QTextBrowser*>("lesson_text")->toPlainText().contains("That"));
     QVERIFY(!wrong->isEnabled());

@@ -261,6 +261,13 @@ class WorkspacesTest : public QObject {
     QVERIFY(wait_for([&] { return !scene->isVisible() && map->width() > page->width(); }));
     QTest::keyClick(window.get(), Qt::Key_Escape);
     QVERIFY(wait_for([&] { return !window->isFullScreen(); }));
+    auto* leave = window->findChild<QToolButton*>("leave_full_screen");
+    QVERIFY(!leave->isVisible());
+    QTest::keyClick(window.get(), Qt::Key_P);
+    QVERIFY(wait_for([&] { return window->isFullScreen() && leave->isVisible(); }, 20000));
+    QVERIFY(window->rect().contains(leave->geometry()));
+    leave->click();
+    QVERIFY(wait_for([&] { return !window->isFullScreen(); }));
   }
 
   void several_bars_share_one_place() {

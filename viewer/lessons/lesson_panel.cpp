@@ -68,6 +68,11 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focu
   connect(question_, &QuestionBox::then_shown, this, [this] {
     show_state();
     point_at({});
+    if (question_->solved()) {  // the explanation ends the text
+      QTimer::singleShot(0, text_, [this] {
+        text_->verticalScrollBar()->setValue(text_->verticalScrollBar()->maximum());
+      });
+    }
   });
   connect(question_, &QuestionBox::sketched, this, &LessonPanel::sketched);
   connect(question_, &QuestionBox::failed, this, &LessonPanel::failed);

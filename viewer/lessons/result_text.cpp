@@ -25,6 +25,10 @@ QString verdict_text(const Question& question, const Solved& solved, const Given
                                             : colored(tr("✗ Not this time."), theme::warm);
 }
 
+QString ratio_text(double ratio) {
+  return ' ' + tr("Your number is %1 times this.").arg(QString::number(ratio, 'g', 2));
+}
+
 /// Tells the value of a wrong answer.
 QString reason_text(const Question& question, const Solved& solved, const GivenAnswer& answer) {
   if (!is_given(question, answer) || is_right(question, solved, answer)) {
@@ -39,8 +43,13 @@ QString reason_text(const Question& question, const Solved& solved, const GivenA
                       : tr("Patch %1 has no such value.").arg(answer.patch));
   }
   if (question.kind == Question::Kind::number && solved.value != 0) {
-    return ' ' + tr("Your number is %1 times this.")
-                     .arg(QString::number(*answer.number / solved.value, 'g', 2));
+    return ratio_text(*answer.number / solved.value);
+  }
+  if (question.kind == Question::Kind::choice && std::isfinite(at(solved.values, answer.choice))) {
+    const double value = at(solved.values, answer.choice);
+    return question.rule == Question::Rule::nearest && solved.value != 0
+               ? ratio_text(value / solved.value)
+               : ' ' + tr("Your choice has %1.").arg(value_text(question, value));
   }
   return {};
 }
@@ -71,9 +80,11 @@ QString result_text(const Question& question, const Solved& solved, const GivenA
   const QString verdict = verdict_text(question, solved, answer) + ' ';
   switch (question.kind) {
     case Question::Kind::choice:
-      return question.rule == Question::Rule::nearest
-                 ? verdict + tr("The program computes %1.").arg(value_text(question, solved.value))
-                 : verdict;
+      return verdict +
+             (question.rule == Question::Rule::nearest
+                  ? tr("The program computes %1.").arg(value_text(question, solved.value))
+                  : QString()) +
+             reason_text(question, solved, answer);
     case Question::Kind::number:
       return verdict + tr("The program computes %1.").arg(value_text(question, solved.value)) +
              reason_text(question, solved, answer);

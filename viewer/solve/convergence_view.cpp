@@ -75,9 +75,9 @@ std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
 
 ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent), focus_(focus) {
   iteration_chart_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Relative"));
-  iteration_chart_->set_hint(tr("One point per finished iteration"));
+  iteration_chart_->set_hint(tr("A point for each iteration, once it is finished"));
   direction_chart_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative"));
-  direction_chart_->set_hint(tr("One point per direction"));
+  direction_chart_->set_hint(tr("A point for each direction"));
   auto* layout = make_column(this, {}, 1);
   layout->addWidget(iteration_chart_);
   layout->addWidget(direction_chart_);

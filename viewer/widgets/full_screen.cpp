@@ -7,6 +7,7 @@
 #include <QMainWindow>
 #include <QMenuBar>
 #include <QStatusBar>
+#include <QToolButton>
 
 #include "widgets/build.h"
 
@@ -18,6 +19,25 @@ FullScreen::FullScreen(QMainWindow& window) : QObject(&window), window_(window) 
                   tr("Show only the view under the pointer, on the whole screen"), Qt::Key_F11);
   action_->setCheckable(true);
   connect(action_, &QAction::triggered, this, &FullScreen::toggle);
+  leave_ = named("leave_full_screen", new QToolButton(&window_), tr("Leave the full screen (Esc)"));
+  leave_->setText(tr("✕  Esc"));
+  leave_->hide();
+  connect(leave_, &QToolButton::clicked, action_, &QAction::trigger);
+  window_.installEventFilter(this);
+}
+
+// In the corner that no view needs: its scene bar or title ends before.
+bool FullScreen::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize && active_) {
+    place_way_out();
+  }
+  return QObject::eventFilter(watched, event);
+}
+
+void FullScreen::place_way_out() {
+  leave_->adjustSize();
+  leave_->move(window_.width() - leave_->width() - 4, window_.height() - leave_->height() - 4);
+  leave_->raise();
 }
 
 QWidget* FullScreen::view_of(QWidget* widget) const {
@@ -72,6 +92,8 @@ void FullScreen::show_only(const QList<QWidget*>& views) {
     }
   }
   window_.showFullScreen();
+  place_way_out();
+  leave_->show();
 }
 
 void FullScreen::show_all() {
@@ -80,6 +102,7 @@ void FullScreen::show_all() {
   }
   active_ = false;
   action_->setChecked(false);
+  leave_->hide();
   window_.setWindowState(states_before_);
   for (QWidget* widget : hidden_) {
     widget->show();

@@ -7,6 +7,7 @@
 #include <QObject>
 
 class QMainWindow;
+class QToolButton;
 class QWidget;
 
 namespace transillum::viewer {
@@ -33,11 +34,14 @@ class FullScreen : public QObject {
   void left();
 
  private:
+  bool eventFilter(QObject* watched, QEvent* event) override;
   void toggle();
+  void place_way_out();
   QWidget* view_of(QWidget* widget) const;
 
   QMainWindow& window_;
   QAction* action_;
+  QToolButton* leave_;  ///< the visible way out
   bool active_ = false;
   Qt::WindowStates states_before_;
   QByteArray state_;

@@ -533,7 +533,8 @@ void MainWindow::make_view_menu() {
 void MainWindow::fill_built_in_menu(QMenu& menu) {
   for (const BuiltInScene& built_in : built_in_scenes()) {
     const QString name = QString::fromStdString(built_in.name);
-    menu.addAction(tr("%1 – %2").arg(name, QString::fromStdString(built_in.summary)), files_,
+    const QString summary = QString::fromStdString(built_in.summary).section(". ", 0, 0);
+    menu.addAction(tr("%1 – %2").arg(name, summary), files_,
                    [this, name] { files_->open_scene(name); });
   }
 }

@@ -93,7 +93,7 @@ class Measuring {
   ErrorReport report_;
 };
 
-/// As many iterations are expected as the solve itself took. They are short unless each makes all
+/// The solve itself took about as many iterations. They are short unless each makes all
 /// passes again.
 double Measuring::finished_fraction(const SolveSession& session) const {
   const SolveProgress progress = session.progress();

@@ -45,7 +45,7 @@ class Picker {
   /// outside.
   std::optional<PickedPoint> first_lit_hit(const Vec3& origin, const Vec3& direction) const;
 
-  /// What the picker asks, for other rays in the same scene; lives as long as the picker.
+  /// The structure that the picker asks, for other rays in the same scene; lives as long as it.
   const EmbreeScene& embree() const;
 
  private:
