@@ -250,6 +250,8 @@ class AppearanceTest : public QObject {
     QVERIFY(wait_for([&] { return map->width() > 0.95 * window.width(); }, 5000));
     QVERIFY(window.isFullScreen() && !settings->isVisible() && !solved.scene_view->isVisible());
     // Shortcuts work although the menu bar is hidden.
+    window.activateWindow();  // without a window manager, the first show may leave none active
+    QVERIFY(wait_for([&] { return window.isActiveWindow(); }));
     QTest::keyClick(&window, Qt::Key_F11);
     QVERIFY(
         wait_for([&] { return settings->isVisible() && solved.scene_view->isVisible(); }, 5000));

@@ -4,6 +4,8 @@
 #include "map/section_view.h"
 
 #include <QAction>
+#include <algorithm>
+#include <cmath>
 
 #include "lessons/lesson_html.h"
 #include "lessons/lesson_panel.h"
@@ -33,6 +35,31 @@ double length_of(const Section::Segment& segment) {
 }
 
 const Vec3 slanted{0.4, 0, 0.9};
+
+double distance(const Vec2& a, const Vec2& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+/// The segment of a patch in the section that is shown now; an empty one while none is.
+Section::Segment segment_of(const SectionView& view, PatchId patch) {
+  if (!view.section()) {
+    return {};
+  }
+  const auto& segments = view.section()->segments;
+  const auto found = std::find_if(segments.begin(), segments.end(),
+                                  [&](const auto& segment) { return segment.patch == patch; });
+  return found == segments.end() ? Section::Segment{} : *found;
+}
+
+/// The top of the upper board.
+PatchId top_of_board(const Scene& scene) {
+  PatchId top = no_patch;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const Patch& patch = scene.patch(i);
+    if (patch.normal.z > 0.9 && (top == no_patch || patch.center.z > scene.patch(top).center.z)) {
+      top = i;
+    }
+  }
+  return top;
+}
 
 }  // namespace
 
@@ -141,6 +168,81 @@ class SectionTest : public QObject {
       }
     }
     QVERIFY(found > 0);  // the lamp
+  }
+
+  // The board turns about the other end and is stretched; the section follows, and what is solved
+  // afterwards has the board where the hand left it.
+  void an_end_of_a_segment_is_dragged() {
+    const SolvedWindow solved(
+        "flatland", {.directions = 16, .sampling = Sampling::hammersley, .first_shot = {}});
+    QVERIFY(solved.ready);
+    solved.window->views().docks.bring_to_front("section");
+    solved.window->focus.go_to({0, 0, 3});
+    QVERIFY(wait_for([&] { return solved.window->focus.arrived() && solved.window->settled(); }));
+    auto* view = solved.window->findChild<SectionView*>("section_view");
+    const auto loaded = solved.window->snapshot()->loaded;
+    const PatchId top = top_of_board(*loaded->scene);
+    const Section::Segment before = segment_of(*view, top);
+    const Vec2 goal{before.b.x + 0.4, before.b.y - 0.5};
+    const auto is_dragged = [&](const Section::Segment& now) {
+      return distance(now.a, before.a) + distance(now.b, goal) < 1e-9;
+    };
+    emit view->grabbed({top, before.b, before.a});
+    emit view->dragged(goal);
+    QVERIFY(wait_for([&] { return is_dragged(segment_of(*view, top)); }));
+    QVERIFY(solved.window->snapshot()->loaded == loaded);
+    emit view->released();
+    QVERIFY(comes_to_rest(*solved.window));
+    QVERIFY(solved.window->snapshot()->loaded != loaded);
+    QVERIFY(is_dragged(segment_of(*view, top)));
+    QCOMPARE(solved.window->undo.count(), 1);
+    // The lower side, of the same board, is as long, and nothing else has moved.
+    const Scene& moved = *solved.window->snapshot()->loaded->scene;
+    int others = 0, stretched = 0;
+    for (PatchId i = 0; i < moved.patch_count(); ++i) {
+      const double ratio = moved.patch(i).area / loaded->scene->patch(i).area;
+      others += ratio == 1 && norm(moved.patch(i).center - loaded->scene->patch(i).center) == 0;
+      stretched += std::abs(ratio - moved.patch(top).area / loaded->scene->patch(top).area) < 1e-9;
+    }
+    QCOMPARE(others, moved.patch_count() - 4);
+    QVERIFY(stretched >= 2);
+    solved.window->undo.undo();
+    QVERIFY(comes_to_rest(*solved.window));
+    QVERIFY(distance(segment_of(*view, top).b, before.b) == 0);
+  }
+
+  // By the mouse: the middle of a board moves the board, the middle of a wall this wall alone.
+  void a_segment_is_dragged_by_its_middle_data() {
+    QTest::addColumn<bool>("wall");
+    QTest::newRow("board") << false;
+    QTest::newRow("wall") << true;
+  }
+  void a_segment_is_dragged_by_its_middle() {
+    QFETCH(const bool, wall);
+    const SolvedWindow solved("flatland");
+    QVERIFY(solved.ready);
+    solved.window->views().docks.bring_to_front("section");
+    auto* view = solved.window->findChild<SectionView*>("section_view");
+    QVERIFY(wait_for([&] { return view->isVisible(); }));
+    const auto loaded = solved.window->snapshot()->loaded;
+    const PatchId patch = wall ? 0 : top_of_board(*loaded->scene);
+    const Section::Segment before = segment_of(*view, patch);
+    const QPointF a = view->pixel_of(before.a), b = view->pixel_of(before.b);
+    const QPoint from = (0.6 * a + 0.4 * b).toPoint(), to = from - QPoint(0, 20);
+    const double pixel = distance(before.a, before.b) / std::hypot(b.x() - a.x(), b.y() - a.y());
+    QTest::mousePress(view, Qt::LeftButton, {}, from);
+    QTest::mouseMove(view, from - QPoint(0, 10));
+    QTest::mouseMove(view, to);
+    QTest::mouseRelease(view, Qt::LeftButton, {}, to);
+    QVERIFY(comes_to_rest(*solved.window));
+    const Scene& moved = *solved.window->snapshot()->loaded->scene;
+    int others = 0;
+    for (PatchId i = 0; i < moved.patch_count(); ++i) {
+      const Vec3 move = moved.patch(i).center - loaded->scene->patch(i).center;
+      others += norm(move) > 0;
+      QVERIFY(norm(move) == 0 || std::abs(move.z - 20 * pixel) < 1.5 * pixel);
+    }
+    QCOMPARE(others, wall ? 1 : 4);
   }
 
   // A browser shows, at a step, the intervals of V and the segments.

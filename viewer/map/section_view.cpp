@@ -3,6 +3,7 @@
 // The panel Section: draws the section of the direction in focus, in the colors of the map.
 #include "map/section_view.h"
 
+#include <QApplication>
 #include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
@@ -32,6 +33,14 @@ double length_of(const QPointF& a, const QPointF& b) {
   return std::hypot(b.x() - a.x(), b.y() - a.y());
 }
 
+/// From a point to a line from a to b.
+double distance_from(const QPointF& point, const QPointF& a, const QPointF& b) {
+  const QPointF along = b - a;
+  const double square = std::max(QPointF::dotProduct(along, along), 1e-12);
+  const double place = std::clamp(QPointF::dotProduct(point - a, along) / square, 0.0, 1.0);
+  return length_of(point, a + place * along);
+}
+
 /// From meters in the plane of the section to logical pixels.
 struct SectionTransform {
   QPointF origin;
@@ -39,6 +48,9 @@ struct SectionTransform {
 
   QPointF operator()(const Vec2& p) const {
     return {origin.x() + scale * p.x, origin.y() - scale * p.y};
+  }
+  Vec2 inverse(const QPointF& p) const {
+    return {(p.x() - origin.x()) / scale, (origin.y() - p.y()) / scale};
   }
 };
 
@@ -157,10 +169,21 @@ class SectionPainting {
       }
       draw_line_of(a + back, b + back, plain_back_side.lighter(150), 4);
       draw_line_of(a, b, color_of(segment.patch), 4);
+      if (selection.contains(segment.patch)) {
+        draw_knob(a);
+        draw_knob(b);
+      }
       if (length_of(a, b) > least_for_label) {
         write(middle_of(a, b) - 4.5 * back, QString::number(segment.patch));
       }
     }
+  }
+
+  // To be dragged.
+  void draw_knob(const QPointF& end) {
+    painter_.setPen(QPen(Qt::black, theme::scale()));
+    painter_.setBrush(theme::selection);
+    painter_.drawEllipse(end, 4 * theme::scale(), 4 * theme::scale());
   }
 
   void mark_step() {
@@ -240,7 +263,9 @@ SectionView::SectionView(Focus& focus, Selection& selection, const ColorChoice& 
   setObjectName("section_view");
   setToolTip(
       tr("Patches are segments, and V is a list of intervals on the line below them.\n"
-         "Click a segment or an interval to select its patch"));
+         "Click a segment or an interval to select its patch. Drag a segment to move its object, "
+         "or an end of it to turn and stretch the object"));
+  setMouseTracking(true);
   connect(&focus_, &Focus::moved, this, qOverload<>(&QWidget::update));
   connect(&selection_, &Selection::patches_changed, this, qOverload<>(&QWidget::update));
   connect(&colors_, &ColorChoice::changed, this, qOverload<>(&QWidget::update));
@@ -336,18 +361,81 @@ void SectionView::paintEvent(QPaintEvent*) {
   }
 }
 
+QPointF SectionView::pixel_of(const Vec2& point) const { return fit(*section(), size())(point); }
+
+/// An end of a segment before its middle; nothing beside all segments.
+std::optional<SectionView::Grip> SectionView::grip_at(const QPointF& position) const {
+  const Section* section = this->section();
+  if (!section) {
+    return std::nullopt;
+  }
+  const SectionTransform to_pixels = fit(*section, size());
+  std::optional<Grip> grip;
+  double nearest = click_distance;
+  const auto consider = [&](double how_far, const Grip& candidate) {
+    if (how_far < nearest) {
+      nearest = how_far;
+      grip = candidate;
+    }
+  };
+  for (const Section::Segment& segment : section->segments) {
+    // The sides of a board are too short to be held by their ends.
+    if (length_of(to_pixels(segment.a), to_pixels(segment.b)) > 3 * click_distance) {
+      consider(length_of(position, to_pixels(segment.a)), {segment.patch, segment.a, segment.b});
+      consider(length_of(position, to_pixels(segment.b)), {segment.patch, segment.b, segment.a});
+    }
+  }
+  if (grip) {
+    return grip;
+  }
+  for (const Section::Segment& segment : section->segments) {
+    const QPointF a = to_pixels(segment.a), b = to_pixels(segment.b);
+    consider(distance_from(position, a, b),
+             {segment.patch, to_pixels.inverse(position), std::nullopt});
+  }
+  return grip;
+}
+
+void SectionView::mouseMoveEvent(QMouseEvent* event) {
+  const QPointF position = event->localPos();
+  if (!drag_) {
+    const auto grip = grip_at(position);
+    setCursor(!grip ? Qt::ArrowCursor : grip->fixed ? Qt::CrossCursor : Qt::SizeAllCursor);
+    return;
+  }
+  if (!drag_->moves && length_of(position, drag_->pressed) >= QApplication::startDragDistance()) {
+    drag_->moves = true;
+    emit grabbed(drag_->grip);
+  }
+  if (drag_->moves && section()) {
+    const Vec2 at = fit(*section(), size()).inverse(position);
+    emit dragged({at.x + drag_->offset.x, at.y + drag_->offset.y});
+  }
+}
+
+void SectionView::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && drag_) {
+    const bool moved = drag_->moves;
+    drag_.reset();
+    if (moved) {
+      emit released();
+    }
+  }
+}
+
 void SectionView::mousePressEvent(QMouseEvent* event) {
   const Section* section = this->section();
   if (!section || event->button() != Qt::LeftButton) {
     return;
   }
   const SectionTransform to_pixels = fit(*section, size());
-  const QPointF pressed = event->pos();
+  const QPointF pressed = event->localPos();
+  if (const auto grip = grip_at(pressed)) {
+    const Vec2 at = to_pixels.inverse(pressed);
+    drag_ = Drag{*grip, pressed, {grip->held.x - at.x, grip->held.y - at.y}};
+  }
   const auto distance = [&](const Vec2& a, const Vec2& b) {
-    const QPointF from = to_pixels(a), along = to_pixels(b) - from;
-    const double square = std::max(QPointF::dotProduct(along, along), 1e-12);
-    const double place = std::clamp(QPointF::dotProduct(pressed - from, along) / square, 0.0, 1.0);
-    return length_of(pressed, from + place * along);
+    return distance_from(pressed, to_pixels(a), to_pixels(b));
   };
   double nearest = click_distance;
   PatchId patch = no_patch;

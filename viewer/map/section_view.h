@@ -37,18 +37,44 @@ class SectionView : public QWidget {
   /// The section shown; null without a direction.
   const Section* section() const;
 
+  /// The part of a segment that the hand holds.
+  struct Grip {
+    PatchId patch = no_patch;
+    Vec2 held;                  ///< an end of the segment, or the point under the pointer, m
+    std::optional<Vec2> fixed;  ///< the other end; not set where the whole segment is held
+  };
+  /// The pixel of a point of the section; requires a section.
+  QPointF pixel_of(const Vec2& point) const;
+
   QSize sizeHint() const override { return {420, 340}; }
   QSize minimumSizeHint() const override { return {120, 80}; }
+
+ signals:
+  /// A segment is dragged: `to` is where the held point is wanted, m.
+  void grabbed(const SectionView::Grip& grip);
+  void dragged(const Vec2& to);
+  void released();
 
  protected:
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
 
  private:
+  std::optional<Grip> grip_at(const QPointF& position) const;
+  /// Under the pressed button, from the pixel where it was pressed.
+  struct Drag {
+    Grip grip;
+    QPointF pressed;
+    Vec2 offset;  ///< from the pointer to the held point, m
+    bool moves = false;
+  };
   Focus& focus_;
   Selection& selection_;
   const ColorChoice& colors_;
   std::vector<Callout> callouts_;
+  std::optional<Drag> drag_;
   /// The section of a direction, kept while its steps are shown.
   struct Known {
     std::shared_ptr<const RecordedMap> map;

@@ -20,7 +20,7 @@ constexpr double least_sine = 0.2;  // between omega and the axis
 constexpr double gap_below = 0.12;  // between the scene and the line, of the scene's height
 
 struct Axes {
-  Vec3 normal, right, up;
+  Vec3 axis, normal, right, up;
   double c = 0;
 
   Vec2 in_plane(const Vec3& p) const { return {dot(p, right), dot(p, up)}; }
@@ -37,6 +37,7 @@ Axes axes_for(const Bounds& box, const Vec3& omega) {
   });
   const auto [length, axis] = *found;  // omega is along one axis at most
   Axes result;
+  result.axis = axis;
   result.normal = normalized(axis - dot(axis, omega) * omega);
   if (result.normal.z > 0.9) {
     result.normal = -result.normal;  // a floor plan is seen from above
@@ -150,6 +151,8 @@ Section section_of(const RecordedMap& map) {
   Section section;
   section.right = axes.right;
   section.up = axes.up;
+  section.axis = axes.axis;
+  section.foot = axes.c * axes.normal;
   section.omega = axes.in_plane(omega);
   section.across = axes.in_plane(cross(axes.normal, omega));
   for (PatchId i = 0; i < scene.patch_count(); ++i) {

@@ -32,6 +32,8 @@ struct Section {
   };
 
   Vec3 right, up;   ///< axes of the plane, unit
+  Vec3 axis;        ///< the coordinate axis along which the section looks, as far as omega allows
+  Vec3 foot;        ///< the point of the plane that is nearest to the origin of space, m
   Vec2 omega;       ///< unit
   Vec2 across;      ///< unit, perpendicular to omega: the direction of the line
   double base = 0;  ///< the line's place along omega, m: below all segments
@@ -40,6 +42,8 @@ struct Section {
 
   /// The projection of a point of space, m.
   Vec2 in_plane(const Vec3& p) const { return {dot(p, right), dot(p, up)}; }
+  /// The point of space at a point of the plane, m.
+  Vec3 in_space(const Vec2& p) const { return foot + p.x * right + p.y * up; }
   /// The point of the line at a place along `across`.
   Vec2 on_line(double place) const { return above(place, base); }
   /// The point at a place along `across`, and a place along omega.

@@ -21,6 +21,7 @@ FullScreen::FullScreen(QMainWindow& window) : QObject(&window), window_(window) 
   connect(action_, &QAction::triggered, this, &FullScreen::toggle);
   leave_ = named("leave_full_screen", new QToolButton(&window_), tr("Leave the full screen (Esc)"));
   leave_->setText(tr("✕  Esc"));
+  leave_->setFocusPolicy(Qt::NoFocus);  // keys are for the view
   leave_->hide();
   connect(leave_, &QToolButton::clicked, action_, &QAction::trigger);
   window_.installEventFilter(this);
@@ -92,8 +93,8 @@ void FullScreen::show_only(const QList<QWidget*>& views) {
     }
   }
   window_.showFullScreen();
-  place_way_out();
   leave_->show();
+  place_way_out();
 }
 
 void FullScreen::show_all() {

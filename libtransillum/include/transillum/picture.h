@@ -86,8 +86,6 @@ struct Interpolation {
   double tolerance = 0.004;
 };
 
-class Picker;
-
 /// The light that points of a result's surfaces receive and send, computed when it is asked for;
 /// what is computed for one query serves the next.
 ///
@@ -97,11 +95,9 @@ class SurfaceLight {
  public:
   /// @param solution with its scene; B of another solve's materials gives their light.
   /// @param gather PictureOptions::gather
-  /// @param picker finds the same patches along rays; null: one is made
   /// @throws Canceled
   explicit SurfaceLight(std::shared_ptr<const Solution> solution, int gather = 0,
-                        const Cancellation& cancellation = {},
-                        std::shared_ptr<const Picker> picker = nullptr);
+                        const Cancellation& cancellation = {});
   ~SurfaceLight();
   /// The moved-from object may only be destroyed or assigned to.
   SurfaceLight(SurfaceLight&&) noexcept;

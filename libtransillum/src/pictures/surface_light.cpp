@@ -28,7 +28,7 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
   std::shared_ptr<const Solution> solution;
   const Scene& scene;
   bool is_interpolated;
-  std::shared_ptr<const Picker> picker;
+  Picker picker;
   const EmbreeScene& embree;
   PlanePoints points;
   LampLight lamps;
@@ -37,14 +37,12 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
   InterpolatedLight interpolated;
   std::optional<LobeLight> lobes;
 
-  Impl(std::shared_ptr<const Solution> shown, int gather, const Cancellation& cancellation,
-       std::shared_ptr<const Picker> known)
+  Impl(std::shared_ptr<const Solution> shown, int gather, const Cancellation& cancellation)
       : solution(std::move(shown)),
         scene(*solution->scene),
         is_interpolated(gather == 0),
-        picker(known ? std::move(known)
-                     : std::make_shared<const Picker>(solution->scene, cancellation)),
-        embree(picker->embree()),
+        picker(solution->scene, cancellation),
+        embree(picker.embree()),
         points(scene, cancellation),
         lamps(*solution, embree, cancellation),
         hits(*solution, embree, points, lamps),
@@ -77,8 +75,8 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
 };
 
 SurfaceLight::SurfaceLight(std::shared_ptr<const Solution> solution, int gather,
-                           const Cancellation& cancellation, std::shared_ptr<const Picker> picker)
-    : impl_(std::make_unique<Impl>(std::move(solution), gather, cancellation, std::move(picker))) {}
+                           const Cancellation& cancellation)
+    : impl_(std::make_unique<Impl>(std::move(solution), gather, cancellation)) {}
 SurfaceLight::~SurfaceLight() = default;
 SurfaceLight::SurfaceLight(SurfaceLight&&) noexcept = default;
 SurfaceLight& SurfaceLight::operator=(SurfaceLight&&) noexcept = default;
@@ -97,7 +95,7 @@ Rgb SurfaceLight::direct_irradiance(PatchId patch, const Vec3& point,
 Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt,
                            const Cancellation& cancellation) const {
   const Vec3 along = normalized(direction);
-  const auto hit = impl_->picker->first_lit_hit(origin, along);
+  const auto hit = impl_->picker.first_lit_hit(origin, along);
   const Sky& sky = impl_->solution->sky;
   Rgb light;
   if (hit) {
@@ -114,7 +112,7 @@ Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint6
 
 Rgb SurfaceLight::irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt,
                              const Cancellation& cancellation) const {
-  const auto hit = impl_->picker->first_lit_hit(origin, direction);
+  const auto hit = impl_->picker.first_lit_hit(origin, direction);
   return hit ? impl_->irradiance(hit->patch, hit->point, {cancellation, salt}) : Rgb();
 }
 

@@ -217,8 +217,7 @@ std::shared_ptr<const SnapshotLight> SharpRenderer::light_of(
     solution->scene = scene_of(*snapshot);
     std::shared_ptr<const Scene> scene = solution->scene;
     light_ = std::make_shared<const SnapshotLight>(SnapshotLight{
-        snapshot, std::move(scene),
-        SurfaceLight(std::move(solution), 0, cancellation, snapshot->loaded->picker)});
+        snapshot, std::move(scene), SurfaceLight(std::move(solution), 0, cancellation)});
     return_freed_memory();
   }
   return light_;

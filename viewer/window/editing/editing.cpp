@@ -5,6 +5,7 @@
 #include <QMainWindow>
 #include <QMenu>
 
+#include "map/section_view.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "widgets/build.h"
@@ -14,6 +15,7 @@
 #include "window/editing/move_handles.h"
 #include "window/editing/move_panel.h"
 #include "window/editing/scene_edits.h"
+#include "window/editing/section_drag.h"
 
 namespace transillum::viewer {
 
@@ -21,6 +23,7 @@ SceneEdits* add_editing(const WindowFrame& frame, DockLayouts& docks, QMenu& edi
   auto* edits = new SceneEdits(frame);
   auto* panel = new MovePanel(*edits);
   new MoveHandles(*edits, *panel);
+  new SectionDrag(*edits, *frame.window.findChild<SectionView*>());
   const QDockWidget* dock = docks.add(SceneEdits::tr("Move"), "move_dock", scrollable(panel));
   QObject::connect(dock, &QDockWidget::visibilityChanged, edits, &SceneEdits::set_active);
   SceneView* view = frame.page.scene_view();

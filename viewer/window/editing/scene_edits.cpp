@@ -117,6 +117,16 @@ void SceneEdits::set_reach(Reach reach) {
   choose_target();
 }
 
+void SceneEdits::choose(PatchId patch, Reach reach) {
+  finish();
+  selecting_ = true;
+  frame_.state.selection.select(patch);
+  selecting_ = false;
+  active_ = true;
+  state_.reach = reach;
+  choose_target();
+}
+
 /// Another scene is open.
 void SceneEdits::follow_scene() {
   rest_timer_->stop();

@@ -37,6 +37,8 @@ class SceneEdits : public QObject {
   void set_active(bool active);
   bool active() const { return active_; }
   void set_reach(Reach reach);
+  /// Makes this active, with what a patch means as its target.
+  void choose(PatchId patch, Reach reach);
   Reach reach() const { return state_.reach; }
   /// Why faces cannot be edited; empty if they can.
   QString why_unavailable() const;
