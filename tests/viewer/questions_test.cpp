@@ -141,7 +141,7 @@ class QuestionsTest : public QObject {
     QVERIFY(room.text("question_result").contains("Not this time"));
     const double steps_of_patch = room.box->solved()->value;
     QVERIFY(room.text("question_result")
-                .contains(QString("Your number is %1 times this.")
+                .contains(QString("Your choice is %1 times this.")
                               .arg(QString::number(2 / steps_of_patch, 'g', 2))));
     const QScrollBar* bar =
         room.window->findChild<QTextBrowser*>("lesson_text")->verticalScrollBar();

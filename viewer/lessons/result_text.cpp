@@ -25,8 +25,8 @@ QString verdict_text(const Question& question, const Solved& solved, const Given
                                             : colored(tr("✗ Not this time."), theme::warm);
 }
 
-QString ratio_text(double ratio) {
-  return ' ' + tr("Your number is %1 times this.").arg(QString::number(ratio, 'g', 2));
+QString ratio_text(const char* text, double ratio) {
+  return ' ' + tr(text).arg(QString::number(ratio, 'g', 2));
 }
 
 /// Tells the value of a wrong answer.
@@ -43,12 +43,14 @@ QString reason_text(const Question& question, const Solved& solved, const GivenA
                       : tr("Patch %1 has no such value.").arg(answer.patch));
   }
   if (question.kind == Question::Kind::number && solved.value != 0) {
-    return ratio_text(*answer.number / solved.value);
+    return ratio_text(QT_TRANSLATE_NOOP("ResultText", "Your number is %1 times this."),
+                      *answer.number / solved.value);
   }
   if (question.kind == Question::Kind::choice && std::isfinite(at(solved.values, answer.choice))) {
     const double value = at(solved.values, answer.choice);
     return question.rule == Question::Rule::nearest && solved.value != 0
-               ? ratio_text(value / solved.value)
+               ? ratio_text(QT_TRANSLATE_NOOP("ResultText", "Your choice is %1 times this."),
+                            value / solved.value)
                : ' ' + tr("Your choice has %1.").arg(value_text(question, value));
   }
   return {};

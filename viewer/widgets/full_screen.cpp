@@ -27,7 +27,6 @@ FullScreen::FullScreen(QMainWindow& window) : QObject(&window), window_(window) 
   window_.installEventFilter(this);
 }
 
-// In the corner that no view needs: its scene bar or title ends before.
 bool FullScreen::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize && active_) {
     place_way_out();
@@ -35,9 +34,12 @@ bool FullScreen::eventFilter(QObject* watched, QEvent* event) {
   return QObject::eventFilter(watched, event);
 }
 
+// Over the buttons of the title of a panel that is alone, which have no use there; else below,
+// where a panel may have buttons of its own, but neither the scene nor the timeline has.
 void FullScreen::place_way_out() {
   leave_->adjustSize();
-  leave_->move(window_.width() - leave_->width() - 4, window_.height() - leave_->height() - 4);
+  const int below = window_.height() - leave_->height() - 4;
+  leave_->move(window_.width() - leave_->width() - 4, covers_title_ ? 0 : below);
   leave_->raise();
 }
 
@@ -93,6 +95,8 @@ void FullScreen::show_only(const QList<QWidget*>& views) {
     }
   }
   window_.showFullScreen();
+  const auto* dock = qobject_cast<QDockWidget*>(views.front());
+  covers_title_ = views.size() == 1 && dock && !dock->titleBarWidget();
   leave_->show();
   place_way_out();
 }

@@ -42,6 +42,7 @@ class FullScreen : public QObject {
   QMainWindow& window_;
   QAction* action_;
   QToolButton* leave_;  ///< the visible way out
+  bool covers_title_ = false;
   bool active_ = false;
   Qt::WindowStates states_before_;
   QByteArray state_;

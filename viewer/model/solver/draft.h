@@ -34,8 +34,8 @@ SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
 /// same plane best, and nowhere less than 0. Means are as before, and so are linear functions.
 Solution smoothed(Solution light);
 
-/// Whether the light of a finished stage is nearer to the result than that of a draft. A stage has
-/// several replicas of few directions each, whose mean is less accurate than one set of all.
+/// Whether a finished stage is nearer to the result than a draft is. A stage has several replicas of
+/// few directions each, and their mean is less accurate than one set of as many directions.
 bool is_better_than_draft(const SolveStatistics& statistics);
 
 /// Replaces the light of a snapshot by the light of another solve of the same patches. The progress

@@ -22,7 +22,8 @@ Vec3 across(Vec3 v, int axis) {
 }
 
 /// The placement that turns about an axis and stretches `from` to `to`; both are across the axis.
-/// Along another axis, only lengths along that axis change; else both across are scaled alike.
+/// Where `from` is along another axis, only lengths along that one change; else those along both
+/// other axes change alike.
 FacePlacement stretched(const Vec3& from, const Vec3& to, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const double ratio = std::max(norm(to) / norm(from), least_scale);
