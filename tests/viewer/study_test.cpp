@@ -125,6 +125,24 @@ class StudyTest : public QObject {
     QVERIFY(!shown.dialog->findChild<QPushButton*>("study_save")->isEnabled());
   }
 
+  // Otherwise it would be a study of the materials from before the change.
+  void changed_materials_are_solved_before_they_are_studied() {
+    const Shown shown("furnace");
+    const Scene& scene = *shown.window->snapshot()->loaded->scene;
+    shown.window->relighting.edits().set_reflectance("material:" + scene.materials()[0].name,
+                                                     {0.25, 0.25, 0.25});
+    QTRY_VERIFY(!shown.run()->isEnabled());
+    QVERIFY(shown.run()->toolTip().contains("press Solve first"));
+    auto* measure = shown.window->findChild<QPushButton*>("measure_errors");
+    QVERIFY(!measure->isEnabled() && measure->toolTip().contains("press Solve first"));
+    shown.window->findChild<QPushButton*>("restart")->click();
+    QTRY_VERIFY_WITH_TIMEOUT(shown.run()->isEnabled() && measure->isEnabled(), 60000);
+    QCOMPARE(shown.window->snapshot()->loaded->scene->material(0).reflectance,
+             (Rgb{0.25, 0.25, 0.25}));
+    shown.study();
+    QVERIFY(shown.dialog->snapshot()->loaded == shown.window->snapshot()->loaded);
+  }
+
   void stops_while_the_reference_is_solved() {
     const Shown shown("rooms");
     shown.choose("16384", true);  // the reference takes four times as many

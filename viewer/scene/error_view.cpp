@@ -14,6 +14,7 @@
 
 #include "colors/color_map.h"
 #include "colors/color_scale.h"
+#include "model/snapshot_values.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/first_shot.h"
@@ -142,13 +143,12 @@ ErrorRuns ErrorView::usual_runs() const {
 }
 
 void ErrorView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
-  const bool first = !snapshot_;
   snapshot_ = std::move(snapshot);
-  if (first) {
-    place_button();
-  }
-  if (running_scene_ && running_scene_ != snapshot_->loaded) {
+  if (running_scene_ && (running_scene_ != snapshot_->loaded || !why_not().isEmpty())) {
     drop();
+  }
+  if (button_->isEnabled() != why_not().isEmpty()) {
+    place_button();
   }
   start_if_wanted();
 }
@@ -164,7 +164,7 @@ void ErrorView::set_runs(const ErrorRuns& runs) {
 
 void ErrorView::start_if_wanted() {
   const bool known = (busy_ || result_) && running_ == wanted_;
-  if (isVisible() && snapshot_ && !wanted_.runs.empty() && !known) {
+  if (isVisible() && why_not().isEmpty() && !wanted_.runs.empty() && !known) {
     start(wanted_);
   }
 }
@@ -241,9 +241,13 @@ void ErrorView::show_progress(int number, double fraction) {
       Qt::QueuedConnection);
 }
 
+QString ErrorView::why_not() const {
+  return snapshot_ ? why_old_materials(*snapshot_) : tr("No scene is open");
+}
+
 void ErrorView::place_button() {
   button_->setText(busy_ ? tr("Stop") : result_ ? tr("Measure again") : tr("Measure the errors"));
-  enable_if(*button_, busy_ || snapshot_, tr("No scene is open"));
+  enable_if(*button_, why_not().isEmpty(), why_not());
   button_->adjustSize();
   button_->move(width() - button_->width() - 8, height() - button_->height() - 6);
   update();
@@ -257,7 +261,9 @@ void ErrorView::paintEvent(QPaintEvent*) {
   if (!result_) {
     const QString text =
         busy_ ? tr("Solving and comparing: %1 %").arg(static_cast<int>(100 * share_))
-              : tr("The error of B by set of directions: random, Hammersley and the default");
+        : snapshot_ && !why_not().isEmpty()
+            ? why_not()
+            : tr("The error of B by set of directions: random, Hammersley and the default");
     painter.drawText(rect().adjusted(16, 8, -16, -button_->height() - 12),
                      Qt::AlignCenter | Qt::TextWordWrap, text);
     return;

@@ -70,6 +70,8 @@ class ErrorView : public QWidget {
   void show_progress(int number, double fraction);
   void paint_run(QPainter& painter, const QRectF& box, std::size_t run) const;
   void paint_scale(QPainter& painter, const QRectF& box) const;
+  /// Why nothing can be measured now, for the user; empty if it can.
+  QString why_not() const;
   void place_button();
 
   std::function<ViewPoint()> view_;

@@ -18,6 +18,7 @@
 
 #include "io/drawing/study_chart.h"
 #include "io/results/study_csv.h"
+#include "model/snapshot_values.h"
 #include "solve/study_chart.h"
 #include "solve/study_choices.h"
 #include "support/failure_text.h"
@@ -171,6 +172,7 @@ void StudyDialog::present() {
 void StudyDialog::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   runner_.stop();
   loaded_ = std::move(loaded);
+  why_not_.clear();
   running_ = false;
   snapshot_ = nullptr;
   banner_->dismiss();
@@ -187,7 +189,11 @@ void StudyDialog::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   show_buttons();
 }
 
-void StudyDialog::set_solve(const SolveOptions& solve) { choices_->set_solve(solve); }
+void StudyDialog::show_solve(const SolverSnapshot& solve) {
+  choices_->set_solve(solve.options);
+  why_not_ = why_old_materials(solve);
+  show_buttons();
+}
 
 void StudyDialog::run_or_stop() {
   if (running_) {
@@ -292,8 +298,11 @@ void StudyDialog::show_table() {
 void StudyDialog::show_buttons() {
   const StudyOptions options = choices_->options();
   run_->setText(running_ ? tr("Stop") : tr("Run the study"));
-  enable_if(*run_, running_ || (loaded_ && !options.series.empty() && !options.directions.empty()),
-            loaded_ ? tr("No sampling or number of directions is chosen") : tr("No scene is open"));
+  const bool chosen = !options.series.empty() && !options.directions.empty();
+  enable_if(*run_, running_ || (loaded_ && chosen && why_not_.isEmpty()),
+            !loaded_              ? tr("No scene is open")
+            : !why_not_.isEmpty() ? why_not_
+                                  : tr("No sampling or number of directions is chosen"));
   enable_if(*save_, has_points(), tr("No study has been run yet"));
 }
 

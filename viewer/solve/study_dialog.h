@@ -32,8 +32,9 @@ class StudyDialog : public QDialog {
   void present();
   /// Sets the scene; a running study of another scene is stopped.
   void show_scene(std::shared_ptr<const LoadedScene> loaded);
-  /// Sets the options of the current solve, which apply where the dialog has no choice.
-  void set_solve(const SolveOptions& solve);
+  /// Takes the options of the current solve, which apply where the dialog has no choice. A study of
+  /// changed materials waits for their solve.
+  void show_solve(const SolverSnapshot& solve);
 
   std::shared_ptr<const StudySnapshot> snapshot() const { return snapshot_; }
   /// Writes the plot or the table, by the ending of `path`; shows an error where it fails.
@@ -56,6 +57,7 @@ class StudyDialog : public QDialog {
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const StudySnapshot> snapshot_;
   bool running_ = false;
+  QString why_not_;  // why_old_materials()
 
   StudyChoices* choices_;
   QLabel *scene_, *phase_;

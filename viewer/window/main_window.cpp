@@ -383,7 +383,7 @@ void MainWindow::connect_scene() {
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
     settings_->set_in_effect(snapshot, state_.scene.options());
     settings_->show_escape(escape_of(*snapshot));
-    study_->set_solve(snapshot->options);
+    study_->show_solve(*snapshot);
     state_.colors.fit(snapshot);
   });
   const auto send_to = [this](auto* view) {
