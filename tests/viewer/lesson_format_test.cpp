@@ -169,6 +169,9 @@ class LessonFormatTest : public QObject {
     // Qt took 40 s to lay out such a text.
     row("long text", lesson("{\"text\": \"" + repeated("a *b* ", 300'000) + "\"}"),
         "page 1, text: must have at most 65536 bytes; it has 1800000");
+    row("marks", lesson(R"({"text": "a [[b [[c]]"})"),
+        "page 1, text: must have one ]] after each [[");
+    row("end mark", lesson(R"({"text": "a ]] b"})"), "must have one ]] after each [[");
     row("show a list", lesson(R"({"text": "", "show": []})"), "bad.json, page 1, show: ");
     row("second page", lesson(page("") + "," + page(R"("selct": 3)")),
         "page 2: unknown key \"selct\"");

@@ -25,13 +25,14 @@ using namespace test;
 namespace {
 
 const char* const lesson_text = R"({"title": "Two <pages>", "pages": [
-  {"title": "One", "text": "With *A*(i, j, ω) and {M} directions, *B*ᵢ: press `,`.",
+  {"title": "One", "text": "With *A*(i, j, ω) and {M} directions, *B*ᵢ: press `,`.[[ See the panel below.]]",
    "show": {"scene": "furnace", "layout": "teach", "options": {"directions": 16},
             "focus": {"direction": 3, "step": 4}},
    "controls": {"M": {"option": "directions", "values": [8, 16]}},
-   "question": {"kind": "number", "ask": "How many?", "answer": {"figure": "steps"},
+   "question": {"kind": "number", "ask": "How many?[[ Count here.]]", "answer": {"figure": "steps"},
                 "then": "That is all."}},
-  {"title": "Two", "text": "The end.", "show": {"focus": "newest"}}]})";
+  {"title": "Two", "text": "The end.", "show": {"focus": "newest"}},
+  {"title": "Three", "text": ["[[Drag", "it.]]", ""]}]})";
 
 int count(const QByteArray& text, const char* pattern) {
   int found = 0;
@@ -150,6 +151,9 @@ class LessonHtmlTest : public QObject {
     QVERIFY(!html.contains("symbol:") && !html.contains("{M}") && html.contains("16"));
     QVERIFY(count(html, "vertical-align:sub") > 0);
     QVERIFY(html.contains("press <code>,</code>."));
+    // Texts about the window are omitted.
+    QVERIFY(!html.contains("panel below") && !html.contains("Count here"));
+    QVERIFY(!html.contains("Three") && !html.contains("Drag"));
     QCOMPARE(count(html, "<details>.*computed: 12.*That is all.*</details>"), 1);
     // The pictures are of the scene.
     static const QRegularExpression png(QStringLiteral("base64,([^\"]*)\""));
@@ -158,6 +162,19 @@ class LessonHtmlTest : public QObject {
     QVERIFY(image.width() > 200 && color_count(image) > 3);
     // The window is back where it was.
     QCOMPARE(exported.window->findChild<LessonPanel*>()->page(), 0);
+  }
+
+  void built_in_lessons_do_not_speak_of_the_window() {
+    static const QRegularExpression speaks(
+        ".{0,30}(\\bpanel\\b|[Cc]lick|[Dd]rag\\b|timeline|Next page|→ (?!About)|[[\\]]{2}).{0,30}");
+    for (const Lesson& lesson : built_in_lessons()) {
+      for (const Lesson::Page& page : lesson.pages) {
+        const std::string asked = page.question ? page.question->ask + page.question->then : "";
+        const QString text = web_text(page.text + asked);
+        QVERIFY2(!text.contains(speaks), qPrintable(speaks.match(text).captured()));
+        QVERIFY(!window_text(page.text).contains("[["));
+      }
+    }
   }
 
   void canceling_writes_nothing() {

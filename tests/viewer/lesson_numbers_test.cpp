@@ -42,7 +42,7 @@ QString text_of(const QString& path) {
 QString text_of(const Lesson::Page& page) {
   const std::string asked =
       page.question ? "\n" + page.question->ask + "\n" + page.question->then : "";
-  return QString::fromStdString(page.text + asked);
+  return window_text(page.text + asked);
 }
 
 // The text of a page. Lessons and pages count from 1.

@@ -100,7 +100,7 @@ QString html_of(const QString& markdown) {
 
 // Controls become the values that the page begins with.
 QString text_of(const Lesson::Page& page) {
-  QString text = QString::fromStdString(page.text);
+  QString text = web_text(page.text);
   for (const PageControl& control : page.controls) {
     const int value =
         control.kind == PageControl::Kind::option ? value_in(control, page.state.options) : -1;
@@ -142,8 +142,7 @@ QString answer_text(const Question& question, const Solved& solved) {
 
 QString question_html(const ShownPage& shown) {
   const Question& question = *shown.page.question;
-  QString html =
-      QStringLiteral("<div class=\"question\">") + html_of(QString::fromStdString(question.ask));
+  QString html = QStringLiteral("<div class=\"question\">") + html_of(web_text(question.ask));
   if (question.kind == Question::Kind::choice) {
     html += QStringLiteral("<ul>");
     for (const Question::Choice& choice : question.choices) {
@@ -156,7 +155,7 @@ QString question_html(const ShownPage& shown) {
   if (shown.solved) {
     html += QStringLiteral("<details><summary>%1</summary><p><b>%2</b></p>%3</details>")
                 .arg(tr("Reveal the answer"), answer_text(question, *shown.solved).toHtmlEscaped(),
-                     html_of(QString::fromStdString(question.then)));
+                     html_of(web_text(question.then)));
   }
   return html + QStringLiteral("</div>\n");
 }
@@ -411,9 +410,13 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
                      "<title>%1</title><style>%2</style></head><body>\n<h1>%1</h1>\n")
                      .arg(title.toHtmlEscaped(), QString::fromLatin1(style_sheet));
   for (const ShownPage& shown : pages) {
+    const QString text = text_of(shown.page);
+    if (text.trimmed().isEmpty() && !shown.page.text.empty()) {
+      continue;  // the page speaks of the window only
+    }
     html += QStringLiteral("<section><h2>%1</h2>\n")
                 .arg(QString::fromStdString(shown.page.title).toHtmlEscaped());
-    html += html_of(text_of(shown.page)) + QStringLiteral("<div class=\"views\">\n");
+    html += html_of(text) + QStringLiteral("<div class=\"views\">\n");
     if (!shown.picture.isEmpty()) {
       html += QStringLiteral("<img alt=\"%1\" src=\"data:image/png;base64,%2\">\n")
                   .arg(tr("The scene"), QString::fromLatin1(shown.picture.toBase64()));

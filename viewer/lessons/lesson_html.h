@@ -25,7 +25,8 @@ struct ShownPage {
 };
 
 /// A lesson as one HTML file that refers to no other: text, pictures, and maps as SVG with a slider
-/// for the step. UTF-8. Maps of more than 20,000 polygons show one step only.
+/// for the step. UTF-8. Maps of more than 20,000 polygons show one step only. Leaves out pages
+/// whose whole text speaks of the window.
 QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages);
 
 /// The map of a direction as an SVG element. Each polygon that was ever in V has the steps at which

@@ -359,8 +359,7 @@ void LessonPanel::show_text(const Lesson::Page& page) {
   const std::string then = question_->solved() ? "\n\n" + page.question->then : "";
   const QString needs = page_ == 0 ? needs_text(lesson_) : QString();
   text_->show_page(
-      (needs.isEmpty() ? needs : '*' + needs + "*\n\n") + QString::fromStdString(page.text + then),
-      insets);
+      (needs.isEmpty() ? needs : '*' + needs + "*\n\n") + window_text(page.text + then), insets);
 }
 
 void LessonPanel::show_snapshot(const SolverSnapshot& snapshot) {

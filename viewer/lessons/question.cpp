@@ -152,6 +152,26 @@ void check_markdown(const std::string& text, const JsonObject& object, const cha
     object.fail_at(key, "must have at most " + std::to_string(longest) + " bytes; it has " +
                             std::to_string(text.size()));
   }
+  const QString rest = web_text(text);
+  if (rest.contains("[[") || rest.contains("]]")) {
+    object.fail_at(key, "must have one ]] after each [[");
+  }
+}
+
+QString window_text(const std::string& text) {
+  return QString::fromStdString(text).remove("[[").remove("]]");
+}
+
+QString web_text(const std::string& text) {
+  QString rest = QString::fromStdString(text);
+  for (int end = rest.indexOf("]]"); end >= 0; end = rest.indexOf("]]")) {
+    const int begin = rest.lastIndexOf("[[", end);
+    if (begin < 0) {
+      break;
+    }
+    rest.remove(begin, end + 2 - begin);
+  }
+  return rest;
 }
 
 Question question_from_json(const json& value, const std::string& where, const json& page_state,

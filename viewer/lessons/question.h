@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QString>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -53,10 +54,15 @@ struct Question {
                                     ///< is
 };
 
-/// Refuses texts of more than 64 KiB: Qt takes 40 s for 1.6 MB of Markdown.
+/// Refuses texts of more than 64 KiB (Qt takes 40 s for 1.6 MB of Markdown), and marks [[ and ]]
+/// that are not in pairs.
 /// @param key of `object` that the text is at
 /// @throws InputError
 void check_markdown(const std::string& text, const JsonObject& object, const char* key);
+/// A text of a lesson for the window: without the marks [[ and ]] around what speaks of the window.
+QString window_text(const std::string& text);
+/// A text of a lesson for a web page: without what is between these marks.
+QString web_text(const std::string& text);
 
 /// An answer by a user; what does not belong to the question's kind is ignored.
 struct GivenAnswer {

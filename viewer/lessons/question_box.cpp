@@ -473,7 +473,7 @@ void QuestionBox::show_state() {
   if (!asks) {
     return;
   }
-  ask_->setText(QString::fromStdString(page_->question->ask));
+  ask_->setText(window_text(page_->question->ask));
   result_->setText(solved_ ? result_text(*page_->question, *solved_, answer_).trimmed()
                            : QString());
   result_->setVisible(waits_ || !result_->text().isEmpty());
