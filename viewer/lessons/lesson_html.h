@@ -25,7 +25,7 @@ struct ShownPage {
 };
 
 /// A lesson as one HTML file that refers to no other: text, pictures, and maps as SVG with a slider
-/// for the step. UTF-8. Maps of more than 20,000 polygons show one step only. Leaves out pages
+/// for the step. UTF-8. Maps of more than 20,000 polygons show one step only. Omits pages
 /// whose whole text speaks of the window.
 QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages);
 
