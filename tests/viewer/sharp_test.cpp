@@ -318,8 +318,19 @@ class SharpTest : public QObject {
     QVERIFY(shown.scene_view->sharp().isNull());
     QVERIFY(comes_to_rest(*shown.window));
     QVERIFY(fraction_in_own_color(*shown.scene_view, shown.window->colors) > 0.95);
+    // While it is on, patches are smooth before any picture is there; the numbers stay.
+    ColorChoice& colors = shown.window->colors;
+    QVERIFY(!colors.is_fitted() && shown.window->snapshot()->linear_terms.empty());
+    const ShownLight light(shown.subject());
+    const double of_patches = mean_difference(shown.scene_view->picture(1), light);
+    colors.set_fitted(true);
+    const double of_fitted = mean_difference(shown.scene_view->picture(1), light);
+    QVERIFY2(of_fitted < 0.75 * of_patches,
+             qPrintable(QString("%1 of %2").arg(of_fitted).arg(of_patches)));
+    QVERIFY(colors.values() == shown.window->snapshot()->radiosity);
+    colors.set_fitted(false);
     QTest::keyClick(shown.window.get(), Qt::Key_S);
-    QVERIFY(shown.becomes_sharp());
+    QVERIFY(shown.becomes_sharp() && colors.is_fitted());
   }
 
   void it_is_switched_by_its_button() {
@@ -343,14 +354,14 @@ class SharpTest : public QObject {
              shown.window->findChild<QLabel*>("sharp_label")->isHidden();
     };
     colors.set_quantity(Quantity::irradiance);
-    QVERIFY(wait_for(none));
+    QVERIFY(wait_for(none) && !colors.is_fitted());
     colors.set_quantity(Quantity::radiosity);
     QVERIFY(shown.becomes_sharp());
     colors.set_mode(ColorMode::luminance);
     QVERIFY(wait_for(none));
     colors.set_mode(ColorMode::true_color);
     shown.scene_view->set_outlines_shown(true);
-    QVERIFY(wait_for(none));
+    QVERIFY(wait_for(none) && !colors.is_fitted());
     shown.scene_view->set_outlines_shown(false);
     shown.scene_view->set_wireframe(true);
     QVERIFY(wait_for(none));

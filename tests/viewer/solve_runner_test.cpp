@@ -133,6 +133,8 @@ class SolveRunnerTest : public QObject {
                      });
     QVERIFY(solved(watched) == expected);
     QVERIFY(drafts > 0 && !watched.snapshot->of_draft);
+    QVERIFY(watched.snapshot->fitted &&
+            watched.snapshot->fitted->terms.size() == watched.snapshot->radiosity.size());
     QVERIFY2(worst < 0.05, qPrintable(QString::number(worst)));
     QVERIFY2(worst <= of_draft, qPrintable(QString("%1 of %2").arg(worst).arg(of_draft)));
   }

@@ -149,6 +149,12 @@ void ColorChoice::set_automatic_exposure(bool automatic) {
   }
 }
 
+void ColorChoice::set_fitted(bool fitted) {
+  if (std::exchange(fitted_, fitted) != fitted && snapshot_ && snapshot_->fitted) {
+    change();
+  }
+}
+
 Rgb ColorChoice::value_at(PatchId i, const Vec3& point) const {
   const Rgb& mean = at(values_.values, i);
   return linear()
@@ -259,6 +265,12 @@ void ColorChoice::refit() {
   } else {
     const auto& shown = quantity_ == Quantity::difference ? run_b() : snapshot_;
     values_ = values_of_shown(shown, kept.get());
+    if (fitted_ && quantity_ == Quantity::radiosity && mode_ == ColorMode::true_color &&
+        values_.linear_terms.empty() && shown->fitted) {
+      values_.linear_terms = shown->fitted->terms;
+      values_.bases = shown->fitted->bases;
+      values_.fitted = true;
+    }
     fit_range();
   }
   color();

@@ -64,6 +64,8 @@ class ColorChoice : public QObject {
   /// Sets the exposure in EV and ends the automatic one.
   void set_exposure(double exposure);
   void set_automatic_exposure(bool automatic);
+  /// Shows B of constant functions as SolverSnapshot::fitted, where there is one and in true color.
+  void set_fitted(bool fitted);
 
   /// The runs to compare with.
   KeptRuns& kept_runs() { return kept_runs_; }
@@ -99,6 +101,8 @@ class ColorChoice : public QObject {
   const std::vector<Rgb>& values() const { return values_.values; }
   /// Whether the shown quantity is linear on patches; values() are then its means.
   bool linear() const { return !values_.values.empty() && !values_.linear_terms.empty(); }
+  /// Whether it is so only to look at: the light of the solve is constant on patches.
+  bool is_fitted() const { return values_.fitted; }
   /// The shown quantity at a point of patch i. Requires values().
   Rgb value_at(PatchId i, const Vec3& point) const;
   /// If values() is empty, the reason for the user; empty where nothing emits, which the window
@@ -147,6 +151,7 @@ class ColorChoice : public QObject {
   KeptRuns kept_runs_;
   std::shared_ptr<const MeasuredErrors> errors_;
   bool shows_kept_run_ = false;
+  bool fitted_ = false;
   bool lit_ = true;  ///< something emits
   PatchValues values_;
   std::vector<Color8> patch_colors_;

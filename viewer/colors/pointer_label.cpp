@@ -37,7 +37,7 @@ QString value_text(const ColorChoice& colors, const QString& symbol, const Rgb& 
 QStringList value_lines(const ColorChoice& colors, const PointedPatch& pointed) {
   const QString symbol = QString::fromUtf8(traits_of(colors.quantity()).symbol);
   const Rgb& mean = at(colors.values(), pointed.patch);
-  if (!colors.linear() || !pointed.point || std::isnan(mean.r)) {
+  if (!colors.linear() || colors.is_fitted() || !pointed.point || std::isnan(mean.r)) {
     return {value_text(colors, symbol, mean)};
   }
   return {PointerLabel::tr("x  %1 m").arg(vector_text(*pointed.point)),

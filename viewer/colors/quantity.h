@@ -66,7 +66,8 @@ struct PatchValues {
   std::vector<LinearTerm> linear_terms = {};
   /// The bases of linear_terms; null if those are empty.
   std::shared_ptr<const std::vector<LinearBasis>> bases = nullptr;
-  QString note = {};  ///< tells the parts of sky and sun that no patch shows; mostly empty
+  bool fitted = false;  ///< the linear terms are of SolverSnapshot::fitted
+  QString note = {};    ///< tells the parts of sky and sun that no patch shows; mostly empty
 };
 /// The value of each patch at the corner where `size` of the value is largest. Without linear
 /// parts, these are the values themselves.

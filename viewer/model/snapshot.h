@@ -82,6 +82,13 @@ struct ErrorBand {
   double lowest = 0, estimate = 0, limit = 0;
 };
 
+/// Linear functions to look at, in place of constant ones: they fit the means of the neighbors in
+/// the same plane best, and are nowhere less than 0. One per patch.
+struct FittedLight {
+  std::vector<LinearTerm> terms;  ///< of B
+  std::shared_ptr<const std::vector<LinearBasis>> bases;
+};
+
 /// The state of a solve run at one moment: its light is the running estimate. Immutable: created by
 /// the worker, shown by the window.
 struct SolverSnapshot : SolvedLight {
@@ -106,6 +113,8 @@ struct SolverSnapshot : SolvedLight {
   SolveStatistics statistics;
   /// The bases of the scene's patches; null without linear_terms.
   std::shared_ptr<const std::vector<LinearBasis>> bases;
+  /// For the result of constant functions; null before it, and where patches are too small to show.
+  std::shared_ptr<const FittedLight> fitted;
   /// The form factors of all passes so far; null until SolveRunner::include_form_factors() was
   /// called and they are assembled.
   std::shared_ptr<const FormFactors> form_factors;

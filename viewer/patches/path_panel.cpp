@@ -106,6 +106,7 @@ QLayout* PathPanel::make_controls() {
   by_group_ = named("paths_by_group", new QCheckBox(tr("By group")),
                     tr("Sum the 1000 strongest paths through the same groups, or faces without "
                        "one: a lamp of many patches is one source"));
+  by_group_->setChecked(true);
   connect(by_group_, &QCheckBox::toggled, this, &PathPanel::search);
   auto* row = make_row({10, 8, 10, 6}, 6);
   row->addWidget(label);

@@ -216,7 +216,7 @@ void ColorControls::show_choice() {
   gamma_->setValue(scale.gamma);
   logarithmic_->setEnabled(!traits.is_signed);
   logarithmic_->setChecked(scale.logarithmic);
-  show_->set_linear(colors_.linear());
+  show_->set_linear(colors_.linear() && !colors_.is_fitted());
 }
 
 }  // namespace transillum::viewer

@@ -53,6 +53,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   connect(show, &ShowMenu::smooth_toggled, scene_view_, &SceneView::set_smooth_shading);
   new KeptRunLabel(colors, scene_view_->canvas());
   sharp_ = new SharpView(*scene_view_, this);
+  connect(sharp_, &SharpView::wanted_changed, &colors, &ColorChoice::set_fitted);
   const auto* pointer =
       new PointerLabel(colors, *scene_view_->canvas(), [this](const QPoint& position) {
         const auto hit = scene_view_->hit_at(position);

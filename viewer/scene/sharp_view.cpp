@@ -104,7 +104,11 @@ void SharpView::follow() {
   }
   const bool same_light = now && subject_ && now->snapshot == subject_->snapshot;
   const bool moved_on = begun_ && same_light;
+  const bool changed = now.has_value() != subject_.has_value();
   subject_ = std::move(now);
+  if (changed) {
+    emit wanted_changed(subject_.has_value());
+  }
   stop();
   if (!same_light) {
     worker_.request({std::nullopt, number_});

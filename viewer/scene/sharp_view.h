@@ -42,6 +42,8 @@ class SharpView : public QObject {
 
  signals:
   void failed(const QString& message);
+  /// Whether the scene is one that sharp pictures are made of, once it is solved.
+  void wanted_changed(bool wanted);
   /// The picture number of the newest request has changed, or is finished.
   void progressed(double fraction, bool finished);
 

@@ -178,6 +178,7 @@ std::shared_ptr<const SolverSnapshot> Relighting::lit(
     lit->statistics.rho_max = rho_max;
   }
   lit->materials = materials_;
+  lit->fitted = nullptr;
   return lit;
 }
 

@@ -16,7 +16,6 @@ namespace {
 constexpr int draft_directions = 64;
 /// A draft is made where the solve takes at least so many times as many directions.
 constexpr int least_ratio = 4;
-constexpr PatchId most_patches = 20'000;
 /// Bound of the light that is not propagated yet. The last iteration leaves far less: the error, of
 /// the few directions, is the same in four digits as with a quarter of this.
 constexpr double draft_tolerance = 2e-2;
@@ -113,7 +112,7 @@ bool can_be_drafted(const SolveOptions& options, const Scene& scene) {
   const bool is_large = options.goal.is_set() || traits_of(options.scheme).renews_directions ||
                         options.directions >= least_ratio * draft_directions;
   return is_large && !(options.glossy && has_lobes(scene)) && takes_directions(options.engine) &&
-         scene.patch_count() <= most_patches;
+         scene.patch_count() <= most_fitted_patches;
 }
 
 SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
@@ -152,13 +151,11 @@ SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
   return draft;
 }
 
-Solution smoothed(Solution light) {
-  if (!light.linear_terms.empty()) {
-    return light;
-  }
-  const Scene& scene = *light.scene;
-  const std::vector<LinearBasis> bases = linear_bases(scene);
+FittedLight fitted_light(const SolvedLight& light, const Scene& scene) {
+  FittedLight fitted{{}, std::make_shared<const std::vector<LinearBasis>>(linear_bases(scene))};
+  const std::vector<LinearBasis>& bases = *fitted.bases;
   const std::vector<std::vector<PatchId>> neighbors = neighbors_of(scene);
+  fitted.terms.reserve(bases.size());
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const LinearBasis& basis = at(bases, i);
     const LinearTerm h =
@@ -166,7 +163,14 @@ Solution smoothed(Solution light) {
     const Rgb& rho = scene.reflectance(i);
     const LinearTerm b{rho * h.first, rho * h.second};
     const double factor = factor_above_zero(b, basis, at(light.radiosity, i), scene, i);
-    light.linear_terms.push_back({factor * b.first, factor * b.second});
+    fitted.terms.push_back({factor * b.first, factor * b.second});
+  }
+  return fitted;
+}
+
+Solution smoothed(Solution light) {
+  if (light.linear_terms.empty()) {
+    light.linear_terms = fitted_light(light, *light.scene).terms;
   }
   return light;
 }

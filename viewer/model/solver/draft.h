@@ -30,12 +30,15 @@ SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
                            std::shared_ptr<const DirectLight> shot,
                            const Cancellation& cancellation);
 
-/// Light to look at: constant functions get the slopes that fit the means of the neighbors in the
-/// same plane best, and nowhere less than 0. Means are as before, and so are linear functions.
+/// Patches of larger scenes are too small to be seen.
+inline constexpr PatchId most_fitted_patches = 20'000;
+/// Linear functions to look at, with the means of these constant ones.
+FittedLight fitted_light(const SolvedLight& light, const Scene& scene);
+/// Light to look at: constant functions become fitted_light(), linear ones stay.
 Solution smoothed(Solution light);
 
-/// Whether a finished stage is nearer to the result than a draft is. A stage has several replicas of
-/// few directions each, and their mean is less accurate than one set of as many directions.
+/// Whether a finished stage is nearer to the result than a draft is. A stage has several replicas
+/// of few directions each, and their mean is less accurate than one set of as many directions.
 bool is_better_than_draft(const SolveStatistics& statistics);
 
 /// Replaces the light of a snapshot by the light of another solve of the same patches. The progress

@@ -206,6 +206,7 @@ void SolveWorker::replace_session(Prepared prepared) {
   form_factors_.clear();
   stage_result_ = nullptr;
   whole_.reset();
+  fitted_ = nullptr;
 }
 
 void SolveWorker::relight(std::shared_ptr<const PatchMaterials> materials) {
@@ -500,6 +501,14 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   }
   if (whole_ && drafts_ && !interrupted_ && !is_result) {
     show_light_of(*whole_, *snapshot);
+  }
+  if (is_result && snapshot->linear_terms.empty() && !snapshot->glossy &&
+      snapshot->loaded->scene->patch_count() <= most_fitted_patches) {
+    if (!fitted_) {
+      fitted_ =
+          std::make_shared<const FittedLight>(fitted_light(*snapshot, *snapshot->loaded->scene));
+    }
+    snapshot->fitted = fitted_;
   }
   history_.write_to(*snapshot);
   if (!snapshot->directions) {

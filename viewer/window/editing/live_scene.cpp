@@ -87,6 +87,7 @@ std::shared_ptr<const SolverSnapshot> live_snapshot(
   live->loaded = scene.loaded;
   live->glossy = nullptr;
   live->form_factors = nullptr;
+  live->fitted = nullptr;
   if (!live->linear_terms.empty() || light != nullptr) {
     live->bases = scene.bases;
   }
