@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "mpi_call.h"
+#include "support/sanitizers.h"
 #include "support/wait_until.h"
 
 namespace transillum {
@@ -123,7 +124,8 @@ TEST(Failures, WaitingProcessesLeaveTheirCores) {
 
 TEST(Failures, InterruptionSavesTheEstimate) {
   // Seconds from mpirun's SIGTERM to its SIGKILL; one second is too short on a busy machine.
-  ASSERT_EQ(::setenv("OMPI_MCA_odls_base_sigkill_timeout", "3", 1), 0);
+  const char* patience = testing::has_thread_sanitizer ? "60" : "3";
+  ASSERT_EQ(::setenv("OMPI_MCA_odls_base_sigkill_timeout", patience, 1), 0);
   // mpirun of Open MPI 5 passes on no more text once it ends the processes.
   const bool passes_on_last_messages =
       testing::run_program({TRANSILLUM_MPIRUN, "--version"}).out.find("(Open MPI) 5.") ==
