@@ -109,7 +109,7 @@ QString plain_tip(const QWidget& widget) {
 
 /// Whether a value without a unit is meant: a number of things, or a text.
 bool is_without_unit(const QString& label) {
-  static const QStringList names{"Quality", "Patches",      "Directions M", "Seed",
+  static const QStringList names{"Quality", "Patches",      "Passes",  "Seed",
                                  "Stop at", "Most patches", "Replicas"};
   return names.contains(label);
 }

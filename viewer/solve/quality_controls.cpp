@@ -70,15 +70,17 @@ QualityControls::QualityControls(QWidget* parent) : QWidget(parent) {
 }
 
 void QualityControls::add_buttons() {
-  draft_ = segment("draft", tr("Draft"), tr("A first picture: %1 directions").arg(draft_passes));
-  const QString tip = tr("Directions for an error of at most %1 %");
+  draft_ = segment("draft", tr("Draft"), tr("A first picture: %1 passes").arg(draft_passes));
+  const QString tip = tr("As many passes as an error of at most %1 % requires");
   normal_ = segment("normal", tr("Normal"), tip.arg(normal_percent));
   fine_ = segment("fine", tr("Fine"), tip.arg(fine_percent));
   connect(draft_, &QPushButton::clicked, this, &QualityControls::choose_draft);
   connect(normal_, &QPushButton::clicked, this, [this] { choose(normal_percent); });
   connect(fine_, &QPushButton::clicked, this, [this] { choose(fine_percent); });
-  by_number_ = segment("by_number", tr("Directions M"),
-                       tr("The number of directions, whatever error it leaves"));
+  by_number_ = segment(
+      "by_number", tr("Passes"),
+      tr("The number of passes, whatever error it leaves; each is of one direction ω, or of ω and "
+         "−ω"));
   connect(by_number_, &QPushButton::clicked, this, &QualityControls::choose_number);
   accuracy_ = named("accuracy", new QLineEdit, setting_tip("accuracy"));
   auto* percent = new QDoubleValidator(0, 99, 6, accuracy_);

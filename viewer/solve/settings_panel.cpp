@@ -125,9 +125,9 @@ void SettingsPanel::add_top() {
       named("restart", new QPushButton(tr("Solve")), tr("Solve the scene with these settings"));
   restart_->setProperty("primary", true);
   auto* quality_label = new QLabel(tr("Quality"));
-  quality_label->setToolTip(
-      tr("How many directions light is computed along, by number or by the "
-         "error that is allowed"));
+  quality_label->setToolTip(tr(
+      "How many passes are made, each along one direction or two opposite ones: by number, or by "
+      "the error that is allowed"));
   auto* top = make_column({0, 0, 12, 0}, 3);
   top->addWidget(quality_label);
   top->addWidget(quality_);

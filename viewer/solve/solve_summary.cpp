@@ -108,7 +108,7 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   escaped_->setText(!any_pass    ? none
                     : is_open(s) ? tr("%1 %").arg(number_text(100 * s.escaped))
                                  : tr("0, the scene is closed"));
-  negative_->setText(snapshot.linear_terms.empty() ? tr("constant B")
+  negative_->setText(snapshot.linear_terms.empty() ? tr("none, B is constant")
                                                    : count_text(s.negative_corners));
   const GlossyStatistics& g = s.glossy;
   const int replicas = snapshot.options.replicas;

@@ -49,7 +49,7 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
     const bool on = sampling == Sampling::random || sampling == Sampling::hammersley ||
                     sampling == default_sampling(true);
     const QString name = QString::fromStdString(name_of(sampling));
-    layout->addWidget(add_box(samplings_, name, name, static_cast<int>(k), on));
+    layout->addWidget(add_box(samplings_, name, capitalized(name), static_cast<int>(k), on));
   }
   layout->addSpacing(10);
 
@@ -77,7 +77,7 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
   layout->addLayout(engines);
   layout->addSpacing(10);
 
-  layout->addWidget(heading(tr("Directions M")));
+  layout->addWidget(heading(tr("Passes")));
   auto* grid = new QGridLayout;
   grid->setVerticalSpacing(4);
   constexpr int columns = 3;
@@ -145,8 +145,8 @@ std::vector<Engine> StudyChoices::engines() const {
 
 void StudyChoices::show_solve() {
   fixed_settings_->setText(tr("From the current solve: normalization %1, scheme %2")
-                               .arg(QString::fromStdString(name_of(solve_.normalize)),
-                                    QString::fromStdString(name_of(solve_.scheme))));
+                               .arg(capitalized(QString::fromStdString(name_of(solve_.normalize))),
+                                    capitalized(QString::fromStdString(name_of(solve_.scheme)))));
   show_cost();
 }
 

@@ -18,11 +18,11 @@ QString remedy_hint(Remedy remedy) {
     case Remedy::none:
       break;
     case Remedy::directions:
-      return tr(" (increase Directions M)");
+      return tr(" (increase Passes)");
     case Remedy::directions_or_row_normalization:
-      return tr(" (increase Directions M, or set Normalization to Rows)");
+      return tr(" (increase Passes, or set Normalization to Rows)");
     case Remedy::directions_or_symmetric_normalization:
-      return tr(" (increase Directions M, or set Normalization to Symmetric)");
+      return tr(" (increase Passes, or set Normalization to Symmetric)");
     case Remedy::memory:
       return tr(" (start the program with a larger --memory)");
   }

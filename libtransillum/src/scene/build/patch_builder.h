@@ -75,6 +75,8 @@ class PatchBuilder {
   [[noreturn]] void throw_crossing(std::size_t face) const;
 
   void note_moves(double rounding);
+  /// Null if the face has no patch.
+  const Patch* first_patch(std::size_t face) const;
   void count_coincident();
   void check_copies(const std::vector<std::pair<std::size_t, std::size_t>>& pairs) const;
   void count_unused();
