@@ -85,7 +85,7 @@ struct ErrorBand {
 /// Linear functions to look at, in place of constant ones: they fit the means of the neighbors in
 /// the same plane best, and are nowhere less than 0. One per patch.
 struct FittedLight {
-  std::vector<LinearTerm> terms;  ///< of B
+  std::vector<LinearTerm> terms;  ///< linear terms of B
   std::shared_ptr<const std::vector<LinearBasis>> bases;
 };
 

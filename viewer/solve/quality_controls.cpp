@@ -71,7 +71,7 @@ QualityControls::QualityControls(QWidget* parent) : QWidget(parent) {
 
 void QualityControls::add_buttons() {
   draft_ = segment("draft", tr("Draft"), tr("A first picture: %1 passes").arg(draft_passes));
-  const QString tip = tr("As many passes as an error of at most %1 % requires");
+  const QString tip = tr("The passes that an error of at most %1 % requires");
   normal_ = segment("normal", tr("Normal"), tip.arg(normal_percent));
   fine_ = segment("fine", tr("Fine"), tip.arg(fine_percent));
   connect(draft_, &QPushButton::clicked, this, &QualityControls::choose_draft);

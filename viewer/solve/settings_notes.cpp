@@ -17,6 +17,7 @@
 #include "solve/refine_controls.h"
 #include "solve/setting_tips.h"
 #include "solve/settings_panel.h"
+#include "solve/sun_controls.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/glossy.h"
@@ -119,15 +120,23 @@ void SettingsPanel::ask_for_sky() {
 
 void SettingsPanel::show_sky_state() {
   const bool any = may_have_sky() && sky_value_->value() > 0;
+  const Sun sun = sun_->sun(zenith());
   FoldHeader& header = *sky_section_->header();
   header.setEnabled(may_have_sky());
   if (!may_have_sky()) {
     sky_section_->set_open(false);
     header.set_state(closed_ ? tr("none: the scene is closed") : tr("none: not with this engine"));
   } else {
-    header.set_state(any ? tr("%1 W/m²").arg(number_text(sky_value_->value())) + dot +
-                               sky_model_->currentText()
-                         : tr("none"));
+    QStringList parts;
+    if (any) {
+      parts << tr("%1 W/m²").arg(number_text(sky_value_->value())) << sky_model_->currentText();
+    }
+    if (sun.is_set()) {
+      parts << tr("sun %1 W/m²").arg(number_text(max_abs(sun.irradiance)));
+    } else if (sun.below_horizon) {
+      parts << tr("night");
+    }
+    header.set_state(parts.isEmpty() ? tr("none") : parts.join(dot));
   }
   SettingRows::show_row(sky_model_, any);
   SettingRows::show_row(sky_up_, any && sky_model_->currentIndex() != 0);

@@ -28,6 +28,7 @@
 #include "solve/refine_controls.h"
 #include "solve/round_panel.h"
 #include "solve/setting_tips.h"
+#include "solve/sun_controls.h"
 #include "state/camera_views.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
@@ -252,6 +253,9 @@ void SettingsPanel::add_sky() {
   rows->add(tr("Sky, W/m²"), exitance, tip);
   rows->add(tr("Sky model"), sky_model_, sky_model_->toolTip());
   rows->add(tr("Zenith"), sky_up_, sky_up_->toolTip());
+  rows->add(sun_ = new SunControls);
+  connect(sun_, &SunControls::changed, this, &SettingsPanel::show_state);
+  connect(sun_, &SunControls::moved, this, &SettingsPanel::sun_moved);
   add_section(sky_section_ = new Fold("sky_section", tr("Sky"), rows));
   connect(sky_slider_, &QSlider::valueChanged, this, [this](int step) {
     const double fraction = 1.0 * step / sky_steps;
@@ -327,24 +331,28 @@ void SettingsPanel::connect_changes() {
   }
 }
 
+Vec3 SettingsPanel::zenith() const {
+  const int axis = sky_up_->currentIndex();
+  return axis >= 0 && axis < static_cast<int>(named_axes().size())
+             ? named_axes()[static_cast<std::size_t>(axis)].direction
+             : base_.sky.up;
+}
+
 Sky SettingsPanel::sky() const {
+  const Sun sun = sun_->sun(zenith());
   if (!(sky_value_->value() > 0) || !takes_directions(engine_of(*engine_))) {
     Sky none;
-    none.sun = base_.sky.sun;
+    none.sun = sun;
     return none;
   }
   Sky sky = base_.sky;  // with all its digits, unless changed
+  sky.sun = sun;
   if (sky_value_->value() !=
       sky_value_->valueFromText(sky_value_->textFromValue(max_abs(base_.sky.exitance)))) {
     sky.exitance = sky_value_->value() * sky_color_;
   }
   sky.model = static_cast<SkyModel>(sky_model_->currentIndex());
-  const int axis = sky_up_->currentIndex();
-  if (sky.model == SkyModel::uniform) {
-    sky.up = Sky().up;  // not read
-  } else if (axis >= 0 && axis < static_cast<int>(named_axes().size())) {
-    sky.up = named_axes()[static_cast<std::size_t>(axis)].direction;
-  }
+  sky.up = sky.model == SkyModel::uniform ? Sky().up : zenith();  // read by other models only
   return sky;
 }
 
@@ -356,6 +364,7 @@ void SettingsPanel::set_sky(const Sky& sky) {
   if (sky.is_set() && sky.model != SkyModel::uniform) {
     choose_up(sky.up);
   }
+  sun_->set_sun(sky.sun, zenith());
 }
 
 void SettingsPanel::choose_up(const Vec3& up) {

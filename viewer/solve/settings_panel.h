@@ -26,6 +26,7 @@ class QualityControls;
 class RefineControls;
 class RoundPanel;
 class SettingRows;
+class SunControls;
 
 /// Controls for the options of the next solve: quality, patches and the button on top, the others
 /// below in sections that can be folded. A setting that has no effect is not shown.
@@ -81,6 +82,8 @@ class SettingsPanel : public QWidget {
   void restart_clicked();
   /// The user has chosen the zenith of the sky.
   void zenith_chosen(const transillum::Vec3& up);
+  /// The user has moved the sun.
+  void sun_moved();
   /// The options differ from the options of the open scene, and show_forecast() is to be called; or
   /// set_patch_area() where patches_wanted() is not 0.
   void forecast_wanted(const transillum::SceneOptions& options);
@@ -92,6 +95,7 @@ class SettingsPanel : public QWidget {
   void add_direction_rows(SettingRows& rows);
   void add_estimator_rows(SettingRows& rows);
   void add_sky();
+  Vec3 zenith() const;
   Sky sky() const;
   void set_sky(const Sky& sky);
   void choose_up(const Vec3& up);
@@ -152,6 +156,7 @@ class SettingsPanel : public QWidget {
   QSlider* sky_slider_;
   QDoubleSpinBox* sky_value_;  ///< largest channel of the exitance
   QComboBox *sky_model_, *sky_up_;
+  SunControls* sun_;
   QLineEdit* tolerance_;
   QComboBox* scheme_;
   QSpinBox* replicas_;

@@ -80,6 +80,7 @@
 #include "window/scene_bars.h"
 #include "window/solve_control.h"
 #include "window/start_control.h"
+#include "window/sun_drag.h"
 #include "window/vertical_control.h"
 #include "window/workspace_bar.h"
 
@@ -194,6 +195,7 @@ void MainWindow::make_whole_window_actions() {
   solve_actions_ = new SolveActions(this);
   applier_ = new ViewStateApplier(frame, docks_, *map_view_, *algorithm_, *settings_);
   auto* control = new SolveControl(frame, *settings_, *solve_actions_, *applier_);
+  sun_ = new SunDrag(frame, *settings_);
   vertical_ = new VerticalControl(frame, *settings_);
   session_ = new WindowSession(frame, docks_, *notes_, *applier_);
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
@@ -561,7 +563,7 @@ bool MainWindow::settled() const {
   const bool idle =
       state_.runner.state() == RunState::paused || state_.runner.state() == RunState::finished;
   return idle && state_.scene.snapshot() && applier_->arrived() && !state_.relighting.busy() &&
-         !state_.colors.busy() && !edits_->busy() && page_->sharp()->settled() &&
+         !state_.colors.busy() && !edits_->busy() && !sun_->busy() && page_->sharp()->settled() &&
          !inspection_->busy() && !compare_view_->busy() &&
          (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
 }

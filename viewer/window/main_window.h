@@ -37,6 +37,7 @@ class SolveSummary;
 class StepActions;
 class StepPanel;
 class StudyDialog;
+class SunDrag;
 class TimelineBar;
 class VerticalControl;
 class ViewStateApplier;
@@ -127,6 +128,7 @@ class MainWindow : public QMainWindow {
   StepActions* step_actions_;
   QAction* study_action_;
   SceneEdits* edits_;
+  SunDrag* sun_;
   ViewStateApplier* applier_;
   VerticalControl* vertical_;
   WindowSession* session_;

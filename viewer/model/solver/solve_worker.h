@@ -163,7 +163,7 @@ class SolveWorker {
 
   /// The newest whole light: of the draft, or of the last finished stage; nothing without a draft.
   std::optional<Solution> whole_;
-  std::shared_ptr<const FittedLight> fitted_;  ///< of the result; null before it
+  std::shared_ptr<const FittedLight> fitted_;  ///< null before the result
 
   bool patches_to_announce_ = false;  // the patches of loaded_
   QElapsedTimer since_patches_;

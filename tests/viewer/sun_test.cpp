@@ -1,0 +1,198 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The sun in the settings: its place in the sky, and the light that follows it.
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QPushButton>
+#include <QSlider>
+#include <QTemporaryDir>
+#include <cmath>
+#include <limits>
+
+#include "model/solver/draft.h"
+#include "solve/sun_controls.h"
+#include "solve/sun_dome.h"
+#include "solved_window.h"
+#include "test_files.h"
+#include "transillum/at.h"
+#include "window/sun_drag.h"
+
+namespace transillum::viewer::sun_test {
+
+using namespace test;
+
+namespace {
+
+/// A floor of 4 m x 4 m, its front up, and 1 m above its center a sheet of 1 m x 1 m.
+const char* const yard = R"(v -2 -2 0
+v 2 -2 0
+v 2 2 0
+v -2 2 0
+v -0.5 -0.5 1
+v 0.5 -0.5 1
+v 0.5 0.5 1
+v -0.5 0.5 1
+g floor
+f 1 2 3 4
+g sheet
+f 5 6 7 8
+f 8 7 6 5
+)";
+
+struct Yard {
+  QTemporaryDir folder;
+  SolvedWindow shown;
+  SunDome* dome = shown.window->findChild<SunDome*>();
+  SunDrag* drag = shown.window->findChild<SunDrag*>();
+  QDoubleSpinBox* irradiance = part<QDoubleSpinBox>("sun");
+
+  Yard()
+      : shown(write_file(folder.filePath("yard.obj"), yard),
+              {.directions = 64, .first_shot = {}, .sky = lit()}) {
+    part<QPushButton>("restart")->click();
+  }
+  static Sky lit() {
+    Sky sky;
+    sky.sun = {{100, 100, 100}, {0, 0, 1}};
+    return sky;
+  }
+  template <class Widget>
+  Widget* part(const char* name) const {
+    return shown.window->findChild<Widget*>(name);
+  }
+  const Sun& solved_sun() const { return shown.window->snapshot()->options.sky.sun; }
+  /// Waits until the scene is solved with the place of the sun that is shown.
+  bool solves() const {
+    return wait_for([this] {
+             return !drag->busy() && shown.window->snapshot() &&
+                    shown.window->snapshot()->progress.finished;
+           }) &&
+           comes_to_rest(*shown.window);
+  }
+  /// Mean H of the floor, W/m².
+  double floor() const {
+    const SolverSnapshot& snapshot = *shown.window->snapshot();
+    double sum = 0, area = 0;
+    for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
+      const Patch& patch = snapshot.loaded->scene->patch(i);
+      if (patch.face == 0) {
+        sum += patch.area * at(snapshot.irradiance, i).r;
+        area += patch.area;
+      }
+    }
+    return sum / area;
+  }
+};
+
+double angle_between(const Vec3& a, const Vec3& b) { return norm(cross(a, b)); }
+
+}  // namespace
+
+class SunTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void the_handle_is_where_the_sun_is() {
+    SunDome dome;
+    dome.resize(200, 200);
+    const QPointF middle(100, 100);
+    dome.set_position({0, 90});
+    QVERIFY(QLineF(dome.place_of(dome.position()), middle).length() < 1e-9);
+    const auto below = [&](const SolarPosition& position) {
+      return dome.place_of(position) - middle;
+    };
+    // North is at the top, east at the right.
+    QVERIFY(below({0, 30}).y() < 0 && std::abs(below({0, 30}).x()) < 1e-9);
+    QVERIFY(below({90, 30}).x() > 0 && std::abs(below({90, 30}).y()) < 1e-9);
+    QVERIFY(std::abs(below({90, 0}).x() - 1.5 * below({90, 30}).x()) < 1e-9);
+    // A drag ends where the pointer is.
+    SolarPosition moved;
+    connect(&dome, &SunDome::moved, [&](const SolarPosition& position) { moved = position; });
+    const QPoint place(130, 60);
+    QTest::mousePress(&dome, Qt::LeftButton, {}, place);
+    QVERIFY(QLineF(dome.place_of(moved), place).length() < 1e-9);
+    QTest::keyClick(&dome, Qt::Key_Right);
+    QTest::keyClick(&dome, Qt::Key_Down, Qt::ShiftModifier);
+    QVERIFY(dome.position() == moved && moved.elevation >= 0);
+  }
+
+  void a_given_sun_keeps_its_digits() {
+    SunControls controls;
+    const Vec3 up{0, 0, 1};
+    const Sun sun{{801.23456789, 700, 600}, normalized({0.3, -0.5, 0.7})};
+    controls.set_sun(sun, up);
+    QVERIFY(controls.sun(up) == sun);
+    // Another place keeps the color; its direction is at the azimuth and elevation shown.
+    controls.findChild<QDoubleSpinBox*>("sun_azimuth")->setValue(90);
+    controls.findChild<QDoubleSpinBox*>("sun_elevation")->setValue(30);
+    const Sun moved = controls.sun(up);
+    QVERIFY(angle_between(moved.direction, {std::sqrt(0.75), 0, 0.5}) < 1e-12);
+    QVERIFY(std::abs(moved.irradiance.g / moved.irradiance.r - 700 / 801.23456789) < 1e-12);
+    controls.findChild<QDoubleSpinBox*>("sun_elevation")->setValue(-5);
+    QVERIFY(!controls.sun(up).is_set() && controls.sun(up).below_horizon);
+    controls.findChild<QDoubleSpinBox*>("sun")->setValue(0);
+    QVERIFY(controls.sun(up) == Sun());
+  }
+
+  void a_day_moves_it_from_east_to_west() {
+    SunControls controls;
+    const Vec3 up{0, 0, 1};
+    controls.set_sun({{800, 800, 800}, {0, 0, 1}}, up);
+    controls.findChild<QCheckBox*>("sun_by_time")->setChecked(true);
+    auto* time = controls.findChild<QSlider*>("sun_time");
+    auto* azimuth = controls.findChild<QDoubleSpinBox*>("sun_azimuth");
+    auto* elevation = controls.findChild<QDoubleSpinBox*>("sun_elevation");
+    // At 50° north on June 21, at noon of the zone's own meridian: 90° - 50° + 23.4° high.
+    time->setValue(12 * 60);
+    QVERIFY(std::abs(elevation->value() - 63.4) < 0.2 && std::abs(azimuth->value() - 180) < 3);
+    time->setValue(8 * 60);
+    QVERIFY(azimuth->value() > 60 && azimuth->value() < 120);
+    time->setValue(16 * 60);
+    QVERIFY(azimuth->value() > 240 && azimuth->value() < 300);
+    time->setValue(0);
+    QVERIFY(elevation->value() < 0 && !controls.sun(up).is_set());
+    // A move by hand ends it.
+    azimuth->setValue(10);
+    QVERIFY(!controls.findChild<QCheckBox*>("sun_by_time")->isChecked());
+  }
+
+  // By hand: the sheet takes 1 m² of 16 m² from the sun, and nothing but it and the sky is around.
+  // Light that floor and sheet exchange adds less than a tenth.
+  void the_light_follows_and_is_then_solved() {
+    const Yard yard;
+    QVERIFY(yard.solves());
+    const double overhead = yard.floor();
+    QVERIFY(overhead >= 100 * 15.0 / 16 - 1e-9 && overhead < 100);
+    int pictures = 0;
+    connect(yard.drag, &SunDrag::lit, [&] { ++pictures; });
+    const auto before = yard.shown.window->snapshot();
+    emit yard.dome->moved({90, 45});
+    QVERIFY(wait_for([&] { return pictures > 0; }));
+    QVERIFY(yard.shown.window->snapshot() == before);  // other views keep the solve from before
+    QVERIFY(wait_for([&] { return yard.shown.window->snapshot() != before; }) && yard.solves());
+    QVERIFY(angle_between(yard.solved_sun().direction, normalized({1, 0, 1})) < 1e-12);
+    QVERIFY(std::abs(yard.floor() / overhead - std::sqrt(0.5)) < 0.02);
+    // The same bits as a new solve.
+    const auto snapshot = yard.shown.window->snapshot();
+    SolveSession session({.scene = snapshot->loaded->scene,
+                          .options = snapshot->options,
+                          .tree = snapshot->loaded->tree});
+    session.advance(SolveSession::Until::finished);
+    QVERIFY(session.solution().radiosity == snapshot->radiosity);
+    save_picture(*yard.shown.window, "sun");
+  }
+
+  void a_night_is_dark() {
+    const Yard yard;
+    QVERIFY(yard.solves());
+    yard.part<QDoubleSpinBox>("sun_elevation")->setValue(-1);
+    QVERIFY(wait_for([&] { return yard.solved_sun().below_horizon; }) && yard.solves());
+    QCOMPARE(yard.floor(), 0.0);
+  }
+};
+
+const test::Registered registered("sun", test::run_as_viewer<SunTest>);
+
+}  // namespace transillum::viewer::sun_test
+
+#include "sun_test.moc"

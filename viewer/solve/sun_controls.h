@@ -1,0 +1,59 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+
+#include "transillum/sun.h"
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QLabel;
+class QSlider;
+
+namespace transillum::viewer {
+
+class SettingRows;
+class SunDome;
+
+/// The sun: its irradiance, and its place in the sky, by hand or by place, day and time.
+class SunControls : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit SunControls(QWidget* parent = nullptr);
+
+  /// The sun in a scene with this vertical (unit vector), and the y axis as its north.
+  Sun sun(const Vec3& up) const;
+  /// Shows a sun; emits nothing. sun() is it, with all digits, until the user changes something.
+  void set_sun(const Sun& sun, const Vec3& up);
+
+ signals:
+  /// The user has changed something.
+  void changed();
+  /// The user has moved the sun, or changed its irradiance, and it shines.
+  void moved();
+
+ private:
+  void add_place(SettingRows& rows);
+  void take_position(const SolarPosition& position);
+  void take_time();
+  void show_rows();
+  void show_position(const SolarPosition& position);
+  SolarPosition position_at(int minute) const;
+  void tell();
+
+  Sun given_;                   ///< the argument of set_sun()
+  bool is_given_ = true;        ///< nothing has changed since
+  Rgb color_{1, 1, 1};          ///< the sun's; its largest channel is 1
+  QDoubleSpinBox* irradiance_;  ///< W/m²
+  SunDome* dome_;
+  QWidget* angles_;
+  QDoubleSpinBox *azimuth_, *elevation_;  ///< degrees
+  QCheckBox* by_time_;
+  QWidget* site_;
+  QDoubleSpinBox *latitude_, *longitude_;  ///< degrees
+  QSlider *day_, *time_;                   ///< day of the year from 0, minute of the day
+  QLabel *day_label_, *time_label_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,100 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/sun_drag.h"
+
+#include <QMainWindow>
+#include <QTimer>
+
+#include "model/solver/draft.h"
+#include "scene/scene_page.h"
+#include "scene/scene_view.h"
+#include "scene/sharp_view.h"
+#include "solve/settings_panel.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int sun_rest_ms = 300;  // from the last move until the scene is solved
+
+}  // namespace
+
+// A running job is finished: a late picture is better than none.
+SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings)
+    : QObject(&frame.window),
+      frame_(frame),
+      settings_(settings),
+      rest_timer_(new QTimer(this)),
+      lights_(
+          *this, &live_light,
+          [this](const LiveLightRequest& request, const std::shared_ptr<const Solution>& light,
+                 const QString&) { take_light(request, light); },
+          CurrentJob::finish) {
+  rest_timer_->setSingleShot(true);
+  rest_timer_->setInterval(sun_rest_ms);
+  connect(rest_timer_, &QTimer::timeout, this, &SunDrag::finish);
+  connect(&settings_, &SettingsPanel::sun_moved, this, &SunDrag::follow);
+  for (const auto change : {&OpenScene::scene_loaded, &OpenScene::patches_changed}) {
+    connect(&frame_.state.scene, change, this, &SunDrag::end);
+  }
+}
+
+SunDrag::~SunDrag() = default;
+
+bool SunDrag::busy() const { return lights_.busy() || rest_timer_->isActive(); }
+
+void SunDrag::follow() {
+  const auto snapshot = frame_.state.scene.snapshot();
+  if (!snapshot || snapshot->loaded->stored) {
+    return;  // the next solve has this sun
+  }
+  if (!solved_) {
+    solved_ = snapshot;
+    frame_.state.scene.hold(true);
+    frame_.state.runner.pause();
+    frame_.page.sharp()->set_solving(true);
+  }
+  const MaterialEdits& edits = frame_.state.relighting.edits();
+  lights_.request(
+      {solved_->loaded, settings_.solve_options(), edits.any() ? edits.materials() : nullptr});
+  rest_timer_->start();
+}
+
+void SunDrag::take_light(const LiveLightRequest& request,
+                         const std::shared_ptr<const Solution>& light) {
+  if (!light || !solved_ || request.loaded != solved_->loaded) {
+    return;
+  }
+  auto live = std::make_shared<SolverSnapshot>(*solved_);
+  live->options.sky = request.options.sky;
+  live->materials = request.materials;
+  live->glossy = nullptr;
+  live->form_factors = nullptr;
+  live->fitted = nullptr;
+  show_light_of(*light, *live);
+  frame_.state.colors.fit_moved(live);
+  frame_.page.scene_view()->show_snapshot(live);
+  emit lit();
+}
+
+void SunDrag::finish() {
+  if (lights_.busy()) {
+    rest_timer_->start();  // the last place is to be seen
+    return;
+  }
+  end();
+  emit settings_.restart_clicked();
+}
+
+void SunDrag::end() {
+  if (!solved_) {
+    return;
+  }
+  rest_timer_->stop();
+  lights_.clear();
+  solved_ = nullptr;
+  frame_.state.scene.hold(false);
+  const RunState state = frame_.state.runner.state();
+  frame_.page.sharp()->set_solving(state == RunState::running || state == RunState::loading);
+}
+
+}  // namespace transillum::viewer
