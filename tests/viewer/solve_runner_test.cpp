@@ -139,6 +139,38 @@ class SolveRunnerTest : public QObject {
     QVERIFY2(worst <= of_draft, qPrintable(QString("%1 of %2").arg(worst).arg(of_draft)));
   }
 
+  // Lobes take part from the first iteration on; until then they reflect diffusely.
+  void a_draft_comes_before_a_glossy_solve() {
+    SolveOptions options;
+    options.directions = 256;
+    options.glossy = true;
+    Watched plain;
+    plain.runner.open({"gallery", {options, {}}, {Goal::Kind::finished}});
+    QVERIFY(plain.reaches(RunState::finished) && plain.snapshot->glossy);
+    const auto power = [](const SolverSnapshot& snapshot) {
+      double sum = 0;
+      for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
+        sum += snapshot.loaded->scene->patch(i).area * max_abs(at(snapshot.irradiance, i));
+      }
+      return sum;
+    };
+    Watched watched;
+    watched.runner.set_drafts(true);
+    double least = HUGE_VAL;
+    int drafts = 0;
+    QObject::connect(&watched.runner, &SolveRunner::snapshot_ready, &watched.runner,
+                     [&](const std::shared_ptr<const SolverSnapshot>& snapshot) {
+                       drafts += snapshot->of_draft ? 1 : 0;
+                       least = drafts > 0 ? std::min(least, power(*snapshot)) : least;
+                     });
+    watched.runner.open({"gallery", {options, {}}, {Goal::Kind::finished}});
+    QVERIFY(watched.reaches(RunState::finished) && drafts > 0);
+    QVERIFY(watched.snapshot->radiosity == plain.snapshot->radiosity);
+    // That changes where light goes, not how much is reflected.
+    QVERIFY2(least > 0.9 * power(*plain.snapshot),
+             qPrintable(QString("%1 of %2").arg(least).arg(power(*plain.snapshot))));
+  }
+
   // The draft has constant functions; linear ones are fitted to them.
   void a_draft_of_linear_functions_is_smooth() {
     Watched watched;

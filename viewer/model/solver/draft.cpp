@@ -37,6 +37,20 @@ std::shared_ptr<const DirectLight> shoot_few_points(const SolveOptions& options,
              : std::make_shared<const DirectLight>(shoot(scene, sources, shot, cancellation));
 }
 
+/// The same patches, whose lobes reflect diffusely.
+std::shared_ptr<const Scene> without_lobes(const Scene& scene) {
+  std::vector<Material> materials = scene.materials();
+  for (Material& material : materials) {
+    material.reflectance = material.reflectance + used_lobe(material).reflectance;
+    material.lobe = {};
+  }
+  std::vector<std::int32_t> of_patch;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    of_patch.push_back(scene.patch(i).material);
+  }
+  return std::make_shared<const Scene>(scene, std::move(materials), of_patch);
+}
+
 /// The patches with a common corner in the same plane, by PatchId; ascending.
 std::vector<std::vector<PatchId>> neighbors_of(const Scene& scene) {
   constexpr double same_plane = 1 - 1e-6;
@@ -111,13 +125,14 @@ bool is_better_than_draft(const SolveStatistics& statistics) {
 bool can_be_drafted(const SolveOptions& options, const Scene& scene) {
   const bool is_large = options.goal.is_set() || traits_of(options.scheme).renews_directions ||
                         options.directions >= least_ratio * draft_directions;
-  return is_large && !(options.glossy && has_lobes(scene)) && takes_directions(options.engine) &&
-         scene.patch_count() <= most_fitted_patches;
+  return is_large && takes_directions(options.engine) && scene.patch_count() <= most_fitted_patches;
 }
 
 SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
                            std::shared_ptr<const DirectLight> shot,
                            const Cancellation& cancellation) {
+  const bool glossy = std::exchange(options.glossy, false) && has_lobes(*loaded.scene);
+  const auto scene = glossy ? without_lobes(*loaded.scene) : loaded.scene;
   options.goal = {};
   options.directions = draft_directions;
   options.replicas = 1;
@@ -131,7 +146,7 @@ SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
   options.basis = Basis::constant;
   options.validate();
   if (!shot) {
-    shot = shoot_few_points(options, *loaded.scene, cancellation);
+    shot = shoot_few_points(options, *scene, cancellation);
   }
   if (shot && !shot->linear_terms.empty()) {
     auto constant = std::make_shared<DirectLight>(*shot);
@@ -142,11 +157,9 @@ SolveSession prepare_draft(SolveOptions options, const LoadedScene& loaded,
     }
     shot = std::move(constant);
   }
-  SolveSession draft({.scene = loaded.scene,
-                      .options = std::move(options),
-                      .tree = loaded.tree,
-                      .shot = std::move(shot)},
-                     cancellation);
+  SolveSession draft(
+      {.scene = scene, .options = std::move(options), .tree = loaded.tree, .shot = std::move(shot)},
+      cancellation);
   draft.prepare();
   return draft;
 }

@@ -20,7 +20,7 @@ namespace transillum::viewer {
 bool can_be_drafted(const SolveOptions& options, const Scene& scene);
 
 /// A solve of few directions, prepared and not finished. Linear functions would take most of its
-/// time: the functions are constant.
+/// time: the functions are constant. Lobes reflect diffusely.
 /// @param options  of the solve
 /// @param loaded   what is solved, and its tree
 /// @param shot     the direct light of the solve's first shot; null for one of few points, where it

@@ -276,9 +276,10 @@ void SolveWorker::begin_with_draft() {
   }
   const Preparing preparing(*this);
   try {
+    const bool has_shot = prepared && session_->diffuse() != nullptr;
     SolveSession draft =
         prepare_draft(choice_.solve, *loaded_,
-                      prepared ? session_->diffuse()->direct_light() : nullptr, interruption());
+                      has_shot ? session_->diffuse()->direct_light() : nullptr, interruption());
     SolverSnapshot start = snapshot_at_start(draft);
     draft.advance(SolveSession::Until::finished,
                   [this](const SolveSession&) { return !interrupted_; });
@@ -497,7 +498,7 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   // Where the time is limited, each stage may be the last that ends.
   const bool is_result = stage_ends && (session.finished() || choice_.solve.goal.seconds > 0);
   if (whole_ && stage_ends && is_better_than_draft(session.statistics())) {
-    whole_ = smoothed(session.solution());
+    whole_ = session.glossy() != nullptr ? session.solution() : smoothed(session.solution());
   }
   if (whole_ && drafts_ && !interrupted_ && !is_result) {
     show_light_of(*whole_, *snapshot);

@@ -69,7 +69,6 @@ Solution live_light(const LiveLightRequest& request, const Cancellation& cancell
         std::make_shared<const Scene>(*loaded.scene, materials->materials, materials->of_patch);
   }
   SolveOptions options = request.options;
-  options.glossy = false;
   if (!takes_directions(options.engine)) {
     options.engine = SolveOptions{}.engine;
   }

@@ -44,7 +44,7 @@ LiveScene live_scene(const LiveRequest& request, const Cancellation& cancellatio
 /// The light that a draft finds in a scene.
 struct LiveLightRequest {
   std::shared_ptr<const LoadedScene> loaded;
-  SolveOptions options;  ///< the solve's; lobes are omitted
+  SolveOptions options;  ///< the solve's; lobes reflect diffusely
   /// Changed materials of its patches; null for the scene's own.
   std::shared_ptr<const PatchMaterials> materials;
 };
