@@ -82,7 +82,7 @@ void QuestionBox::make_actions() {
                         tr("Show what the program computes, and whether the prediction is right "
                            "(Ctrl+Return); again to hide it"),
                         QKeySequence("Ctrl+Return"));
-  count_ = make_action(this, "question_count", tr("Count this answer"),
+  count_ = make_action(this, "question_count", tr("Count for the class"),
                        tr("Add this answer to the tally of the class, and take the next "
                           "(Ctrl+Shift+Return)"),
                        QKeySequence("Ctrl+Shift+Return"));
