@@ -20,6 +20,7 @@
 #include "stepping/watch_chart.h"
 #include "test_files.h"
 #include "user_guide.h"
+#include "widgets/banner.h"
 #include "widgets/full_screen.h"
 #include "widgets/theme.h"
 #include "window/base/dock_layouts.h"
@@ -201,6 +202,23 @@ class AppearanceTest : public QObject {
       const auto ink = table.data(table.index(0, EventTable::of_kind), Qt::ForegroundRole);
       const double contrast = contrast_of(ink.value<QColor>(), theme::paper);
       QVERIFY2(contrast >= 4.5, qPrintable(QString::number(contrast)));
+    }
+  }
+
+  void messages_can_be_read_in_both_modes() {
+    Banner banner;
+    banner.resize(600, 60);
+    for (const bool dark : {true, false}) {
+      theme::apply(*qApp, {.dark = dark});
+      for (const auto kind : {Banner::Kind::error, Banner::Kind::warning, Banner::Kind::offer}) {
+        banner.show_message(kind, "text");
+        const QColor background = banner.grab().toImage().pixelColor(5, 5);
+        const double contrast = contrast_of(theme::ink, background);
+        QVERIFY2(contrast >= 4.5, qPrintable(QString::number(contrast)));
+        QVERIFY(background != theme::window);
+        // A dark window has no bright bar.
+        QCOMPARE(background.lightness() < 128, dark);
+      }
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <QLabel>
 #include <QPushButton>
+#include <QStyle>
 #include <QToolButton>
 #include <utility>
 
@@ -15,13 +16,12 @@ namespace transillum::viewer {
 namespace {
 
 struct Style {
-  const char *background, *border;
+  const char* kind;  ///< of the style sheet
   theme::Icon icon;
 };
-// The colors of each Banner::Kind.
-constexpr Style styles[] = {{"#fdecec", "#e3b4b4", theme::Icon::error},
-                            {"#fff6e0", "#e5cf97", theme::Icon::warning},
-                            {"#e4effb", "#a9c4e2", theme::Icon::info}};
+// In the order of Banner::Kind.
+constexpr Style styles[] = {
+    {"error", theme::Icon::error}, {"warning", theme::Icon::warning}, {"offer", theme::Icon::info}};
 
 }  // namespace
 
@@ -62,16 +62,9 @@ void Banner::show_message(Kind kind, const QString& text, const QString& details
   icon_->setPixmap(theme::icon(style.icon).pixmap(QSize(20, 20)));
   text_->setText(text);
   setToolTip(details);
-  setStyleSheet(QStringLiteral("%3, %3 QLabel, %3 QPushButton { color: #1b212a; } "
-                               "%3 { background: %1; border: none; border-bottom: 1px solid %2; } "
-                               "%3 QPushButton { background: #ffffff; border: 1px solid %2; "
-                               "border-radius: 4px; padding: 4px 12px; } "
-                               "%3 QPushButton::menu-indicator { "
-                               "subcontrol-position: right center; right: 3px; } "
-                               "%3 QPushButton:hover { border-color: #5d84b0; } "
-                               "%3 QPushButton:disabled { color: #8b929b; }")
-                    .arg(QLatin1String(style.background), QLatin1String(style.border),
-                         QLatin1String("transillum--viewer--Banner")));
+  setProperty("kind", QString::fromLatin1(style.kind));
+  this->style()->unpolish(this);
+  this->style()->polish(this);
   // A bar that repeats its message stays where it is among the others.
   if (!std::exchange(has_message_, true) || kind == Kind::error) {
     show();

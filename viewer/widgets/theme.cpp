@@ -202,11 +202,9 @@ QColor color_of(Icon which) {
     case Icon::error:
       return current.dark ? QColor(0xe0, 0x5a, 0x5a) : QColor(0xb9, 0x2d, 0x2d);
     case Icon::warning:
-      return {0xb3, 0x6b, 0x00};
-    case Icon::close:  // on banners, which are light in dark windows too
-      return on_yellow;
+      return current.dark ? QColor(0xe0, 0x9a, 0x30) : QColor(0xb3, 0x6b, 0x00);
     case Icon::info:
-      return {0x2f, 0x6f, 0xb5};
+      return current.dark ? accent : QColor(0x2f, 0x6f, 0xb5);
     default:
       return ink;
   }
@@ -309,6 +307,31 @@ QPalette make_palette() {
   return palette;
 }
 
+/// Bars across the scene, tinted by their kind.
+QString banner_style() {
+  QString sheet = QStringLiteral(R"(
+    transillum--viewer--Banner QPushButton { background: %1; color: %2; border-radius: 4px;
+      padding: 4px 12px; }
+    transillum--viewer--Banner QPushButton:disabled { color: %3; }
+    transillum--viewer--Banner QPushButton::menu-indicator { subcontrol-position: right center;
+      right: 3px; }
+  )")
+                      .arg(paper.name(), ink.name(), disabled_ink.name());
+  for (const auto& [kind, icon] :
+       {std::pair{"error", Icon::error}, {"warning", Icon::warning}, {"offer", Icon::info}}) {
+    const QColor color = color_of(icon);
+    sheet += QStringLiteral(R"(
+    transillum--viewer--Banner[kind="%1"] { background: %2; border: none;
+      border-bottom: 1px solid %3; }
+    transillum--viewer--Banner[kind="%1"] QPushButton { border: 1px solid %3; }
+    transillum--viewer--Banner[kind="%1"] QPushButton:hover { border-color: %4; }
+  )")
+                 .arg(QLatin1String(kind), mixed(paper, color, current.dark ? 0.25 : 0.12).name(),
+                      mixed(paper, color, 0.45).name(), color.name());
+  }
+  return sheet;
+}
+
 QString style_sheet(const QPalette& application_palette) {
   return QStringLiteral(R"(
     QToolBar { border: none; border-bottom: 1px solid %1; padding: 3px 6px; spacing: 4px; }
@@ -375,7 +398,7 @@ void apply(QApplication& application, const Appearance& appearance) {
   }
   font.setPixelSize(scaled(type_size));
   application.setFont(font);
-  application.setStyleSheet(style_sheet(palette));
+  application.setStyleSheet(style_sheet(palette) + banner_style());
 }
 
 }  // namespace transillum::viewer::theme
