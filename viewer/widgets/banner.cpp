@@ -16,7 +16,7 @@ namespace transillum::viewer {
 namespace {
 
 struct Style {
-  const char* kind;  ///< of the style sheet
+  const char* kind;  ///< its name in the style sheet
   theme::Icon icon;
 };
 // In the order of Banner::Kind.
