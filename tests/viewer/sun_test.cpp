@@ -122,6 +122,10 @@ class SunTest : public QObject {
     const Sun sun{{801.23456789, 700, 600}, normalized({0.3, -0.5, 0.7})};
     controls.set_sun(sun, up);
     QVERIFY(controls.sun(up) == sun);
+    controls.set_up({0, 1, 0});
+    QVERIFY(controls.sun({0, 1, 0}) == sun);
+    QVERIFY(controls.findChild<QDoubleSpinBox*>("sun_elevation")->value() < 0);
+    controls.set_up(up);
     // Another place keeps the color; its direction is at the azimuth and elevation shown.
     controls.findChild<QDoubleSpinBox*>("sun_azimuth")->setValue(90);
     controls.findChild<QDoubleSpinBox*>("sun_elevation")->setValue(30);

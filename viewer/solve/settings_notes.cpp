@@ -122,10 +122,10 @@ void SettingsPanel::show_sky_state() {
   const bool any = may_have_sky() && sky_value_->value() > 0;
   const Sun sun = sun_->sun(zenith());
   FoldHeader& header = *sky_section_->header();
-  header.setEnabled(may_have_sky());
-  if (!may_have_sky()) {
+  header.setEnabled(!closed_);
+  if (closed_) {
     sky_section_->set_open(false);
-    header.set_state(closed_ ? tr("none: the scene is closed") : tr("none: not with this engine"));
+    header.set_state(tr("none: the scene is closed"));
   } else {
     QStringList parts;
     if (any) {
@@ -138,6 +138,8 @@ void SettingsPanel::show_sky_state() {
     }
     header.set_state(parts.isEmpty() ? tr("none") : parts.join(dot));
   }
+  // Engines without directions see the sun alone.
+  SettingRows::show_row(sky_value_->parentWidget(), may_have_sky());
   SettingRows::show_row(sky_model_, any);
   SettingRows::show_row(sky_up_, any && sky_model_->currentIndex() != 0);
 }

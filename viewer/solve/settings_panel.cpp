@@ -378,7 +378,10 @@ void SettingsPanel::choose_up(const Vec3& up) {
   sky_up_->setCurrentIndex(index);
 }
 
-void SettingsPanel::set_scene_up(const Vec3& up) { choose_up(up); }
+void SettingsPanel::set_scene_up(const Vec3& up) {
+  choose_up(up);
+  sun_->set_up(zenith());
+}
 
 RefineChoice SettingsPanel::refinement() const {
   RefineChoice refine = refine_->choice();

@@ -237,10 +237,14 @@ void SunControls::set_sun(const Sun& sun, const Vec3& up) {
   irradiance_->setValue(largest);
   by_time_->setChecked(false);
   dome_->set_path({});
-  if (sun.is_set()) {
-    show_position(position_of(sun.direction, up));
-  }
+  set_up(up);
   show_rows();
+}
+
+void SunControls::set_up(const Vec3& up) {
+  if (is_given_ && given_.is_set()) {
+    show_position(position_of(given_.direction, up));
+  }
 }
 
 }  // namespace transillum::viewer

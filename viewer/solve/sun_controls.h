@@ -26,6 +26,9 @@ class SunControls : public QWidget {
   Sun sun(const Vec3& up) const;
   /// Shows a sun; emits nothing. sun() is it, with all digits, until the user changes something.
   void set_sun(const Sun& sun, const Vec3& up);
+  /// Another vertical: a sun of set_sun() stays where it is, and has other angles; a sun that the
+  /// user has placed keeps its angles.
+  void set_up(const Vec3& up);
 
  signals:
   /// The user has changed something.

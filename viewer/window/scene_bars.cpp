@@ -137,8 +137,9 @@ void LightOffer::update() {
                                  : tr("No light: the scene is shown in neutral light.");
   const QString offer = selected ? tr("Make the selected face, material or group emit")
                                  : tr("Click a face to make it emit");
-  bar.show_message(Banner::Kind::offer,
-                   (may_have_sky ? tr("%1 %2, or set a sky.") : tr("%1 %2.")).arg(state, offer));
+  bar.show_message(
+      Banner::Kind::offer,
+      (may_have_sky ? tr("%1 %2, or set a sky or a sun.") : tr("%1 %2.")).arg(state, offer));
 }
 
 void LightOffer::show_refusal(const QString& why) {

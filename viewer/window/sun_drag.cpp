@@ -3,6 +3,7 @@
 
 #include <QMainWindow>
 #include <QTimer>
+#include <utility>
 
 #include "model/solver/draft.h"
 #include "scene/scene_page.h"
@@ -33,6 +34,14 @@ SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings)
   rest_timer_->setInterval(sun_rest_ms);
   connect(rest_timer_, &QTimer::timeout, this, &SunDrag::finish);
   connect(&settings_, &SettingsPanel::sun_moved, this, &SunDrag::follow);
+  // The light of the draft stays until the solve has its own.
+  connect(&frame_.state.runner, &SolveRunner::snapshot_ready, this,
+          [this](const std::shared_ptr<const SolverSnapshot>& snapshot) {
+            if (awaited_ && snapshot->options.sky == *awaited_) {
+              end();
+            }
+          });
+  connect(&frame_.state.runner, &SolveRunner::state_changed, this, &SunDrag::end_if_refused);
   for (const auto change : {&OpenScene::scene_loaded, &OpenScene::patches_changed}) {
     connect(&frame_.state.scene, change, this, &SunDrag::end);
   }
@@ -40,7 +49,7 @@ SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings)
 
 SunDrag::~SunDrag() = default;
 
-bool SunDrag::busy() const { return lights_.busy() || rest_timer_->isActive(); }
+bool SunDrag::busy() const { return lights_.busy() || rest_timer_->isActive() || awaited_; }
 
 void SunDrag::follow() {
   const auto snapshot = frame_.state.scene.snapshot();
@@ -52,6 +61,8 @@ void SunDrag::follow() {
     frame_.state.scene.hold(true);
     frame_.state.runner.pause();
     frame_.page.sharp()->set_solving(true);
+  } else if (std::exchange(awaited_, std::nullopt)) {
+    frame_.state.runner.pause();
   }
   const MaterialEdits& edits = frame_.state.relighting.edits();
   lights_.request(
@@ -81,8 +92,19 @@ void SunDrag::finish() {
     rest_timer_->start();  // the last place is to be seen
     return;
   }
-  end();
+  if (!solved_) {
+    return;
+  }
+  awaited_ = settings_.solve_options().sky;
   emit settings_.restart_clicked();
+  end_if_refused();
+}
+
+void SunDrag::end_if_refused() {
+  const RunState state = frame_.state.runner.state();
+  if (awaited_ && state != RunState::running && state != RunState::loading) {
+    end();
+  }
 }
 
 void SunDrag::end() {
@@ -92,6 +114,7 @@ void SunDrag::end() {
   rest_timer_->stop();
   lights_.clear();
   solved_ = nullptr;
+  awaited_.reset();
   frame_.state.scene.hold(false);
   const RunState state = frame_.state.runner.state();
   frame_.page.sharp()->set_solving(state == RunState::running || state == RunState::loading);

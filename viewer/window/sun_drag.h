@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <memory>
+#include <optional>
 
 #include "support/newest_result.h"
 #include "window/base/window_views.h"
@@ -36,11 +37,14 @@ class SunDrag : public QObject {
   void follow();
   void take_light(const LiveLightRequest& request, const std::shared_ptr<const Solution>& light);
   void finish();
+  /// Ends where no solve has followed.
+  void end_if_refused();
   void end();
 
   WindowFrame frame_;
   SettingsPanel& settings_;
   std::shared_ptr<const SolverSnapshot> solved_;  ///< from before the move; null while none is made
+  std::optional<Sky> awaited_;  ///< the sky of the solve that follows, until it has light
   QTimer* rest_timer_;
   NewestResult<LiveLightRequest, Solution> lights_;
 };
