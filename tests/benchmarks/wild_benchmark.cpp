@@ -56,8 +56,8 @@ Measured measure(const std::shared_ptr<const Scene>& scene) {
 
 /// Times, with the flake as the unit.
 struct Ratios {
-  double sort = 0;
-  &double transfer = 0;  ///< a transfer
+  double sort = 0;      ///< a patch
+  double transfer = 0;  ///< a transfer
   /// The time of a pass, over 4 times the flake's time a transfer and 1.6 times its time a patch.
   double of_target = 0;
 };

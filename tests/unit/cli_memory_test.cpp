@@ -91,7 +91,9 @@ class KeptMemory {
     arguments.insert(arguments.end(),
                      {"--memory", std::to_string(megabytes_of_option) + "M", "--threads", "1",
                       "--stats", folder_ / "s.json", "--out", folder_ / "b.csv", "-q"});
-    return RunningProgram(arguments, {}, {}, {}, "ulimit -v " + std::to_string(limit * 1024))
+    // Threads that happen to wait for each other in malloc would reserve 64 MB of addresses more.
+    return RunningProgram(arguments, {}, {}, {},
+                          "export MALLOC_ARENA_MAX=1; ulimit -v " + std::to_string(limit * 1024))
         .wait();
   }
   bool kept() const {

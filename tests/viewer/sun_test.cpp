@@ -122,10 +122,10 @@ class SunTest : public QObject {
     const Sun sun{{801.23456789, 700, 600}, normalized({0.3, -0.5, 0.7})};
     controls.set_sun(sun, up);
     QVERIFY(controls.sun(up) == sun);
-    controls.set_up({0, 1, 0});
+    controls.show_sun(sun, {0, 1, 0});
     QVERIFY(controls.sun({0, 1, 0}) == sun);
     QVERIFY(controls.findChild<QDoubleSpinBox*>("sun_elevation")->value() < 0);
-    controls.set_up(up);
+    controls.show_sun(sun, up);
     // Another place keeps the color; its direction is at the azimuth and elevation shown.
     controls.findChild<QDoubleSpinBox*>("sun_azimuth")->setValue(90);
     controls.findChild<QDoubleSpinBox*>("sun_elevation")->setValue(30);
@@ -134,6 +134,12 @@ class SunTest : public QObject {
     QVERIFY(std::abs(moved.irradiance.g / moved.irradiance.r - 700 / 801.23456789) < 1e-12);
     controls.findChild<QDoubleSpinBox*>("sun_elevation")->setValue(-5);
     QVERIFY(!controls.sun(up).is_set() && controls.sun(up).below_horizon);
+    // The irradiance of the day stays.
+    const Sun night = controls.sun(up);
+    controls.set_sun(moved, up);
+    controls.set_sun(night, up);
+    QVERIFY(controls.sun(up) == night);
+    QVERIFY(std::abs(controls.findChild<QDoubleSpinBox*>("sun")->value() - 801.2) < 0.1);
     controls.findChild<QDoubleSpinBox*>("sun")->setValue(0);
     QVERIFY(controls.sun(up) == Sun());
   }

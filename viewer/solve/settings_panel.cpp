@@ -335,7 +335,7 @@ Vec3 SettingsPanel::zenith() const {
   const int axis = sky_up_->currentIndex();
   return axis >= 0 && axis < static_cast<int>(named_axes().size())
              ? named_axes()[static_cast<std::size_t>(axis)].direction
-             : base_.sky.up;
+             : other_zenith_;
 }
 
 Sky SettingsPanel::sky() const {
@@ -373,14 +373,15 @@ void SettingsPanel::choose_up(const Vec3& up) {
   const int index = static_cast<int>(found - named_axes().begin());
   if (found == named_axes().end()) {
     sky_up_->setItemText(index, vector_text(up));
-    base_.sky.up = up;
+    other_zenith_ = up;
   }
   sky_up_->setCurrentIndex(index);
 }
 
 void SettingsPanel::set_scene_up(const Vec3& up) {
+  const Sun sun = sun_->sun(zenith());
   choose_up(up);
-  sun_->set_up(zenith());
+  sun_->show_sun(sun, zenith());
 }
 
 RefineChoice SettingsPanel::refinement() const {

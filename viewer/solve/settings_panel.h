@@ -130,6 +130,7 @@ class SettingsPanel : public QWidget {
   std::optional<std::int64_t> forecast_;    ///< patches that scene_options() makes, if known
   std::optional<double> largest_exponent_;  ///< in the open scene; not set without lobes
   Rgb sky_color_{1, 1, 1};                  ///< color of the sky; its largest channel is 1
+  Vec3 other_zenith_{0, 0, 1};              ///< where it is not along an axis
   bool closed_ = false;                     ///< no light escapes from the open scene
 
   QualityControls* quality_;

@@ -188,7 +188,7 @@ StudyOptions StudyChoices::options() const {
 void StudyChoices::show_cost() {
   const StudyOptions options = this->options();
   if (options.series.empty() || options.directions.empty()) {
-    cost_->setText(tr("Choose a sampling, what a pass serves, and a number of directions"));
+    cost_->setText(tr("Choose a sampling, what a pass serves, and a number of passes"));
     return;
   }
   // The number of iterations of a burn-in depends on the scene's reflectances.

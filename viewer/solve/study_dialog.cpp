@@ -302,7 +302,7 @@ void StudyDialog::show_buttons() {
   enable_if(*run_, running_ || (loaded_ && chosen && why_not_.isEmpty()),
             !loaded_              ? tr("No scene is open")
             : !why_not_.isEmpty() ? why_not_
-                                  : tr("No sampling or number of directions is chosen"));
+                                  : tr("No sampling or number of passes is chosen"));
   enable_if(*save_, has_points(), tr("No study has been run yet"));
 }
 

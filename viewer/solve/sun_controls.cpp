@@ -82,7 +82,8 @@ SunControls::SunControls(QWidget* parent) : QWidget(parent) {
   irradiance_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   irradiance_->setMinimumWidth(60);
   dome_ = new SunDome;
-  azimuth_ = angle_box("sun_azimuth", 0, 360, tr("Clockwise from north, which is the y axis"));
+  azimuth_ = angle_box("sun_azimuth", 0, 360,
+                       tr("Clockwise from north: the y axis, or −z where y is the vertical"));
   azimuth_->setWrapping(true);
   elevation_ = angle_box("sun_elevation", -90, 90, tr("Above the horizon"));
   angles_ = side_by_side(azimuth_, elevation_);
@@ -202,9 +203,7 @@ void SunControls::show_position(const SolarPosition& position) {
 void SunControls::tell() {
   is_given_ = false;
   emit changed();
-  if (irradiance_->value() > 0) {
-    emit moved();
-  }
+  emit moved();
 }
 
 Sun SunControls::sun(const Vec3& up) const {
@@ -226,25 +225,26 @@ Sun SunControls::sun(const Vec3& up) const {
 }
 
 void SunControls::set_sun(const Sun& sun, const Vec3& up) {
-  if (sun == this->sun(up)) {
-    return;  // a place below the horizon, and how it was found, stay
+  if (sun != this->sun(up)) {  // else how its place was found stays
+    show_sun(sun, up);
   }
-  given_ = sun;
-  is_given_ = true;
-  const double largest = max_abs(sun.irradiance);
-  color_ = largest > 0 ? (1 / largest) * sun.irradiance : Rgb{1, 1, 1};
-  const QSignalBlocker quiet(irradiance_), quiet_time(by_time_);
-  irradiance_->setValue(largest);
-  by_time_->setChecked(false);
-  dome_->set_path({});
-  set_up(up);
-  show_rows();
 }
 
-void SunControls::set_up(const Vec3& up) {
-  if (is_given_ && given_.is_set()) {
-    show_position(position_of(given_.direction, up));
+void SunControls::show_sun(const Sun& sun, const Vec3& up) {
+  given_ = sun;
+  is_given_ = true;
+  const QSignalBlocker quiet(irradiance_), quiet_time(by_time_);
+  if (!sun.below_horizon) {  // at night, the irradiance of the day stays
+    const double largest = max_abs(sun.irradiance);
+    color_ = largest > 0 ? (1 / largest) * sun.irradiance : Rgb{1, 1, 1};
+    irradiance_->setValue(largest);
   }
+  if (sun.is_set() || sun.below_horizon) {
+    by_time_->setChecked(false);
+    dome_->set_path({});
+    show_position(position_of(sun.direction, up));
+  }
+  show_rows();
 }
 
 }  // namespace transillum::viewer

@@ -22,18 +22,17 @@ class SunControls : public QWidget {
  public:
   explicit SunControls(QWidget* parent = nullptr);
 
-  /// The sun in a scene with this vertical (unit vector), and the y axis as its north.
+  /// The sun in a scene with this vertical (unit vector) and the default north.
   Sun sun(const Vec3& up) const;
   /// Shows a sun; emits nothing. sun() is it, with all digits, until the user changes something.
   void set_sun(const Sun& sun, const Vec3& up);
-  /// Another vertical: a sun of set_sun() stays where it is, and has other angles; a sun that the
-  /// user has placed keeps its angles.
-  void set_up(const Vec3& up);
+  /// The same, also where sun() is it: for another vertical, at which it has other angles.
+  void show_sun(const Sun& sun, const Vec3& up);
 
  signals:
   /// The user has changed something.
   void changed();
-  /// The user has moved the sun, or changed its irradiance, and it shines.
+  /// The same, after changed().
   void moved();
 
  private:

@@ -88,7 +88,7 @@ void SunDome::keyPressEvent(QKeyEvent* event) {
       to.elevation = std::min(90.0, to.elevation + step);
       break;
     case Qt::Key_Down:
-      to.elevation = std::max(0.0, to.elevation - step);
+      to.elevation = std::min(to.elevation, std::max(0.0, to.elevation - step));
       break;
     default:
       QWidget::keyPressEvent(event);

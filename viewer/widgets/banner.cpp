@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "widgets/banner.h"
 
+#include <QEvent>
 #include <QLabel>
 #include <QPushButton>
 #include <QStyle>
@@ -59,17 +60,33 @@ QPushButton* Banner::add_button(const char* name, const QString& text) {
 
 void Banner::show_message(Kind kind, const QString& text, const QString& details) {
   const Style& style = at(styles, kind);
-  icon_->setPixmap(theme::icon(style.icon).pixmap(QSize(20, 20)));
+  kind_ = kind;
+  show_icon();
   text_->setText(text);
   setToolTip(details);
   setProperty("kind", QString::fromLatin1(style.kind));
   this->style()->unpolish(this);
   this->style()->polish(this);
+  for (QWidget* button : findChildren<QPushButton*>()) {
+    this->style()->unpolish(button);
+    this->style()->polish(button);
+  }
   // A bar that repeats its message stays where it is among the others.
   if (!std::exchange(has_message_, true) || kind == Kind::error) {
     show();
     emit changed(kind == Kind::error);
   }
+}
+
+void Banner::show_icon() {
+  icon_->setPixmap(theme::icon(at(styles, kind_).icon).pixmap(QSize(20, 20)));
+}
+
+void Banner::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange) {
+    show_icon();
+  }
+  QFrame::changeEvent(event);
 }
 
 void Banner::dismiss() {

@@ -35,14 +35,19 @@ class Banner : public QFrame {
   void changed(bool urgent);
   void next_clicked();
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   friend class BannerStack;
+  void show_icon();
   void show_place(int place, int count);
 
   QHBoxLayout* layout_;
   QLabel* icon_;
   QLabel* text_;
   QPushButton* next_;  ///< "1 of 3"
+  Kind kind_ = Kind::offer;
   bool has_message_ = false;
 };
 

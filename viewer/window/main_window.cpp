@@ -195,7 +195,7 @@ void MainWindow::make_whole_window_actions() {
   solve_actions_ = new SolveActions(this);
   applier_ = new ViewStateApplier(frame, docks_, *map_view_, *algorithm_, *settings_);
   auto* control = new SolveControl(frame, *settings_, *solve_actions_, *applier_);
-  sun_ = new SunDrag(frame, *settings_);
+  sun_ = new SunDrag(frame, *settings_, [control] { return control->solve_settings(); });
   vertical_ = new VerticalControl(frame, *settings_);
   session_ = new WindowSession(frame, docks_, *notes_, *applier_);
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);

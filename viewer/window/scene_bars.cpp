@@ -123,7 +123,8 @@ void LightOffer::update() {
   if (refused_ && *refused_ != snapshot) {
     refused_.reset();
   }
-  const bool sky = !refused_ && snapshot && snapshot->options.sky.is_set();
+  const bool sky = !refused_ && snapshot &&
+                   (snapshot->options.sky.is_set() || snapshot->options.sky.sun.below_horizon);
   if (closed_ || sky || !frame_.state.scene.loaded() ||
       frame_.state.relighting.edits().has_light()) {
     bar.dismiss();

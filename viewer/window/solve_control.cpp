@@ -51,11 +51,7 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
   connect(&frame_.state.scene, &OpenScene::snapshot_ready, this, [this] {
     actions_.show_state(frame_.state.runner.state(), frame_.state.scene.at_start());
   });
-  connect(&settings_, &SettingsPanel::restart_clicked, this, [this] {
-    if (finds_light(settings_.solve_options()) && may_solve_again()) {
-      solve_again();
-    }
-  });
+  connect(&settings_, &SettingsPanel::restart_clicked, this, &SolveControl::solve_settings);
   connect(&settings_, &SettingsPanel::forecast_wanted, this, [this](const SceneOptions& options) {
     if (frame_.state.scene.loaded() && frame_.state.scene.loaded()->description) {
       request_forecast(options);
@@ -67,6 +63,14 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
   connect(&frame_.state.scene, &OpenScene::opening, this, [this] { awaits_forecast_ = false; });
   connect(settings_.rounds(), &RoundPanel::canceled, &runner, &SolveRunner::stop);
   connect(&frame_.page, &ScenePage::replicas_requested, this, &SolveControl::solve_with_replicas);
+}
+
+bool SolveControl::solve_settings() {
+  const bool accepted = finds_light(settings_.solve_options()) && may_solve_again();
+  if (accepted) {
+    solve_again();
+  }
+  return accepted;
 }
 
 void SolveControl::start_over() {

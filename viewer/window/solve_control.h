@@ -33,6 +33,9 @@ class SolveControl : public QObject {
  public slots:
   /// Solves to the end, with the changed materials.
   void finish();
+  /// Solves with the settings of the panel. @returns false where there is no light, or where the
+  /// user keeps the present solve
+  bool solve_settings();
   /// Carries out a step of ColorChoice::errors(): solves again with more passes, more iterations or
   /// divided patches.
   void take_step(const transillum::NextStep& step);

@@ -10,6 +10,7 @@
 #include "scene/scene_view.h"
 #include "scene/sharp_view.h"
 #include "solve/settings_panel.h"
+#include "transillum/glossy.h"
 
 namespace transillum::viewer {
 
@@ -20,10 +21,11 @@ constexpr int sun_rest_ms = 300;  // from the last move until the scene is solve
 }  // namespace
 
 // A running job is finished: a late picture is better than none.
-SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings)
+SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings, std::function<bool()> solve)
     : QObject(&frame.window),
       frame_(frame),
       settings_(settings),
+      solve_(std::move(solve)),
       rest_timer_(new QTimer(this)),
       lights_(
           *this, &live_light,
@@ -37,13 +39,25 @@ SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings)
   // The light of the draft stays until the solve has its own.
   connect(&frame_.state.runner, &SolveRunner::snapshot_ready, this,
           [this](const std::shared_ptr<const SolverSnapshot>& snapshot) {
-            if (awaited_ && snapshot->options.sky == *awaited_) {
+            const bool has_light =
+                snapshot->of_draft || snapshot->passes_done > 0 || snapshot->progress.finished;
+            if (awaited_ && has_light && snapshot->options.sky == *awaited_) {
               end();
             }
           });
-  connect(&frame_.state.runner, &SolveRunner::state_changed, this, &SunDrag::end_if_refused);
+  connect(&frame_.state.runner, &SolveRunner::failed, this, [this] {
+    if (awaited_) {
+      end();
+    }
+  });
   for (const auto change : {&OpenScene::scene_loaded, &OpenScene::patches_changed}) {
-    connect(&frame_.state.scene, change, this, &SunDrag::end);
+    connect(&frame_.state.scene, change, this, [this] {
+      const bool moves = solved_ && !awaited_;
+      end();
+      if (moves) {
+        rest_timer_->start();  // the new patches are solved with the sun that is set
+      }
+    });
   }
 }
 
@@ -53,21 +67,33 @@ bool SunDrag::busy() const { return lights_.busy() || rest_timer_->isActive() ||
 
 void SunDrag::follow() {
   const auto snapshot = frame_.state.scene.snapshot();
-  if (!snapshot || snapshot->loaded->stored) {
-    return;  // the next solve has this sun
+  if (!snapshot) {
+    return;  // the first solve has this sun
   }
-  if (!solved_) {
-    solved_ = snapshot;
-    frame_.state.scene.hold(true);
-    frame_.state.runner.pause();
-    frame_.page.sharp()->set_solving(true);
-  } else if (std::exchange(awaited_, std::nullopt)) {
-    frame_.state.runner.pause();
+  const SolveOptions options = settings_.solve_options();
+  const Scene& scene = *snapshot->loaded->scene;
+  if (options.glossy && has_lobes(scene)) {
+    return;  // the settings say that lobes and a sun exclude each other
   }
-  const MaterialEdits& edits = frame_.state.relighting.edits();
-  lights_.request(
-      {solved_->loaded, settings_.solve_options(), edits.any() ? edits.materials() : nullptr});
+  if (scene.patch_count() <= most_fitted_patches) {
+    hold_solve();
+    const MaterialEdits& edits = frame_.state.relighting.edits();
+    lights_.request({solved_->loaded, options, edits.any() ? edits.materials() : nullptr});
+  }
   rest_timer_->start();
+}
+
+void SunDrag::hold_solve() {
+  const bool runs = frame_.state.runner.state() == RunState::running;
+  if (!solved_) {
+    solved_ = frame_.state.scene.snapshot();
+    was_running_ = runs;
+    frame_.state.scene.hold(true);
+    frame_.page.sharp()->set_solving(true);
+  } else if (!std::exchange(awaited_, std::nullopt)) {
+    return;
+  }
+  frame_.state.runner.pause();
 }
 
 void SunDrag::take_light(const LiveLightRequest& request,
@@ -92,29 +118,27 @@ void SunDrag::finish() {
     rest_timer_->start();  // the last place is to be seen
     return;
   }
-  if (!solved_) {
-    return;
+  const bool held = solved_ != nullptr;
+  if (held) {
+    awaited_ = settings_.solve_options().sky;
   }
-  awaited_ = settings_.solve_options().sky;
-  emit settings_.restart_clicked();
-  end_if_refused();
-}
-
-void SunDrag::end_if_refused() {
-  const RunState state = frame_.state.runner.state();
-  if (awaited_ && state != RunState::running && state != RunState::loading) {
+  if (!solve_() && held) {
+    const bool runs_on = was_running_;
     end();
+    if (runs_on) {
+      frame_.state.runner.run();
+    }
   }
 }
 
 void SunDrag::end() {
+  awaited_.reset();
   if (!solved_) {
     return;
   }
   rest_timer_->stop();
   lights_.clear();
   solved_ = nullptr;
-  awaited_.reset();
   frame_.state.scene.hold(false);
   const RunState state = frame_.state.runner.state();
   frame_.page.sharp()->set_solving(state == RunState::running || state == RunState::loading);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -16,7 +17,7 @@ namespace transillum::viewer {
 class SettingsPanel;
 
 /// Shows the light of a draft while the user moves the sun in the settings; when the hand rests,
-/// the scene is solved.
+/// the scene is solved. A scene of very many patches is only solved.
 ///
 /// Threads: the main thread only.
 class SunDrag : public QObject {
@@ -24,7 +25,8 @@ class SunDrag : public QObject {
 
  public:
   /// The references must outlive this object.
-  SunDrag(const WindowFrame& frame, SettingsPanel& settings);
+  /// @param solve  solves with the settings of the panel, or returns false
+  SunDrag(const WindowFrame& frame, SettingsPanel& settings, std::function<bool()> solve);
   ~SunDrag() override;
 
   /// Whether something is computed that is not shown yet.
@@ -35,15 +37,16 @@ class SunDrag : public QObject {
 
  private:
   void follow();
+  void hold_solve();
   void take_light(const LiveLightRequest& request, const std::shared_ptr<const Solution>& light);
   void finish();
-  /// Ends where no solve has followed.
-  void end_if_refused();
   void end();
 
   WindowFrame frame_;
   SettingsPanel& settings_;
+  std::function<bool()> solve_;
   std::shared_ptr<const SolverSnapshot> solved_;  ///< from before the move; null while none is made
+  bool was_running_ = false;
   std::optional<Sky> awaited_;  ///< the sky of the solve that follows, until it has light
   QTimer* rest_timer_;
   NewestResult<LiveLightRequest, Solution> lights_;

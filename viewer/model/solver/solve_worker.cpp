@@ -214,6 +214,7 @@ void SolveWorker::relight(std::shared_ptr<const PatchMaterials> materials) {
     return;
   }
   materials_ = std::move(materials);
+  whole_.reset();
   set_materials(*session_);
   history_ = SolveHistory(*session_);
   failed_ = false;
@@ -269,9 +270,10 @@ void SolveWorker::advance(const Goal& goal) {
 /// Posts a whole picture of few directions, where drafts are wanted and no pass has been made.
 void SolveWorker::begin_with_draft() {
   const bool prepared = session_->is_prepared();
-  if (!drafts_ || whole_ || (prepared && (!is_ready() || session_->passes_done() > 0)) ||
-      loaded_->stored || session_->in_rounds() || total_ ||
-      !is_lit(*loaded_->scene, choice_.solve) || !can_be_drafted(choice_.solve, *loaded_->scene)) {
+  if (!drafts_ || whole_ || materials_ ||
+      (prepared && (!is_ready() || session_->passes_done() > 0)) || loaded_->stored ||
+      session_->in_rounds() || total_ || !is_lit(*loaded_->scene, choice_.solve) ||
+      !can_be_drafted(choice_.solve, *loaded_->scene)) {
     return;
   }
   const Preparing preparing(*this);
@@ -410,6 +412,7 @@ void SolveWorker::prepare_stage() {
     stage_result_ = nullptr;
   }
   errors_ = nullptr;
+  fitted_ = nullptr;
   history_ = SolveHistory(*session_);
   form_factors_.clear();
 }
@@ -503,9 +506,9 @@ std::shared_ptr<const SolverSnapshot> SolveWorker::make_snapshot() {
   if (whole_ && drafts_ && !interrupted_ && !is_result) {
     show_light_of(*whole_, *snapshot);
   }
-  if (is_result && snapshot->linear_terms.empty() && !snapshot->glossy &&
+  if ((is_result || snapshot->of_file) && snapshot->linear_terms.empty() && !snapshot->glossy &&
       snapshot->loaded->scene->patch_count() <= most_fitted_patches) {
-    if (!fitted_) {
+    if (!fitted_ || !session.finished()) {
       fitted_ =
           std::make_shared<const FittedLight>(fitted_light(*snapshot, *snapshot->loaded->scene));
     }

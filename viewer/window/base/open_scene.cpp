@@ -51,8 +51,8 @@ void OpenScene::solve_faces(const std::shared_ptr<const LoadedScene>& loaded, co
 }
 
 void OpenScene::hold(bool held) {
-  held_ = held;
-  if (!held) {
+  holds_ += held ? 1 : -1;
+  if (holds_ == 0) {
     show_again();
   }
 }
@@ -144,7 +144,7 @@ void OpenScene::take_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   QElapsedTimer timer;
   timer.start();
   newest_ = std::move(snapshot);
-  if (held_) {
+  if (holds_ > 0) {
     return;
   }
   shown_ = relighting_.lit(newest_);

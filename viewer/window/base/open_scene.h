@@ -121,7 +121,7 @@ class OpenScene : public QObject {
   SceneInput requested_input_, input_;
   SceneOptions options_;
   bool opening_ = false;
-  bool held_ = false;
+  int holds_ = 0;
   bool awaits_faces_ = false;
   std::optional<std::vector<MaterialChange>> saved_changes_;  ///< not set: edited_ is not saved
   std::shared_ptr<const LoadedScene> loaded_;
