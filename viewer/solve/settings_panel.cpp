@@ -255,7 +255,7 @@ void SettingsPanel::add_sky() {
   rows->add(tr("Zenith"), sky_up_, sky_up_->toolTip());
   rows->add(sun_ = new SunControls);
   connect(sun_, &SunControls::changed, this, &SettingsPanel::show_state);
-  connect(sun_, &SunControls::moved, this, &SettingsPanel::sun_moved);
+  connect(sun_, &SunControls::changed, this, &SettingsPanel::sun_moved);
   add_section(sky_section_ = new Fold("sky_section", tr("Sky"), rows));
   connect(sky_slider_, &QSlider::valueChanged, this, [this](int step) {
     const double fraction = 1.0 * step / sky_steps;

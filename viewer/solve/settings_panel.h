@@ -82,7 +82,7 @@ class SettingsPanel : public QWidget {
   void restart_clicked();
   /// The user has chosen the zenith of the sky.
   void zenith_chosen(const transillum::Vec3& up);
-  /// The user has moved the sun.
+  /// The user has moved the sun, or changed its irradiance.
   void sun_moved();
   /// The options differ from the options of the open scene, and show_forecast() is to be called; or
   /// set_patch_area() where patches_wanted() is not 0.

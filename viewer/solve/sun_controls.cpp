@@ -154,11 +154,11 @@ void SunControls::add_place(SettingRows& rows) {
 }
 
 void SunControls::show_rows() {
-  const bool shines = irradiance_->value() > 0;
-  const bool by_time = shines && by_time_->isChecked();
-  dome_->setVisible(shines);
-  SettingRows::show_row(angles_, shines);
-  by_time_->setVisible(shines);
+  const bool is_on = irradiance_->value() > 0;
+  const bool by_time = is_on && by_time_->isChecked();
+  dome_->setVisible(is_on);
+  SettingRows::show_row(angles_, is_on);
+  by_time_->setVisible(is_on);
   SettingRows::show_row(site_, by_time);
   SettingRows::show_row(day_->parentWidget(), by_time);
   SettingRows::show_row(time_->parentWidget(), by_time);
@@ -203,7 +203,6 @@ void SunControls::show_position(const SolarPosition& position) {
 void SunControls::tell() {
   is_given_ = false;
   emit changed();
-  emit moved();
 }
 
 Sun SunControls::sun(const Vec3& up) const {

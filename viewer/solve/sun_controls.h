@@ -32,8 +32,6 @@ class SunControls : public QWidget {
  signals:
   /// The user has changed something.
   void changed();
-  /// The same, after changed().
-  void moved();
 
  private:
   void add_place(SettingRows& rows);

@@ -44,8 +44,7 @@ struct Side {
 void add_sides(std::size_t face, const std::vector<Patch>& patches,
                const std::vector<Material>& materials, std::vector<Side>& sides, Vec3& first) {
   const auto number = static_cast<std::int32_t>(face);
-  auto patch = std::lower_bound(patches.begin(), patches.end(), number,
-                                [](const Patch& p, std::int32_t f) { return p.face < f; });
+  auto patch = first_patch_of(face, patches);
   for (const Vec3 front = patch != patches.end() ? patch->normal : Vec3{};
        patch != patches.end() && patch->face == number; ++patch) {
     if (sides.empty()) {
@@ -80,6 +79,14 @@ void add_covered(const std::vector<Side>& sides, std::vector<std::int32_t>& cove
 }
 
 }  // namespace
+
+std::vector<Patch>::const_iterator first_patch_of(std::size_t face,
+                                                  const std::vector<Patch>& patches) {
+  const auto number = static_cast<std::int32_t>(face);
+  const auto found = std::lower_bound(patches.begin(), patches.end(), number,
+                                      [](const Patch& p, std::int32_t f) { return p.face < f; });
+  return found != patches.end() && found->face == number ? found : patches.end();
+}
 
 std::vector<std::int32_t> covered_faces(
     const std::vector<std::pair<std::size_t, std::size_t>>& pairs,

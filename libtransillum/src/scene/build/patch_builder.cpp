@@ -318,21 +318,14 @@ void PatchBuilder::throw_crossing(std::size_t face) const {
   throw InputError(face_place(description_, face) + "the outline crosses itself");
 }
 
-const Patch* PatchBuilder::first_patch(std::size_t face) const {
-  const auto number = static_cast<std::int32_t>(face);
-  const auto found = std::lower_bound(patches.begin(), patches.end(), number,
-                                      [](const Patch& p, std::int32_t f) { return p.face < f; });
-  return found != patches.end() && found->face == number ? &*found : nullptr;
-}
-
 void PatchBuilder::count_coincident() {
   const auto pairs = coincident_faces(description_, welded_);
   check_copies(pairs);
   report.coincident_faces = static_cast<std::int64_t>(pairs.size());
   report.covered_faces = covered_faces(pairs, patches, description_.materials);
   for (const auto& [later, earlier] : pairs) {
-    const Patch *one = first_patch(later), *other = first_patch(earlier);
-    if (one != nullptr && other != nullptr && dot(one->normal, other->normal) < 0) {
+    const auto one = first_patch_of(later, patches), other = first_patch_of(earlier, patches);
+    if (one != patches.end() && other != patches.end() && dot(one->normal, other->normal) < 0) {
       continue;  // both sides of one sheet
     }
     warnings_.add("faces with the same points as an earlier one",

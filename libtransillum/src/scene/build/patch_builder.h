@@ -75,8 +75,6 @@ class PatchBuilder {
   [[noreturn]] void throw_crossing(std::size_t face) const;
 
   void note_moves(double rounding);
-  /// Null if the face has no patch.
-  const Patch* first_patch(std::size_t face) const;
   void count_coincident();
   void check_copies(const std::vector<std::pair<std::size_t, std::size_t>>& pairs) const;
   void count_unused();
@@ -97,6 +95,9 @@ class PatchBuilder {
 std::vector<std::pair<std::size_t, std::size_t>> coincident_faces(
     const SceneDescription& description, const std::vector<PointId>& welded);
 
+/// The first patch of a face; the end if it has none. The patches are in the order of faces.
+std::vector<Patch>::const_iterator first_patch_of(std::size_t face,
+                                                  const std::vector<Patch>& patches);
 /// SceneReport::covered_faces.
 /// @param pairs of coincident_faces()
 /// @param patches by face, before refinement or after it; of a refined face the first patch decides
