@@ -337,6 +337,38 @@ class CommandTextTest : public QObject {
     QVERIFY(picture.contains(", " + QByteArray::number(int(polygons)) + " polygons, "));
   }
 
+  // A sheet that does not emit is made two-sided; if it emits, only one of its sides does.
+  void a_lamp_in_a_scene_with_turned_faces_is_solved_before_it_is_copied() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("room.obj");
+    write_obj(path.toStdString(), describe_scene("cornell-box"));
+    const auto append = [&](const char* name, const QByteArray& text) {
+      write_file(folder.filePath(name), contents_of(folder.filePath(name)) + text);
+    };
+    append("room.obj",
+           "v .1 .1 .4\nv .3 .1 .4\nv .3 .3 .4\nv .1 .3 .4\nusemtl sheet\nf -4 -3 -2 -1\n");
+    append("room.mtl", "newmtl sheet\nKd .5 .5 .5\n");
+    const auto window = make_window(8);
+    RunOptions options;
+    options.solve = {.directions = 8, .first_shot = {}};
+    options.input.orient = true;
+    window->scene.open(path.toStdString(), options, {Goal::Kind::finished});
+    const auto solved = [&] {
+      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+    };
+    QVERIFY(wait_for(solved));
+    QCOMPARE(window->snapshot()->loaded->scene->patch_count(), 29);
+    window->relighting.edits().set_exitance("material:sheet", {1, 1, 1});
+    QVERIFY(wait_for([&] { return window->snapshot()->materials && window->settled(); }));
+    const auto* copy = window->findChild<QAction*>("copy_solve");
+    QVERIFY(!copy->isEnabled() && copy->toolTip().contains("press Solve first"));
+    window->findChild<QPushButton*>("restart")->click();
+    QVERIFY(wait_for([&] { return solved() && !window->snapshot()->materials; }));
+    QCOMPARE(window->snapshot()->loaded->scene->patch_count(), 28);
+    QVERIFY(copy->isEnabled());
+    expect_same_bits(*window);
+  }
+
  private:
   /// The results of the window and of the command that is copied from it have the same bits.
   static void expect_same_bits(const TestWindow& window) {

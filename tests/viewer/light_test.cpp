@@ -253,7 +253,9 @@ class LightTest : public QObject {
   void a_study_without_light_is_refused() {
     const Opened opened;
     QVERIFY(opened.ready);
-    StudyDialog dialog({});
+    QUndoStack undo;
+    const MaterialEdits edits(undo);
+    StudyDialog dialog({}, edits);
     dialog.show_scene(opened.window->snapshot()->loaded);
     auto* run = dialog.findChild<QPushButton*>("study_run");
     run->click();

@@ -31,7 +31,8 @@ namespace {
 struct Shown : SolvedWindow {
   StudyDialog* dialog;
 
-  explicit Shown(const char* scene) : SolvedWindow(scene) {
+  explicit Shown(const char* scene, std::uint64_t memory = SolveOptions{}.memory)
+      : SolvedWindow(scene, {.directions = 32, .first_shot = {}, .memory = memory}) {
     trigger("study");
     dialog = window->findChild<StudyDialog*>();
     for (const int m : {16, 32, 64, 128, 256, 512}) {
@@ -141,6 +142,19 @@ class StudyTest : public QObject {
              (Rgb{0.25, 0.25, 0.25}));
     shown.study();
     QVERIFY(shown.dialog->snapshot()->loaded == shown.window->snapshot()->loaded);
+  }
+
+  // Nor is their light known where form factors exceed the memory limit.
+  void materials_without_light_are_solved_before_they_are_studied() {
+    const Shown shown("furnace", 1);
+    const Scene& scene = *shown.window->snapshot()->loaded->scene;
+    MaterialEdits& edits = shown.window->relighting.edits();
+    edits.set_reflectance("material:" + scene.materials()[0].name, {0.25, 0.25, 0.25});
+    QVERIFY(!shown.window->snapshot()->materials && !shown.run()->isEnabled());
+    auto* measure = shown.window->findChild<QPushButton*>("measure_errors");
+    QVERIFY(!measure->isEnabled() && measure->toolTip().contains("press Solve first"));
+    edits.restore();
+    QVERIFY(shown.run()->isEnabled() && measure->isEnabled());
   }
 
   void stops_while_the_reference_is_solved() {

@@ -47,6 +47,11 @@ class MaterialEdits : public QObject {
   void continue_with(std::shared_ptr<const Scene> scene);
   /// Whether any face differs from the scene.
   bool any() const { return any_; }
+  /// Why a result cannot be studied or measured: materials have changed since its solve. Empty if
+  /// they have not.
+  QString why_unsolved() const {
+    return any_ ? tr("Materials have changed since the solve: press Solve first") : QString();
+  }
   /// E and rho of all patches, with the changes; null before the first scene.
   const std::shared_ptr<const PatchMaterials>& materials() const { return materials_; }
   /// Whether any patch emits.

@@ -130,11 +130,6 @@ std::vector<double> form_factors_to(const FormFactors& form_factors, PatchId i) 
   return column;
 }
 
-QString why_old_materials(const SolverSnapshot& snapshot) {
-  return snapshot.materials ? tr("Materials have changed since the solve: press Solve first")
-                            : QString();
-}
-
 QString why_no_form_factors(const SolverSnapshot& snapshot) {
   if (snapshot.glossy) {
     return tr("With lobes, transfers are kept by direction; there are no form factors.");

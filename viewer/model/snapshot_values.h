@@ -34,10 +34,6 @@ RunOptions run_options_of(const SolverSnapshot& snapshot, const SceneOptions& sc
 /// Whether any patch emits, with the materials of the snapshot, or a sky does.
 bool has_light(const SolverSnapshot& snapshot);
 
-/// Why nothing is solved beside this solve, for the user: the scene still has the materials from
-/// before the user's changes. Empty if it has none.
-QString why_old_materials(const SolverSnapshot& snapshot);
-
 /// The fraction of the light that escapes, with the materials of the snapshot, as escaped_share();
 /// none before the first iteration, or where the fraction of sky is not known.
 std::optional<double> escaped_share(const SolverSnapshot& snapshot);

@@ -14,7 +14,7 @@
 
 #include "colors/color_map.h"
 #include "colors/color_scale.h"
-#include "model/snapshot_values.h"
+#include "model/material_edits.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/first_shot.h"
@@ -97,9 +97,10 @@ QString percent_text(double fraction) { return number_text(100 * fraction) + QSt
 
 }  // namespace
 
-ErrorView::ErrorView(std::function<ViewPoint()> view, QWidget* parent)
+ErrorView::ErrorView(std::function<ViewPoint()> view, const MaterialEdits& edits, QWidget* parent)
     : QWidget(parent),
       view_(std::move(view)),
+      edits_(edits),
       button_(named("measure_errors", new QPushButton(this),
                     tr("Solve with each set of directions, and compare with a reference of many "
                        "passes"))),
@@ -124,6 +125,7 @@ ErrorView::ErrorView(std::function<ViewPoint()> view, QWidget* parent)
       start(wanted_.runs.empty() ? usual_runs() : wanted_);
     }
   });
+  connect(&edits_, &MaterialEdits::changed, this, &ErrorView::show_state);
   place_button();
 }
 
@@ -144,6 +146,10 @@ ErrorRuns ErrorView::usual_runs() const {
 
 void ErrorView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
+  show_state();
+}
+
+void ErrorView::show_state() {
   if (running_scene_ && (running_scene_ != snapshot_->loaded || !why_not().isEmpty())) {
     drop();
   }
@@ -242,7 +248,7 @@ void ErrorView::show_progress(int number, double fraction) {
 }
 
 QString ErrorView::why_not() const {
-  return snapshot_ ? why_old_materials(*snapshot_) : tr("No scene is open");
+  return snapshot_ ? edits_.why_unsolved() : tr("No scene is open");
 }
 
 void ErrorView::place_button() {

@@ -17,6 +17,8 @@ class QPushButton;
 
 namespace transillum::viewer {
 
+class MaterialEdits;
+
 /// Pictures of the scene side by side, one for each set of directions, colored by the error of B
 /// against a reference, all on one scale.
 ///
@@ -34,7 +36,9 @@ class ErrorView : public QWidget {
   };
 
   /// @param view  gives the camera that the pictures are taken from
-  explicit ErrorView(std::function<ViewPoint()> view, QWidget* parent = nullptr);
+  /// @param edits  changed materials have to be solved before errors are measured; outlives this
+  ErrorView(std::function<ViewPoint()> view, const MaterialEdits& edits,
+            QWidget* parent = nullptr);
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   /// Measures these runs whenever the panel is visible and a scene is open. Without runs, it
@@ -70,11 +74,13 @@ class ErrorView : public QWidget {
   void show_progress(int number, double fraction);
   void paint_run(QPainter& painter, const QRectF& box, std::size_t run) const;
   void paint_scale(QPainter& painter, const QRectF& box) const;
+  void show_state();
   /// Why nothing can be measured now, for the user; empty if it can.
   QString why_not() const;
   void place_button();
 
   std::function<ViewPoint()> view_;
+  const MaterialEdits& edits_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   ErrorRuns wanted_;   ///< runs of a lesson's page
   ErrorRuns running_;  ///< measured, or being measured

@@ -18,7 +18,7 @@
 
 #include "io/drawing/study_chart.h"
 #include "io/results/study_csv.h"
-#include "model/snapshot_values.h"
+#include "model/material_edits.h"
 #include "solve/study_chart.h"
 #include "solve/study_choices.h"
 #include "support/failure_text.h"
@@ -76,8 +76,9 @@ QTableWidget* make_table() {
 
 }  // namespace
 
-StudyDialog::StudyDialog(const std::filesystem::path& cache, QWidget* parent)
-    : QDialog(parent), runner_(cache) {
+StudyDialog::StudyDialog(const std::filesystem::path& cache, const MaterialEdits& edits,
+                         QWidget* parent)
+    : QDialog(parent), edits_(edits), runner_(cache) {
   setWindowTitle(tr("Study of directions – transillum"));
   setWindowFlags(windowFlags() | Qt::WindowMaximizeButtonHint);
   banner_ = new Banner;
@@ -89,6 +90,7 @@ StudyDialog::StudyDialog(const std::filesystem::path& cache, QWidget* parent)
   layout->addLayout(row, 1);
   const QSize room = QGuiApplication::primaryScreen()->availableSize() - QSize(16, 48);  // a frame
   resize(QSize(1180, 760).boundedTo(room));
+  connect(&edits_, &MaterialEdits::changed, this, &StudyDialog::show_buttons);
   connect(&runner_, &StudyRunner::snapshot_ready, this, &StudyDialog::show_snapshot);
   connect(&runner_, &StudyRunner::failed, this,
           [this](const QString& message) { banner_->show_message(Banner::Kind::error, message); });
@@ -172,7 +174,6 @@ void StudyDialog::present() {
 void StudyDialog::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   runner_.stop();
   loaded_ = std::move(loaded);
-  why_not_.clear();
   running_ = false;
   snapshot_ = nullptr;
   banner_->dismiss();
@@ -191,7 +192,6 @@ void StudyDialog::show_scene(std::shared_ptr<const LoadedScene> loaded) {
 
 void StudyDialog::show_solve(const SolverSnapshot& solve) {
   choices_->set_solve(solve.options);
-  why_not_ = why_old_materials(solve);
   show_buttons();
 }
 
@@ -299,9 +299,10 @@ void StudyDialog::show_buttons() {
   const StudyOptions options = choices_->options();
   run_->setText(running_ ? tr("Stop") : tr("Run the study"));
   const bool chosen = !options.series.empty() && !options.directions.empty();
-  enable_if(*run_, running_ || (loaded_ && chosen && why_not_.isEmpty()),
+  const QString unsolved = edits_.why_unsolved();
+  enable_if(*run_, running_ || (loaded_ && chosen && unsolved.isEmpty()),
             !loaded_              ? tr("No scene is open")
-            : !why_not_.isEmpty() ? why_not_
+            : !unsolved.isEmpty() ? unsolved
                                   : tr("No sampling or number of passes is chosen"));
   enable_if(*save_, has_points(), tr("No study has been run yet"));
 }

@@ -17,6 +17,7 @@ class QTableWidget;
 namespace transillum::viewer {
 
 class Banner;
+class MaterialEdits;
 class StudyChart;
 class StudyChoices;
 
@@ -26,14 +27,15 @@ class StudyDialog : public QDialog {
 
  public:
   /// @param cache folder for reference solutions; if it is empty, none are kept
-  explicit StudyDialog(const std::filesystem::path& cache, QWidget* parent = nullptr);
+  /// @param edits changed materials have to be solved before they are studied; outlives this object
+  StudyDialog(const std::filesystem::path& cache, const MaterialEdits& edits,
+              QWidget* parent = nullptr);
 
   /// Shows the dialog in front of all other windows.
   void present();
   /// Sets the scene; a running study of another scene is stopped.
   void show_scene(std::shared_ptr<const LoadedScene> loaded);
-  /// Takes the options of the current solve, which apply where the dialog has no choice. A study of
-  /// changed materials waits for their solve.
+  /// Takes the options of the current solve, which apply where the dialog has no choice.
   void show_solve(const SolverSnapshot& solve);
 
   std::shared_ptr<const StudySnapshot> snapshot() const { return snapshot_; }
@@ -53,11 +55,11 @@ class StudyDialog : public QDialog {
   StudyAxis axis() const;
   bool has_points() const { return snapshot_ && !snapshot_->study.points.empty(); }
 
+  const MaterialEdits& edits_;
   StudyRunner runner_;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const StudySnapshot> snapshot_;
   bool running_ = false;
-  QString why_not_;  // why_old_materials()
 
   StudyChoices* choices_;
   QLabel *scene_, *phase_;

@@ -156,7 +156,8 @@ void MainWindow::make_views() {
   summary_ = new SolveSummary;
   inspector_ = new PatchInspector(state_.focus, state_.selection, state_.colors);
   map_view_ = new MapView(state_.focus, state_.selection, state_.colors, state_.beside);
-  error_view_ = new ErrorView([this] { return page_->scene_view()->view_point(); });
+  error_view_ = new ErrorView([this] { return page_->scene_view()->view_point(); },
+                              state_.relighting.edits());
   convergence_view_ = new ConvergenceView(state_.focus);
   direction_view_ =
       new DirectionView(state_.focus, state_.selection, state_.colors, state_.visibility);
@@ -183,8 +184,8 @@ void MainWindow::make_views() {
   timeline_->lanes()->set_marks(
       [this](const MapHistory& history) { return state_.breakpoints.steps_in(history); });
   inspection_ = new InspectionPanels(state_, page_->hidden(), this);
-  study_ =
-      new StudyDialog(remember_ ? ReferenceCache::default_folder() : std::filesystem::path(), this);
+  study_ = new StudyDialog(remember_ ? ReferenceCache::default_folder() : std::filesystem::path(),
+                           state_.relighting.edits(), this);
   progress_ = new ProgressLine;
   statusBar()->addWidget(progress_, 1);
   statusBar()->setSizeGripEnabled(false);

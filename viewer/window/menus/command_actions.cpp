@@ -53,12 +53,15 @@ void CommandActions::add_to(QMenu& menu) const { menu.addActions({solve_, pictur
 
 void CommandActions::show_state() {
   const auto loaded = frame_.state.scene.loaded();
+  const MaterialEdits& edits = frame_.state.relighting.edits();
   const Quantity shown = frame_.state.colors.quantity();
   const bool is_light = shown == Quantity::radiosity || shown == Quantity::eye_radiance;
   // The commands read scenes, not results.
   const QString why = !frame_.state.scene.snapshot() ? tr("No scene is solved yet")
                       : !loaded->description ? tr("A result file does not say how it was made")
-                                             : QString();
+                      : frame_.state.scene.input().orient
+                          ? edits.why_unsolved()  // light turns faces
+                          : QString();
   enable_if(*solve_, why.isEmpty(), why);
   enable_if(*picture_, why.isEmpty() && is_light,
             why.isEmpty() ? tr("The program makes pictures of light alone") : why);
