@@ -1,7 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The sun in the settings: its place in the sky, and the light that follows it.
+#include <QAction>
+#include <QApplication>
 #include <QCheckBox>
+#include <QClipboard>
 #include <QDoubleSpinBox>
 #include <QPushButton>
 #include <QSlider>
@@ -10,6 +13,7 @@
 #include <limits>
 
 #include "model/solver/draft.h"
+#include "scene/shadow_finder.h"
 #include "solve/sun_controls.h"
 #include "solve/sun_dome.h"
 #include "solved_window.h"
@@ -190,6 +194,39 @@ class SunTest : public QObject {
     session.advance(SolveSession::Until::finished);
     QVERIFY(session.solution().radiosity == snapshot->radiosity);
     save_picture(*yard.shown.window, "sun");
+  }
+
+  void patches_are_divided_along_the_shadow_edges_that_are_drawn() {
+    const Yard scene;
+    QVERIFY(scene.solves());
+    const TestWindow& window = *scene.shown.window;
+    const auto* finder = window.findChild<ShadowFinder*>();
+    QVERIFY(!finder->edges(*window.snapshot()->loaded));
+    scene.part<QAction>("show_shadows")->setChecked(true);
+    QVERIFY(comes_to_rest(window));
+    const auto* edges = finder->edges(*window.snapshot()->loaded);
+    QVERIFY(edges);
+    double length = 0;
+    for (const ShadowEdge& edge : *edges) {
+      length += norm(edge.b - edge.a);
+      QCOMPARE(edge.a.z, 0.0);
+    }
+    QVERIFY(std::abs(length - 4) < 1e-9);
+    auto* divide = scene.part<QAction>("divide_shadows");
+    QVERIFY(divide->isEnabled());
+    divide->trigger();
+    QVERIFY(wait_for([&] { return window.snapshot()->loaded->scene->patch_count() == 7; }));
+    QVERIFY(scene.solves());
+    edges = finder->edges(*window.snapshot()->loaded);
+    QVERIFY(edges && edges->empty());
+    // The shadow is a patch.
+    double darkest = 100;
+    for (const Rgb& h : window.snapshot()->irradiance) {
+      darkest = std::min(darkest, h.r);
+    }
+    QVERIFY(darkest < 20);
+    scene.shown.trigger("copy_solve");
+    QVERIFY(QApplication::clipboard()->text().contains("--divide shadows:0,0,1"));
   }
 
   void a_night_is_dark() {

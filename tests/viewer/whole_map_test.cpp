@@ -52,7 +52,7 @@ PatchId seen_at(const RecordedMap& map, const Vec2& p, bool receives) {
     if ((dot(patch.normal, frame.omega) > 0) != receives) {
       continue;
     }
-    const double h = dot(*point_of_patch(frame, p, patch) - frame.origin, frame.omega);
+    const double h = dot(*frame.point_on(patch, p) - frame.origin, frame.omega);
     if (seen == no_patch || (receives ? h > height : h < height)) {
       seen = row.patch;
       height = h;

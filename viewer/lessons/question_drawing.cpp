@@ -162,7 +162,7 @@ SceneSketch QuestionBox::surface_sketch() const {
   const auto on_patch = [&](const std::vector<Vec2>& corners) {
     std::vector<Vec3> points;
     for (const Vec2& p : corners) {
-      points.push_back(point_of_patch(map->record().frame, p, patch).value_or(patch.center));
+      points.push_back(map->record().frame.point_on(patch, p).value_or(patch.center));
     }
     return points;
   };

@@ -49,6 +49,7 @@ constexpr Name<RangeRule> range_rules[] = {{"automatic", RangeRule::automatic},
 constexpr Name<Overlay> overlays[] = {{"normals", Overlay::normals},
                                       {"back-sides", Overlay::back_sides},
                                       {"cuts", Overlay::cuts},
+                                      {"shadow-edges", Overlay::shadows},
                                       {"wireframe", Overlay::wireframe},
                                       {"smooth", Overlay::smooth}};
 constexpr Name<ClipPlane::Axis> axes[] = {

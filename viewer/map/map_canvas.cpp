@@ -237,8 +237,8 @@ std::optional<Vec3> MapCanvas::patch_point_at(const QPointF& position) const {
     return std::nullopt;
   }
   const RecordedMap& map = *picture_->request.map;
-  return point_of_patch(map.record().frame, picture_->request.transform.to_meters(position),
-                        map.loaded->scene->patch(patch));
+  return map.record().frame.point_on(map.loaded->scene->patch(patch),
+                                     picture_->request.transform.to_meters(position));
 }
 
 std::int32_t MapCanvas::row_at(const QPointF& position) const {

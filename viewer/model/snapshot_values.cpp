@@ -91,15 +91,6 @@ std::int64_t count_negative_corners(const SolverSnapshot& snapshot) {
   return count;
 }
 
-std::optional<Vec3> point_of_patch(const PlaneFrame& frame, const Vec2& p, const Patch& patch) {
-  const double cosine = dot(patch.normal, frame.omega);
-  if (std::abs(cosine) < 1e-9) {
-    return std::nullopt;
-  }
-  const Vec3 on_plane = frame.origin + p.x * frame.u + p.y * frame.v;
-  return on_plane + (dot(patch.normal, patch.center - on_plane) / cosine) * frame.omega;
-}
-
 namespace {
 
 QString tr(const char* text) { return QCoreApplication::translate("FormFactors", text); }

@@ -41,10 +41,6 @@ std::optional<double> escaped_share(const SolverSnapshot& snapshot);
 /// SolveStatistics::negative_corners of the snapshot.
 std::int64_t count_negative_corners(const SolverSnapshot& snapshot);
 
-/// Where the line through the point `p` of a plane, along its direction, meets the plane of a
-/// patch; none where the patch is edge-on.
-std::optional<Vec3> point_of_patch(const PlaneFrame& frame, const Vec2& p, const Patch& patch);
-
 /// F_ij of patches i and j; 0 where neither sees the other.
 double form_factor(const FormFactors& form_factors, PatchId i, PatchId j);
 /// F_ij of patch i for all j, one per patch.

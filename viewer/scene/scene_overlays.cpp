@@ -91,6 +91,18 @@ vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene, const std::vector<
   return lines.data();
 }
 
+vtkSmartPointer<vtkPolyData> shadow_lines(const Scene& scene, const std::vector<ShadowEdge>& edges,
+                                          double lift, const std::vector<bool>& hidden) {
+  Lines lines;
+  for (const ShadowEdge& edge : edges) {
+    if (!at(hidden, edge.patch)) {
+      const Vec3 lifted = lift * scene.patch(edge.patch).normal;
+      lines.add(edge.a + lifted, edge.b + lifted);
+    }
+  }
+  return lines.data();
+}
+
 SceneOverlays::SceneOverlays(vtkRenderer& renderer) {
   for (Overlay& overlay : overlays_) {
     vtkNew<vtkPolyDataMapper> mapper;
@@ -108,6 +120,7 @@ SceneOverlays::SceneOverlays(vtkRenderer& renderer) {
   };
   set_color(Kind::fragments, theme::outside);
   set_color(Kind::normals, theme::processed);
+  set_color(Kind::shadows, theme::inside);
   set_color(Kind::back_sides, back_side_color);
   overlay(Kind::back_sides).actor->GetProperty()->FrontfaceCullingOn();
 }
@@ -118,7 +131,8 @@ void SceneOverlays::show_scene(std::shared_ptr<const LoadedScene> loaded, vtkPol
   surface_ = surface;
   lift_ = lift;
   hidden_.assign(loaded_->scene->patches().size(), false);
-  for (const Kind kind : {Kind::fragments, Kind::normals, Kind::back_sides}) {
+  shadows_.clear();
+  for (const Kind kind : {Kind::fragments, Kind::normals, Kind::back_sides, Kind::shadows}) {
     overlay(kind).made = false;
     update(kind);
   }
@@ -129,7 +143,7 @@ void SceneOverlays::leave_out(const std::vector<bool>& hidden) {
     return;
   }
   hidden_ = hidden;
-  for (const Kind kind : {Kind::fragments, Kind::normals}) {
+  for (const Kind kind : {Kind::fragments, Kind::normals, Kind::shadows}) {
     overlay(kind).made = false;
     update(kind);
   }
@@ -148,10 +162,18 @@ void SceneOverlays::set_shown(Kind kind, bool shown) {
   update(kind);
 }
 
+void SceneOverlays::show_shadows(const std::vector<ShadowEdge>& edges) {
+  shadows_ = edges;
+  overlay(Kind::shadows).made = false;
+  update(Kind::shadows);
+}
+
 void SceneOverlays::set_line_width(double pixels) {
   for (Overlay& overlay : overlays_) {
     overlay.actor->GetProperty()->SetLineWidth(static_cast<float>(pixels));
   }
+  const double bold = 1.5;  // on edges of patches, which are as wide as the others
+  overlay(Kind::shadows).actor->GetProperty()->SetLineWidth(static_cast<float>(bold * pixels));
 }
 
 void SceneOverlays::update(Kind kind) {
@@ -169,6 +191,9 @@ void SceneOverlays::update(Kind kind) {
       break;
     case Kind::normals:
       mapper->SetInputData(normal_lines(*loaded_->scene, hidden_));
+      break;
+    case Kind::shadows:
+      mapper->SetInputData(shadow_lines(*loaded_->scene, shadows_, lift_, hidden_));
       break;
     case Kind::back_sides:
       mapper->SetInputData(surface_);

@@ -12,6 +12,7 @@
 
 #include "model/snapshot.h"
 #include "transillum/at.h"
+#include "visibility/map/shadow_edges.h"
 
 namespace transillum {
 class Scene;
@@ -28,10 +29,15 @@ vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& t
 /// @param hidden  whether a patch is omitted, one per patch
 vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene, const std::vector<bool>& hidden);
 
+/// The edges of shadows, `lift` meters in front of their patches.
+/// @param hidden  whether a patch is omitted, one per patch
+vtkSmartPointer<vtkPolyData> shadow_lines(const Scene& scene, const std::vector<ShadowEdge>& edges,
+                                          double lift, const std::vector<bool>& hidden);
+
 /// Geometry drawn in addition to the colored patches; computed when it is first shown.
 class SceneOverlays {
  public:
-  enum class Kind { fragments, normals, back_sides };
+  enum class Kind { fragments, normals, back_sides, shadows };
 
   explicit SceneOverlays(vtkRenderer& renderer);
 
@@ -42,6 +48,9 @@ class SceneOverlays {
   /// @param hidden  one per patch
   void leave_out(const std::vector<bool>& hidden);
   void set_shown(Kind kind, bool shown);
+  bool shown(Kind kind) const { return at(overlays_, kind).shown; }
+  /// Draws these with Kind::shadows, until other edges or another scene are shown.
+  void show_shadows(const std::vector<ShadowEdge>& edges);
   void set_line_width(double pixels);
   std::vector<vtkActor*> actors() const;
 
@@ -55,7 +64,8 @@ class SceneOverlays {
   };
   Overlay& overlay(Kind kind) { return at(overlays_, kind); }
 
-  std::array<Overlay, 3> overlays_;
+  std::array<Overlay, 4> overlays_;
+  std::vector<ShadowEdge> shadows_;
   std::shared_ptr<const LoadedScene> loaded_;
   vtkSmartPointer<vtkPolyData> surface_;
   double lift_ = 0;

@@ -23,6 +23,7 @@
 
 #include "scene/callout_layer.h"
 #include "scene/camera_style.h"
+#include "scene/shadow_finder.h"
 #include "scene/sharp/shown_hit.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
@@ -86,6 +87,9 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   draw_timer_->setInterval(0);
   connect(draw_timer_, &QTimer::timeout, this, &SceneView::draw);
   connect(&focus_, &Focus::moved, this, &SceneView::show_step);
+  shadow_finder_ = new ShadowFinder(this);
+  connect(shadow_finder_, &ShadowFinder::changed, this, &SceneView::show_shadows);
+  connect(&focus_, &Focus::moved, this, &SceneView::request_shadows);
   connect(&colors_, &ColorChoice::changed, this, [this] {
     recolor();
     render();
@@ -130,6 +134,21 @@ void SceneView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
     show_direction();
     render();
   }
+  request_shadows();
+}
+
+void SceneView::request_shadows() {
+  if (!overlays_->shown(SceneOverlays::Kind::shadows)) {
+    shadow_finder_->clear();
+  } else if (snapshot_) {
+    shadow_finder_->request(*snapshot_, focus_.map());
+  }
+}
+
+void SceneView::show_shadows() {
+  const auto* edges = loaded_ ? shadow_finder_->edges(*loaded_) : nullptr;
+  overlays_->show_shadows(edges ? *edges : std::vector<ShadowEdge>());
+  render();
 }
 
 void SceneView::set_direction_shown(bool shown) {
@@ -152,6 +171,7 @@ void SceneView::set_outlines_shown(bool shown) {
 
 void SceneView::set_overlay_shown(SceneOverlays::Kind kind, bool shown) {
   overlays_->set_shown(kind, shown);
+  request_shadows();
   render();
 }
 
@@ -491,7 +511,7 @@ void SceneView::render() {
   draw_timer_->start();
 }
 
-bool SceneView::drawn() const { return !draw_timer_->isActive(); }
+bool SceneView::drawn() const { return !draw_timer_->isActive() && !shadow_finder_->busy(); }
 
 void SceneView::draw() {
   draw_timer_->stop();

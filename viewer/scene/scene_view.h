@@ -44,6 +44,7 @@ class QVTKOpenGLNativeWidget;
 namespace transillum::viewer {
 
 class CalloutLayer;
+class ShadowFinder;
 
 /// The 3-D view of the scene, colored by a quantity of its patches. A click selects a patch, a drag
 /// turns the scene. While stepping, the patches of later steps are dimmed and the current fragment
@@ -196,6 +197,8 @@ class SceneView : public QWidget {
   void leave_out_hidden();
   bool in_picture(const PickedPoint& point) const;
   void show_edges();
+  void request_shadows();
+  void show_shadows();
   Vec3 vertical_ = {0, 1, 0};
   void follow_camera();
   void place_callouts();
@@ -245,6 +248,7 @@ class SceneView : public QWidget {
   std::unique_ptr<DirectionGlyph> glyph_;
   std::unique_ptr<StepGlyph> step_glyph_;
   std::unique_ptr<SceneOverlays> overlays_;
+  ShadowFinder* shadow_finder_;
   std::unique_ptr<TurnPreview> turn_preview_;
   std::unique_ptr<PathGlyph> path_glyph_;
   std::shared_ptr<const LightPaths> paths_;  ///< given to show_paths()

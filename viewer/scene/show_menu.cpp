@@ -106,6 +106,9 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   add_lines(Overlay::cuts, SceneOverlays::Kind::fragments, "show_fragments",
             tr("Cuts of the BSP tree"),
             tr("Draw the fragments of the patches that the BSP tree cuts"));
+  add_lines(Overlay::shadows, SceneOverlays::Kind::shadows, "show_shadows", tr("Shadow edges"),
+            tr("Draw where the sun's shadows end; without a sun, those of lamps along the\n"
+               "direction whose map is shown"));
   menu->addSeparator();
   connect(add_overlay(Overlay::wireframe, "show_wireframe", tr("Wireframe"),
                       tr("Draw edges instead of surfaces")),

@@ -32,15 +32,26 @@ SolveActions::SolveActions(QObject* parent) : QObject(parent) {
   stop_ = make_action(this, theme::Icon::stop, "stop", tr("Start over"),
                       QKeySequence(QStringLiteral("Shift+F5")),
                       tr("Discard this solve and return to the first direction, or stop loading"));
+  divide_ = make_key_action(this, "divide_shadows", tr("Divide along shadow edges"),
+                            tr("Divide the patches where the sun's shadows end, and solve"), {});
+  connect(divide_, &QAction::triggered, this, &SolveActions::divide_along_shadows);
   connect(run_, &QAction::triggered, this, &SolveActions::run);
   connect(pause_, &QAction::triggered, this, &SolveActions::pause);
   connect(one_direction_, &QAction::triggered, this, &SolveActions::one_direction);
   connect(one_iteration_, &QAction::triggered, this, &SolveActions::one_iteration);
   connect(stop_, &QAction::triggered, this, &SolveActions::stop);
   show_state(RunState::empty, true);
+  show_sun(false);
 }
 
-void SolveActions::add_to(QWidget& menu) const { menu.addActions(tools(true)); }
+void SolveActions::add_to(QWidget& menu) const {
+  menu.addActions(tools(true));
+  menu.addAction(divide_);
+}
+
+void SolveActions::show_sun(bool has_sun) {
+  enable_if(*divide_, has_sun, tr("The solve has no sun (Solve settings, Sky)"));
+}
 
 QList<QAction*> SolveActions::tools(bool single) const {
   return single ? QList<QAction*>{run_, pause_, one_direction_, one_iteration_, stop_}

@@ -11,7 +11,8 @@ class QWidget;
 
 namespace transillum::viewer {
 
-/// The actions run, pause, one direction, one iteration and start over, for a menu and a tool bar.
+/// The actions run, pause, one direction, one iteration and start over, for a menu and a tool bar,
+/// and the division along the edges of shadows.
 class SolveActions : public QObject {
   Q_OBJECT
 
@@ -24,6 +25,8 @@ class SolveActions : public QObject {
   /// Enables the actions that apply.
   /// @param at_start no direction has been processed yet
   void show_state(RunState state, bool at_start);
+  /// Enables what needs a sun.
+  void show_sun(bool has_sun);
 
  signals:
   void run();
@@ -31,9 +34,10 @@ class SolveActions : public QObject {
   void one_direction();
   void one_iteration();
   void stop();
+  void divide_along_shadows();
 
  private:
-  QAction *run_, *pause_, *one_direction_, *one_iteration_, *stop_;
+  QAction *run_, *pause_, *one_direction_, *one_iteration_, *stop_, *divide_;
 };
 
 }  // namespace transillum::viewer

@@ -242,7 +242,7 @@ class PlaneFunctions {
       : frame_(frame), patch_(scene.patch(i)), basis_(linear_basis(scene, i)) {}
 
   std::array<double, 3> at(const Vec2& p) const {
-    const std::optional<Vec3> point = point_of_patch(frame_, p, patch_);
+    const std::optional<Vec3> point = frame_.point_on(patch_, p);
     const std::array<double, 2> values = point ? basis_.at(*point) : std::array<double, 2>{};
     return {1, values[0], values[1]};
   }

@@ -10,9 +10,9 @@ enum class Layout { teach, inspect, debug };
 inline constexpr int layout_count = 3;
 
 /// Parts of the 3-D picture that the Show menu switches.
-enum class Overlay { normals, back_sides, cuts, wireframe, smooth };
+enum class Overlay { normals, back_sides, cuts, shadows, wireframe, smooth };
 inline constexpr Overlay all_overlays[] = {Overlay::normals, Overlay::back_sides, Overlay::cuts,
-                                           Overlay::wireframe, Overlay::smooth};
+                                           Overlay::shadows, Overlay::wireframe,  Overlay::smooth};
 
 /// A plane across an axis that cuts the picture of a scene open.
 struct ClipPlane {

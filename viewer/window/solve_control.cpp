@@ -10,6 +10,7 @@
 #include "model/measured_errors.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "session/divisions.h"
 #include "session/next_steps.h"
 #include "solve/round_panel.h"
 #include "solve/settings_panel.h"
@@ -50,7 +51,10 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
   connect(&runner, &SolveRunner::state_changed, this, &SolveControl::show_state);
   connect(&frame_.state.scene, &OpenScene::snapshot_ready, this, [this] {
     actions_.show_state(frame_.state.runner.state(), frame_.state.scene.at_start());
+    actions_.show_sun(frame_.state.scene.snapshot()->options.sky.sun.is_set());
   });
+  connect(&actions_, &SolveActions::divide_along_shadows, this,
+          &SolveControl::divide_along_shadows);
   connect(&settings_, &SettingsPanel::restart_clicked, this, &SolveControl::solve_settings);
   connect(&settings_, &SettingsPanel::forecast_wanted, this, [this](const SceneOptions& options) {
     if (frame_.state.scene.loaded() && frame_.state.scene.loaded()->description) {
@@ -207,6 +211,19 @@ void SolveControl::finish() {
   } else if (finds_light(settings_.solve_options()) && may_solve_again()) {
     solve_again();
   }
+}
+
+void SolveControl::divide_along_shadows() {
+  const auto snapshot = frame_.state.scene.snapshot();
+  if (!snapshot || !snapshot->options.sky.sun.is_set() || !may_solve_again()) {
+    return;
+  }
+  frame_.notifier.dismiss();
+  frame_.state.runner.restart(
+      {.solve = settings_.solve_options(),
+       .from = frame_.state.scene.loaded(),
+       .division = division_by_shadows(snapshot->options.sky.sun.direction)},
+      {Goal::Kind::finished});
 }
 
 void SolveControl::take_step(const NextStep& step) {

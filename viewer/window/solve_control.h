@@ -57,6 +57,7 @@ class SolveControl : public QObject {
   RunOptions wanted_options() const;
   void open_again();
   void start_over();
+  void divide_along_shadows();
   void show_state(RunState state);
 
   WindowFrame frame_;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct PlaneFrame {
 
   /// Coordinates of the projection of p along omega.
   Vec2 project(const Vec3& p) const { return {dot(p - origin, u), dot(p - origin, v)}; }
+  /// The point of a patch's plane that is projected to p, m; not set where the patch is edge-on.
+  std::optional<Vec3> point_on(const Patch& patch, const Vec2& p) const;
 };
 /// The frame that the engines use for `omega`: the same bits each time.
 PlaneFrame plane_frame(const Scene& scene, const Vec3& omega);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -14,11 +15,50 @@
 #include "scene/build/patch_count.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "visibility/map/shadow_edges.h"
 
 namespace transillum {
 namespace {
 
 constexpr std::string_view numbers_begin = "patch:";
+
+constexpr std::string_view shadows_begin = "shadows:";
+
+bool is_by_shadows(const std::string& name) { return name.rfind(shadows_begin, 0) == 0; }
+
+/// The direction to the light of "shadows:0,-0.5,1".
+/// @throws InputError
+Vec3 direction_of_shadows(const std::string& name) {
+  Vec3 direction;
+  const char* begin = name.data() + shadows_begin.size();
+  const char* const end = name.data() + name.size();
+  bool valid = true;
+  for (double* value : {&direction.x, &direction.y, &direction.z}) {
+    const auto read = std::from_chars(begin, end, *value);
+    const bool is_last = value == &direction.z;
+    valid = valid && read.ec == std::errc() && std::isfinite(*value) &&
+            (is_last ? read.ptr == end : read.ptr != end && *read.ptr == ',');
+    begin = valid && !is_last ? read.ptr + 1 : end;
+  }
+  const double length = norm(direction);
+  if (!valid || !(length > 0) || !std::isfinite(length)) {
+    throw InputError(fmt::format(
+        "division of patches: \"{}\" is not a direction to the light, such as shadows:1,0,2",
+        name));
+  }
+  return (1 / length) * direction;
+}
+
+std::shared_ptr<const Scene> divided_along_shadows(const Scene& scene, const Vec3& to_light,
+                                                   const Cancellation& cancellation) {
+  const BspTree tree(scene, cancellation);
+  const MapRecord record = record_local_map(scene, tree, -to_light, cancellation).record;
+  std::vector<PatchCut> cuts;
+  for (const ShadowEdge& edge : shadow_edges(scene, tree, record)) {
+    cuts.push_back({edge.patch, edge.a, edge.b});
+  }
+  return divide_along(scene, cuts, cancellation).scene;
+}
 
 bool is_by_numbers(const std::string& name) { return name.rfind(numbers_begin, 0) == 0; }
 
@@ -119,16 +159,25 @@ std::string division_by_numbers(std::span<const PatchId> patches) {
 
 std::string division_name(const Scene& scene, const std::string& name,
                           std::span<const PatchId> patches) {
-  const bool is_entry =
-      name.find(';') == std::string::npos && name != "none" && !is_by_numbers(name);
+  const bool is_entry = name.find(';') == std::string::npos && name != "none" &&
+                        !is_by_numbers(name) && !is_by_shadows(name);
   const bool is_same = is_entry && std::ranges::equal(named_patches(scene, name), patches);
   return is_same ? name : division_by_numbers(patches);
+}
+
+std::string division_by_shadows(const Vec3& to_light) {
+  return fmt::format("{}{},{},{}", shadows_begin, to_light.x, to_light.y, to_light.z);
 }
 
 std::shared_ptr<const Scene> divided_scene(std::shared_ptr<const Scene> scene,
                                            const std::vector<std::string>& names,
                                            const Cancellation& cancellation) {
   for (const std::string& name : names) {
+    if (is_by_shadows(name)) {
+      scene = divided_along_shadows(*scene, direction_of_shadows(name), cancellation);
+      check_memory(scene->name(), scene->patch_count());
+      continue;
+    }
     const std::vector<PatchId> patches = patches_of(*scene, name);
     std::int64_t count = scene->patch_count();
     for (const PatchId i : patches) {

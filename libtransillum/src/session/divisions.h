@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Divisions of patches by name, as in SceneInput::divided. A name is a surface, "all", or
-// "patch:3,7-20" with numbers of patches, which are those after the divisions before it.
+// Divisions of patches by name, as in SceneInput::divided. A name is a surface, "all",
+// "patch:3,7-20" with numbers of patches, which are those after the divisions before it, or
+// "shadows:1,0,2" with a direction to a light at infinity.
 #pragma once
 
 #include <memory>
@@ -26,6 +27,9 @@ std::vector<PatchId> patches_of_surface(const Scene& scene, const std::string& n
 /// "patch:3,7-20".
 /// @param patches in ascending order
 std::string division_by_numbers(std::span<const PatchId> patches);
+/// The entry that divides patches along the edges of the shadows of light from infinity.
+/// @param to_light of any length above 0
+std::string division_by_shadows(const Vec3& to_light);
 /// The entry that divides these patches of a scene: `name`, if it means them, or their numbers.
 /// @param patches in ascending order
 std::string division_name(const Scene& scene, const std::string& name,

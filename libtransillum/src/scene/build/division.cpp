@@ -7,7 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "geometry/convex_partition.h"
 #include "scene/build/patch_builder.h"
@@ -21,6 +26,8 @@ using Outline = std::vector<PointId>;
 
 /// Quadrilaterals longer than this, relative to their width, are divided in a row.
 constexpr double long_shape = 2;
+/// What is nearer to a cut lies on it, relative to the size of its patch.
+constexpr double cut_precision = 1e-9;
 
 double mean_length(const Scene& scene, std::span<const PointId> o, std::size_t edge) {
   const auto length = [&](std::size_t k) {
@@ -91,6 +98,23 @@ class PatchDivision {
 
   DividedScene make(std::span<const PatchId> patches) {
     const std::vector<bool> divided = with_coincident(patches);
+    return make([&](PatchId i) { return at(divided, i) ? cells_of(i) : std::vector<Outline>(); });
+  }
+
+  DividedScene make_along(std::span<const PatchCut> cuts) {
+    std::map<Outline, std::vector<PatchCut>> by_points;
+    for (const PatchCut& cut : cuts) {
+      by_points[points_of(cut.patch)].push_back(cut);
+    }
+    return make([&](PatchId i) {
+      const auto found = by_points.find(points_of(i));
+      return found != by_points.end() ? cells_along(i, found->second) : std::vector<Outline>();
+    });
+  }
+
+ private:
+  /// @param cells_of gives the outlines of what a patch is divided into; none where it stays whole
+  DividedScene make(const std::function<std::vector<Outline>(PatchId)>& cells_of) {
     auto scene = std::shared_ptr<Scene>(new Scene(whole_, Scene::WithoutPatches{}));
     scene_ = scene.get();
     for (PatchId i = 0; i < whole_.patch_count(); ++i) {
@@ -98,7 +122,7 @@ class PatchDivision {
         cancellation_.throw_if_canceled();
       }
       const bool two = are_sides(i);
-      const std::vector<Outline> cells = at(divided, i) ? cells_of(i) : std::vector<Outline>();
+      const std::vector<Outline> cells = cells_of(i);
       if (cells.empty()) {
         copy(i);
         if (two) {
@@ -140,7 +164,76 @@ class PatchDivision {
     return too_small ? std::vector<Outline>() : cells;
   }
 
- private:
+  /// The pieces of patch i, cut by the longest cuts first: they cross most of the others.
+  std::vector<Outline> cells_along(PatchId i, std::vector<PatchCut> cuts) {
+    const auto length = [](const PatchCut& cut) { return norm(cut.b - cut.a); };
+    std::stable_sort(cuts.begin(), cuts.end(),
+                     [&](const PatchCut& x, const PatchCut& y) { return length(x) > length(y); });
+    const PieceRange range = pieces_of(whole_, i);
+    std::vector<Outline> cells;
+    for (std::size_t k = range.begin; k < range.end; ++k) {
+      cells.push_back(as_vector(whole_.corners(whole_.pieces()[k])));
+    }
+    for (const PatchCut& cut : cuts) {
+      for (std::size_t c = 0, count = cells.size(); c < count; ++c) {
+        if (auto parts = cut_in_two(cells[c], whole_.patch(i), cut)) {
+          cells[c] = std::move(parts->first);
+          cells.push_back(std::move(parts->second));
+        }
+      }
+    }
+    return cells.size() > 1 ? cells : std::vector<Outline>();
+  }
+
+  /// The parts of a convex cell on the two sides of a cut; none where the cut does not pass through
+  /// its inside.
+  std::optional<std::pair<Outline, Outline>> cut_in_two(const Outline& cell, const Patch& patch,
+                                                        const PatchCut& cut) {
+    const double reach = cut_precision * std::sqrt(patch.area), length = norm(cut.b - cut.a);
+    if (length <= reach) {
+      return std::nullopt;
+    }
+    const Vec3 along = (1 / length) * (cut.b - cut.a), across = cross(patch.normal, along);
+    const auto point = [&](std::size_t k) { return at(table_.points(), cell[k % cell.size()]); };
+    const auto side = [&](std::size_t k) {
+      const double s = dot(point(k) - cut.a, across);
+      return std::abs(s) <= reach ? 0.0 : s;
+    };
+    // Where the line of the cut meets the outline: at corners or within edges.
+    std::pair<Outline, Outline> parts;
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (std::size_t k = 0; k < cell.size(); ++k) {
+      const double s = side(k), next = side(k + 1);
+      const auto meet = [&](PointId p) {
+        const double place = dot(at(table_.points(), p) - cut.a, along);
+        first = std::min(first, place);
+        last = std::max(last, place);
+        parts.first.push_back(p);
+        parts.second.push_back(p);
+      };
+      if (s == 0) {
+        meet(cell[k]);
+      } else {
+        (s > 0 ? parts.first : parts.second).push_back(cell[k]);
+        if (s * next < 0) {
+          // From the same end for both patches of an edge, so that they get the same point.
+          const bool forward = cell[k] < cell[(k + 1) % cell.size()];
+          const Vec3 from = point(forward ? k : k + 1), to = point(forward ? k + 1 : k);
+          const double d = dot(from - cut.a, across), e = dot(to - cut.a, across);
+          meet(table_.id_of(from + (d / (d - e)) * (to - from)));
+        }
+      }
+    }
+    const bool crosses = std::min(last, length) - std::max(first, 0.0) > reach;
+    const auto is_cell = [&](const Outline& part) {
+      return part.size() >= 3 && !measure(table_.points(), part).degenerate;
+    };
+    if (!crosses || !is_cell(parts.first) || !is_cell(parts.second)) {
+      return std::nullopt;
+    }
+    return parts;
+  }
+
   static constexpr PatchId patches_between_checks = 256;
 
   bool are_sides(PatchId i) const {
@@ -157,18 +250,20 @@ class PatchDivision {
   std::vector<bool> with_coincident(std::span<const PatchId> patches) const {
     std::vector<bool> divided(whole_.patches().size(), false);
     std::map<Outline, bool> by_points;
-    const auto key = [this](PatchId i) {
-      Outline points = as_vector(whole_.outline(i));
-      std::sort(points.begin(), points.end());
-      return points;
-    };
     for (const PatchId i : patches) {
-      by_points[key(i)] = true;
+      by_points[points_of(i)] = true;
     }
     for (PatchId i = 0; i < whole_.patch_count(); ++i) {
-      divided[static_cast<std::size_t>(i)] = by_points.count(key(i)) > 0;
+      divided[static_cast<std::size_t>(i)] = by_points.count(points_of(i)) > 0;
     }
     return divided;
+  }
+
+  /// The same for all patches on the same points.
+  Outline points_of(PatchId i) const {
+    Outline points = as_vector(whole_.outline(i));
+    std::sort(points.begin(), points.end());
+    return points;
   }
 
   void copy(PatchId i) {
@@ -230,6 +325,11 @@ int division_count(const Scene& scene, PatchId i) {
 DividedScene divide(const Scene& scene, std::span<const PatchId> patches,
                     const Cancellation& cancellation) {
   return PatchDivision(scene, cancellation).make(patches);
+}
+
+DividedScene divide_along(const Scene& scene, std::span<const PatchCut> cuts,
+                          const Cancellation& cancellation) {
+  return PatchDivision(scene, cancellation).make_along(cuts);
 }
 
 }  // namespace transillum

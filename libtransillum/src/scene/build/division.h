@@ -28,4 +28,16 @@ int division_count(const Scene& scene, PatchId i);
 DividedScene divide(const Scene& scene, std::span<const PatchId> patches,
                     const Cancellation& cancellation = {});
 
+/// A straight cut through a patch: from a to b, two points of its plane, m.
+struct PatchCut {
+  PatchId patch = no_patch;
+  Vec3 a, b;
+};
+/// Divides patches along cuts into convex cells, so that no cut lies inside a cell. A cell that a
+/// cut meets is cut across. Cells too thin for the precision of coordinates are not cut off.
+/// @param cuts in any order
+/// @throws InputError where a Scene cannot have so many patches; Canceled
+DividedScene divide_along(const Scene& scene, std::span<const PatchCut> cuts,
+                          const Cancellation& cancellation = {});
+
 }  // namespace transillum

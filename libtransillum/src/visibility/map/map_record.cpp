@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <cmath>
 #include <vector>
 
 #include "geometry/polygon_area.h"
@@ -6,6 +7,15 @@
 #include "transillum/visibility_map.h"
 
 namespace transillum {
+
+std::optional<Vec3> PlaneFrame::point_on(const Patch& patch, const Vec2& p) const {
+  const double cosine = dot(patch.normal, omega);
+  if (std::abs(cosine) < 1e-9) {
+    return std::nullopt;
+  }
+  const Vec3 on_plane = origin + p.x * u + p.y * v;
+  return on_plane + (dot(patch.normal, patch.center - on_plane) / cosine) * omega;
+}
 
 double MapRecord::area(const Row& row) const {
   const auto corner = outline(row);

@@ -31,7 +31,9 @@ std::vector<LampPolygon> ExchangeFinder::lamps(std::span<const PatchId> patches)
       continue;
     }
     for (const OpenPiece& open : open_pieces_of(i)) {
-      lamps.push_back({exitance, open.corners, open.front, open.bend, {i}});
+      LampPolygon& lamp = lamps.emplace_back(LampPolygon{exitance, {}, open.front, open.bend, {i}});
+      const Outline corners = corners_of(open);
+      lamp.outline.assign(corners.begin(), corners.end());
     }
   }
   return lamps;
@@ -41,7 +43,7 @@ std::vector<LampPolygon> ExchangeFinder::lamps(std::span<const PatchId> patches)
 bool ExchangeFinder::is_open(PatchId j) const {
   double area = 0;
   for (const OpenPiece& open : open_pieces_of(j)) {
-    area += norm(area_vector(open.corners));
+    area += norm(area_vector(corners_of(open)));
   }
   constexpr double rounding = 1e-9;
   return area >= (1 - rounding) * scale_ * scale_ * scene_.patch(j).area;
@@ -51,7 +53,7 @@ std::optional<PointView> ExchangeFinder::view_of(const LampPolygon& lamp, PatchI
   Numbers blockers, all;
   bool is_seen = false;
   for (const OpenPiece& open : open_pieces_of(i)) {
-    const FacingPolygons facing(open.corners, open.front, lamp.outline, lamp.front,
+    const FacingPolygons facing(corners_of(open), open.front, lamp.outline, lamp.front,
                                 tolerance_ + open.bend + lamp.bend);
     if (!facing.empty()) {
       collect_blockers(
@@ -75,8 +77,7 @@ std::optional<PointView> ExchangeFinder::view_from(const Vec3& x, const LampPoly
     return std::nullopt;
   }
   Numbers blockers;
-  collect_blockers(x, lamp.outline, {lamp.outline, lamp.front, lamp.bend}, lamp.patches.front(),
-                   blockers);
+  collect_blockers(x, lamp.outline, {lamp.front, lamp.bend}, lamp.patches.front(), blockers);
   return PointView(lamp.outline, polygons_of(blockers));
 }
 

@@ -119,9 +119,11 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
   for (std::size_t k = 0; k < scene.pieces().size(); ++k) {
     cancellation.throw_if_canceled();
     const double bend = bend_of(corners_of(scene.pieces()[k]));
-    for (Corners& open : open_pieces(k, pieces)) {
-      const HalfSpace front = lit_half_space(open);
-      open_pieces_.push_back({std::move(open), front, bend});
+    for (const Corners& open : open_pieces(k, pieces)) {
+      const auto begin = static_cast<std::uint32_t>(open_corners_.size());
+      open_corners_.insert(open_corners_.end(), open.begin(), open.end());
+      open_pieces_.push_back(
+          {{lit_half_space(open), bend}, begin, static_cast<std::uint32_t>(open_corners_.size())});
     }
     at(open_begin_, scene.pieces()[k].patch + 1) = open_pieces_.size();
   }
@@ -479,7 +481,7 @@ void ExchangeFinder::for_each_facing(PatchId i, PatchId j, const Numbers* among,
   Numbers blockers;
   for (const OpenPiece& p : open_pieces_of(i)) {
     for (const OpenPiece& q : open_pieces_of(j)) {
-      const FacingPolygons facing(p.corners, p.front, q.corners, q.front,
+      const FacingPolygons facing(corners_of(p), p.front, corners_of(q), q.front,
                                   tolerance_ + p.bend + q.bend);
       if (!facing.empty()) {
         const Sides sides{at(first_sides_, i), at(first_sides_, j), {p.bend, q.bend}};
@@ -544,8 +546,8 @@ void ExchangeFinder::for_each_range_after(PatchId i, Visit visit) const {
   for (; face != faces_.end() && open_pieces_of(i).size() == 1; ++face) {
     visit(next, face->patches.front(), nullptr);
     const OpenPiece& p = open_pieces_of(i)[0];
-    const FacingPolygons facing(p.corners, p.front, face->outline, lit_half_space(face->outline),
-                                tolerance_ + p.bend);
+    const FacingPolygons facing(corners_of(p), p.front, face->outline,
+                                lit_half_space(face->outline), tolerance_ + p.bend);
     if (!facing.empty()) {
       collect_blockers(facing, {at(first_sides_, i), face->patches.front(), {p.bend, 0}}, nullptr,
                        blockers);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -32,10 +33,10 @@ struct PatchExchange {
 /// A convex polygon that emits: patches of one face that emit alike, or an open part of one patch.
 /// Lengths are in the finder's unit.
 struct LampPolygon {
-  Rgb exitance;     ///< E, W/m²
-  Corners outline;  ///< seen from its lit side, counter-clockwise
-  HalfSpace front;  ///< in front of it
-  double bend = 0;  ///< largest distance of the corners from their plane
+  Rgb exitance;                  ///< E, W/m²
+  Corners outline;               ///< seen from its lit side, counter-clockwise
+  HalfSpace front;               ///< in front of it
+  double bend = 0;               ///< largest distance of the corners from their plane
   std::vector<PatchId> patches;  ///< ascending
 };
 
@@ -100,11 +101,14 @@ class ExchangeFinder {
   std::optional<PointView> view_from(const Vec3& x, const LampPolygon& lamp) const;
 
  private:
-  /// A convex part of a patch that coplanar patches do not cover.
-  struct OpenPiece {
-    Corners corners;
+  /// The plane of a polygon.
+  struct OpenPlane {
     HalfSpace front;
-    double bend;  ///< bend of the piece
+    double bend;  ///< bend of its piece
+  };
+  /// A convex part of a patch that coplanar patches do not cover.
+  struct OpenPiece : OpenPlane {
+    std::uint32_t begin, end;  ///< in open_corners_
   };
   struct Blocker {
     Corners outline;
@@ -135,6 +139,9 @@ class ExchangeFinder {
   bool covers(PatchId upper, PatchId lower) const;
   bool is_open(PatchId j) const;
   Corners corners_of(const Piece& piece) const;
+  Outline corners_of(const OpenPiece& open) const {
+    return {open_corners_.data() + open.begin, open_corners_.data() + open.end};
+  }
   void collect_blockers(const FacingPolygons& facing, const Sides& sides, const Numbers* among,
                         Numbers& blockers) const;
   bool is_any_hiding(const FacingPolygons& facing, const Numbers& blockers) const;
@@ -142,7 +149,7 @@ class ExchangeFinder {
   void add_partial(const FacingPolygons& facing, const Numbers& blockers, const Query& query,
                    PatchExchange& exchange) const;
   void add_whole(const FacingPolygons& facing, const Query& query, PatchExchange& exchange) const;
-  void collect_blockers(const Vec3& x, Outline polygon, const OpenPiece& open, PatchId patch,
+  void collect_blockers(const Vec3& x, Outline polygon, const OpenPlane& open, PatchId patch,
                         Numbers& blockers) const;
   TransferMoments moments_between(PatchId i, PatchId j, const std::vector<LinearBasis>& bases,
                                   const Numbers* among, const std::function<void()>& tick) const;
@@ -174,7 +181,9 @@ class ExchangeFinder {
   double tolerance_;      ///< in that unit
   std::vector<PatchId> first_sides_;
   std::vector<Blocker> blockers_;
-  BoxTree tree_;  ///< tree of blockers_
+  BoxTree tree_;                    ///< tree of blockers_
+  std::vector<Vec3> open_corners_;  ///< with room in each piece, as Corners, it would be 56 MB more
+                                    ///< for 100,000 patches
   std::vector<OpenPiece> open_pieces_;
   std::vector<std::size_t> open_begin_;
   std::vector<MergedFace> faces_;  ///< faces of consecutive patches

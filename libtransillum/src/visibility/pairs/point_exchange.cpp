@@ -46,7 +46,7 @@ class Pyramid {
 /// Finds the blockers in the pyramid from x to a polygon, without those in whose plane x is, and
 /// those that do not reach in front of the polygon's plane, such as itself.
 /// @param polygon of `part`, which is of `patch`
-void ExchangeFinder::collect_blockers(const Vec3& x, Outline polygon, const OpenPiece& open,
+void ExchangeFinder::collect_blockers(const Vec3& x, Outline polygon, const OpenPlane& open,
                                       PatchId patch, Numbers& blockers) const {
   blockers.clear();
   const Pyramid pyramid(x, polygon);
@@ -75,7 +75,7 @@ double ExchangeFinder::from_point(const Vec3& x, const Vec3& normal, PatchId j,
     if (open.front.distance(apex) <= tolerance_ + open.bend) {
       continue;
     }
-    const Corners above = clipped(open.corners, {normal, dot(normal, apex)});
+    const Corners above = clipped(corners_of(open), {normal, dot(normal, apex)});
     if (above.size() < 3) {
       continue;
     }
