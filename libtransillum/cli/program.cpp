@@ -192,7 +192,8 @@ std::string repeated_option_text(const CLI::App& command) {
 /// Prints an error of CLI11 as one line, with a reference to the help.
 int report(const Program& program, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
-    return is_first_process() ? program.app.exit(error) : success;  // --help and --version
+    print_results([&](std::ostream& out) { program.app.exit(error, out); });  // --help, --version
+    return success;
   }
   const auto* chosen = program.chosen();
   const CLI::App& command = chosen ? *chosen->first : program.app;

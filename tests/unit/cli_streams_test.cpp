@@ -70,6 +70,8 @@ const std::vector<std::string> printing[] = {{"info", "furnace"},
                                              {"bounds"},
                                              {"directions", "-m", "4", "--stats"},
                                              {"--help"},
+                                             {"--version"},
+                                             {"solve", "--help"},
                                              {"transfers", "furnace", "--direction", "1,2,3"},
                                              {"factors", "furnace", "-m", "8"},
                                              {"directions", "-m", "10000"}};

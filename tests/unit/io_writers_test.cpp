@@ -374,6 +374,9 @@ TEST(IoWholeFiles, PathsAreCheckedInAdvance) {
   const std::string long_name = std::string(300, 'a') + ".csv";
   EXPECT_THAT(test::refusal([&] { check_result_path(folder / long_name); }),
               HasSubstr("File name too long"));
+  const std::string series = std::string(250, 'a') + ".pvd";
+  EXPECT_THAT(test::refusal([&] { ResultSeries(folder / series); }),
+              HasSubstr("File name too long"));
   if (::geteuid() != 0) {
     std::filesystem::create_directory(folder / "closed");
     ::chmod((folder / "closed").c_str(), 0500);

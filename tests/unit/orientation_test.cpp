@@ -315,6 +315,14 @@ TEST(BackFraction, IsOneInARoomInsideOut) {
   EXPECT_EQ(back_fraction(Scene(description)).open, 1);
 }
 
+/// Nothing tells that it is meant to be seen from inside; a sky lights it.
+TEST(BackFraction, IsZeroOfASolidWithoutLight) {
+  Sketch sketch;
+  sketch.box({0, 0, 0}, {1, 1, 1}, false, sketch.material(0.5, 0));
+  EXPECT_EQ(back_fraction(*sketch.scene()).fraction, 0);
+  EXPECT_EQ(back_fraction(*sketch.scene()).open, 1);
+}
+
 TEST(BackFraction, OfASealedRoomWithTwoSidedFacesIsZeroAndItIsClosed) {
   const auto scene = room().scene({.two_sided = true});
   EXPECT_EQ(back_fraction(*scene).fraction, 0);

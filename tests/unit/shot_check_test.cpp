@@ -65,6 +65,12 @@ TEST(ShotCheck, IsSilentOnSoundShots) {
   }
 }
 
+/// Patch 635 sees a lamp through a gap that one of these directions meets.
+TEST(ShotCheck, IsSilentWhereADirectionMeetsANarrowGap) {
+  const auto scene = load_scene("rooms:n=200");
+  EXPECT_LT(checked(scene, {.directions = 300}).shot_disagreement, 1);
+}
+
 TEST(NightlyShotCheck, IsSilentOnSoundShotsForAnyNumberOfDirections) {
   for (const BuiltInScene& scene : built_in_scenes()) {
     expect_no_alarm(scene.name, {1, 2, 6, 12, 48, 96, 512, 2048, 8192});

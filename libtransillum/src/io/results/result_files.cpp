@@ -70,11 +70,20 @@ void write_result(const std::filesystem::path& path, const Solution& solution,
   write_file_whole(path, [&](std::ostream& out) { write(out, solution, display); });
 }
 
+namespace {
+
+std::filesystem::path member_of_series(const std::filesystem::path& series, std::size_t number) {
+  return series.parent_path() / fmt::format("{}-{:04}.vtp", series.stem().string(), number);
+}
+
+}  // namespace
+
 ResultSeries::ResultSeries(std::filesystem::path path) : path_(std::move(path)) {
   if (lower_case_ending(path_) != ".pvd") {
     throw InputError(fmt::format("{}: the name of a series must end in .pvd", path_.string()));
   }
   check_writable(path_);
+  check_writable(member_of_series(path_, 1'000'000));  // longer than any name that is used
 }
 
 void ResultSeries::check_apart_from(const std::vector<std::string>& files) const {
@@ -100,17 +109,14 @@ void ResultSeries::check_apart_from(const std::vector<std::string>& files) const
 }
 
 void ResultSeries::add(const Solution& solution, double time) {
-  const auto name = [&](std::size_t number) {
-    return fmt::format("{}-{:04}.vtp", path_.stem().string(), number);
-  };
-  write_result(path_.parent_path() / name(times_.size() + 1), solution);
+  write_result(member_of_series(path_, times_.size() + 1), solution);
   times_.push_back(time);
   write_file_whole(path_, [&](std::ostream& out) {
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
            "  <Collection>\n";
     for (std::size_t k = 0; k < times_.size(); ++k) {
       out << fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", times_[k],
-                         xml_text(name(k + 1)));
+                         xml_text(member_of_series(path_, k + 1).filename().string()));
     }
     out << "  </Collection>\n</VTKFile>\n";
   });

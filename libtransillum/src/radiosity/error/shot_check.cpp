@@ -26,7 +26,7 @@ constexpr double tolerated = 0.02;
 constexpr double surprising = 1e5;
 /// Share of the most light of a direction below which what is received may be seen through a narrow
 /// gap, as there are many.
-constexpr double negligible = 0.02;
+constexpr double negligible = 0.05;
 
 }  // namespace
 

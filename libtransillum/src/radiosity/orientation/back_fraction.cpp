@@ -24,12 +24,6 @@ constexpr std::size_t path_count = 1U << 13, longest_path = 16, paths_in_block =
 /// Fraction of the paths below which light meets nothing that counts.
 constexpr double nothing = 1e-3;
 
-/// Findings of a ray from a lit side.
-struct OpenSide {
-  bool open = false;         ///< nothing; on a two-sided face, nothing on either side
-  bool dark_inside = false;  ///< and the ray back from the same point met a back
-};
-
 /// A surface that light meets.
 struct Hit {
   PatchId patch = no_patch;
@@ -46,12 +40,13 @@ class RaySampler {
         embree_(scene, cancellation),
         workers_(thread_count(threads)) {}
 
-  /// Rays from points of these patches' lit sides, uniform by area.
-  std::vector<OpenSide> sample_sides(const std::vector<PatchId>& patches) {
-    return sampled<OpenSide>(patches, ray_count, rays_in_block, 0,
-                             [this](const SurfacePoints::Point& start, RandomNumbers& random) {
-                               return side_from(start, random);
-                             });
+  /// Rays from points of these patches' lit sides, uniform by area: whether they meet nothing, on
+  /// two-sided faces on either side.
+  std::vector<char> sample_sides(const std::vector<PatchId>& patches) {
+    return sampled<char>(patches, ray_count, rays_in_block, 0,
+                         [this](const SurfacePoints::Point& start, RandomNumbers& random) {
+                           return is_open_from(start, random);
+                         });
   }
 
   /// Paths of light from points of these patches' lit sides, or of their backs, uniform by area.
@@ -105,16 +100,16 @@ class RaySampler {
     return lit == no_patch ? Hit{meeting->patch, true} : Hit{lit, false};
   }
 
-  OpenSide side_from(const SurfacePoints::Point& start, RandomNumbers& random) const {
+  char is_open_from(const SurfacePoints::Point& start, RandomNumbers& random) const {
     const Vec3& normal = scene_.patch(start.patch).normal;
     const Vec3 direction = diffuse_direction(normal, random);
     const Vec3 origin = start.position + ray_lift * normal;
     double distance = 0;
     if (first_hit(origin, direction, distance) || !starts_outside(start.patch, origin, direction)) {
-      return {};
+      return false;
     }
-    const auto inner = first_hit(start.position - ray_lift * normal, -direction, distance);
-    return {!(inner && is_two_sided(start.patch)), inner && inner->back};
+    return !is_two_sided(start.patch) ||
+           !first_hit(start.position - ray_lift * normal, -direction, distance);
   }
 
   Path path_from(Vec3 position, Vec3 normal, RandomNumbers& random) const {
@@ -220,16 +215,14 @@ BackFraction back_fraction(const Scene& scene, int threads, const Cancellation& 
   RaySampler rays(scene, threads, cancellation);
   std::vector<PatchId> patches(scene.patches().size());
   std::iota(patches.begin(), patches.end(), PatchId{0});
-  std::int64_t open = 0, dark = 0;
-  for (const OpenSide& side : rays.sample_sides(patches)) {
-    open += side.open ? 1 : 0;
-    dark += side.dark_inside ? 1 : 0;
+  std::int64_t open = 0;
+  for (const bool is_open : rays.sample_sides(patches)) {
+    open += is_open ? 1 : 0;
   }
   BackFraction result;
   result.open = static_cast<double>(open) / double{ray_count};
   const auto [met, turned_away] = follow_light(scene, patches, rays);
   if (PathCounts::is_nothing(met.all.seen)) {
-    result.fraction = dark > std::int64_t{ray_count} / 2 ? 1 : 0;
     return result;
   }
   std::vector<std::string> names;
