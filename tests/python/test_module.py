@@ -6,6 +6,7 @@ import os
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -23,6 +24,20 @@ CUBE = [[0, 1, 2, 3], [4, 7, 6, 5], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3
 
 def room(**options):
     return transillum.load("cornell-box", patches=150, **options)
+
+
+class Import(unittest.TestCase):
+    def test_a_numpy_whose_arrays_would_be_misread_is_refused(self):
+        code = (
+            "import sys, types\n"
+            "numpy = sys.modules['numpy'] = types.ModuleType('numpy')\n"
+            "numpy.__version__ = '2.4.6'\n"
+            "import transillum"
+        )
+        result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertNotEqual(result.returncode, 0)
+        if "pybind11" in result.stderr:  # from 2.12 on it fails elsewhere, for lack of arrays
+            self.assertIn("ImportError: transillum was built", result.stderr)
 
 
 class Pictures(unittest.TestCase):

@@ -233,9 +233,14 @@ class EditingTest : public QObject {
     const Scene fresh(*shown.description, shown.scene->options());
     const MapRecord record =
         record_local_map(fresh, BspTree(fresh), before->record().frame.omega).record;
+    const auto shows_whole = [&] {
+      return !focus.at_step() && focus.position().step == focus.map()->record().step_count() - 1;
+    };
+    QVERIFY(shows_whole());
     QVERIFY(areas_of(focus.map()->record()) == areas_of(record));
     QVERIFY(areas_of(before->record()) != areas_of(record));
     QVERIFY(e.at_rest());
+    QVERIFY(shows_whole());
     QCOMPARE(focus.position().direction, 3);
     QVERIFY(areas_of(focus.map()->record()) == areas_of(record));
   }

@@ -356,7 +356,7 @@ void Focus::replace_map(std::shared_ptr<const RecordedMap> map) {
     return;
   }
   map_ = std::move(map);
-  position_.step = nearest_step(map_->history, position_.step);
+  position_.step = nearest_step(map_->history, at_step() ? position_.step : last_step);
   emit moved();
 }
 

@@ -64,7 +64,12 @@ SceneEdits::SceneEdits(const WindowFrame& frame)
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] {
     Focus& focus = frame_.state.focus;
     if (pinned_ && pinned_->iteration < focus.iterations()) {
-      focus.go_to(*std::exchange(pinned_, std::nullopt));
+      const RunPosition place = *std::exchange(pinned_, std::nullopt);
+      if (pinned_step_) {
+        focus.go_to(place);
+      } else {
+        focus.go_to_direction(place.iteration, place.direction);
+      }
     }
   });
   connect(&frame_.state.selection, &Selection::patches_changed, this,
@@ -306,6 +311,7 @@ void SceneEdits::take_scene(const LiveRequest& request,
     const Focus& focus = frame_.state.focus;
     if (focus.map() && !focus.following()) {
       pinned_ = focus.position();
+      pinned_step_ = focus.at_step();
     }
     frame_.state.scene.solve_faces(scene->loaded, state_.document, *solved_, was_running_);
   } else if (!request.edit) {

@@ -124,6 +124,7 @@ class SceneEdits : public QObject {
   bool awaits_solve_ = false;
   bool was_running_ = false;
   std::optional<RunPosition> pinned_;             ///< direction to show again in the new solve
+  bool pinned_step_ = false;                      ///< and its step, rather than all of it
   std::shared_ptr<const SolverSnapshot> solved_;  ///< from before the moves
   std::shared_ptr<const RecordedMap> map_before_;
   std::shared_ptr<const LiveScene> newest_;
