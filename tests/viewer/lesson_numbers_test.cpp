@@ -387,6 +387,7 @@ const std::vector<ColorWord>& color_words() {
       {3, 3, "the orange areas", theme::inside},
       {3, 3, "all orange areas", theme::inside},
       {3, 6, "its outline is yellow", theme::processed},
+      {3, 8, "The orange lines", theme::inside},
       {4, 3, "The yellow outline", theme::processed},
       {4, 4, "**inside** (orange)", theme::inside},
       {4, 4, "**outside** (blue)", theme::outside},

@@ -22,7 +22,7 @@ const std::map<std::string, Places>& all_places() {
       {"settings", {{inspect, left, 1, 700, front}}},
       {"summary", {{inspect, left, 1, 700}}},
       {"material", {{inspect, left, 1, 700}}},
-      {"move", {{teach, right, 1, 400}, {inspect, right, 1, 330}, {step, above, 1, 330}}},
+      {"move", {{teach, right, 2, 260}, {inspect, right, 1, 330}, {step, above, 1, 330}}},
       {"inspector", {{inspect, right, 1, 330, front}}},
       {"map", {{teach, right, 1, 400}, {inspect, right, 1, 330}, {step, left, 1, 480, front}}},
       {"section", {{teach, right, 1, 400}, {inspect, right, 1, 330}, {step, left, 1, 480}}},
