@@ -54,9 +54,14 @@ std::string error_text(const std::exception& error) {
   return error.what() + remedy_hint(solve_error ? solve_error->remedy() : Remedy::none);
 }
 
+std::string warning_text(const std::string& warning) {
+  const bool is_black = warning.find("has no diffuse reflectance") != std::string::npos;
+  return warning + (is_black ? " (try --reflectance NAME=R)" : "");
+}
+
 void print_warnings(const Scene& scene) {
   for (const std::string& warning : scene.report().warnings) {
-    print_message("warning: " + warning);
+    print_message("warning: " + warning_text(warning));
   }
 }
 

@@ -20,6 +20,8 @@ void print_message(std::string_view text) noexcept;
 std::string remedy_hint(Remedy remedy);
 /// The text of an error, with the hint of a SolveError.
 std::string error_text(const std::exception& error);
+/// A warning about a scene, with the option that may help.
+std::string warning_text(const std::string& warning);
 /// Prints what was repaired in the scene, one warning per line.
 void print_warnings(const Scene& scene);
 

@@ -36,6 +36,23 @@ std::shared_ptr<const Scene> box_on_a_plane(int divisions) {
   return sketch.scene();
 }
 
+/// The same box, each of whose sides is a grid of patches.
+std::shared_ptr<const Scene> box_of_patches() {
+  Sketch sketch("box of patches");
+  const int gray = sketch.material(0.5, 0);
+  const auto add = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
+    sketch.grid(corner, u, v, 3, [&](double, double) { return gray; });
+  };
+  sketch.face({{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}}, gray);
+  const Vec3 low{0.3, 0.4, 0}, x{2, 0, 0}, y{0, 1, 0}, z{0, 0, 3};
+  add(low + z, x, y);
+  add(low, x, z);
+  add(low + x, y, z);
+  add(low + x + y, -x, z);
+  add(low + y, -y, z);
+  return sketch.scene();
+}
+
 /// Triangles and tetrahedra, some of which intersect, over a floor; turned by a random rotation.
 std::shared_ptr<const Scene> clutter(std::uint64_t seed) {
   Sketch sketch("clutter");
@@ -111,6 +128,44 @@ TEST(ShadowEdges, OfALampAreTheOutlinesOfLampAndBoard) {
   EXPECT_EQ(length_along({0, 0, -1}), 0);
 }
 
+/// Neighboring patches of the box have edges on the same line, which are different lines of the
+/// tree.
+TEST(ShadowEdges, OfABoxOfPatchesAreTheSame) {
+  const auto scene = box_of_patches();
+  for (const Vec3& direction : {Vec3{0.5, 0.7, 1}, Vec3{-0.31, 0.17, 0.6}, Vec3{0.5, 0, 1}}) {
+    const Vec3 sun = normalized(direction);
+    double length = 0;
+    for (const ShadowEdge& edge : edges_of(*scene, sun)) {
+      EXPECT_EQ(edge.patch, 0) << "no side of the box is partly lit";
+      length += norm(edge.b - edge.a);
+    }
+    const double x = 3 * direction.x / direction.z, y = 3 * direction.y / direction.z;
+    EXPECT_NEAR(length, 2 * (2 + 1) + 2 * std::hypot(x, y), 1e-9);
+  }
+}
+
+/// One half of the lamp has an edge, the other has it in two parts.
+TEST(ShadowEdges, OfALampWithAHangingNodeAreItsOutline) {
+  Sketch sketch("lamp of three");
+  const int gray = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
+  sketch.face({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, gray);
+  sketch.face({{0, 0, 2}, {0, 1, 2}, {0.5, 1, 2}, {0.5, 0, 2}}, lamp);
+  sketch.face({{0.5, 0, 2}, {0.5, 0.3, 2}, {1, 0.3, 2}, {1, 0, 2}}, lamp);
+  sketch.face({{0.5, 0.3, 2}, {0.5, 1, 2}, {1, 1, 2}, {1, 0.3, 2}}, lamp);
+  const auto scene = sketch.scene();
+  const BspTree tree(*scene);
+  double length = 0;
+  for (const Vec3& omega : {Vec3{0, 0, 1}, normalized(Vec3{0.2, -0.1, 1})}) {
+    length = 0;
+    for (const ShadowEdge& edge :
+         lamp_shadow_edges(*scene, tree, record_local_map(*scene, tree, omega).record,
+                           {false, true, true, true})) {
+      length += norm(edge.b - edge.a);
+    }
+    EXPECT_NEAR(length, 4, 1e-9);
+  }
+}
+
 TEST(ShadowEdges, AreNoneWithoutShadows) {
   Sketch sketch("a floor");
   const int gray = sketch.material(0.5, 0);
@@ -135,6 +190,26 @@ TEST(ShadowEdges, PatchesDividedAlongThemAreInTheSunOrNot) {
     EXPECT_LT(largest_mixed_area(divided, sun), 1e-9) << scene->name();
     EXPECT_NEAR(area_of(*divided), area_of(*scene), 1e-12 * area_of(*scene));
   }
+}
+
+/// A frame is concave; only the shadow's part on it divides it, and no other point is added.
+TEST(ShadowEdges, DivideConcavePatchesAndAddNoUnusedPoints) {
+  Sketch sketch("an L below a sheet");
+  const int gray = sketch.material(0.5, 0);
+  sketch.face({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}}, gray);
+  sketch.face({{2, 0.2, 1}, {3, 0.2, 1}, {3, 3, 1}, {2, 3, 1}}, gray);
+  const auto scene = sketch.scene();
+  const Vec3 sun{0, 0, 1};
+  const auto divided = divided_scene(scene, {"patch:1", division_by_shadows(sun)});
+  EXPECT_LT(largest_mixed_area(divided, sun), 1e-12);
+  EXPECT_NEAR(area_of(*divided), area_of(*scene), 1e-12);
+  std::vector<bool> used(divided->points().size(), false);
+  for (PatchId i = 0; i < divided->patch_count(); ++i) {
+    for (const PointId p : divided->outline(i)) {
+      used[static_cast<std::size_t>(p)] = true;
+    }
+  }
+  EXPECT_THAT(used, ::testing::Each(true));
 }
 
 TEST(ShadowEdges, BothSidesOfASheetAreDividedAlike) {

@@ -123,6 +123,27 @@ std::string box_obj(double low, double high, int first_vertex) {
   return text.str();
 }
 
+/// A triangle whose material is metallic by default.
+constexpr const char* metal = R"({"asset": {"version": "2.0"}, "scene": 0,
+"scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+"materials": [{"name": "steel", "pbrMetallicRoughness": {}}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}],
+"buffers": [{"byteLength": 36, "uri":
+"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+
+TEST(CliInfo, SuggestsAReflectanceForAMetal) {
+  const TemporaryFolder folder;
+  write_text(folder / "metal.gltf", metal);
+  const ProgramResult info = run_program({"info", folder / "metal.gltf"});
+  EXPECT_EQ(info.status, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("reflectance; rho = 0"));
+  EXPECT_THAT(info.out, HasSubstr("(try --reflectance NAME=R)"));
+  EXPECT_THAT(run_program({"info", folder / "metal.gltf", "--reflectance", "steel=0.5"}).out,
+              HasSubstr("rho max            0.5"));
+}
+
 /// A hollow model is treated as a room and turned inward; the sky then meets only its backs.
 TEST(CliOrient, SaysWhereASkyLightsNoFace) {
   const TemporaryFolder folder;

@@ -123,6 +123,8 @@ class SceneDrawingTest : public QObject {
                                << "show_wireframe" << theme::scene_background;
     QTest::newRow("cut patches") << "boards"
                                  << "show_fragments" << theme::outside;
+    QTest::newRow("shadow edges") << "boards"
+                                  << "show_shadows" << theme::inside;
   }
   void each_overlay_is_drawn() {
     QFETCH(const QString, scene);

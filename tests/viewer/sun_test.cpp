@@ -65,6 +65,7 @@ struct Yard {
     return shown.window->findChild<Widget*>(name);
   }
   const Sun& solved_sun() const { return shown.window->snapshot()->options.sky.sun; }
+  MaterialEdits& edits() const { return shown.window->relighting.edits(); }
   /// Waits until the scene is solved with the place of the sun that is shown.
   bool solves() const {
     return wait_for([this] {
@@ -214,8 +215,14 @@ class SunTest : public QObject {
     QVERIFY(std::abs(length - 4) < 1e-9);
     auto* divide = scene.part<QAction>("divide_shadows");
     QVERIFY(divide->isEnabled());
+    // Materials of a solve to come would not be those of the division.
+    scene.edits().set_reflectance("face:0", {0.1, 0.1, 0.1});
+    QVERIFY(!divide->isEnabled() && divide->toolTip().contains("press Solve first"));
+    scene.edits().restore();
+    QVERIFY(divide->isEnabled());
     divide->trigger();
-    QVERIFY(wait_for([&] { return window.snapshot()->loaded->scene->patch_count() == 7; }));
+    QVERIFY(wait_for(
+        [&] { return window.snapshot() && window.snapshot()->loaded->scene->patch_count() == 7; }));
     QVERIFY(scene.solves());
     edges = finder->edges(*window.snapshot()->loaded);
     QVERIFY(edges && edges->empty());
@@ -227,6 +234,9 @@ class SunTest : public QObject {
     QVERIFY(darkest < 20);
     scene.shown.trigger("copy_solve");
     QVERIFY(QApplication::clipboard()->text().contains("--divide shadows:0,0,1"));
+    scene.shown.trigger("undo");
+    QVERIFY(wait_for(
+        [&] { return window.snapshot() && window.snapshot()->loaded->scene->patch_count() == 3; }));
   }
 
   void a_night_is_dark() {

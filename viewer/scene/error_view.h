@@ -37,8 +37,7 @@ class ErrorView : public QWidget {
 
   /// @param view  gives the camera that the pictures are taken from
   /// @param edits  changed materials have to be solved before errors are measured; outlives this
-  ErrorView(std::function<ViewPoint()> view, const MaterialEdits& edits,
-            QWidget* parent = nullptr);
+  ErrorView(std::function<ViewPoint()> view, const MaterialEdits& edits, QWidget* parent = nullptr);
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   /// Measures these runs whenever the panel is visible and a scene is open. Without runs, it

@@ -140,6 +140,7 @@ void SceneView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
 void SceneView::request_shadows() {
   if (!overlays_->shown(SceneOverlays::Kind::shadows)) {
     shadow_finder_->clear();
+    overlays_->show_shadows({});
   } else if (snapshot_) {
     shadow_finder_->request(*snapshot_, focus_.map());
   }

@@ -3,7 +3,7 @@
 
 namespace transillum::viewer {
 
-// While the sun or an object is moved, a late answer is better than none.
+// While the sun is moved, a late answer is better than none.
 ShadowFinder::ShadowFinder(QObject* parent)
     : QObject(parent),
       edges_(
@@ -11,13 +11,19 @@ ShadowFinder::ShadowFinder(QObject* parent)
 
 void ShadowFinder::request(const SolverSnapshot& snapshot,
                            const std::shared_ptr<const RecordedMap>& map) {
-  const Sun& sun = snapshot.options.sky.sun;
+  const Sun& sun = (snapshot.of_file ? snapshot.loaded->stored->sky : snapshot.options.sky).sun;
   Request request{.loaded = snapshot.loaded, .materials = nullptr, .sun = {}, .map = nullptr};
   if (sun.is_set()) {
     request.sun = sun.direction;
   } else if (map && map->loaded == snapshot.loaded) {
     request.map = map;
     request.materials = snapshot.materials;
+  } else {
+    return;  // while an object is moved, its map follows
+  }
+  if (loaded_ != snapshot.loaded) {
+    edges_.clear();
+    loaded_ = snapshot.loaded;
   }
   edges_.request(request);
 }

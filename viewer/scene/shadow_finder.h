@@ -26,7 +26,10 @@ class ShadowFinder : public QObject {
   /// @param map  of the direction shown, may be null or of another scene
   void request(const SolverSnapshot& snapshot, const std::shared_ptr<const RecordedMap>& map);
   /// Stops what is being computed, and forgets what was.
-  void clear() { edges_.clear(); }
+  void clear() {
+    edges_.clear();
+    loaded_ = nullptr;
+  }
   /// Null until the edges of the scene are found, or if there is no light to find them for.
   const std::vector<ShadowEdge>* edges(const LoadedScene& loaded) const;
   bool busy() const { return edges_.busy(); }
@@ -49,6 +52,7 @@ class ShadowFinder : public QObject {
   };
   static Found find(const Request& request, const Cancellation& cancellation);
 
+  std::shared_ptr<const LoadedScene> loaded_;  ///< the newest request is for it
   KeptResult<Request, Found> edges_;
 };
 

@@ -107,7 +107,7 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
             tr("Cuts of the BSP tree"),
             tr("Draw the fragments of the patches that the BSP tree cuts"));
   add_lines(Overlay::shadows, SceneOverlays::Kind::shadows, "show_shadows", tr("Shadow edges"),
-            tr("Draw where the sun's shadows end; without a sun, those of lamps along the\n"
+            tr("Draw the edges of the sun's shadows; without a sun, of lamps' shadows along the\n"
                "direction whose map is shown"));
   menu->addSeparator();
   connect(add_overlay(Overlay::wireframe, "show_wireframe", tr("Wireframe"),

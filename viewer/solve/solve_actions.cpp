@@ -41,7 +41,7 @@ SolveActions::SolveActions(QObject* parent) : QObject(parent) {
   connect(one_iteration_, &QAction::triggered, this, &SolveActions::one_iteration);
   connect(stop_, &QAction::triggered, this, &SolveActions::stop);
   show_state(RunState::empty, true);
-  show_sun(false);
+  set_division_refused(tr("No scene is open"));
 }
 
 void SolveActions::add_to(QWidget& menu) const {
@@ -49,8 +49,8 @@ void SolveActions::add_to(QWidget& menu) const {
   menu.addAction(divide_);
 }
 
-void SolveActions::show_sun(bool has_sun) {
-  enable_if(*divide_, has_sun, tr("The solve has no sun (Solve settings, Sky)"));
+void SolveActions::set_division_refused(const QString& why) {
+  enable_if(*divide_, why.isEmpty(), why);
 }
 
 QList<QAction*> SolveActions::tools(bool single) const {

@@ -25,8 +25,8 @@ class SolveActions : public QObject {
   /// Enables the actions that apply.
   /// @param at_start no direction has been processed yet
   void show_state(RunState state, bool at_start);
-  /// Enables what needs a sun.
-  void show_sun(bool has_sun);
+  /// Enables the division along the edges of shadows, unless there is a reason against it.
+  void set_division_refused(const QString& why);
 
  signals:
   void run();

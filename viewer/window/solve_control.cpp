@@ -51,8 +51,10 @@ SolveControl::SolveControl(const WindowFrame& frame, SettingsPanel& settings, So
   connect(&runner, &SolveRunner::state_changed, this, &SolveControl::show_state);
   connect(&frame_.state.scene, &OpenScene::snapshot_ready, this, [this] {
     actions_.show_state(frame_.state.runner.state(), frame_.state.scene.at_start());
-    actions_.show_sun(frame_.state.scene.snapshot()->options.sky.sun.is_set());
+    show_division();
   });
+  connect(&frame_.state.relighting.edits(), &MaterialEdits::changed, this,
+          &SolveControl::show_division);
   connect(&actions_, &SolveActions::divide_along_shadows, this,
           &SolveControl::divide_along_shadows);
   connect(&settings_, &SettingsPanel::restart_clicked, this, &SolveControl::solve_settings);
@@ -214,16 +216,27 @@ void SolveControl::finish() {
 }
 
 void SolveControl::divide_along_shadows() {
-  const auto snapshot = frame_.state.scene.snapshot();
-  if (!snapshot || !snapshot->options.sky.sun.is_set() || !may_solve_again()) {
+  SolveOptions solve = settings_.solve_options();
+  if (!frame_.state.scene.loaded() || !solve.sky.sun.is_set() || !may_solve_again()) {
     return;
   }
+  if (settings_.total()) {
+    solve.goal = {};  // nothing more is divided
+  }
   frame_.notifier.dismiss();
-  frame_.state.runner.restart(
-      {.solve = settings_.solve_options(),
-       .from = frame_.state.scene.loaded(),
-       .division = division_by_shadows(snapshot->options.sky.sun.direction)},
-      {Goal::Kind::finished});
+  undo_.remember();
+  frame_.state.runner.restart({.solve = solve,
+                               .from = frame_.state.scene.loaded(),
+                               .division = division_by_shadows(solve.sky.sun.direction)},
+                              {Goal::Kind::finished});
+}
+
+void SolveControl::show_division() {
+  const auto& snapshot = frame_.state.scene.snapshot();
+  const QString unsolved = frame_.state.relighting.edits().why_unsolved();
+  actions_.set_division_refused(snapshot && snapshot->options.sky.sun.is_set()
+                                    ? unsolved
+                                    : tr("The solve has no sun (Solve settings, Sky)"));
 }
 
 void SolveControl::take_step(const NextStep& step) {

@@ -58,6 +58,7 @@ class SolveControl : public QObject {
   void open_again();
   void start_over();
   void divide_along_shadows();
+  void show_division();
   void show_state(RunState state);
 
   WindowFrame frame_;

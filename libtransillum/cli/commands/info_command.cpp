@@ -87,7 +87,7 @@ void print_repairs(const SceneReport& report) {
     }
   }
   for (const std::string& warning : report.warnings) {
-    print_row("warning", warning);
+    print_row("warning", warning_text(warning));
   }
 }
 

@@ -95,7 +95,7 @@ struct BackFraction {
   static constexpr double worth_a_warning = 0.1;
 
   /// The fraction of backs in what light meets, in [0,1]; 0 where it meets nothing, as around a
-  /// convex solid. Where the light of all sources leaves the scene: 1, since they are turned away.
+  /// convex solid, but 1 where something is behind all sources: they are turned away.
   double fraction = 0;
   /// Fraction of the lines from lit sides that meet nothing, in [0,1]. Through a two-sided face, a
   /// line counts where it meets nothing on either side, so that a sealed room of two-sided faces

@@ -28,8 +28,8 @@ struct SceneInput {
   std::int64_t patches = 0;
   /// Patches that are divided into about four, one entry after the other: the name of a surface,
   /// "all" for all patches, or "patch:3,7-20" for patches by their numbers after the entries
-  /// before it, as rounds and steps choose them. "shadows:1,0,2" divides along the edges of the
-  /// shadows of light from that direction.
+  /// before it, as rounds and steps choose them. "shadows:1,0,2" divides along the edges of
+  /// shadows; the direction is that to the light.
   std::vector<std::string> divided = {};
 
   /// Exact comparison of all members.

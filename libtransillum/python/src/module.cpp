@@ -11,15 +11,18 @@ namespace py = pybind11;
 
 namespace {
 
+constexpr const char* pybind11_version =
+    PYBIND11_TOSTRING(PYBIND11_VERSION_MAJOR) "." PYBIND11_TOSTRING(PYBIND11_VERSION_MINOR);
+
 /// Before 2.12, pybind11 reads arrays of NumPy 2 wrongly and without an error.
 void check_numpy() {
   constexpr bool reads_numpy_2 =
       PYBIND11_VERSION_MAJOR > 2 || (PYBIND11_VERSION_MAJOR == 2 && PYBIND11_VERSION_MINOR >= 12);
   const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
   if (!reads_numpy_2 && std::stoi(version) >= 2) {
-    throw py::import_error("transillum was built with pybind11 " PYBIND11_TOSTRING(
-        PYBIND11_VERSION_MAJOR) "." PYBIND11_TOSTRING(PYBIND11_VERSION_MINOR) ", which reads NumPy " +
-                           version + " wrongly: use NumPy 1, or build it with pybind11 2.12");
+    throw py::import_error(std::string("transillum was built with pybind11 ") + pybind11_version +
+                           ", which reads NumPy " + version +
+                           " wrongly: use NumPy 1, or build it with pybind11 2.12 or later");
   }
 }
 
@@ -28,6 +31,7 @@ void check_numpy() {
 PYBIND11_MODULE(_core, module) {
   using namespace transillum;
   check_numpy();
+  module.attr("pybind11_version") = pybind11_version;
   py::register_exception<InputError>(module, "InputError", PyExc_ValueError);
   module.attr("__version__") = TRANSILLUM_VERSION;
   module.def("options", &python::option_list);

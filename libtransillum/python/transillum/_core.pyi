@@ -16,6 +16,7 @@ _Triple = tuple[float, float, float]
 _Progress = Optional[Callable[[dict[str, Any]], Any]]
 
 __version__: str
+pybind11_version: str
 
 class InputError(ValueError): ...
 

@@ -461,7 +461,8 @@ void add_reading(Table& t) {
   Option& divide =
       t.add("divide", "PATCHES", "names of surfaces or numbers of patches, or none",
             "divide each patch of a surface into about four; all: of all surfaces; patch:3,7-20: "
-            "these patches; shadows:X,Y,Z: along the shadow edges of light from that direction; "
+            "these patches; shadows:X,Y,Z: along the edges of shadows, X,Y,Z being the direction "
+            "to the light; "
             "several with ; between them are divided one after the other");
   divide.unset = "none";
   divide.parse = [](RunOptions& o, const std::string& text) {

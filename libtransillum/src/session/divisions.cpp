@@ -175,7 +175,6 @@ std::shared_ptr<const Scene> divided_scene(std::shared_ptr<const Scene> scene,
   for (const std::string& name : names) {
     if (is_by_shadows(name)) {
       scene = divided_along_shadows(*scene, direction_of_shadows(name), cancellation);
-      check_memory(scene->name(), scene->patch_count());
       continue;
     }
     const std::vector<PatchId> patches = patches_of(*scene, name);

@@ -27,7 +27,7 @@ std::vector<PatchId> patches_of_surface(const Scene& scene, const std::string& n
 /// "patch:3,7-20".
 /// @param patches in ascending order
 std::string division_by_numbers(std::span<const PatchId> patches);
-/// The entry that divides patches along the edges of the shadows of light from infinity.
+/// The entry that divides patches along the edges of shadows cast by a light at infinity.
 /// @param to_light of any length above 0
 std::string division_by_shadows(const Vec3& to_light);
 /// The entry that divides these patches of a scene: `name`, if it means them, or their numbers.

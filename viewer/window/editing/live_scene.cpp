@@ -90,7 +90,8 @@ std::shared_ptr<const SolverSnapshot> live_snapshot(
   if (!live->linear_terms.empty() || light != nullptr) {
     live->bases = scene.bases;
   }
-  const bool same_patches = before.patch_count() == after.patch_count();
+  const bool same_patches =
+      std::ranges::equal(before.patches(), after.patches(), {}, &Patch::face, &Patch::face);
   live->materials = same_patches ? materials : nullptr;
   if (light != nullptr) {
     show_light_of(*light, *live);

@@ -41,12 +41,9 @@ CommandActions::CommandActions(const WindowFrame& frame, const MapView& view,
   connect(map_, &QAction::triggered, this, [this] { copy_map({}); });
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, &CommandActions::show_state);
   connect(&frame_.state.colors, &ColorChoice::changed, this, &CommandActions::show_state);
-  connect(&frame_.state.focus, &Focus::moved, this, [this] {
-    const bool any = solve_->isEnabled() && frame_.state.focus.map();
-    for (QAction* action : {map_, step_}) {
-      enable_if(*action, any, tr("No direction is shown yet"));
-    }
-  });
+  connect(&frame_.state.focus, &Focus::moved, this, &CommandActions::show_state);
+  connect(&frame_.state.relighting.edits(), &MaterialEdits::changed, this,
+          &CommandActions::show_state);
 }
 
 void CommandActions::add_to(QMenu& menu) const { menu.addActions({solve_, picture_, map_, step_}); }
@@ -65,6 +62,10 @@ void CommandActions::show_state() {
   enable_if(*solve_, why.isEmpty(), why);
   enable_if(*picture_, why.isEmpty() && is_light,
             why.isEmpty() ? tr("The program makes pictures of light alone") : why);
+  for (QAction* action : {map_, step_}) {
+    enable_if(*action, why.isEmpty() && frame_.state.focus.map(),
+              why.isEmpty() ? tr("No direction is shown yet") : why);
+  }
 }
 
 RunOptions CommandActions::options() const {

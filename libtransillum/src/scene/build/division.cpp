@@ -16,6 +16,7 @@
 
 #include "geometry/convex_partition.h"
 #include "scene/build/patch_builder.h"
+#include "scene/build/patch_count.h"
 #include "scene/build/refinement.h"
 #include "transillum/errors.h"
 
@@ -175,6 +176,8 @@ class PatchDivision {
       cells.push_back(as_vector(whole_.corners(whole_.pieces()[k])));
     }
     for (const PatchCut& cut : cuts) {
+      cancellation_.throw_if_canceled();
+      check_memory(whole_.name(), cell_count_ + static_cast<std::int64_t>(cells.size()));
       for (std::size_t c = 0, count = cells.size(); c < count; ++c) {
         if (auto parts = cut_in_two(cells[c], whole_.patch(i), cut)) {
           cells[c] = std::move(parts->first);
@@ -182,6 +185,7 @@ class PatchDivision {
         }
       }
     }
+    cell_count_ += static_cast<std::int64_t>(cells.size());
     return cells.size() > 1 ? cells : std::vector<Outline>();
   }
 
@@ -200,38 +204,62 @@ class PatchDivision {
       return std::abs(s) <= reach ? 0.0 : s;
     };
     // Where the line of the cut meets the outline: at corners or within edges.
-    std::pair<Outline, Outline> parts;
+    std::pair<Part, Part> parts;
     double first = std::numeric_limits<double>::infinity(), last = -first;
+    const auto meet = [&](const Corner& corner) {
+      const double place = dot(corner.position - cut.a, along);
+      first = std::min(first, place);
+      last = std::max(last, place);
+      parts.first.push_back(corner);
+      parts.second.push_back(corner);
+    };
     for (std::size_t k = 0; k < cell.size(); ++k) {
       const double s = side(k), next = side(k + 1);
-      const auto meet = [&](PointId p) {
-        const double place = dot(at(table_.points(), p) - cut.a, along);
-        first = std::min(first, place);
-        last = std::max(last, place);
-        parts.first.push_back(p);
-        parts.second.push_back(p);
-      };
+      const Corner corner{cell[k], point(k)};
       if (s == 0) {
-        meet(cell[k]);
-      } else {
-        (s > 0 ? parts.first : parts.second).push_back(cell[k]);
-        if (s * next < 0) {
-          // From the same end for both patches of an edge, so that they get the same point.
-          const bool forward = cell[k] < cell[(k + 1) % cell.size()];
-          const Vec3 from = point(forward ? k : k + 1), to = point(forward ? k + 1 : k);
-          const double d = dot(from - cut.a, across), e = dot(to - cut.a, across);
-          meet(table_.id_of(from + (d / (d - e)) * (to - from)));
-        }
+        meet(corner);
+        continue;
+      }
+      (s > 0 ? parts.first : parts.second).push_back(corner);
+      if (s * next < 0) {
+        // From the same end for both cells at an edge, so that they get the same point.
+        const bool forward = cell[k] < cell[(k + 1) % cell.size()];
+        const Vec3 from = point(forward ? k : k + 1), to = point(forward ? k + 1 : k);
+        const double d = dot(from - cut.a, across), e = dot(to - cut.a, across);
+        meet({new_point, from + (d / (d - e)) * (to - from)});
       }
     }
     const bool crosses = std::min(last, length) - std::max(first, 0.0) > reach;
-    const auto is_cell = [&](const Outline& part) {
-      return part.size() >= 3 && !measure(table_.points(), part).degenerate;
-    };
     if (!crosses || !is_cell(parts.first) || !is_cell(parts.second)) {
       return std::nullopt;
     }
-    return parts;
+    return std::pair{outline_of(parts.first), outline_of(parts.second)};
+  }
+
+  /// A corner of a part of a cell; a new one gets its number when the cut is made.
+  struct Corner {
+    PointId point;
+    Vec3 position;
+  };
+  using Part = std::vector<Corner>;
+  static constexpr PointId new_point = -1;
+
+  static bool is_cell(const Part& part) {
+    std::vector<Vec3> positions;
+    Outline outline;
+    for (const Corner& corner : part) {
+      outline.push_back(static_cast<PointId>(positions.size()));
+      positions.push_back(corner.position);
+    }
+    return part.size() >= 3 && !measure(positions, outline).degenerate;
+  }
+
+  Outline outline_of(const Part& part) {
+    Outline outline;
+    for (const Corner& corner : part) {
+      outline.push_back(corner.point == new_point ? table_.id_of(corner.position) : corner.point);
+    }
+    return outline;
   }
 
   static constexpr PatchId patches_between_checks = 256;
@@ -308,6 +336,7 @@ class PatchDivision {
   const Scene& whole_;
   const Cancellation& cancellation_;
   PointTable table_;
+  std::int64_t cell_count_ = 0;  ///< of cells_along() so far
   Scene* scene_ = nullptr;
   std::vector<PatchId> parent_;
 };

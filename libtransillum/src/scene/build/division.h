@@ -33,10 +33,11 @@ struct PatchCut {
   PatchId patch = no_patch;
   Vec3 a, b;
 };
-/// Divides patches along cuts into convex cells, so that no cut lies inside a cell. A cell that a
-/// cut meets is cut across. Cells too thin for the precision of coordinates are not cut off.
+/// Divides patches along cuts into convex cells, so that no cut lies inside a cell, but where one
+/// would be too thin for the precision of coordinates. A cell that a cut meets is cut across; a
+/// concave patch with cuts is divided into its pieces in any case.
 /// @param cuts in any order
-/// @throws InputError where a Scene cannot have so many patches; Canceled
+/// @throws InputError where memory is too small, or a Scene cannot have so many patches; Canceled
 DividedScene divide_along(const Scene& scene, std::span<const PatchCut> cuts,
                           const Cancellation& cancellation = {});
 

@@ -164,12 +164,10 @@ GltfMaterials::Surface GltfMaterials::surface_of(const tinygltf::Material& mater
     }
   }
   if (surface.metallic == 1 && !surface.metallic_texture && !(max_abs(surface.base) == 0)) {
-    notes_.add(
-        "materials that are metals",
-        fmt::format("{}: {} is a metal (metallic factor 1), which has no diffuse "
-                    "reflectance; rho = 0, all that it reflects is its lobe (--reflectance, or the "
-                    "panel Materials, sets another)",
-                    file_.files().front(), place));
+    notes_.add("materials that are metals",
+               fmt::format("{}: {} is a metal (metallic factor 1), which has no diffuse "
+                           "reflectance; rho = 0, all that it reflects is its lobe",
+                           file_.files().front(), place));
   }
   if (material.alphaMode == "BLEND" || material.extensions.contains("KHR_materials_transmission")) {
     notes_.add(
