@@ -123,8 +123,6 @@ class SceneDrawingTest : public QObject {
                                << "show_wireframe" << theme::scene_background;
     QTest::newRow("cut patches") << "boards"
                                  << "show_fragments" << theme::outside;
-    QTest::newRow("shadow edges") << "boards"
-                                  << "show_shadows" << theme::inside;
   }
   void each_overlay_is_drawn() {
     QFETCH(const QString, scene);

@@ -203,6 +203,12 @@ class SunTest : public QObject {
     const TestWindow& window = *scene.shown.window;
     const auto* finder = window.findChild<ShadowFinder*>();
     QVERIFY(!finder->edges(*window.snapshot()->loaded));
+    const QImage without = scene.shown.picture();
+    scene.part<QAction>("show_shadows")->setChecked(true);
+    const QImage with = scene.shown.picture();
+    QVERIFY(!with.isNull() && with != without);
+    scene.part<QAction>("show_shadows")->setChecked(false);
+    QCOMPARE(scene.shown.picture(), without);
     scene.part<QAction>("show_shadows")->setChecked(true);
     QVERIFY(comes_to_rest(window));
     const auto* edges = finder->edges(*window.snapshot()->loaded);
