@@ -95,6 +95,7 @@ class PaletteTest : public QObject {
       QCOMPARE(palette.first("no such thing"), QString("Nothing has these words"));
       QTest::keyClick(palette.query, Qt::Key_Return);
       QVERIFY(palette.dialog);
+      QCOMPARE(palette.first("shadow edges show"), QString("Shadow edges"));
       QCOMPARE(palette.first("events pan"), QString("Events"));
       save_picture(*palette.dialog, "palette");
       QVERIFY(palette.closes_on_return());

@@ -7,10 +7,13 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QPointer>
+#include <QToolButton>
 #include <set>
 #include <string>
 
 #include "colors/quantity.h"
+#include "scene/camera_menu.h"
+#include "scene/scene_page.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
 #include "window/base/dock_layouts.h"
@@ -80,6 +83,11 @@ std::vector<PaletteEntry> PaletteActions::entries() {
     if (action->menu()) {
       add_menu(*action->menu(), without_marks(action->text()), taken, entries);
     }
+  }
+  for (const QToolButton* button :
+       {frame_.page.findChild<QToolButton*>(QStringLiteral("show")),
+        static_cast<QToolButton*>(frame_.page.findChild<CameraMenu*>())}) {
+    add_menu(*button->menu(), button->text().trimmed(), taken, entries);
   }
   add_panels(entries);
   add_quantities(entries);
