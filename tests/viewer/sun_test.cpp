@@ -221,7 +221,7 @@ class SunTest : public QObject {
     QVERIFY(std::abs(length - 4) < 1e-9);
     auto* divide = scene.part<QAction>("divide_shadows");
     QVERIFY(divide->isEnabled());
-    // Materials of a solve to come would not be those of the division.
+    // The division would be solved with the old materials.
     scene.edits().set_reflectance("face:0", {0.1, 0.1, 0.1});
     QVERIFY(!divide->isEnabled() && divide->toolTip().contains("press Solve first"));
     scene.edits().restore();

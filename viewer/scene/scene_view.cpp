@@ -529,20 +529,6 @@ void SceneView::hold(bool held) {
   }
 }
 
-/// @param line_scale  factor of the widths of lines
-void SceneView::prepare_picture(double line_scale, bool smooth) {
-  const auto scale = static_cast<float>(line_scale * canvas_->devicePixelRatioF() * theme::scale());
-  selected_->set_line_width(scale);
-  glyph_->set_line_width(1.5 * scale);
-  step_glyph_->set_line_width(2.5 * scale);
-  overlays_->set_line_width(1.2 * scale);
-  feature_edges_->set_line_width(1.2 * scale);
-  path_glyph_->set_line_width(1.5 * scale);
-  surface_->set_line_width(scale);
-  renderer_->SetUseFXAA(smooth);
-  renderer_->ResetCameraClippingRange();
-}
-
 PatchId SceneView::patch_at(const QPoint& position) const {
   const auto hit = hit_at(position);
   return hit ? hit->patch : no_patch;

@@ -27,7 +27,7 @@ using Outline = std::vector<PointId>;
 
 /// Quadrilaterals longer than this, relative to their width, are divided in a row.
 constexpr double long_shape = 2;
-/// What is nearer to a cut lies on it, relative to the size of its patch.
+/// Largest distance of a corner that counts as on a cut, over the square root of the patch's area.
 constexpr double cut_precision = 1e-9;
 
 double mean_length(const Scene& scene, std::span<const PointId> o, std::size_t edge) {

@@ -13,9 +13,9 @@ struct ShadowEdge {
   Vec3 a, b;                 ///< its ends in the plane of the patch, m
 };
 
-/// The edges of the shadows cast by light that enters the scene along omega: those of the polygons
-/// that are seen from below after the last step, lifted back to their patches. What is also part of
-/// a patch's own outline is omitted.
+/// The edges of the shadows cast by light that enters the scene along omega: edges of the polygons
+/// of V that are seen from below after the last step, lifted back to their patches. Edges on the
+/// outline of their patch are omitted.
 /// @param tree of `scene`
 /// @param record of a direction, with all its steps
 /// @returns sorted by patch
