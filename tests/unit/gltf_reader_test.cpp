@@ -381,8 +381,11 @@ TEST(Gltf, NodesWithoutExtentAreLeftOut) {
     file.add(primitive, node);
     const SceneDescription d = read(file);
     EXPECT_EQ(d.face_count(), 1U);
-    EXPECT_THAT(d.notes, Contains(HasSubstr("1 nodes whose scale is 0, omitted")));
+    EXPECT_THAT(d.notes, Contains(HasSubstr("1 nodes whose scale is 0, omitted; the first is node 1")));
   }
+  File alone;
+  alone.add(square_in(alone), {{"scale", {0, 0, 0}}});
+  EXPECT_THAT(refusal_of(alone.glb(), "a.glb"), HasSubstr("the scale of node 0 is 0"));
 }
 
 // Refused as invalid: more than 1,000,000 values.

@@ -81,9 +81,9 @@ GatheredLight::Gathered GatheredLight::at_point(const Vec3& x, const Vec3& norma
     means[half] = 1 / static_cast<double>(std::max<std::size_t>(set.size(), 1)) * means[half];
   }
   if (table[1].empty()) {
-    return {means[0], means[0]};
+    return {means[0], max_abs(means[0])};
   }
-  return {0.5 * (means[0] + means[1]), 0.5 * (means[0] - means[1])};
+  return {0.5 * (means[0] + means[1]), max_abs(0.5 * (means[0] - means[1]))};
 }
 
 GatheredLight::Arriving GatheredLight::arriving(const Vec3& x, const Vec3& normal,

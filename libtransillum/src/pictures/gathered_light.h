@@ -26,7 +26,8 @@ class GatheredLight {
   /// The light that a point receives.
   struct Gathered {
     Rgb irradiance;  ///< W/m²
-    Rgb noise;       ///< half the difference of what two halves of the rays give, W/m²
+    double noise;    ///< half the difference of what two halves of the rays give, W/m²; the
+                     ///< largest of the channels
   };
   /// @param x on a surface, m
   /// @param normal unit

@@ -122,12 +122,17 @@ std::array<Rgb, 3> terms_of(const Eigen::Matrix3d& gram, const std::array<Rgb, 3
 
 /// The light on the open part of a patch: all of it, or what no solid covers that stands on it.
 struct HitLight::PatchLight {
-  std::array<Rgb, term_count> sources;     ///< coefficients of a quadratic function
-  Rgb low, high;                           ///< limits of its values
-  std::array<Rgb, 3> sources_in_solution;  ///< its mean and linear terms, which the solution has
-  std::array<Rgb, 3> solution;             ///< B without the exitance of lamps: mean, linear terms
-  std::array<double, 2> center{};          ///< middle in the basis
-  Vec3 middle;                             ///< centroid, m
+  /// What differs from constant functions of a whole patch.
+  struct Part {
+    std::array<Rgb, 2> sources_in_solution{};  ///< linear terms of the sources
+    std::array<Rgb, 3> solution{};             ///< B without the exitance of lamps: mean, terms
+    std::array<double, 2> center{};            ///< middle in the basis
+    Vec3 middle;                               ///< centroid, m
+  };
+  std::array<Rgb, term_count> sources;  ///< coefficients of a quadratic function
+  Rgb low, high;                        ///< limits of its values
+  Rgb sources_in_solution;              ///< its mean, which the solution has
+  std::unique_ptr<const Part> part;     ///< null where functions are constant and all is open
 };
 
 HitLight::HitLight(const Solution& solution, const EmbreeScene& embree, const PlanePoints& points,
@@ -151,6 +156,10 @@ HitLight::~HitLight() = default;
 
 Rgb HitLight::exitance(PatchId patch) const {
   return at(is_lamp_, patch) != 0 ? scene_.exitance(patch) : Rgb();
+}
+
+Rgb HitLight::mean_on(PatchId patch) const {
+  return at(solution_.radiosity, patch) - exitance(patch);
 }
 
 bool HitLight::is_open(PatchId patch, const Vec3& x) const {
@@ -226,34 +235,40 @@ std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(
     }
   }
   auto light = std::make_unique<PatchLight>();
-  light->middle = basis.center;
   light->sources = fit.coefficients();
   light->low = fit.low;
   light->high = fit.high;
+  const double whole = fit.gram(0, 0);
+  light->sources_in_solution = 1 / whole * fit.moments[0];
   const bool is_linear = !solution_.linear_terms.empty();
-  light->solution[0] = at(solution_.radiosity, patch) - exitance(patch);
-  if (is_linear) {
-    const LinearTerm& terms = at(solution_.linear_terms, patch);
-    light->solution = {light->solution[0], terms.first, terms.second};
-  }
-  if (!is_partial) {
-    for (std::size_t k = 0; k < (is_linear ? 3 : 1); ++k) {
-      light->sources_in_solution[k] = 1 / fit.gram(0, 0) * fit.moments[k];
-    }
+  if (!is_linear && !is_partial) {
     return light;
   }
-  // A small or narrow part does not determine linear terms.
-  constexpr double least_determinant = 1e-3;
-  const double area = scene_.patch(patch).area;
-  const int count = is_linear && (fit.gram / area).determinant() > least_determinant ? 3 : 1;
-  light->sources_in_solution = terms_of(fit.gram, fit.moments, count);
-  // Lamps that are gathered emit from all of the part.
-  const Rgb emitted = scene_.exitance(patch) - exitance(patch);
-  light->solution[0] = light->solution[0] - emitted;
-  light->solution = terms_of(fit.gram / area, light->solution, count);
-  light->solution[0] += emitted;
-  light->middle = 1 / fit.gram(0, 0) * middle;
-  light->center = {fit.gram(0, 1) / fit.gram(0, 0), fit.gram(0, 2) / fit.gram(0, 0)};
+  PatchLight::Part part;
+  part.middle = basis.center;
+  part.solution[0] = mean_on(patch);
+  if (is_linear) {
+    const LinearTerm& terms = at(solution_.linear_terms, patch);
+    part.solution = {part.solution[0], terms.first, terms.second};
+    part.sources_in_solution = {1 / whole * fit.moments[1], 1 / whole * fit.moments[2]};
+  }
+  if (is_partial) {
+    // A small or narrow part does not determine linear terms.
+    constexpr double least_determinant = 1e-3;
+    const double area = scene_.patch(patch).area;
+    const int count = is_linear && (fit.gram / area).determinant() > least_determinant ? 3 : 1;
+    const std::array<Rgb, 3> known = terms_of(fit.gram, fit.moments, count);
+    light->sources_in_solution = known[0];
+    part.sources_in_solution = {known[1], known[2]};
+    // Lamps that are gathered emit from all of the part.
+    const Rgb emitted = scene_.exitance(patch) - exitance(patch);
+    part.solution[0] = part.solution[0] - emitted;
+    part.solution = terms_of(fit.gram / area, part.solution, count);
+    part.solution[0] += emitted;
+    part.middle = 1 / whole * middle;
+    part.center = {fit.gram(0, 1) / whole, fit.gram(0, 2) / whole};
+  }
+  light->part = std::make_unique<const PatchLight::Part>(part);
   return light;
 }
 
@@ -265,8 +280,9 @@ const HitLight::PatchLight& HitLight::light_on(PatchId patch,
 /// The mean irradiance of a patch by what reflects.
 Rgb HitLight::rest_on(PatchId patch, const Cancellation& cancellation) const {
   const PatchLight& light = light_on(patch, cancellation);
-  const Rgb sent = light.solution[0] + exitance(patch) - scene_.exitance(patch);
-  const Rgb reflected = reflectance_of(solution_, patch), direct = light.sources_in_solution[0];
+  const Rgb mean = light.part ? light.part->solution[0] : mean_on(patch);
+  const Rgb sent = mean + exitance(patch) - scene_.exitance(patch);
+  const Rgb reflected = reflectance_of(solution_, patch), direct = light.sources_in_solution;
   const auto rest = [](double b, double rho, double sources) {
     return rho > 0 ? std::max(b / rho - sources, 0.0) : 0;
   };
@@ -280,7 +296,8 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch,
                                              const Cancellation& cancellation) const {
   const LinearBasis& basis = at(bases_, patch);
   const Rgb own = rest_on(patch, cancellation);
-  const std::array<double, 2>& center = light_on(patch, cancellation).center;
+  const auto& part = light_on(patch, cancellation).part;
+  const std::array<double, 2> center = part ? part->center : std::array<double, 2>();
   Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, 2, 3> right = Eigen::Matrix<double, 2, 3>::Zero();
   Rgb low = own, high = own;
@@ -300,7 +317,8 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch,
     if (j == patch || max_abs(reflectance_of(solution_, j)) == 0) {
       continue;
     }
-    const auto [a, b] = basis.at(light_on(j, cancellation).middle);
+    const auto& part_of_j = light_on(j, cancellation).part;
+    const auto [a, b] = basis.at(part_of_j ? part_of_j->middle : at(bases_, j).center);
     const Rgb other = rest_on(j, cancellation), change = other - own;
     const Eigen::Vector2d apart(a - center[0], b - center[1]);
     const double weight = 1 / apart.squaredNorm();
@@ -331,18 +349,24 @@ Rgb HitLight::at_point(PatchId patch, const Vec3& x, const Cancellation& cancell
   }
   const auto [a, b] = at(bases_, patch).at(x);
   const PatchLight& on_patch = light_on(patch, cancellation);
-  const auto& s = on_patch.solution;
   const auto& c = on_patch.sources;
-  const auto& known = on_patch.sources_in_solution;
   const Rgb value = c[0] + a * (c[1] + b * c[3] + a * c[4]) + b * (c[2] + b * c[5]);
-  Rgb change = limited(value, on_patch.low, on_patch.high) - known[0] - a * known[1] - b * known[2];
+  Rgb change = limited(value, on_patch.low, on_patch.high) - on_patch.sources_in_solution;
+  Rgb light = mean_on(patch);
+  std::array<double, 2> center{};
+  if (on_patch.part) {
+    const auto& [known, s, center_of_part, middle] = *on_patch.part;
+    change = change - a * known[0] - b * known[1];
+    light = s[0] + a * s[1] + b * s[2];
+    center = center_of_part;
+  }
   if (solution_.linear_terms.empty()) {
     const auto& [first, second] = at(slopes_, patch).get([&] {
       return std::make_unique<const Slope>(slope_by_neighbors(patch, cancellation));
     });
-    change += (a - on_patch.center[0]) * first + (b - on_patch.center[1]) * second;
+    change += (a - center[0]) * first + (b - center[1]) * second;
   }
-  const Rgb light = s[0] + a * s[1] + b * s[2] + reflected * change;
+  light += reflected * change;
   return {std::max(light.r, 0.0), std::max(light.g, 0.0), std::max(light.b, 0.0)};
 }
 

@@ -45,6 +45,7 @@ class HitLight {
     Rgb first, second;
   };
 
+  Rgb mean_on(PatchId patch) const;
   bool is_open(PatchId patch, const Vec3& x) const;
   Rgb sources_at(PatchId patch, const Vec3& x, const Cancellation& cancellation) const;
   bool is_partly_open(PatchId patch) const;

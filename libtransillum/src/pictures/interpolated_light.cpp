@@ -129,11 +129,11 @@ struct InterpolatedLight::Cell {
 
   void set(std::size_t corner, const GatheredLight::Gathered& gathered) {
     light[corner] = gathered.irradiance;
-    noise[corner] = max_abs(gathered.noise);
+    noise[corner] = gathered.noise;
   }
   /// RMS over the corners and the middle, W/m²: one value may be small by chance.
-  double noise_with(const Rgb& middle) const {
-    double square = std::pow(max_abs(middle), 2);
+  double noise_with(double middle) const {
+    double square = std::pow(middle, 2);
     for (const double at_corner : noise) {
       square += at_corner * at_corner;
     }
@@ -141,12 +141,21 @@ struct InterpolatedLight::Cell {
   }
 };
 
+struct InterpolatedLight::Quad {
+  std::array<Vec3, 4> corners;
+  std::array<std::int32_t, 4> node;  ///< index of a PlanePoint; -1: no point of the scene
+  Kept<Cell> root{};
+};
+
 struct InterpolatedLight::PatchCells {
+  /// Light at points of the patch that are no points of the scene.
+  struct Inside {
+    mutable std::mutex mutex;
+    mutable std::unordered_map<Place, GatheredLight::Gathered, PlaceHash> light;
+  };
   PatchId patch;
   std::vector<Quad> quads;
-  std::vector<Kept<Cell>> roots;  ///< by quad
-  mutable std::mutex mutex;
-  mutable std::unordered_map<Place, GatheredLight::Gathered, PlaceHash> light;
+  Kept<Inside> inside;
 };
 
 InterpolatedLight::InterpolatedLight(const Scene& scene, const PlanePoints& points,
@@ -165,23 +174,29 @@ std::unique_ptr<const InterpolatedLight::PatchCells> InterpolatedLight::cells_of
     PatchId patch) const {
   auto cells = std::make_unique<PatchCells>();
   cells->patch = patch;
+  const auto quads_of = [&](std::size_t count) { return count == 4 ? 1 : count; };
+  std::size_t all = 0;
+  for (std::size_t k = points_.first_piece(patch); k < points_.end_piece(patch); ++k) {
+    all += quads_of(points_.outline(k).size());
+  }
+  cells->quads = std::vector<Quad>(all);
+  Quad* next = cells->quads.data();
   for (std::size_t k = points_.first_piece(patch); k < points_.end_piece(patch); ++k) {
     const Corners corners = points_.outline(k);
     const std::size_t count = corners.size();
     const auto node = [&](std::size_t c) { return points_.of_corner(k, c); };
     if (count == 4) {
-      cells->quads.push_back(
-          {{corners[0], corners[1], corners[2], corners[3]}, {node(0), node(1), node(2), node(3)}});
+      next->corners = {corners[0], corners[1], corners[2], corners[3]};
+      next++->node = {node(0), node(1), node(2), node(3)};
       continue;
     }
     const Vec3 middle = middle_of(corners);
     for (std::size_t c = 0; c < count; ++c) {
-      cells->quads.push_back({{corners[c], 0.5 * (corners[c] + corners[(c + 1) % count]), middle,
-                               0.5 * (corners[c] + corners[(c + count - 1) % count])},
-                              {node(c), -1, -1, -1}});
+      next->corners = {corners[c], 0.5 * (corners[c] + corners[(c + 1) % count]), middle,
+                       0.5 * (corners[c] + corners[(c + count - 1) % count])};
+      next++->node = {node(c), -1, -1, -1};
     }
   }
-  cells->roots = std::vector<Kept<Cell>>(cells->quads.size());
   return cells;
 }
 
@@ -197,14 +212,16 @@ const GatheredLight::Gathered& InterpolatedLight::light_of(std::int32_t n,
 /// The light at a point of a patch that is no point of the scene.
 GatheredLight::Gathered InterpolatedLight::light_inside(const PatchCells& cells, const Vec3& x,
                                                         const Cancellation& cancellation) const {
+  const PatchCells::Inside& inside =
+      cells.inside.get([] { return std::make_unique<const PatchCells::Inside>(); });
   // A point that two cells compute differs by rounding: the place that it is rounded to is lit.
   const double step = 0x1p-36 * diagonal_;
   const Vec3 from_low = x - scene_.bounds().low;
   const Place place{std::llround(from_low.x / step), std::llround(from_low.y / step),
                     std::llround(from_low.z / step)};
   {
-    const std::lock_guard lock(cells.mutex);
-    if (const auto found = cells.light.find(place); found != cells.light.end()) {
+    const std::lock_guard lock(inside.mutex);
+    if (const auto found = inside.light.find(place); found != inside.light.end()) {
       return found->second;
     }
   }
@@ -214,14 +231,13 @@ GatheredLight::Gathered InterpolatedLight::light_inside(const PatchCells& cells,
   const Patch& patch = scene_.patch(cells.patch);
   const GatheredLight::Gathered light =
       gathered_.at_point(points_.inward(rounded, patch.center), patch.normal, 0, cancellation);
-  const std::lock_guard lock(cells.mutex);
-  return cells.light.emplace(place, light).first->second;
+  const std::lock_guard lock(inside.mutex);
+  return inside.light.emplace(place, light).first->second;
 }
 
 std::unique_ptr<const InterpolatedLight::Cell> InterpolatedLight::root_of(
-    const PatchCells& cells, std::size_t q, const Cancellation& cancellation) const {
+    const PatchCells& cells, const Quad& quad, const Cancellation& cancellation) const {
   auto root = std::make_unique<Cell>();
-  const Quad& quad = cells.quads[q];
   for (std::size_t c = 0; c < 4; ++c) {
     root->set(c, quad.node[c] >= 0 ? light_of(quad.node[c], cancellation)
                                    : light_inside(cells, quad.corners[c], cancellation));
@@ -299,19 +315,19 @@ Rgb InterpolatedLight::at_point(PatchId patch, const Vec3& x, const Interpolatio
                                 const Cancellation& cancellation) const {
   const PatchCells& cells = at(cells_, patch).get([&] { return cells_of(patch); });
   const Vec3& normal = scene_.patch(patch).normal;
-  std::size_t q = 0;
+  const Quad* quad = cells.quads.data();
   if (cells.quads.size() > 1) {
     double deepest = -HUGE_VAL;
-    for (std::size_t k = 0; k < cells.quads.size(); ++k) {
-      if (const double depth = depth_in(cells.quads[k].corners, normal, x); depth > deepest) {
+    for (const Quad& each : cells.quads) {
+      if (const double depth = depth_in(each.corners, normal, x); depth > deepest) {
         deepest = depth;
-        q = k;
+        quad = &each;
       }
     }
   }
-  std::array<Vec3, 4> corners = cells.quads[q].corners;
+  std::array<Vec3, 4> corners = quad->corners;
   auto [s, t] = coordinates_in(corners, normal, x);
-  const Cell* cell = &cells.roots[q].get([&] { return root_of(cells, q, cancellation); });
+  const Cell* cell = &quad->root.get([&] { return root_of(cells, *quad, cancellation); });
   const double looseness = precision.tolerance / Interpolation().tolerance;
   // If no middle of a cell differs by more than the tolerance, its parts need no check.
   while (size_of(corners) > precision.detail) {

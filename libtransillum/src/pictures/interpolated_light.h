@@ -36,15 +36,12 @@ class InterpolatedLight {
   struct Cell;
   struct Check;
   struct PatchCells;
-  struct Quad {
-    std::array<Vec3, 4> corners;
-    std::array<std::int32_t, 4> node;  ///< index of a PlanePoint; -1: no point of the scene
-  };
+  struct Quad;
   std::unique_ptr<const PatchCells> cells_of(PatchId patch) const;
   const GatheredLight::Gathered& light_of(std::int32_t n, const Cancellation& cancellation) const;
   GatheredLight::Gathered light_inside(const PatchCells& cells, const Vec3& x,
                                        const Cancellation& cancellation) const;
-  std::unique_ptr<const Cell> root_of(const PatchCells& cells, std::size_t q,
+  std::unique_ptr<const Cell> root_of(const PatchCells& cells, const Quad& quad,
                                       const Cancellation& cancellation) const;
   double difference_at_quarters(const PatchCells& cells, const std::array<Vec3, 4>& corners,
                                 const Cell& cell, const Cancellation& cancellation) const;

@@ -48,7 +48,10 @@ class GltfReader {
       add_node(node);
     }
     if (description_.face_count() == 0) {
-      file_.fail("has no triangles");
+      file_.fail(left_out_.without_extent == 0
+                     ? "has no triangles"
+                     : fmt::format("has no triangles: the scale of node {} is 0",
+                                   first_without_extent_));
     }
     note_what_is_left_out();
     add_materials();
@@ -75,7 +78,9 @@ class GltfReader {
     const tinygltf::Mesh& mesh = at(model().meshes, node.mesh);
     place_ = fmt::format("node {}, mesh {}", visit.node, node.mesh);
     if (visit.placement.flattens()) {
-      ++left_out_.without_extent;
+      if (left_out_.without_extent++ == 0) {
+        first_without_extent_ = visit.node;
+      }
       return;
     }
     const std::string& named = node.name.empty() ? mesh.name : node.name;
@@ -375,7 +380,9 @@ class GltfReader {
                                                  options_.default_reflectance));
     note(left_out_.lines, "meshes of points or lines, omitted");
     note(left_out_.without_positions, "meshes without positions, omitted");
-    note(left_out_.without_extent, "nodes whose scale is 0, omitted");
+    note(left_out_.without_extent,
+         fmt::format("nodes whose scale is 0, omitted; the first is node {}",
+                     first_without_extent_));
     note(left_out_.skins, "nodes with a skin, taken in their rest pose");
     note(left_out_.morphs, "meshes with morph targets, taken without them");
     note(static_cast<std::int64_t>(model().lights.size()),
@@ -395,6 +402,7 @@ class GltfReader {
   SceneDescription description_;        ///< triangles; face_material: number in the file
   std::vector<SurfaceColors> varying_;  ///< by triangle; empty: no texture or color of a vertex
   double rounding_ = 0;
+  int first_without_extent_ = 0;
   std::size_t first_point_ = 0;  ///< first point of the primitive that is read
   std::string place_, group_name_;
   std::int32_t group_ = no_group;
