@@ -96,12 +96,18 @@ void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
     const PairScene pair = random_blocked_pair(seed);
     const Scene scene(pair.description());
     const FaceExchange found = exchange_of_faces(scene, ExchangeFinder(scene, {}, 32));
-    const ReferenceExchange reference = reference_exchange(pair, 1e-5, 1e-6 * found.smaller, 100);
+    ReferenceExchange reference = reference_exchange(pair, 1e-5, 1e-6 * found.smaller, 100);
     // The tolerance by points: three of its own estimates, and the error near blockers that touch
     // the face.
-    const double allowed = 3 * found.error + 1e-3 * reference.area + 2e-4 * found.smaller +
-                           3 * reference.error + geometric_error(pair, scene, found.smaller);
-    EXPECT_LE(std::abs(found.area - reference.area), allowed)
+    const auto allowed = [&] {
+      return 3 * found.error + 1e-3 * reference.area + 2e-4 * found.smaller + 3 * reference.error +
+             geometric_error(pair, scene, found.smaller);
+    };
+    if (std::abs(found.area - reference.area) > allowed()) {
+      // A hundred parts may miss the foot of a blocker.
+      reference = reference_exchange(pair, 1e-6, 1e-9 * found.smaller, 20'000);
+    }
+    EXPECT_LE(std::abs(found.area - reference.area), allowed())
         << pair.kind << ", seed " << seed << ": " << found.area << " is not " << reference.area;
     partial += found.error > 0 ? 1 : 0;
   }
@@ -111,8 +117,9 @@ void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
 TEST(AdversePairs, AgreeWithQuadratureInExtendedPrecision) {
   expect_agreement_of_unblocked(0, 180);
   // Edges that meet 1e8 of their lengths away: 0.09 % off, 1.6e-5 of the factor and less. In 2377
-  // and 13361 the first quadrature is 7 times as wrong as it says.
-  for (const std::uint64_t seed : {424, 677, 775, 1351, 1369, 1892, 2377, 13361}) {
+  // and 13361 the first quadrature is 7 times as wrong as it says. In 67667 half of a quad bent by
+  // 5e-6 hides next to nothing of the other half, which was 0.6 % too large.
+  for (const std::uint64_t seed : {424, 677, 775, 1351, 1369, 1892, 2377, 13361, 67667}) {
     expect_agreement_of_unblocked(seed, seed + 1);
   }
 }

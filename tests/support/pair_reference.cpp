@@ -179,8 +179,13 @@ class View {
       return {};
     }
     const Real sign = orientation > 0 ? 1 : -1;
+    // A cut at a corner leaves an edge of next to no length, whose plane is rounding.
+    constexpr Real least_sine = 1e-14L;
     for (std::size_t k = 0; k < blocker.size() && !part.empty(); ++k) {
-      part = clipped(part, sign * cross(blocker[k], blocker[(k + 1) % blocker.size()]), 0);
+      const Vec &a = blocker[k], &b = blocker[(k + 1) % blocker.size()];
+      if (const Vec across = cross(a, b); norm(across) > least_sine * norm(a) * norm(b)) {
+        part = clipped(part, sign * across, 0);
+      }
     }
     return part;
   }

@@ -381,7 +381,8 @@ TEST(Gltf, NodesWithoutExtentAreLeftOut) {
     file.add(primitive, node);
     const SceneDescription d = read(file);
     EXPECT_EQ(d.face_count(), 1U);
-    EXPECT_THAT(d.notes, Contains(HasSubstr("1 nodes whose scale is 0, omitted; the first is node 1")));
+    EXPECT_THAT(d.notes,
+                Contains(HasSubstr("1 nodes whose scale is 0, omitted; the first is node 1")));
   }
   File alone;
   alone.add(square_in(alone), {{"scale", {0, 0, 0}}});

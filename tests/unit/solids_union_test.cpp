@@ -62,6 +62,8 @@ TEST(UniteSolids, BoxesThatCrossLoseWhatIsInsideTheOther) {
     EXPECT_EQ(patch.group, patch.face / 6);  // faces keep their numbers and groups
   }
   EXPECT_EQ(faces.size(), 12u);
+  EXPECT_TRUE(report.removed.empty());
+  EXPECT_EQ(report.cut, (std::vector<std::int32_t>{1, 3, 5, 6, 8, 10}));
 }
 
 TEST(UniteSolids, BoxesThatTouchLoseTheirCommonWall) {
@@ -76,8 +78,10 @@ TEST(UniteSolids, ABoxInsideAnotherVanishes) {
   SceneDescription scene;
   add_box(scene, {0, 0, 0}, {3, 3, 3});
   add_box(scene, {1, 1, 1}, {2, 2, 2});
-  unite_solids(scene);
+  const SolidsReport report = unite_solids(scene);
   EXPECT_NEAR(area_of(scene), 54, 1e-12);
+  EXPECT_EQ(report.removed, (std::vector<std::int32_t>{6, 7, 8, 9, 10, 11}));
+  EXPECT_TRUE(report.cut.empty());
 }
 
 // A block in a room, half sunk into the floor: the floor below it goes, and so does its lower half.

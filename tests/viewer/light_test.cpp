@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Imperfect scenes, in which nothing emits or faces are turned the wrong way: offers of the window,
-// changes of single faces and groups, and the scene file saved with them.
+// Imperfect scenes, in which nothing emits, faces are turned the wrong way or solids cross: offers
+// of the window, changes of single faces and groups, and the scene file saved with them.
 #include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -32,34 +32,30 @@ using namespace test;
 
 namespace {
 
+/// The faces of a cube from (low, low, low) to (high, high, high).
+QByteArray cube(double low, double high, bool inside_out = false, int faces = 6) {
+  QByteArray text;
+  for (int k = 0; k < 8; ++k) {
+    const auto c = [&](int bit) { return QByteArray::number((k >> bit) % 2 == 0 ? low : high); };
+    text += "v " + c(0) + ' ' + c(1) + ' ' + c(2) + '\n';
+  }
+  const int outward[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
+                             {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+  for (const auto& face : std::span(outward).first(static_cast<std::size_t>(faces))) {
+    text += 'f';
+    for (int k = 0; k < 4; ++k) {
+      text += ' ' + QByteArray::number(face[inside_out ? 3 - k : k] - 9);  // the newest points
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 /// A closed room with a box in it. Faces 0 to 5: the room, seen from inside; 6 to 11: the box.
 /// `turned`: all faces of the box have the wrong side out. `open`: the room has no sixth face.
 QByteArray room(bool turned, bool open) {
-  QByteArray text = "mtllib none.mtl\n";
-  const auto add_points = [&](double low, double high) {
-    for (int k = 0; k < 8; ++k) {
-      const auto c = [&](int bit) { return QByteArray::number((k >> bit) % 2 == 0 ? low : high); };
-      text += "v " + c(0) + ' ' + c(1) + ' ' + c(2) + '\n';
-    }
-  };
-  add_points(0, 4);
-  add_points(1, 2.5);
-  const int outward[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
-                             {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
-  const auto add_box = [&](int first, bool inside_out, int faces) {
-    for (const auto& face : std::span(outward).first(static_cast<std::size_t>(faces))) {
-      text += 'f';
-      for (int k = 0; k < 4; ++k) {
-        text += ' ' + QByteArray::number(first + face[inside_out ? 3 - k : k]);
-      }
-      text += '\n';
-    }
-  };
-  text += "g room\nusemtl white\n";
-  add_box(0, true, open ? 5 : 6);
-  text += "g box\nusemtl gray\n";
-  add_box(8, turned, 6);
-  return text;
+  return "mtllib none.mtl\ng room\nusemtl white\n" + cube(0, 4, true, open ? 5 : 6) +
+         "g box\nusemtl gray\n" + cube(1, 2.5, turned);
 }
 
 /// A room in a file, opened and solved.
@@ -399,12 +395,12 @@ class LightTest : public QObject {
       return wait_for([&] { return turn->isVisible(); });
     };
     QVERIFY(begin());
-    QVERIFY(view.previews_turn());
+    QVERIFY(view.shows_preview());
     QVERIFY2(opened.orientation_bar().contains("6 of 12 faces"),
              qPrintable(opened.orientation_bar()));
     save_picture(*opened.window, "turn-preview");
     cancel->click();
-    QVERIFY(!view.previews_turn() && preview->isVisible() && !turn->isVisible());
+    QVERIFY(!view.shows_preview() && preview->isVisible() && !turn->isVisible());
     QVERIFY(opened.scene().patch(8).normal == before);
 
     QVERIFY(begin());
@@ -414,7 +410,7 @@ class LightTest : public QObject {
     QVERIFY(opened.settles());
     QVERIFY(opened.scene().patch(8).normal == -1.0 * before);
     QVERIFY(opened.orientation_bar().isEmpty());
-    QVERIFY(!view.previews_turn());
+    QVERIFY(!view.shows_preview());
     save_picture(*opened.window, "turned-back");
     // Sessions keep the change.
     const QString session = opened.folder.filePath("s.json");
@@ -423,6 +419,56 @@ class LightTest : public QObject {
     other->files().open(session);
     QVERIFY(wait_for([&] { return other->snapshot() && other->settled(); }));
     QVERIFY(other->snapshot()->loaded->scene->patch(8).normal == -1.0 * before);
+  }
+
+  /// Two cubes cross; a third one is inside the first.
+  void solids_are_united_after_a_preview() {
+    const QTemporaryDir folder;
+    write_file(folder.filePath("none.mtl"),
+               "newmtl gray\nKd .4 .4 .4\n"
+               "newmtl lit\nKd .4 .4 .4\nKe 1 1 1\n");
+    const QString path = folder.filePath("cubes.obj");
+    write_file(path, "mtllib none.mtl\nusemtl gray\n" + cube(0, 2) + "usemtl lit\n" + cube(1, 3) +
+                         "usemtl gray\n" + cube(0.5, 0.8));
+    const auto window = make_window(16);
+    window->open(path);
+    const auto text = [&] { return window->views().page.solids_bar()->text(); };
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled() && !text().isEmpty(); }));
+    QVERIFY2(text().startsWith("13 %"), qPrintable(text()));
+    const auto button = [&](const char* name) { return window->findChild<QPushButton*>(name); };
+    const SceneView& view = *window->findChild<SceneView*>();
+    const auto begin = [&] {
+      // Other bars may be in front.
+      for (int bar = 0; bar < 4 && !button("preview_union")->isVisible(); ++bar) {
+        for (auto* next : window->findChildren<QPushButton*>("next_message")) {
+          if (next->isVisible()) {
+            next->click();
+            break;
+          }
+        }
+      }
+      button("preview_union")->click();
+      return wait_for([&] { return button("unite_solids")->isVisible(); });
+    };
+    QVERIFY(begin());
+    QVERIFY(view.shows_preview());
+    QVERIFY2(text().contains("6 faces would go") && text().contains("6 would be cut"),
+             qPrintable(text()));
+    save_picture(*window, "union-preview");
+    button("cancel_union")->click();
+    QVERIFY(!view.shows_preview() && button("preview_union")->isVisible());
+
+    QVERIFY(begin());
+    const auto old = window->snapshot()->loaded;
+    button("unite_solids")->click();
+    QVERIFY(wait_for([&] { return window->snapshot()->loaded != old && window->settled(); }));
+    double area = 0;
+    for (const Patch& patch : window->snapshot()->loaded->scene->patches()) {
+      area += patch.area;
+    }
+    QVERIFY2(std::abs(area - 42) < 1e-9, qPrintable(QString::number(area)));
+    QVERIFY(text().isEmpty() && !view.shows_preview());
+    QVERIFY(window->scene.input().unite_solids);
   }
 
   void a_scene_in_order_has_no_bars() {

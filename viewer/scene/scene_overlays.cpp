@@ -13,14 +13,13 @@
 #include <vtkProperty.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "colors/neutral_light.h"
 #include "transillum/at.h"
-#include "transillum/orientation.h"
 #include "transillum/scene.h"
 #include "widgets/theme.h"
 
@@ -201,7 +200,7 @@ void SceneOverlays::update(Kind kind) {
   }
 }
 
-TurnPreview::TurnPreview(vtkRenderer& renderer) {
+FacePreview::FacePreview(vtkRenderer& renderer) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetColorModeToDirectScalars();
   mapper->SetScalarModeToUseCellData();
@@ -213,51 +212,58 @@ TurnPreview::TurnPreview(vtkRenderer& renderer) {
   actor_ = vtkSmartPointer<vtkActor>::New();
   actor_->SetMapper(mapper);
   actor_->GetProperty()->LightingOff();
+  actor_->GetProperty()->SetLineWidth(2);
   actor_->VisibilityOff();
   renderer.AddActor(actor_);
 }
 
-void TurnPreview::show(const Scene& scene, const OrientationPlan& plan) {
+void FacePreview::show(const Scene& scene, const MarkedFaces& faces) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (const Vec3& p : scene.points()) {
     points->InsertNextPoint(p.x, p.y, p.z);
   }
-  vtkNew<vtkCellArray> polygons;
-  vtkNew<vtkUnsignedCharArray> colors;
+  vtkNew<vtkCellArray> lines, polygons;
+  vtkNew<vtkUnsignedCharArray> colors;  // of the lines, then of the polygons
   colors->SetNumberOfComponents(3);
-  std::set<std::int32_t> turned_faces, two_sided_faces;
-  for (std::size_t f = 0; f < plan.numbers.size(); ++f) {
-    if (plan.turned[f]) {
-      turned_faces.insert(plan.numbers[f]);
-    } else if (plan.two_sided[f]) {
-      two_sided_faces.insert(plan.numbers[f]);
-    }
-  }
-  for (const Piece& piece : scene.pieces()) {
-    const Patch& patch = scene.patch(piece.patch);
-    const bool turned = turned_faces.count(patch.face) > 0;
-    if (!turned && two_sided_faces.count(patch.face) == 0) {
-      continue;
-    }
+  const auto add = [&](const Piece& piece, const QColor& color, double brightness, bool filled) {
     const auto corners = scene.corners(piece);
-    polygons->InsertNextCell(static_cast<int>(corners.size()));
+    vtkCellArray& cells = filled ? *polygons : *lines;
+    cells.InsertNextCell(static_cast<int>(corners.size()) + (filled ? 0 : 1));
     for (const PointId p : corners) {
-      polygons->InsertCellPoint(p);
+      cells.InsertCellPoint(p);
     }
-    const QColor& color = turned ? theme::inside : theme::outside;
-    const double brightness = neutral_brightness(turned ? -patch.normal : patch.normal);
+    if (!filled) {
+      cells.InsertCellPoint(corners[0]);
+    }
     colors->InsertNextTuple3(brightness * color.red(), brightness * color.green(),
                              brightness * color.blue());
+  };
+  const auto is_in = [](const std::vector<std::int32_t>& numbers, const Patch& patch) {
+    return std::binary_search(numbers.begin(), numbers.end(), patch.face);
+  };
+  // Filled, they would hide what they cover.
+  const bool outside_filled = !faces.are_covered;
+  for (const bool filled : {false, true}) {
+    for (const Piece& piece : scene.pieces()) {
+      const Patch& patch = scene.patch(piece.patch);
+      if (filled && is_in(faces.inside, patch)) {
+        add(piece, theme::inside,
+            neutral_brightness(faces.inside_turned ? -patch.normal : patch.normal), filled);
+      } else if (filled == outside_filled && is_in(faces.outside, patch)) {
+        add(piece, theme::outside, filled ? neutral_brightness(patch.normal) : 1, filled);
+      }
+    }
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
+  data->SetLines(lines);
   data->SetPolys(polygons);
   data->GetCellData()->SetScalars(colors);
   vtkPolyDataMapper::SafeDownCast(actor_->GetMapper())->SetInputData(data);
   actor_->VisibilityOn();
 }
 
-void TurnPreview::hide() { actor_->VisibilityOff(); }
+void FacePreview::hide() { actor_->VisibilityOff(); }
 
 }  // namespace transillum::viewer

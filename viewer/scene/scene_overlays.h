@@ -7,6 +7,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -16,7 +17,6 @@
 
 namespace transillum {
 class Scene;
-struct OrientationPlan;
 }  // namespace transillum
 
 namespace transillum::viewer {
@@ -72,13 +72,19 @@ class SceneOverlays {
   std::vector<bool> hidden_;
 };
 
-/// The faces that an OrientationPlan would change, drawn over the scene and seen from both sides.
-class TurnPreview {
- public:
-  explicit TurnPreview(vtkRenderer& renderer);
+/// Faces that a change would treat, by their number in the file, and how they are shown.
+struct MarkedFaces {
+  std::vector<std::int32_t> inside, outside;  ///< in theme::inside and theme::outside; ascending
+  bool inside_turned = false;                 ///< the faces in `inside` are shaded from behind
+  bool are_covered = false;  ///< by other faces: these and `outside` are drawn as lines
+};
 
-  /// @param plan for the faces of `scene`
-  void show(const Scene& scene, const OrientationPlan& plan);
+/// Marked faces, drawn over the scene and seen from both sides.
+class FacePreview {
+ public:
+  explicit FacePreview(vtkRenderer& renderer);
+
+  void show(const Scene& scene, const MarkedFaces& faces);
   void hide();
   bool shown() const { return actor_->GetVisibility() != 0; }
 

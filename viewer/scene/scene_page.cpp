@@ -25,6 +25,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   banner_ = new Banner;
   light_bar_ = named("light_bar", new Banner);
   orientation_bar_ = named("orientation_bar", new Banner);
+  solids_bar_ = named("solids_bar", new Banner);
   reading_bar_ = named("reading_bar", new Banner);
   vertical_bar_ = named("vertical_bar", new Banner);
   division_bar_ = named("division_bar", new Banner);
@@ -32,7 +33,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   for (Banner* bar : {loading_bar_, recovery_bar_, banner_}) {
     bars_->add(bar);
   }
-  for (Banner* bar : {light_bar_, orientation_bar_, division_bar_, vertical_bar_, reading_bar_}) {
+  for (Banner* bar : {light_bar_, orientation_bar_, solids_bar_, division_bar_, vertical_bar_, reading_bar_}) {
     bars_->add(bar, true);
   }
   color_controls_ = new ColorControls(colors);

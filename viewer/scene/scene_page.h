@@ -38,6 +38,7 @@ class ScenePage : public QWidget {
   /// The bars that show what the window offers for the open scene.
   Banner* light_bar() const { return light_bar_; }
   Banner* orientation_bar() const { return orientation_bar_; }
+  Banner* solids_bar() const { return solids_bar_; }
   /// The bar that says that faces were divided unasked.
   Banner* division_bar() const { return division_bar_; }
   /// The bar that says which vertical was guessed.
@@ -72,7 +73,7 @@ class ScenePage : public QWidget {
   CameraBookmarks bookmarks_;
   HiddenPatches hidden_;
   CameraMenu* camera_;
-  Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_, *reading_bar_,
+  Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_, *solids_bar_, *reading_bar_,
       *vertical_bar_, *division_bar_;
   BannerStack* bars_;
   QStackedWidget* pages_;

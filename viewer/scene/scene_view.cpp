@@ -66,7 +66,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   renderer_->AddObserver(vtkCommand::EndEvent, this, &SceneView::place_callouts);
   overlays_ = std::make_unique<SceneOverlays>(*renderer_);
   feature_edges_ = std::make_unique<FeatureEdges>(*renderer_);
-  turn_preview_ = std::make_unique<TurnPreview>(*renderer_);
+  face_preview_ = std::make_unique<FacePreview>(*renderer_);
   path_glyph_ = std::make_unique<PathGlyph>(*renderer_);
   // The actors are drawn in this order: the translucent ones last.
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
@@ -108,9 +108,11 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   loaded_ = std::move(loaded);
   snapshot_ = nullptr;
   surface_->show_scene(loaded_->scene);
+  previews_covered_ = false;
+  surface_->set_wireframe(wireframe_);
   set_clip(clip_);
   glyph_->hide();
-  turn_preview_->hide();
+  face_preview_->hide();
   feature_edges_->show_scene(loaded_);
   paths_ = nullptr;
   path_glyph_->hide();
@@ -177,7 +179,8 @@ void SceneView::set_overlay_shown(SceneOverlays::Kind kind, bool shown) {
 }
 
 void SceneView::set_wireframe(bool wireframe) {
-  surface_->set_wireframe(wireframe);
+  wireframe_ = wireframe;
+  surface_->set_wireframe(wireframe || previews_covered_);
   recolor();
   render();
 }
@@ -238,16 +241,18 @@ void SceneView::set_antialiased(bool antialiased) {
   render();
 }
 
-void SceneView::preview_turn(const OrientationPlan& plan) {
+void SceneView::preview(const MarkedFaces& faces) {
   if (loaded_) {
-    turn_preview_->show(*loaded_->scene, plan);
-    render();
+    face_preview_->show(*loaded_->scene, faces);
+    previews_covered_ = faces.are_covered;
+    set_wireframe(wireframe_);
   }
 }
 
-void SceneView::hide_turn() {
-  turn_preview_->hide();
-  render();
+void SceneView::hide_preview() {
+  face_preview_->hide();
+  previews_covered_ = false;
+  set_wireframe(wireframe_);
 }
 
 void SceneView::show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized) {

@@ -74,16 +74,16 @@ class SceneView : public QWidget {
   void set_antialiased(bool antialiased);
   /// Goes back to the scene's initial view.
   void reset_view();
-  /// Draws the faces that `plan` would change over the scene, until hide_turn() or another scene.
-  void preview_turn(const OrientationPlan& plan);
-  void hide_turn();
+  /// Draws marked faces over the scene, until hide_preview() or another scene.
+  void preview(const MarkedFaces& faces);
+  void hide_preview();
   /// Draws light paths of the scene over it, until other paths or another scene are shown.
   /// @param paths  null if there are none
   /// @param emphasized  index of a path, or -1
   void show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized);
   /// While hidden, paths are not drawn.
   void set_paths_hidden(bool hidden);
-  bool previews_turn() const { return turn_preview_->shown(); }
+  bool shows_preview() const { return face_preview_->shown(); }
   /// Keeps the viewing direction and fits the whole scene.
   void fit_all();
   void fit_selected();
@@ -249,7 +249,9 @@ class SceneView : public QWidget {
   std::unique_ptr<StepGlyph> step_glyph_;
   std::unique_ptr<SceneOverlays> overlays_;
   ShadowFinder* shadow_finder_;
-  std::unique_ptr<TurnPreview> turn_preview_;
+  std::unique_ptr<FacePreview> face_preview_;
+  bool wireframe_ = false;         ///< chosen by the user
+  bool previews_covered_ = false;  ///< the scene is drawn as lines around marked faces
   std::unique_ptr<PathGlyph> path_glyph_;
   std::shared_ptr<const LightPaths> paths_;  ///< given to show_paths()
   int emphasized_path_ = -1;

@@ -214,6 +214,7 @@ void MainWindow::make_whole_window_actions() {
   connect(&errors, &ErrorPage::save_wanted, exports_->errors_action(), &QAction::trigger);
   connect(control, &SolveControl::light_missing, light, &LightOffer::show_refusal);
   new OrientationOffer(frame, *settings_, *applier_);
+  new SolidsOffer(frame, *settings_, *applier_);
   connect(lesson_panel_, &LessonPanel::page_shown, timeline_->play(), &PlayControl::stop);
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
   connect(lesson_panel_, &LessonPanel::option_chosen, applier_, &ViewStateApplier::set_option);

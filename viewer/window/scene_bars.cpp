@@ -226,9 +226,9 @@ QString changes_text(const OrientationReport& report) {
   return parts.join(OrientationOffer::tr(", ")) + '.';
 }
 
-QString sentences_of(const OrientationReport& report) {
+QString lines_of(const std::vector<std::string>& sentences) {
   QStringList lines;
-  for (const std::string& sentence : report.sentences) {
+  for (const std::string& sentence : sentences) {
     lines << QString::fromStdString(sentence);
   }
   return lines.join('\n');
@@ -236,12 +236,81 @@ QString sentences_of(const OrientationReport& report) {
 
 }  // namespace
 
-OrientationOffer::OrientationOffer(const WindowFrame& frame, SettingsPanel& settings,
-                                   ViewStateApplier& applier)
+ChangeOffer::ChangeOffer(const WindowFrame& frame, SettingsPanel& settings,
+                         ViewStateApplier& applier, Banner& bar, const Texts& texts)
     : QObject(&frame.window),
       frame_(frame),
+      bar_(bar),
       settings_(settings),
       applier_(applier),
+      finding_(tr(texts.finding)) {
+  preview_ = bar.add_button(texts.preview_name, tr(texts.preview));
+  change_ = bar.add_button(texts.change_name, tr(texts.change));
+  cancel_ = bar.add_button(texts.cancel_name, tr("Cancel"));
+}
+
+void ChangeOffer::listen() {
+  connect(preview_, &QPushButton::clicked, this, &ChangeOffer::plan);
+  connect(change_, &QPushButton::clicked, this, &ChangeOffer::change);
+  connect(cancel_, &QPushButton::clicked, this, [this] {
+    leave();
+    offer();
+  });
+  connect(&bar_, &Banner::closed, this, &ChangeOffer::leave);
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] {
+    forget_plan();
+    offer();
+  });
+}
+
+bool ChangeOffer::is_of_file() const {
+  const auto loaded = frame_.state.scene.loaded();
+  return loaded->description && !loaded->description->files.empty();
+}
+
+void ChangeOffer::plan() {
+  show(State::planning, finding_);
+  request_plan();
+}
+
+void ChangeOffer::preview(const MarkedFaces& faces, const QString& text, const QString& details) {
+  frame_.page.scene_view()->preview(faces);
+  show(State::previewed, text, details);
+}
+
+void ChangeOffer::change() {
+  if (!frame_.guard.may_lose(&frame_.window, change_->text())) {
+    return;
+  }
+  RunOptions options = settings_.options();
+  options.scene = frame_.state.scene.options();
+  options.input = frame_.state.scene.input();
+  set_change(options.input);
+  applier_.open_again(options);
+}
+
+void ChangeOffer::leave() {
+  forget_plan();
+  frame_.page.scene_view()->hide_preview();
+}
+
+void ChangeOffer::show(State state, const QString& text, const QString& details) {
+  preview_->setVisible(state == State::offered);
+  change_->setVisible(state == State::previewed);
+  cancel_->setVisible(state == State::previewed || state == State::planning);
+  if (state == State::none) {
+    bar_.dismiss();
+  } else {
+    bar_.show_message(Banner::Kind::offer, text, details);
+  }
+}
+
+OrientationOffer::OrientationOffer(const WindowFrame& frame, SettingsPanel& settings,
+                                   ViewStateApplier& applier)
+    : ChangeOffer(
+          frame, settings, applier, *frame.page.orientation_bar(),
+          {"preview_turn", QT_TR_NOOP("Show what to turn"), "turn_faces", QT_TR_NOOP("Turn them"),
+           "cancel_turn", QT_TR_NOOP("Finding the faces to turn…")}),
       planner_(
           *this,
           [](const std::shared_ptr<const LoadedScene>& loaded, const Cancellation& cancellation) {
@@ -253,40 +322,24 @@ OrientationOffer::OrientationOffer(const WindowFrame& frame, SettingsPanel& sett
               return;  // another scene has been opened since
             }
             if (plan) {
-              preview(*plan);
+              show_plan(*plan);
             } else {
               offer();
               frame_.notifier.show_failure(error);
             }
           }) {
-  Banner* bar = frame_.page.orientation_bar();
-  preview_ = bar->add_button("preview_turn", tr("Show what to turn"));
-  turn_ = bar->add_button("turn_faces", tr("Turn them"));
-  cancel_ = bar->add_button("cancel_turn", tr("Cancel"));
-  connect(preview_, &QPushButton::clicked, this, &OrientationOffer::plan);
-  connect(turn_, &QPushButton::clicked, this, &OrientationOffer::turn);
-  connect(cancel_, &QPushButton::clicked, this, &OrientationOffer::cancel);
-  connect(bar, &Banner::closed, this, [this] {
-    planner_.clear();
-    frame_.page.scene_view()->hide_turn();
-    state_ = State::none;
-  });
-  connect(&frame_.state.scene, &OpenScene::scene_shown, this, &OrientationOffer::offer);
+  listen();
 }
 
 void OrientationOffer::offer() {
-  planner_.clear();
-  const auto loaded = frame_.state.scene.loaded();
-  // Built-in scenes are as they are meant to be.
-  const bool from_file = loaded->description && !loaded->description->files.empty();
-  if (!from_file || loaded->back_fraction <= BackFraction::worth_a_warning) {
-    state_ = State::none;
-    frame_.page.orientation_bar()->dismiss();
+  const double backs = frame_.state.scene.loaded()->back_fraction;
+  if (!is_of_file() || backs <= BackFraction::worth_a_warning) {
+    show(State::none, {});
     return;
   }
-  const QString percent = QString::number(std::lround(100 * loaded->back_fraction));
+  const QString percent = QString::number(std::lround(100 * backs));
   if (frame_.state.scene.input().orient) {
-    show(State::nothing_to_turn,
+    show(State::nothing_to_change,
          tr("%1 % of the surface that light meets is the back of faces, even after turning faces. "
             "Two-sided faces, in the settings, emit and receive on both sides.")
              .arg(percent));
@@ -298,46 +351,110 @@ void OrientationOffer::offer() {
            .arg(percent));
 }
 
-void OrientationOffer::plan() {
-  show(State::planning, tr("Finding the faces to turn…"));
-  planner_.request(frame_.state.scene.loaded());
-}
-
-void OrientationOffer::preview(const OrientationPlan& plan) {
+void OrientationOffer::show_plan(const OrientationPlan& plan) {
+  const QString details = lines_of(plan.report.sentences);
   if (!plan.changes()) {
-    show(State::nothing_to_turn,
+    show(State::nothing_to_change,
          tr("No faces to turn were found. Two-sided faces, in the settings, emit and receive on "
             "both sides."),
-         sentences_of(plan.report));
+         details);
     return;
   }
-  frame_.page.scene_view()->preview_turn(plan);
-  show(State::previewed, changes_text(plan.report), sentences_of(plan.report));
+  MarkedFaces faces;
+  faces.inside_turned = true;
+  for (std::size_t f = 0; f < plan.numbers.size(); ++f) {
+    if (plan.turned[f]) {
+      faces.inside.push_back(plan.numbers[f]);
+    } else if (plan.two_sided[f]) {
+      faces.outside.push_back(plan.numbers[f]);
+    }
+  }
+  std::sort(faces.inside.begin(), faces.inside.end());
+  std::sort(faces.outside.begin(), faces.outside.end());
+  preview(faces, changes_text(plan.report), details);
 }
 
-void OrientationOffer::turn() {
-  if (!frame_.guard.may_lose(&frame_.window, tr("Turn them"))) {
+namespace {
+
+/// Part of the area from which on a bar offers to unite solids, as `info` does.
+constexpr double least_inside = 0.05;
+/// More faces take too long to look at unasked.
+constexpr std::size_t most_faces = 200'000;
+
+using Loaded = std::shared_ptr<const LoadedScene>;
+
+}  // namespace
+
+SolidsOffer::SolidsOffer(const WindowFrame& frame, SettingsPanel& settings,
+                         ViewStateApplier& applier)
+    : ChangeOffer(frame, settings, applier, *frame.page.solids_bar(),
+                  {"preview_union", QT_TR_NOOP("Show what goes"), "unite_solids",
+                   QT_TR_NOOP("Unite them"), "cancel_union", QT_TR_NOOP("Uniting solids…")}),
+      measurement_(
+          *this,
+          [](const Loaded& loaded, const Cancellation& cancellation) {
+            return share_inside_solids(*loaded->description, cancellation);
+          },
+          [this](const Loaded& loaded, const std::shared_ptr<const double>& share, const QString&) {
+            if (share && loaded == frame_.state.scene.loaded()) {
+              share_ = *share;
+              offer();
+            }
+          }),
+      planner_(
+          *this,
+          [](const Loaded& loaded, const Cancellation& cancellation) {
+            SceneDescription description = *loaded->description;
+            return unite_solids(description, cancellation);
+          },
+          [this](const Loaded& loaded, const std::shared_ptr<const SolidsReport>& plan,
+                 const QString& error) {
+            if (loaded != frame_.state.scene.loaded()) {
+              return;
+            }
+            if (plan) {
+              show_plan(*plan);
+            } else {
+              offer();
+              frame_.notifier.show_failure(error);
+            }
+          }) {
+  connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] {
+    share_ = 0;
+    measurement_.clear();
+    const Loaded loaded = frame_.state.scene.loaded();
+    if (is_of_file() && !frame_.state.scene.input().unite_solids &&
+        loaded->description->face_count() <= most_faces) {
+      measurement_.request(loaded);
+    }
+  });
+  listen();
+}
+
+void SolidsOffer::offer() {
+  if (share_ <= least_inside) {
+    show(State::none, {});
     return;
   }
-  RunOptions options = settings_.options();
-  options.scene = frame_.state.scene.options();
-  options.input = frame_.state.scene.input();
-  options.input.orient = true;
-  applier_.open_again(options);
+  show(State::offered,
+       tr("%1 % of the surface lies inside or against other closed parts, where no light comes.")
+           .arg(std::lround(100 * share_)));
 }
 
-void OrientationOffer::cancel() {
-  planner_.clear();
-  frame_.page.scene_view()->hide_turn();
-  offer();
-}
-
-void OrientationOffer::show(State state, const QString& text, const QString& details) {
-  state_ = state;
-  preview_->setVisible(state == State::offered);
-  turn_->setVisible(state == State::previewed);
-  cancel_->setVisible(state == State::previewed || state == State::planning);
-  frame_.page.orientation_bar()->show_message(Banner::Kind::offer, text, details);
+void SolidsOffer::show_plan(const SolidsReport& report) {
+  const QString details = lines_of(report.sentences);
+  if (report.removed.empty() && report.cut.empty()) {
+    show(State::nothing_to_change, tr("No closed parts can be united."), details);
+    return;
+  }
+  const auto count = [](const std::vector<std::int32_t>& faces) {
+    return QString::number(faces.size());
+  };
+  preview({.inside = report.removed, .outside = report.cut, .are_covered = true},
+          tr("Uniting takes %1 of the surface: %2 faces would go (orange), %3 would be cut (blue).")
+              .arg(tr("%1 %").arg(std::lround(100 * (1 - report.area_after / report.area_before))))
+              .arg(count(report.removed), count(report.cut)),
+          details);
 }
 
 }  // namespace transillum::viewer

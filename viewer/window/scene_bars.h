@@ -10,6 +10,8 @@
 
 #include "support/newest_result.h"
 #include "transillum/orientation.h"
+#include "transillum/run_options.h"
+#include "transillum/solids.h"
 #include "window/base/window_views.h"
 
 class QMenu;
@@ -17,8 +19,10 @@ class QPushButton;
 
 namespace transillum::viewer {
 
+class Banner;
 class MaterialPanel;
 class ViewStateApplier;
+struct MarkedFaces;
 
 /// The bar above the scene while another one is loaded. It shows the present task, its progress,
 /// and a button that cancels. The title of the window names the scene that is loaded.
@@ -77,30 +81,82 @@ class LightOffer : public QObject {
   QString why_refused_;
 };
 
+/// A bar that offers to change the faces of a scene: it shows which, and changes them.
+class ChangeOffer : public QObject {
+  Q_OBJECT
+
+ protected:
+  /// The texts of a bar, and the names of its buttons.
+  struct Texts {
+    const char *preview_name, *preview, *change_name, *change, *cancel_name, *finding;
+  };
+  /// The references must outlive this object. The constructor of a class calls listen().
+  ChangeOffer(const WindowFrame& frame, SettingsPanel& settings, ViewStateApplier& applier,
+              Banner& bar, const Texts& texts);
+  void listen();
+
+  /// Shows the offer for the open scene, or nothing.
+  virtual void offer() = 0;
+  virtual void request_plan() = 0;
+  virtual void forget_plan() = 0;
+  virtual void set_change(SceneInput& input) const = 0;
+
+  enum class State { none, offered, planning, previewed, nothing_to_change };
+  void show(State state, const QString& text, const QString& details = {});
+  void preview(const MarkedFaces& faces, const QString& text, const QString& details);
+  /// Whether the scene is of a file: built-in scenes are as they are meant to be.
+  bool is_of_file() const;
+
+  WindowFrame frame_;
+  Banner& bar_;
+
+ private:
+  void plan();
+  void change();
+  void leave();
+
+  SettingsPanel& settings_;
+  ViewStateApplier& applier_;
+  QString finding_;
+  QPushButton *preview_, *change_, *cancel_;
+};
+
 /// The bar above a scene in which more than a tenth of the surface that light meets is the back of
-/// faces. It shows which faces would be turned, and turns them.
-class OrientationOffer : public QObject {
+/// faces: they can be turned.
+class OrientationOffer : public ChangeOffer {
   Q_OBJECT
 
  public:
-  /// The references must outlive this object.
   OrientationOffer(const WindowFrame& frame, SettingsPanel& settings, ViewStateApplier& applier);
 
  private:
-  enum class State { none, offered, planning, previewed, nothing_to_turn };
-  void offer();
-  void plan();
-  void preview(const OrientationPlan& plan);
-  void turn();
-  void cancel();
-  void show(State state, const QString& text, const QString& details = {});
+  void offer() override;
+  void request_plan() override { planner_.request(frame_.state.scene.loaded()); }
+  void forget_plan() override { planner_.clear(); }
+  void set_change(SceneInput& input) const override { input.orient = true; }
+  void show_plan(const OrientationPlan& plan);
 
-  WindowFrame frame_;
-  SettingsPanel& settings_;
-  ViewStateApplier& applier_;
-  QPushButton *preview_, *turn_, *cancel_;
-  State state_ = State::none;
   NewestResult<std::shared_ptr<const LoadedScene>, OrientationPlan> planner_;
+};
+
+/// The bar above a scene of which more than a twentieth lies inside or against other closed parts:
+/// they can be united.
+class SolidsOffer : public ChangeOffer {
+  Q_OBJECT
+
+ public:
+  SolidsOffer(const WindowFrame& frame, SettingsPanel& settings, ViewStateApplier& applier);
+
+ private:
+  void offer() override;
+  void request_plan() override { planner_.request(frame_.state.scene.loaded()); }
+  void forget_plan() override { planner_.clear(); }
+  void set_change(SceneInput& input) const override { input.unite_solids = true; }
+  void show_plan(const SolidsReport& report);
+
+  double share_ = 0;  ///< result of share_inside_solids() for the open scene
+  NewestResult<std::shared_ptr<const LoadedScene>, double> measurement_;
+  NewestResult<std::shared_ptr<const LoadedScene>, SolidsReport> planner_;
 };
 
 }  // namespace transillum::viewer

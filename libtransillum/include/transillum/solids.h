@@ -23,6 +23,8 @@ struct SolidsReport {
   std::int64_t open = 0;     ///< other parts: open or two-sided, or edges of more than two faces
   double area_before = 0;    ///< area of all faces, m²
   double area_after = 0;     ///< the same afterwards, m²
+  std::vector<std::int32_t> removed;  ///< numbers of faces of which nothing is left, ascending
+  std::vector<std::int32_t> cut;      ///< numbers of faces of which a part is left, ascending
   std::vector<std::string> sentences;  ///< for the user, a few
 };
 

@@ -122,17 +122,17 @@ std::array<Rgb, 3> terms_of(const Eigen::Matrix3d& gram, const std::array<Rgb, 3
 
 /// The light on the open part of a patch: all of it, or what no solid covers that stands on it.
 struct HitLight::PatchLight {
-  /// What differs from constant functions of a whole patch.
-  struct Part {
+  /// Linear terms, and the values of a patch of which a part is covered.
+  struct Detail {
     std::array<Rgb, 2> sources_in_solution{};  ///< linear terms of the sources
     std::array<Rgb, 3> solution{};             ///< B without the exitance of lamps: mean, terms
     std::array<double, 2> center{};            ///< middle in the basis
     Vec3 middle;                               ///< centroid, m
   };
-  std::array<Rgb, term_count> sources;  ///< coefficients of a quadratic function
-  Rgb low, high;                        ///< limits of its values
-  Rgb sources_in_solution;              ///< its mean, which the solution has
-  std::unique_ptr<const Part> part;     ///< null where functions are constant and all is open
+  std::array<Rgb, term_count> sources;   ///< coefficients of a quadratic function
+  Rgb low, high;                         ///< limits of its values
+  Rgb sources_in_solution;               ///< its mean, which the solution has
+  std::unique_ptr<const Detail> detail;  ///< null where functions are constant and all is open
 };
 
 HitLight::HitLight(const Solution& solution, const EmbreeScene& embree, const PlanePoints& points,
@@ -244,13 +244,13 @@ std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(
   if (!is_linear && !is_partial) {
     return light;
   }
-  PatchLight::Part part;
-  part.middle = basis.center;
-  part.solution[0] = mean_on(patch);
+  PatchLight::Detail detail;
+  detail.middle = basis.center;
+  detail.solution[0] = mean_on(patch);
   if (is_linear) {
     const LinearTerm& terms = at(solution_.linear_terms, patch);
-    part.solution = {part.solution[0], terms.first, terms.second};
-    part.sources_in_solution = {1 / whole * fit.moments[1], 1 / whole * fit.moments[2]};
+    detail.solution = {detail.solution[0], terms.first, terms.second};
+    detail.sources_in_solution = {1 / whole * fit.moments[1], 1 / whole * fit.moments[2]};
   }
   if (is_partial) {
     // A small or narrow part does not determine linear terms.
@@ -259,16 +259,16 @@ std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(
     const int count = is_linear && (fit.gram / area).determinant() > least_determinant ? 3 : 1;
     const std::array<Rgb, 3> known = terms_of(fit.gram, fit.moments, count);
     light->sources_in_solution = known[0];
-    part.sources_in_solution = {known[1], known[2]};
-    // Lamps that are gathered emit from all of the part.
+    detail.sources_in_solution = {known[1], known[2]};
+    // Lamps that are gathered emit from all of the detail.
     const Rgb emitted = scene_.exitance(patch) - exitance(patch);
-    part.solution[0] = part.solution[0] - emitted;
-    part.solution = terms_of(fit.gram / area, part.solution, count);
-    part.solution[0] += emitted;
-    part.middle = 1 / whole * middle;
-    part.center = {fit.gram(0, 1) / whole, fit.gram(0, 2) / whole};
+    detail.solution[0] = detail.solution[0] - emitted;
+    detail.solution = terms_of(fit.gram / area, detail.solution, count);
+    detail.solution[0] += emitted;
+    detail.middle = 1 / whole * middle;
+    detail.center = {fit.gram(0, 1) / whole, fit.gram(0, 2) / whole};
   }
-  light->part = std::make_unique<const PatchLight::Part>(part);
+  light->detail = std::make_unique<const PatchLight::Detail>(detail);
   return light;
 }
 
@@ -280,7 +280,7 @@ const HitLight::PatchLight& HitLight::light_on(PatchId patch,
 /// The mean irradiance of a patch by what reflects.
 Rgb HitLight::rest_on(PatchId patch, const Cancellation& cancellation) const {
   const PatchLight& light = light_on(patch, cancellation);
-  const Rgb mean = light.part ? light.part->solution[0] : mean_on(patch);
+  const Rgb mean = light.detail ? light.detail->solution[0] : mean_on(patch);
   const Rgb sent = mean + exitance(patch) - scene_.exitance(patch);
   const Rgb reflected = reflectance_of(solution_, patch), direct = light.sources_in_solution;
   const auto rest = [](double b, double rho, double sources) {
@@ -296,8 +296,8 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch,
                                              const Cancellation& cancellation) const {
   const LinearBasis& basis = at(bases_, patch);
   const Rgb own = rest_on(patch, cancellation);
-  const auto& part = light_on(patch, cancellation).part;
-  const std::array<double, 2> center = part ? part->center : std::array<double, 2>();
+  const auto& detail = light_on(patch, cancellation).detail;
+  const std::array<double, 2> center = detail ? detail->center : std::array<double, 2>();
   Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, 2, 3> right = Eigen::Matrix<double, 2, 3>::Zero();
   Rgb low = own, high = own;
@@ -317,8 +317,8 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch,
     if (j == patch || max_abs(reflectance_of(solution_, j)) == 0) {
       continue;
     }
-    const auto& part_of_j = light_on(j, cancellation).part;
-    const auto [a, b] = basis.at(part_of_j ? part_of_j->middle : at(bases_, j).center);
+    const auto& other_detail = light_on(j, cancellation).detail;
+    const auto [a, b] = basis.at(other_detail ? other_detail->middle : at(bases_, j).center);
     const Rgb other = rest_on(j, cancellation), change = other - own;
     const Eigen::Vector2d apart(a - center[0], b - center[1]);
     const double weight = 1 / apart.squaredNorm();
@@ -354,11 +354,11 @@ Rgb HitLight::at_point(PatchId patch, const Vec3& x, const Cancellation& cancell
   Rgb change = limited(value, on_patch.low, on_patch.high) - on_patch.sources_in_solution;
   Rgb light = mean_on(patch);
   std::array<double, 2> center{};
-  if (on_patch.part) {
-    const auto& [known, s, center_of_part, middle] = *on_patch.part;
+  if (on_patch.detail) {
+    const auto& [known, s, own_center, middle] = *on_patch.detail;
     change = change - a * known[0] - b * known[1];
     light = s[0] + a * s[1] + b * s[2];
-    center = center_of_part;
+    center = own_center;
   }
   if (solution_.linear_terms.empty()) {
     const auto& [first, second] = at(slopes_, patch).get([&] {

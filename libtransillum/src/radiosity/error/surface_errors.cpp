@@ -111,8 +111,7 @@ double independent_errors(const DeviationProducts& products) {
       }
     }
   }
-  constexpr double caution = 1.3, most = 30;
-  return norms > 0 ? std::max(1.0, 1 / (caution * squares / norms + 1 / most)) : 1.0;
+  return norms > 0 ? std::max(1.0, 1 / (squares / norms + 1 / static_cast<double>(n))) : 1.0;
 }
 
 SurfaceErrors surface_errors(const Surfaces& surfaces, const std::vector<Rgb>& values,

@@ -324,8 +324,9 @@ class RemainingFaces {
   PointTable table_;
 };
 
-double area_of_faces(const SceneDescription& description) {
-  double sum = 0;
+/// Areas of faces by their numbers, m².
+std::map<std::int32_t, double> areas_of(const SceneDescription& description) {
+  std::map<std::int32_t, double> areas;
   for (std::size_t f = 0; f < description.face_count(); ++f) {
     const auto outline = description.outline(f);
     Vec3 twice{};
@@ -334,9 +335,25 @@ double area_of_faces(const SceneDescription& description) {
               cross(at(description.points, outline[k]) - at(description.points, outline[0]),
                     at(description.points, outline[k + 1]) - at(description.points, outline[0]));
     }
-    sum += norm(twice) / 2;
+    areas[description.number_of(f)] += norm(twice) / 2;
   }
-  return sum;
+  return areas;
+}
+
+/// Sets what a report says of areas and faces.
+void compare_areas(const std::map<std::int32_t, double>& before,
+                   const std::map<std::int32_t, double>& after, SolidsReport& report) {
+  constexpr double rounding = 1e-9;
+  for (const auto& [face, area] : before) {
+    const auto left = after.find(face);
+    report.area_before += area;
+    report.area_after += left == after.end() ? 0 : left->second;
+    if (left == after.end()) {
+      report.removed.push_back(face);
+    } else if (left->second < (1 - rounding) * area) {
+      report.cut.push_back(face);
+    }
+  }
 }
 
 /// A description's parts, on points without rounding.
@@ -397,7 +414,7 @@ void add_sentences(SolidsReport& report, std::int64_t crossing) {
 SolidsReport unite_solids(SceneDescription& description, const Cancellation& cancellation) {
   const Parts parts(description, cancellation);
   SolidsReport report;
-  report.area_before = report.area_after = area_of_faces(description);
+  const std::map<std::int32_t, double> before = areas_of(description);
   RemainingFaces remaining(description, parts.points, parts.outlines);
   std::list<Solid> solids;
   std::int64_t crossing = 0;
@@ -431,8 +448,8 @@ SolidsReport unite_solids(SceneDescription& description, const Cancellation& can
       remaining.add(solid);
     }
     description = remaining.description(cancellation);
-    report.area_after = area_of_faces(description);
   }
+  compare_areas(before, report.united > 0 ? areas_of(description) : before, report);
   add_sentences(report, crossing);
   return report;
 }

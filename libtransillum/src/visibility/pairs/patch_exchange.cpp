@@ -82,6 +82,15 @@ void add_moments_of(const RefinedCells::Exchange& found, PatchExchange& exchange
   }
 }
 
+/// The exchange of a cell past blockers, at most `exact`, the exchange without them. Where they
+/// hide next to nothing from the points, as the other half of a bent quad does, the error of the
+/// points is that of the cell without blockers, which is known.
+double seen_part(const PointSums& sums, double exact) {
+  constexpr double nearly_all = 0.999;
+  const double part = sums.free > 0 ? sums.seen / sums.free : 0;
+  return part > nearly_all ? part * exact : std::min(sums.seen, exact);
+}
+
 Bounds bounds_of(Outline polygon) {
   Bounds box;
   for (const Vec3& corner : polygon) {
@@ -382,14 +391,16 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
   for_each_cell(sampled, polygons, [&](const Corners& cell, double cell_size) {
     const int divisions = divisions_of(cell_size);
     const PointSums sums = by_points(cell, divisions);
-    if (refined.misses(cell, sums.free)) {
+    const double exact = refined.exact(cell);
+    if (refined.misses(sums.free, exact)) {
       const RefinedCells::Exchange found = refined(cell);
       exchange.area += found.area;
       exchange.error += found.error;
       add_moments_of(found, exchange);
       return;
     }
-    exchange.area += sums.seen;
+    const double area = seen_part(sums, exact);
+    exchange.area += area;
     if (!query.estimate) {
       return;
     }
@@ -404,10 +415,10 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& bl
         divisions == 0 ? cell_size * cell_size * sums.seen : (sums.seen - half.seen) / 3;
     if (query.receiver != nullptr) {
       if (divisions < moment_divisions_) {
-        add_moments_of(sums.seen, by_points(cell, moment_divisions_),
+        add_moments_of(area, by_points(cell, moment_divisions_),
                        by_points(cell, moment_divisions_ / 2), exchange);
       } else {
-        add_moments_of(sums.seen, sums, half, exchange);
+        add_moments_of(area, sums, half, exchange);
       }
     }
   });

@@ -22,8 +22,6 @@ double RefinedCells::exact(Outline cell) {
   return polygon_exchange(facing_);
 }
 
-bool RefinedCells::misses(Outline cell, double free) { return misses(free, exact(cell)); }
-
 bool RefinedCells::misses(double free, double exact) const {
   constexpr double tolerated = 0.01;
   return std::abs(free - exact) > tolerated * whole_;

@@ -30,9 +30,9 @@ class RefinedCells {
   /// @param whole polygon_exchange() of `facing`
   RefinedCells(const FacingPolygons& facing, bool p_is_sampled, ByPoints by_points, double whole);
 
-  /// Whether points whose sum is `free` miss the exchange of a cell.
-  bool misses(Outline cell, double free);
-  /// Whether they miss the known exchange `exact` of a cell.
+  /// The exchange of a cell without blockers, m².
+  double exact(Outline cell);
+  /// Whether points whose sum is `free` miss the exchange `exact` of a cell.
   bool misses(double free, double exact) const;
   /// The exchange of a cell, and an estimate of its error, m².
   struct Exchange {
@@ -42,7 +42,6 @@ class RefinedCells {
   Exchange operator()(Outline cell);
 
  private:
-  double exact(Outline cell);
   void add(Outline triangle, int most_divisions, Exchange& sum);
 
   FacingPolygons facing_;
