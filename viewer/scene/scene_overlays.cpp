@@ -224,7 +224,7 @@ void FacePreview::show(const Scene& scene, const MarkedFaces& faces) {
     points->InsertNextPoint(p.x, p.y, p.z);
   }
   vtkNew<vtkCellArray> lines, polygons;
-  vtkNew<vtkUnsignedCharArray> colors;  // of the lines, then of the polygons
+  vtkNew<vtkUnsignedCharArray> colors;  // first the lines, then the polygons
   colors->SetNumberOfComponents(3);
   const auto add = [&](const Piece& piece, const QColor& color, double brightness, bool filled) {
     const auto corners = scene.corners(piece);
