@@ -305,9 +305,10 @@ HitLight::Slope HitLight::slope_by_neighbors(PatchId patch,
   std::vector<PatchId> neighbors;
   for (std::size_t k = points_.first_piece(patch); k < points_.end_piece(patch); ++k) {
     for (std::size_t c = 0; c < scene_.corners(scene_.pieces()[k]).size(); ++c) {
-      const PlanePoint& point = at(points_.points(), points_.of_corner(k, c));
-      neighbors.insert(neighbors.end(), point.patches.begin(), point.patches.end());
-      const auto [a, b] = basis.at(point.place);
+      const std::int32_t n = points_.of_corner(k, c);
+      const auto meeting = points_.patches_at(n);
+      neighbors.insert(neighbors.end(), meeting.begin(), meeting.end());
+      const auto [a, b] = basis.at(at(points_.points(), n).place);
       size = std::max({size, std::abs(a), std::abs(b)});
     }
   }

@@ -82,10 +82,10 @@ std::vector<PatchId> chart_of_patches(const Scene& scene, const PlanePoints& poi
     }
     return i;
   };
-  for (const PlanePoint& point : points.points()) {
+  for (std::int32_t n = 0; n < std::ssize(points.points()); ++n) {
     cancellation.throw_if_canceled();
-    for (const PatchId i : point.patches) {
-      for (const PatchId j : point.patches) {
+    for (const PatchId i : points.patches_at(n)) {
+      for (const PatchId j : points.patches_at(n)) {
         if (i < j && scene.patch(i).material == scene.patch(j).material) {
           const PatchId a = root(i), b = root(j);
           at(first, std::max(a, b)) = std::min(a, b);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace transillum {
 
@@ -15,6 +16,7 @@ PlanePoints::PlanePoints(const Scene& scene, const Cancellation& cancellation)
   std::map<std::tuple<PointId, long, long, long>, std::int32_t> numbers;
   std::vector<Vec3> sums;
   std::vector<double> counts;
+  std::vector<std::pair<std::int32_t, PatchId>> met;  // points and patches
   const std::vector<Piece>& pieces = scene.pieces();
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     cancellation.throw_if_canceled();
@@ -31,20 +33,27 @@ PlanePoints::PlanePoints(const Scene& scene, const Cancellation& cancellation)
                               static_cast<std::int32_t>(points_.size()));
       const std::int32_t n = found->second;
       if (is_new) {
-        points_.push_back({scene.point(p), normal, {}});
+        points_.push_back({scene.point(p), normal});
         sums.emplace_back();
         counts.push_back(0);
       }
       at(sums, n) = at(sums, n) + middle;
       at(counts, n) += 1;
       of_corner_.push_back(n);
-      std::vector<PatchId>& patches = at(points_, n).patches;
-      if (patches.empty() || patches.back() != pieces[k].patch) {
-        patches.push_back(pieces[k].patch);
+      if (met.empty() || met.back() != std::pair(n, pieces[k].patch)) {
+        met.emplace_back(n, pieces[k].patch);
       }
     }
   }
   first_piece_.resize(scene.patches().size() + 1, pieces.size());
+  std::sort(met.begin(), met.end());
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  for (const auto& [n, patch] : met) {
+    first_patch_.resize(static_cast<std::size_t>(n) + 1,
+                        static_cast<std::uint32_t>(patches_.size()));
+    patches_.push_back(patch);
+  }
+  first_patch_.resize(points_.size() + 1, static_cast<std::uint32_t>(patches_.size()));
   for (std::size_t n = 0; n < points_.size(); ++n) {
     points_[n].place = inward(points_[n].place, sums[n] / counts[n]);
   }

@@ -16,7 +16,6 @@ namespace transillum {
 struct PlanePoint {
   Vec3 place;   ///< moved a little into these patches, so that it is on none of their borders, m
   Vec3 normal;  ///< normal of these patches
-  std::vector<PatchId> patches;  ///< ascending
 };
 
 /// The pieces of each patch, and the points that patches of a plane share.
@@ -29,6 +28,11 @@ class PlanePoints {
   explicit PlanePoints(const Scene& scene, const Cancellation& cancellation = {});
 
   const std::vector<PlanePoint>& points() const { return points_; }
+  /// The patches that meet at a point, ascending.
+  std::span<const PatchId> patches_at(std::int32_t point) const {
+    const std::size_t begin = at(first_patch_, point), end = at(first_patch_, point + 1);
+    return {patches_.data() + begin, end - begin};
+  }
   /// Index into points() of a corner of a piece.
   std::int32_t of_corner(std::size_t piece, std::size_t corner) const {
     return of_corner_[first_corner_[piece] + corner];
@@ -48,8 +52,10 @@ class PlanePoints {
   const Scene& scene_;
   double step_;  ///< m
   std::vector<PlanePoint> points_;
-  std::vector<std::size_t> first_piece_;   ///< by patch, and the number of pieces
-  std::vector<std::size_t> first_corner_;  ///< by piece
+  std::vector<std::uint32_t> first_patch_;  ///< by point, and the number of patches_
+  std::vector<PatchId> patches_;            ///< at one point after the other
+  std::vector<std::size_t> first_piece_;    ///< by patch, and the number of pieces
+  std::vector<std::size_t> first_corner_;   ///< by piece
   std::vector<std::int32_t> of_corner_;
 };
 
