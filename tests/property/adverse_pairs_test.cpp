@@ -90,6 +90,37 @@ void expect_agreement_of_unblocked(std::uint64_t first, std::uint64_t end) {
   }
 }
 
+/// A_i F_ij between faces 0 and 1 by passes along `directions`, m².
+double area_by_passes(const Scene& scene, const TransferEngine& engine,
+                      const std::vector<DirectionSample>& directions) {
+  double sum = 0;
+  for (const DirectionSample& sample : directions) {
+    for (const Transfer& t : engine(sample.direction, {}).exchanges) {
+      const int a = scene.patch(t.receiver).face, b = scene.patch(t.source).face;
+      sum += std::min(a, b) == 0 && std::max(a, b) == 1 ? t.area : 0;
+    }
+  }
+  return 2 * sum / static_cast<double>(directions.size());
+}
+
+/// The mean of eight rotated sets of directions, and its standard error.
+ReferenceExchange exchange_by_directions(const PairScene& pair, int directions) {
+  constexpr int replicas = 8;
+  const auto scene = std::make_shared<const Scene>(pair.description());
+  const TransferEngine engine =
+      make_engine(Engine::fast, scene, std::make_shared<const BspTree>(*scene));
+  double sum = 0, squares = 0;
+  for (std::uint64_t r = 0; r < replicas; ++r) {
+    const double area = area_by_passes(
+        *scene, engine, rotated(make_directions(Sampling::antipodal, directions, 1), r + 1));
+    sum += area;
+    squares += area * area;
+  }
+  const double mean = sum / replicas;
+  const double variance = std::max(0.0, squares / replicas - mean * mean) / (replicas - 1);
+  return {mean, std::sqrt(variance), true};
+}
+
 void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
   int partial = 0;
   for (std::uint64_t seed = first; seed < end; ++seed) {
@@ -103,12 +134,16 @@ void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
       return 3 * found.error + 1e-3 * reference.area + 2e-4 * found.smaller + 3 * reference.error +
              geometric_error(pair, scene, found.smaller);
     };
-    if (std::abs(found.area - reference.area) > allowed()) {
+    const auto differs = [&] { return std::abs(found.area - reference.area) > allowed(); };
+    if (differs()) {
       // A hundred parts may miss the foot of a blocker.
-      reference = reference_exchange(pair, 1e-6, 1e-9 * found.smaller, 20'000);
+      reference = reference_exchange(pair, 1e-6, 1e-9 * found.smaller, 2'000);
     }
-    EXPECT_LE(std::abs(found.area - reference.area), allowed())
-        << pair.kind << ", seed " << seed << ": " << found.area << " is not " << reference.area;
+    if (differs() && !reference.reached) {
+      reference = exchange_by_directions(pair, 8192);
+    }
+    EXPECT_FALSE(differs()) << pair.kind << ", seed " << seed << ": " << found.area << " is not "
+                            << reference.area;
     partial += found.error > 0 ? 1 : 0;
   }
   EXPECT_GT(partial, static_cast<int>(end - first) / 4);
@@ -233,46 +268,24 @@ TEST(NightlyAdversePairs, PastBlockersAgreeWithQuadratureInExtendedPrecision) {
   expect_agreement_of_blocked(8, 1'008);
 }
 
-/// A_i F_ij between faces 0 and 1 by passes along `directions`, m².
-double area_by_passes(const Scene& scene, const TransferEngine& engine,
-                      const std::vector<DirectionSample>& directions) {
-  double sum = 0;
-  for (const DirectionSample& sample : directions) {
-    for (const Transfer& t : engine(sample.direction, {}).exchanges) {
-      const int a = scene.patch(t.receiver).face, b = scene.patch(t.source).face;
-      sum += std::min(a, b) == 0 && std::max(a, b) == 1 ? t.area : 0;
-    }
-  }
-  return 2 * sum / static_cast<double>(directions.size());
-}
-
 /// With eight random rotations of a set of directions. One of a thousand differences of normal
 /// errors exceeds five of these standard errors (t distribution), so a tenth of the factor counts
 /// too: what is lost is most of it.
 void expect_agreement_with_directions(bool blocked, std::uint64_t first, std::uint64_t end) {
-  constexpr int replicas = 8, directions = 512;
+  constexpr int directions = 512;
   int compared = 0, beyond_three = 0;
   for (std::uint64_t seed = first; seed < end; ++seed) {
     const PairScene pair = blocked ? random_blocked_pair(seed) : random_pair(seed);
     const auto scene = std::make_shared<const Scene>(pair.description());
     const FaceExchange found = exchange_of_faces(*scene, ExchangeFinder(*scene));
-    const TransferEngine engine =
-        make_engine(Engine::fast, scene, std::make_shared<const BspTree>(*scene));
-    double sum = 0, squares = 0;
-    for (std::uint64_t r = 0; r < replicas; ++r) {
-      const double area = area_by_passes(
-          *scene, engine, rotated(make_directions(Sampling::antipodal, directions, 1), r + 1));
-      sum += area;
-      squares += area * area;
-    }
-    const double mean = sum / replicas;
+    const ReferenceExchange reference = exchange_by_directions(pair, directions);
+    const double mean = reference.area;
     if (mean < 1e-4 * found.smaller) {
       continue;
     }
     ++compared;
     const double deviation =
-        std::sqrt(std::max(0.0, squares / replicas - mean * mean) / (replicas - 1)) + 1e-3 * mean +
-        geometric_error(pair, *scene, found.smaller);
+        reference.error + 1e-3 * mean + geometric_error(pair, *scene, found.smaller);
     beyond_three += std::abs(found.area - mean) > 3 * deviation ? 1 : 0;
     EXPECT_LE(std::abs(found.area - mean), 5 * deviation + 0.1 * mean)
         << pair.kind << ", seed " << seed << ": " << found.area << " is not " << mean;
