@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "transillum/at.h"
@@ -64,6 +65,20 @@ TEST(UniteSolids, BoxesThatCrossLoseWhatIsInsideTheOther) {
   EXPECT_EQ(faces.size(), 12u);
   EXPECT_TRUE(report.removed.empty());
   EXPECT_EQ(report.cut, (std::vector<std::int32_t>{1, 3, 5, 6, 8, 10}));
+}
+
+/// Points that are moved within the rounding of their file change areas, too.
+TEST(UniteSolids, NamesTheCutFacesOfRoundedBoxes) {
+  SceneDescription scene;
+  add_box(scene, {0, 0, 0}, {2, 2, 2});
+  add_box(scene, {1, 1, 1}, {3, 3, 3});
+  add_box(scene, {5, 5, 5}, {6, 6, 6});
+  for (Vec3& p : scene.points) {
+    const auto rounded = [](double x) { return std::round(1e4 * x) / 1e4; };
+    p = {rounded(0.8 * p.x - 0.6 * p.y + p.z / 7), rounded(0.6 * p.x + 0.8 * p.y), rounded(p.z)};
+  }
+  scene.coordinate_rounding = 5e-5;
+  EXPECT_EQ(unite_solids(scene).cut, (std::vector<std::int32_t>{1, 3, 5, 6, 8, 10}));
 }
 
 TEST(UniteSolids, BoxesThatTouchLoseTheirCommonWall) {

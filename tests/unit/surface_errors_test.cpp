@@ -62,6 +62,23 @@ std::vector<std::string> names_of(const Surfaces& surfaces) {
 
 using Names = std::vector<std::string>;
 
+/// Few replicas cannot show that errors are more independent than their own number.
+TEST(SurfaceErrors, IndependentErrorsAreAtMostAsManyAsReplicas) {
+  for (const int replicas : {4, 8}) {
+    const auto count = static_cast<std::size_t>(replicas);
+    DeviationProducts apart(count, std::vector<double>(count)), alike = apart;
+    for (std::size_t r = 0; r < count; ++r) {
+      apart[r][r] = 1;
+      for (std::size_t q = 0; q < count; ++q) {
+        alike[r][q] = (1.0 + static_cast<double>(r)) * (1.0 + static_cast<double>(q));
+      }
+    }
+    EXPECT_DOUBLE_EQ(independent_errors(apart), replicas);
+    EXPECT_DOUBLE_EQ(independent_errors(alike), 1);
+  }
+  EXPECT_EQ(independent_errors({{1, 0}, {0, 1}}), 1);
+}
+
 TEST(Surfaces, AreGroupsAndSmallOnesCountTogether) {
   const Scene scene(row_of({{1, 0, 0}, {1, 0, 2}, {2, 1, 0}, {0.1, 2, 0}, {1, -1, 1}, {1, 1, 3}}),
                     {});

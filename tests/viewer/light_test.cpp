@@ -195,7 +195,6 @@ class LightTest : public QObject {
     emit opened.window->views().page.light_bar()->closed();
     opened.window->selection.select(3);
     QVERIFY(opened.light_bar().isEmpty());
-    QVERIFY(comes_to_rest(*opened.window));
     const auto before = opened.window->snapshot();
     QSignalSpy states(&opened.window->runner, &SolveRunner::state_changed);
     opened.part<QLineEdit>("accuracy")->setText("5");

@@ -33,7 +33,8 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   for (Banner* bar : {loading_bar_, recovery_bar_, banner_}) {
     bars_->add(bar);
   }
-  for (Banner* bar : {light_bar_, orientation_bar_, solids_bar_, division_bar_, vertical_bar_, reading_bar_}) {
+  for (Banner* bar :
+       {light_bar_, orientation_bar_, solids_bar_, division_bar_, vertical_bar_, reading_bar_}) {
     bars_->add(bar, true);
   }
   color_controls_ = new ColorControls(colors);

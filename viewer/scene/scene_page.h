@@ -73,8 +73,8 @@ class ScenePage : public QWidget {
   CameraBookmarks bookmarks_;
   HiddenPatches hidden_;
   CameraMenu* camera_;
-  Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_, *solids_bar_, *reading_bar_,
-      *vertical_bar_, *division_bar_;
+  Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_, *solids_bar_,
+      *reading_bar_, *vertical_bar_, *division_bar_;
   BannerStack* bars_;
   QStackedWidget* pages_;
   StartPage* start_;

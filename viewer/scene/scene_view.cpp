@@ -243,6 +243,9 @@ void SceneView::set_antialiased(bool antialiased) {
 
 void SceneView::preview(const MarkedFaces& faces) {
   if (loaded_) {
+    if (shows_preview()) {
+      emit preview_replaced();
+    }
     face_preview_->show(*loaded_->scene, faces);
     previews_covered_ = faces.are_covered;
     set_wireframe(wireframe_);

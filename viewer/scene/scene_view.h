@@ -175,6 +175,8 @@ class SceneView : public QWidget {
   void ray_clicked(const transillum::Vec3& begin, const transillum::Vec3& direction);
   /// The right button was clicked at a point of canvas().
   void menu_requested(const QPoint& position);
+  /// Other faces are about to be marked instead of the faces of the last preview().
+  void preview_replaced();
   /// The picture is about to be drawn; what is shown may have changed.
   void about_to_draw();
   /// The camera is at another point than in the picture before; emitted while a picture is drawn.

@@ -228,8 +228,8 @@ int run(Application& application, const CommandLine& command_line) {
 
 int main(int argc, char** argv) {
   std::set_terminate(end_with_line);
-  // Freed lists of one phase go back to the system before the next: a tenth less memory. Without
-  // this, the C library keeps ever larger ones, and in many places.
+  // Freed lists of one phase go back to the system before the next: a tenth less memory. The C
+  // library would raise its threshold with each large one, and have heaps for each thread.
   mallopt(M_MMAP_THRESHOLD, 128 << 10);
   mallopt(M_ARENA_MAX, 2);
   const ParsedCommandLine parsed = parse_command_line(argc, argv, std::cout, std::cerr);

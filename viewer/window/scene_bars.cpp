@@ -261,6 +261,19 @@ void ChangeOffer::listen() {
     forget_plan();
     offer();
   });
+  // What was marked is of other patches.
+  connect(&frame_.state.scene, &OpenScene::patches_changed, this, [this] {
+    if (state_ == State::planning || state_ == State::previewed) {
+      leave();
+      offer();
+    }
+  });
+  // Another bar marks its faces.
+  connect(frame_.page.scene_view(), &SceneView::preview_replaced, this, [this] {
+    if (state_ == State::previewed) {
+      offer();
+    }
+  });
 }
 
 bool ChangeOffer::is_of_file() const {
@@ -291,10 +304,14 @@ void ChangeOffer::change() {
 
 void ChangeOffer::leave() {
   forget_plan();
-  frame_.page.scene_view()->hide_preview();
+  if (state_ == State::previewed) {
+    frame_.page.scene_view()->hide_preview();
+  }
+  state_ = State::none;
 }
 
 void ChangeOffer::show(State state, const QString& text, const QString& details) {
+  state_ = state;
   preview_->setVisible(state == State::offered);
   change_->setVisible(state == State::previewed);
   cancel_->setVisible(state == State::previewed || state == State::planning);
@@ -376,9 +393,9 @@ void OrientationOffer::show_plan(const OrientationPlan& plan) {
 
 namespace {
 
-/// Part of the area from which on a bar offers to unite solids, as `info` does.
+/// Share of the area above which a bar offers to unite solids, as `info` does.
 constexpr double least_inside = 0.05;
-/// More faces take too long to look at unasked.
+/// More faces take too long to measure unasked.
 constexpr std::size_t most_faces = 200'000;
 
 using Loaded = std::shared_ptr<const LoadedScene>;
@@ -396,7 +413,8 @@ SolidsOffer::SolidsOffer(const WindowFrame& frame, SettingsPanel& settings,
             return share_inside_solids(*loaded->description, cancellation);
           },
           [this](const Loaded& loaded, const std::shared_ptr<const double>& share, const QString&) {
-            if (share && loaded == frame_.state.scene.loaded()) {
+            // The patches may be others by now.
+            if (share && is_same_origin(loaded, frame_.state.scene.loaded())) {
               share_ = *share;
               offer();
             }
@@ -419,6 +437,7 @@ SolidsOffer::SolidsOffer(const WindowFrame& frame, SettingsPanel& settings,
               frame_.notifier.show_failure(error);
             }
           }) {
+  // Before listen(), whose slot makes the offer.
   connect(&frame_.state.scene, &OpenScene::scene_shown, this, [this] {
     share_ = 0;
     measurement_.clear();
@@ -437,7 +456,7 @@ void SolidsOffer::offer() {
     return;
   }
   show(State::offered,
-       tr("%1 % of the surface lies inside or against other closed parts, where no light comes.")
+       tr("%1 % of the surface lies inside or against other closed parts, where no light reaches.")
            .arg(std::lround(100 * share_)));
 }
 

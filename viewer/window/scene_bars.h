@@ -90,7 +90,7 @@ class ChangeOffer : public QObject {
   struct Texts {
     const char *preview_name, *preview, *change_name, *change, *cancel_name, *finding;
   };
-  /// The references must outlive this object. The constructor of a class calls listen().
+  /// The references must outlive this object. The constructor of each derived class calls listen().
   ChangeOffer(const WindowFrame& frame, SettingsPanel& settings, ViewStateApplier& applier,
               Banner& bar, const Texts& texts);
   void listen();
@@ -118,6 +118,7 @@ class ChangeOffer : public QObject {
   SettingsPanel& settings_;
   ViewStateApplier& applier_;
   QString finding_;
+  State state_ = State::none;
   QPushButton *preview_, *change_, *cancel_;
 };
 

@@ -260,7 +260,7 @@ std::unique_ptr<const HitLight::PatchLight> HitLight::light_of(
     const std::array<Rgb, 3> known = terms_of(fit.gram, fit.moments, count);
     light->sources_in_solution = known[0];
     detail.sources_in_solution = {known[1], known[2]};
-    // Lamps that are gathered emit from all of the detail.
+    // Lamps that are gathered emit from all of the part.
     const Rgb emitted = scene_.exitance(patch) - exitance(patch);
     detail.solution[0] = detail.solution[0] - emitted;
     detail.solution = terms_of(fit.gram / area, detail.solution, count);

@@ -40,7 +40,8 @@ using DeviationProducts = std::vector<std::vector<double>>;
 /// (trace C)² / trace C², where C is the covariance of the replicas over patches and channels: the
 /// number of equal independent errors whose sum of squares varies as that sum of all. Both traces
 /// are estimated without bias from differences of disjoint pairs of replicas; 1 for fewer than 4.
-/// The ratio of so few is uncertain, so it is taken rather too small (decisions/0052-accuracy.md).
+/// The ratio of so few is uncertain, so it is taken rather too small: at most as many as there are
+/// replicas (decisions/0052-accuracy.md).
 double independent_errors(const DeviationProducts& products);
 
 }  // namespace transillum

@@ -325,15 +325,17 @@ class RemainingFaces {
 };
 
 /// Areas of faces by their numbers, m².
-std::map<std::int32_t, double> areas_of(const SceneDescription& description) {
+/// @param outline_of indices into `points` by face
+template <class OutlineOf>
+std::map<std::int32_t, double> areas_of(const SceneDescription& description,
+                                        const std::vector<Vec3>& points, OutlineOf outline_of) {
   std::map<std::int32_t, double> areas;
   for (std::size_t f = 0; f < description.face_count(); ++f) {
-    const auto outline = description.outline(f);
+    const auto& outline = outline_of(f);
     Vec3 twice{};
     for (std::size_t k = 1; k + 1 < outline.size(); ++k) {
-      twice = twice +
-              cross(at(description.points, outline[k]) - at(description.points, outline[0]),
-                    at(description.points, outline[k + 1]) - at(description.points, outline[0]));
+      twice = twice + cross(at(points, outline[k]) - at(points, outline[0]),
+                            at(points, outline[k + 1]) - at(points, outline[0]));
     }
     areas[description.number_of(f)] += norm(twice) / 2;
   }
@@ -414,7 +416,8 @@ void add_sentences(SolidsReport& report, std::int64_t crossing) {
 SolidsReport unite_solids(SceneDescription& description, const Cancellation& cancellation) {
   const Parts parts(description, cancellation);
   SolidsReport report;
-  const std::map<std::int32_t, double> before = areas_of(description);
+  const auto before = areas_of(description, parts.points,
+                               [&](std::size_t f) -> auto& { return parts.outlines[f]; });
   RemainingFaces remaining(description, parts.points, parts.outlines);
   std::list<Solid> solids;
   std::int64_t crossing = 0;
@@ -449,7 +452,10 @@ SolidsReport unite_solids(SceneDescription& description, const Cancellation& can
     }
     description = remaining.description(cancellation);
   }
-  compare_areas(before, report.united > 0 ? areas_of(description) : before, report);
+  const auto outline_after = [&](std::size_t f) { return description.outline(f); };
+  compare_areas(
+      before, report.united > 0 ? areas_of(description, description.points, outline_after) : before,
+      report);
   add_sentences(report, crossing);
   return report;
 }

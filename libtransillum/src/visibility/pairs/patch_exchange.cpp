@@ -88,7 +88,7 @@ void add_moments_of(const RefinedCells::Exchange& found, PatchExchange& exchange
 double seen_part(const PointSums& sums, double exact) {
   constexpr double nearly_all = 0.999;
   const double part = sums.free > 0 ? sums.seen / sums.free : 0;
-  return part > nearly_all ? part * exact : std::min(sums.seen, exact);
+  return part > nearly_all ? std::min(part, 1.0) * exact : std::min(sums.seen, exact);
 }
 
 Bounds bounds_of(Outline polygon) {

@@ -48,10 +48,10 @@ class GltfReader {
       add_node(node);
     }
     if (description_.face_count() == 0) {
-      file_.fail(
-          left_out_.without_extent == 0
-              ? "has no triangles"
-              : fmt::format("has no triangles: the scale of node {} is 0", first_without_extent_));
+      file_.fail(left_out_.without_extent == 0
+                     ? "has no triangles"
+                     : fmt::format("has no triangles: node {}, or one above it, has a scale of 0",
+                                   first_without_extent_));
     }
     note_what_is_left_out();
     add_materials();
