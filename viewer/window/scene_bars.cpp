@@ -261,7 +261,7 @@ void ChangeOffer::listen() {
     forget_plan();
     offer();
   });
-  // What was marked is of other patches.
+  // Marks and plans belong to the patches before.
   connect(&frame_.state.scene, &OpenScene::patches_changed, this, [this] {
     if (state_ == State::planning || state_ == State::previewed) {
       leave();
