@@ -65,6 +65,10 @@ void PatchSurface::set_wireframe(bool wireframe) {
   actor_->GetProperty()->SetRepresentation(wireframe ? VTK_WIREFRAME : VTK_SURFACE);
 }
 
+void PatchSurface::set_invisible(bool invisible) {
+  actor_->GetProperty()->SetOpacity(invisible ? 0 : 1);
+}
+
 void PatchSurface::set_outlined(bool outlined) {
   actor_->GetProperty()->SetEdgeVisibility(outlined);
 }

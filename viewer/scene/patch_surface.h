@@ -31,6 +31,7 @@ class PatchSurface {
   /// Interpolates colors across patches, instead of one color per patch.
   void set_smooth(bool smooth);
   void set_wireframe(bool wireframe);
+  void set_invisible(bool invisible);
   void set_outlined(bool outlined);
   void set_line_width(double pixels);
   /// @param patch_colors  one per patch

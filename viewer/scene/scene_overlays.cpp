@@ -14,7 +14,9 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -200,6 +202,23 @@ void SceneOverlays::update(Kind kind) {
   }
 }
 
+namespace {
+
+/// The edges of pieces by face and points, and how many pieces of the face have each.
+std::map<std::array<std::int32_t, 3>, int> edges_of_faces(const Scene& scene) {
+  std::map<std::array<std::int32_t, 3>, int> edges;
+  for (const Piece& piece : scene.pieces()) {
+    const auto corners = scene.corners(piece);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const auto [p, q] = std::minmax(corners[k], corners[(k + 1) % corners.size()]);
+      ++edges[{scene.patch(piece.patch).face, p, q}];
+    }
+  }
+  return edges;
+}
+
+}  // namespace
+
 FacePreview::FacePreview(vtkRenderer& renderer) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetColorModeToDirectScalars();
@@ -226,34 +245,38 @@ void FacePreview::show(const Scene& scene, const MarkedFaces& faces) {
   vtkNew<vtkCellArray> lines, polygons;
   vtkNew<vtkUnsignedCharArray> colors;  // first the lines, then the polygons
   colors->SetNumberOfComponents(3);
-  const auto add = [&](const Piece& piece, const QColor& color, double brightness, bool filled) {
-    const auto corners = scene.corners(piece);
-    vtkCellArray& cells = filled ? *polygons : *lines;
-    cells.InsertNextCell(static_cast<int>(corners.size()) + (filled ? 0 : 1));
-    for (const PointId p : corners) {
-      cells.InsertCellPoint(p);
-    }
-    if (!filled) {
-      cells.InsertCellPoint(corners[0]);
-    }
+  const auto add_color = [&](const QColor& color, double brightness) {
     colors->InsertNextTuple3(brightness * color.red(), brightness * color.green(),
                              brightness * color.blue());
   };
-  const auto is_in = [](const std::vector<std::int32_t>& numbers, const Patch& patch) {
-    return std::binary_search(numbers.begin(), numbers.end(), patch.face);
+  const auto is_in = [](const std::vector<std::int32_t>& numbers, std::int32_t face) {
+    return std::binary_search(numbers.begin(), numbers.end(), face);
   };
-  // Filled, they would hide what they cover.
-  const bool outside_filled = !faces.are_covered;
-  for (const bool filled : {false, true}) {
-    for (const Piece& piece : scene.pieces()) {
-      const Patch& patch = scene.patch(piece.patch);
-      if (filled && is_in(faces.inside, patch)) {
-        add(piece, theme::inside,
-            neutral_brightness(faces.inside_turned ? -patch.normal : patch.normal), filled);
-      } else if (filled == outside_filled && is_in(faces.outside, patch)) {
-        add(piece, theme::outside, filled ? neutral_brightness(patch.normal) : 1, filled);
+  if (faces.are_covered) {
+    for (const auto& [edge, count] : edges_of_faces(scene)) {
+      const auto& [face, p, q] = edge;
+      if (count == 1) {  // else between two patches of the face
+        lines->InsertNextCell(2);
+        lines->InsertCellPoint(p);
+        lines->InsertCellPoint(q);
+        add_color(is_in(faces.outside, face) ? theme::outside : QColor(Qt::gray), 1);
       }
     }
+  }
+  for (const Piece& piece : scene.pieces()) {
+    const Patch& patch = scene.patch(piece.patch);
+    const bool inside = is_in(faces.inside, patch.face);
+    if (!inside && (faces.are_covered || !is_in(faces.outside, patch.face))) {
+      continue;
+    }
+    const auto corners = scene.corners(piece);
+    polygons->InsertNextCell(static_cast<int>(corners.size()));
+    for (const PointId p : corners) {
+      polygons->InsertCellPoint(p);
+    }
+    const bool turned = inside && faces.inside_turned;
+    add_color(inside ? theme::inside : theme::outside,
+              neutral_brightness(turned ? -patch.normal : patch.normal));
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);

@@ -76,7 +76,7 @@ class SceneOverlays {
 struct MarkedFaces {
   std::vector<std::int32_t> inside, outside;  ///< in theme::inside and theme::outside; ascending
   bool inside_turned = false;                 ///< the faces in `inside` are shaded from behind
-  bool are_covered = false;  ///< by other faces: `outside` is drawn as lines, too
+  bool are_covered = false;                   ///< by others: all but `inside` are drawn as outlines
 };
 
 /// Marked faces, drawn over the scene and seen from both sides.

@@ -109,7 +109,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   snapshot_ = nullptr;
   surface_->show_scene(loaded_->scene);
   previews_covered_ = false;
-  surface_->set_wireframe(wireframe_);
+  set_wireframe(wireframe_);
   set_clip(clip_);
   glyph_->hide();
   face_preview_->hide();
@@ -181,6 +181,7 @@ void SceneView::set_overlay_shown(SceneOverlays::Kind kind, bool shown) {
 void SceneView::set_wireframe(bool wireframe) {
   wireframe_ = wireframe;
   surface_->set_wireframe(wireframe || previews_covered_);
+  surface_->set_invisible(previews_covered_);
   recolor();
   render();
 }

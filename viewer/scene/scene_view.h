@@ -253,7 +253,7 @@ class SceneView : public QWidget {
   ShadowFinder* shadow_finder_;
   std::unique_ptr<FacePreview> face_preview_;
   bool wireframe_ = false;         ///< chosen by the user
-  bool previews_covered_ = false;  ///< the scene is drawn as lines around marked faces
+  bool previews_covered_ = false;  ///< outlines of faces are drawn instead of the scene
   std::unique_ptr<PathGlyph> path_glyph_;
   std::shared_ptr<const LightPaths> paths_;  ///< given to show_paths()
   int emphasized_path_ = -1;
