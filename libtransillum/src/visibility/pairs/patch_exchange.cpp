@@ -82,9 +82,9 @@ void add_moments_of(const RefinedCells::Exchange& found, PatchExchange& exchange
   }
 }
 
-/// The exchange of a cell past blockers, at most `exact`, the exchange without them. Where they
-/// hide next to nothing from the points, as the other half of a bent quad does, the error of the
-/// points is that of the cell without blockers, which is known.
+/// The exchange of a cell past blockers, m²; at most `exact`, its exchange without them. Blockers
+/// may hide next to nothing, as the other half of a bent quad does. The sum over points is then off
+/// by the error of the quadrature without blockers, and `exact` replaces it.
 double seen_part(const PointSums& sums, double exact) {
   constexpr double nearly_all = 0.999;
   const double part = sums.free > 0 ? sums.seen / sums.free : 0;
