@@ -230,6 +230,26 @@ TEST(ErrorReport, AddsReplicasToASolveWithoutAny) {
   EXPECT_EQ(std::ssize(report.relative_errors), scene->patch_count());
 }
 
+TEST(ErrorReport, OrdersStepsAlikeOnABusyMachine) {
+  MeasuredSolve solve = solve_to_measure(load_scene("cornell-box"), in_replicas);
+  ErrorReport report = measure_errors(solve);
+  const auto order = [&] {
+    std::vector<NextStep::Kind> kinds;
+    for (const NextStep& step : next_steps(report, solve)) {
+      kinds.push_back(step.kind);
+    }
+    return kinds;
+  };
+  const std::vector<NextStep::Kind> quiet = order();
+  ASSERT_GE(quiet.size(), 2U);
+  EXPECT_EQ(quiet.front(), NextStep::Kind::divide_surface);
+  report.measurements.divided_seconds *= 1000;
+  EXPECT_EQ(order(), quiet);
+  report.measurements.divided_seconds = 0;
+  solve.solution.statistics.seconds_transfers += 1;
+  EXPECT_EQ(order(), quiet);
+}
+
 TEST(ErrorReport, DividesASampleWherePatchesWouldBeTooMany) {
   const ScenePointer scene = built_in("cornell-box", 200);
   const MeasuredSolve solve = solve_to_measure(scene, in_replicas);

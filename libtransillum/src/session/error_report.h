@@ -53,8 +53,8 @@ struct NextStep {
   double seconds = 0;            ///< wall time of the solve after it, by measured rates
   double from = 0, to = 0;       ///< CauseErrors::total() of the worst surface before and after
 
-  /// Decrease of the error per second.
-  double gain() const { return seconds > 0 ? (from - to) / seconds : 0; }
+  /// Decrease of the error, over patches times passes: the work, which no other load changes.
+  double gain() const { return (from - to) / (static_cast<double>(patches) * passes); }
 };
 
 /// How the errors were measured.

@@ -20,8 +20,8 @@ inline constexpr double left_within = 0.5;
 /// Share of the squared error of means that a division of all patches leaves.
 inline constexpr double left_shift = 1.0 / 4;
 
-/// The changes that make the worst surface of a report more accurate, by decreasing gain per
-/// second, with the times that the solve and its measurements took.
+/// The changes that make the worst surface of a report more accurate, by decreasing
+/// NextStep::gain(), with times from the rates of the solve and its measurements.
 std::vector<NextStep> next_steps(const ErrorReport& report, const MeasuredSolve& solve);
 /// The patches that a step divides, in ascending order; empty if it divides none.
 /// @param solve whose errors were measured

@@ -225,7 +225,7 @@ void write_page(std::ostream& out, const ErrorReport& report, const MeasuredSolv
       out << "<li>" << escaped(step_text(step)) << "</li>\n";
     }
     out << "</ol>\n<p class=\"note\">Of the whole solve, by the measured times; the error is the "
-           "worst surface's, before and after. Most gain per second first.</p>\n";
+           "worst surface's, before and after. Most gain for its work first.</p>\n";
   }
   write_measurements(out, report.measurements);
   out << "</body>\n</html>\n";
