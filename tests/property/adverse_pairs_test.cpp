@@ -121,7 +121,8 @@ ReferenceExchange exchange_by_directions(const PairScene& pair, int directions) 
   return {mean, std::sqrt(variance), true};
 }
 
-void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
+/// @returns the number of pairs with an estimated error
+int expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
   int partial = 0, by_directions = 0;
   for (std::uint64_t seed = first; seed < end; ++seed) {
     const PairScene pair = random_blocked_pair(seed);
@@ -148,8 +149,8 @@ void expect_agreement_of_blocked(std::uint64_t first, std::uint64_t end) {
                             << reference.area;
     partial += found.error > 0 ? 1 : 0;
   }
-  EXPECT_GT(partial, static_cast<int>(end - first) / 4);
   EXPECT_LE(by_directions, static_cast<int>(end - first) / 100 + 1);
+  return partial;
 }
 
 TEST(AdversePairs, AgreeWithQuadratureInExtendedPrecision) {
@@ -163,7 +164,11 @@ TEST(AdversePairs, AgreeWithQuadratureInExtendedPrecision) {
 }
 
 TEST(AdversePairs, PastBlockersAgreeWithQuadratureInExtendedPrecision) {
-  expect_agreement_of_blocked(0, 8);
+  EXPECT_GT(expect_agreement_of_blocked(0, 8), 2);
+  // A cut leaves edges of next to no length.
+  for (const std::uint64_t seed : {44, 53, 78, 134, 173, 281, 450, 483, 498, 726}) {
+    expect_agreement_of_blocked(seed, seed + 1);
+  }
 }
 
 /// A needle of 10 m x 1 mm that a larger square stands on, past a blocker: points evenly spread
@@ -268,7 +273,7 @@ TEST(NightlyAdversePairs, AgreeWithQuadratureInExtendedPrecision) {
 }
 
 TEST(NightlyAdversePairs, PastBlockersAgreeWithQuadratureInExtendedPrecision) {
-  expect_agreement_of_blocked(8, 1'008);
+  EXPECT_GT(expect_agreement_of_blocked(8, 1'008), 250);
 }
 
 /// With eight random rotations of a set of directions. One of a thousand differences of normal

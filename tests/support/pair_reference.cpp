@@ -155,7 +155,7 @@ class View {
     }
     std::vector<Polygon> hiding;
     for (const Polygon& blocker : blockers_) {
-      hiding.push_back(from_x(blocker));
+      hiding.push_back(with_distinct_corners(from_x(blocker)));
     }
     return visible(above, hiding, 0);
   }
@@ -179,15 +179,28 @@ class View {
       return {};
     }
     const Real sign = orientation > 0 ? 1 : -1;
-    // A cut at a corner leaves an edge of next to no length, whose plane is rounding.
-    constexpr Real least_sine = 1e-14L;
     for (std::size_t k = 0; k < blocker.size() && !part.empty(); ++k) {
-      const Vec &a = blocker[k], &b = blocker[(k + 1) % blocker.size()];
-      if (const Vec across = cross(a, b); norm(across) > least_sine * norm(a) * norm(b)) {
-        part = clipped(part, sign * across, 0);
-      }
+      part = clipped(part, sign * cross(blocker[k], blocker[(k + 1) % blocker.size()]), 0);
     }
     return part;
+  }
+
+  /// A polygon without corners in the line of sight of the one before: a cut at a corner leaves an
+  /// edge of next to no length, whose plane is rounding. Empty if it is seen edge-on.
+  static Polygon with_distinct_corners(const Polygon& polygon) {
+    const auto same = [](const Vec& a, const Vec& b) {
+      return norm(cross(a, b)) <= 1e-14L * norm(a) * norm(b);
+    };
+    Polygon distinct;
+    for (const Vec& corner : polygon) {
+      if (distinct.empty() || !same(distinct.back(), corner)) {
+        distinct.push_back(corner);
+      }
+    }
+    while (distinct.size() > 1 && same(distinct.back(), distinct.front())) {
+      distinct.pop_back();
+    }
+    return distinct.size() < 3 ? Polygon{} : distinct;
   }
 
   Real form_factor(const Polygon& part) const {

@@ -184,16 +184,26 @@ class ProgramTest : public QObject {
     QVERIFY(!QFile::exists(picture));
   }
 
-  void a_lesson_that_selects_no_patch_of_its_scene_ends_a_screenshot() {
+  void a_lesson_that_names_no_patch_of_its_scene_ends_a_screenshot_data() {
+    QTest::addColumn<QByteArray>("selection");
+    QTest::addColumn<QByteArray>("callouts");
+    QTest::newRow("select") << QByteArray(R"(, "select": 99)") << QByteArray("[]");
+    QTest::newRow("callouts") << QByteArray() << QByteArray(R"([{"text": "a", "patch": 99}])");
+  }
+  void a_lesson_that_names_no_patch_of_its_scene_ends_a_screenshot() {
+    QFETCH(const QByteArray, selection);
+    QFETCH(const QByteArray, callouts);
     const QTemporaryDir folder;
     const QString lesson = folder.filePath("l.json"), picture = folder.filePath("a.png");
-    test::write_file(lesson, R"({"title": "T", "pages": [{"text": "x", "show": {
-                      "scene": "furnace", "options": {"directions": 16}, "select": 99}}]})");
+    test::write_file(lesson, R"({"title": "T", "pages": [{"text": "x", "callouts": )" + callouts +
+                                 R"(, "show": {"scene": "furnace", "options": {"directions": 16})" +
+                                 selection + "}}]}");
     Program program({"--lesson", lesson, "--screenshot", picture});
     program.start();
     QCOMPARE(program.status(), 2);
     const QByteArray errors = program.errors();
-    QVERIFY2(errors.contains("select: there is no patch 99; the scene has 0 to 11"),
+    const QByteArray key = QTest::currentDataTag();
+    QVERIFY2(errors.contains(key + ": there is no patch 99; the scene has 0 to 11"),
              errors.constData());
     QVERIFY(!QFile::exists(picture));
   }

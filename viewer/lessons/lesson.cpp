@@ -187,6 +187,9 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
       page_object.fail("too much: the pages up to here set more than 16 MiB together");
     }
     page.state = view_state_from_json(state, where, folder);
+    for (const Callout& callout : page.callouts) {
+      page.state.pointed_at = std::max(page.state.pointed_at, callout.patch);
+    }
     if (errors) {
       page.errors = errors_from_json(*errors, page_object.where("errors"),
                                      state.value("options", json()), page.state);

@@ -52,6 +52,7 @@ struct ViewState {
   PatchId selection = no_patch;
   std::vector<PatchRange> also_selected;    ///< besides `selection`
   std::vector<PatchRange> hidden;           ///< omitted from the picture
+  PatchId pointed_at = no_patch;            ///< largest patch of a page's callouts; in no file
   std::optional<ClipPlane> clip;            ///< if not set, clipping is off
   std::optional<ViewPoint> camera;          ///< the initial view if not set
   Quantity quantity = Quantity::radiosity;  ///< shown in color; never Quantity::difference

@@ -280,9 +280,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
     return;
   }
   if (!picture_ || !content_.map) {
-    painter.setPen(theme::on_dark_dim);
-    painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
-                     tr("The visibility map appears after the first direction"));
+    draw_note(painter, tr("The visibility map appears after the first direction"));
     return;
   }
   // The picture may be of an older view: move and scale it to the current one.
@@ -303,6 +301,15 @@ void MapCanvas::paintEvent(QPaintEvent*) {
     return;
   }
   draw_marks({painter, size()}, *picture_, now);
+  const MapPictureRequest& shown = picture_->request;
+  if (shown.step == 0 && shown.extent == MapExtent::step && shown.receiver == no_patch) {
+    draw_note(painter, tr("V is empty before the first step"));
+  }
+}
+
+void MapCanvas::draw_note(QPainter& painter, const QString& text) const {
+  painter.setPen(theme::on_dark_dim);
+  painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap, text);
 }
 
 void MapCanvas::draw_marks(const MapSheet& sheet, const MapPicture& picture,

@@ -126,6 +126,7 @@ class MapCanvas : public QWidget {
   void wait_for_picture();
   void show_failure(const QString& message, quint64 number);
   void draw_failure(QPainter& painter, const QString& failure) const;
+  void draw_note(QPainter& painter, const QString& text) const;
   /// Draws what is over the picture of a map.
   void draw_marks(const MapSheet& sheet, const MapPicture& picture,
                   const MapTransform& shown) const;

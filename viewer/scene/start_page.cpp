@@ -100,7 +100,7 @@ class StartCard : public QAbstractButton {
         height = qRound(choice_type * line) + line + 2 * padding;
         break;
       case Look::picture_above:
-        height = picture_height(width) + 2 * line + padding;
+        height = picture_height(width) + 3 * line + padding;
         break;
       case Look::picture_left:
         height = std::max(theme::scaled(small_picture_height) + 2,
@@ -156,21 +156,25 @@ class StartCard : public QAbstractButton {
     const double type = look_ == Look::choice ? choice_type : 1;
     painter.setFont(scaled_font(font(), type, look_ != Look::picture_left));
     painter.setPen(theme::ink);
-    const int line = painter.fontMetrics().lineSpacing();
-    const int note_line = fontMetrics().lineSpacing();
-    const int lines = look_ == Look::picture_left ? 2 : 1;
-    // The tool tip has the whole name.
-    const int most = (lines - 1) * line + painter.fontMetrics().height();  // taller than a line
-    const QString name = shortened(text(), painter.fontMetrics(), room.width(), most);
+    // The tool tip has the whole texts.
+    const auto fitting = [&](const QString& text, int lines) {
+      const QFontMetrics metrics = painter.fontMetrics();
+      const int most = (lines - 1) * metrics.lineSpacing() + metrics.height();
+      return shortened(text, metrics, room.width(), most);
+    };
+    const QString name = fitting(text(), look_ == Look::picture_left ? 2 : 1);
     const int used = height_of(name, painter.fontMetrics(), room.width());
-    const QRect title(room.left(), room.center().y() - (used + note_line) / 2 + 1, room.width(),
+    const QFont note_font = scaled_font(font(), look_ == Look::choice ? 1 : small_type, false);
+    const int note_lines = look_ == Look::picture_above ? 2 : 1;
+    const int note_height = note_lines * fontMetrics().lineSpacing();
+    const QRect title(room.left(), room.center().y() - (used + note_height) / 2 + 1, room.width(),
                       used);
     painter.drawText(title, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, name);
-    painter.setFont(scaled_font(font(), look_ == Look::choice ? 1 : small_type, false));
+    painter.setFont(note_font);
     painter.setPen(first_hour_ ? theme::accent : theme::ink_dim);
-    const QRect note(room.left(), title.bottom() + 1, room.width(), note_line);
-    painter.drawText(note, Qt::AlignLeft | Qt::AlignVCenter,
-                     painter.fontMetrics().elidedText(note_, Qt::ElideRight, note.width()));
+    const QRect note(room.left(), title.bottom() + 1, room.width(), note_height);
+    painter.drawText(note, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap,
+                     fitting(note_, note_lines));
   }
 
   Look look_;
@@ -279,13 +283,11 @@ void StartPage::set_choices(const QList<QAction*>& choices) {
 void StartPage::set_lessons(const QVector<LessonEntry>& lessons, const QString& hint) {
   clear(lessons_);
   lessons_hint_->setText(hint);
-  const auto in_hour = std::count_if(lessons.begin(), lessons.end(),
-                                     [](const LessonEntry& lesson) { return lesson.place > 0; });
   for (const LessonEntry& lesson : lessons) {
     const int number = lessons_.cards.size();
     QString note = lesson.minutes > 0 ? tr("%1 min").arg(lesson.minutes) : tr("lesson");
     if (lesson.place > 0) {
-      note = tr("%1 of %2 · %3").arg(lesson.place).arg(in_hour).arg(note);
+      note = tr("First hour · %1").arg(note);
     }
     if (lesson.read == 1) {
       note = tr("✓ %1").arg(note);

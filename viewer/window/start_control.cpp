@@ -69,7 +69,7 @@ void StartControl::fill_lessons() {
   const FirstHour hour = first_hour_of(lessons, 0);
   frame_.page.start()->set_lessons(
       entries,
-      tr("The first hour: 1 of %1 to %1 of %1, %2 minutes").arg(hour.lessons).arg(hour.minutes));
+      tr("The first hour: %1 lessons in order, %2 minutes").arg(hour.lessons).arg(hour.minutes));
 }
 
 void StartControl::fill_recent() {

@@ -181,6 +181,7 @@ void ViewStateApplier::open_again(const RunOptions& options) {
   requested_.selection = no_patch;
   requested_.also_selected.clear();
   requested_.hidden.clear();
+  requested_.pointed_at = no_patch;
   requested_.focus.reset();
   open_requested();
 }
@@ -389,6 +390,7 @@ void ViewStateApplier::apply_selection() {
   check(QStringLiteral("select"), requested_.selection);
   check(QStringLiteral("also-selected"), last_of(requested_.also_selected));
   check(QStringLiteral("hidden"), last_of(requested_.hidden));
+  check(QStringLiteral("callouts"), requested_.pointed_at);
 }
 
 void ViewStateApplier::apply_focus() {
