@@ -132,7 +132,7 @@ class WholeMapTest : public QObject {
     const auto* title = s.map_view->findChild<QLabel*>("map_title");
     QVERIFY(title->text().startsWith("Direction 32 of 32, complete"));
     s.focus.follow(0, 4);
-    QVERIFY(title->text().startsWith("Direction 32 of 32, complete; direction 5 follows"));
+    QVERIFY(title->text().startsWith("Direction 32 of 32, complete · direction 5 follows"));
     QVERIFY(s.settles());
     QVERIFY(title->text().startsWith("Direction 5 of 32, complete"));
     QVERIFY(!title->text().contains("follows"));

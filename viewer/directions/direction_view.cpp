@@ -289,11 +289,16 @@ void DirectionView::draw_legend(QPainter& painter) const {
   bold.setBold(true);
   painter.setFont(bold);
   painter.setPen(theme::on_dark);
-  const QString count =
-      snapshot_->options.two_way
-          ? tr("%1 directions and their opposites").arg(count_text(directions_done()))
-          : tr("%1 directions").arg(count_text(directions_done()));
-  painter.drawText(QRect(12, 6, width() - 24, line), Qt::AlignLeft, count);
+  const auto width_of = [&](const QString& text) {
+    return painter.fontMetrics().horizontalAdvance(text);
+  };
+  const QRect heading(12, 6, width() - 24, line);
+  QString count = tr("%1 directions").arg(count_text(directions_done()));
+  if (snapshot_->options.two_way) {
+    const QString whole = tr("%1 and their opposites").arg(count);
+    count = width_of(whole) <= heading.width() ? whole : tr("%1, both ways").arg(count);
+  }
+  painter.drawText(heading, Qt::AlignLeft, count);
   painter.setFont(font());
   painter.setPen(theme::on_dark_dim);
   const std::vector<double> power = received();
@@ -313,9 +318,12 @@ void DirectionView::draw_legend(QPainter& painter) const {
   const QRectF below(bar.left(), bar.bottom() + 3, bar.width(), line);
   painter.setPen(theme::on_dark);
   painter.drawText(below, Qt::AlignLeft, tr("0"));
-  painter.drawText(below, Qt::AlignRight, tr("%1 W/m²").arg(number_text(largest)));
+  const QString most = tr("%1 W/m²").arg(number_text(largest)), middle = number_text(largest / 4);
+  painter.drawText(below, Qt::AlignRight, most);
   // color_position() maps a quarter of the largest value to the middle of the bar.
-  painter.drawText(below, Qt::AlignHCenter, number_text(largest / 4));
+  if (width_of(middle) / 2 + width_of(most) < below.width() / 2 - line / 2.0) {
+    painter.drawText(below, Qt::AlignHCenter, middle);
+  }
 }
 
 std::optional<DirectionView::Point> DirectionView::point_at(const QPointF& where) const {

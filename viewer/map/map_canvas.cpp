@@ -302,7 +302,8 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   }
   draw_marks({painter, size()}, *picture_, now);
   const MapPictureRequest& shown = picture_->request;
-  if (shown.step == 0 && shown.extent == MapExtent::step && shown.receiver == no_patch) {
+  if (shown.step == 0 && !shown.step_shown && shown.extent == MapExtent::step &&
+      shown.receiver == no_patch) {
     draw_note(painter, tr("V is empty before the first step"));
   }
 }

@@ -6,7 +6,6 @@
 #include "map/map_view.h"
 
 #include <QButtonGroup>
-#include <QLabel>
 #include <QMenu>
 #include <QPainter>
 #include <QStackedWidget>
@@ -23,6 +22,7 @@
 #include "map/polygon_text.h"
 #include "support/number_text.h"
 #include "widgets/build.h"
+#include "widgets/elided.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -53,14 +53,9 @@ QString legend_entry(const QColor& color, const QString& name) {
 MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors,
                  const RunBeside& beside, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection), colors_(colors), beside_(beside) {
-  title_ = named("map_title", new QLabel);
-  step_text_ = named("map_text", new QLabel);
+  title_ = named("map_title", new ClauseLabel);
+  step_text_ = named("map_text", new ClauseLabel);
   step_text_->setForegroundRole(QPalette::PlaceholderText);
-  step_text_->setToolTip(
-      tr("Drag to move, wheel to zoom, double-click to show all, click to select a patch"));
-  // Long text is cut off rather than widening the window.
-  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  step_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   second_ = make_canvas(selection, "map_canvas_before");
   canvas_ = make_canvas(selection, "map_canvas");
   second_->hide();
@@ -484,23 +479,24 @@ void MapView::show_buttons() {
   phases_->button(static_cast<int>(focus_.phase()))->setChecked(true);
 }
 
-QString MapView::direction_text() const {
+QStringList MapView::direction_clauses() const {
   const auto map = focus_.map();
   const QString direction = tr("Direction %1 of %2")
                                 .arg(count_text(map->direction + 1),
                                      count_text(focus_.passes_of(focus_.position().iteration)));
   if (focus_.at_step()) {
-    return tr("%1, step %2 of %3: %4")
-        .arg(direction, count_text(focus_.position().step + 1),
-             count_text(map->history.step_count()), text_of(focus_.reason()));
+    return {tr("%1, step %2 of %3")
+                .arg(direction, count_text(focus_.position().step + 1),
+                     count_text(map->history.step_count())),
+            text_of(focus_.reason())};
   }
   // Maps of many polygons take longer than the directions of the solve.
   const QString shown =
       shown_whole() == Whole::complete ? tr("%1, complete").arg(direction) : direction;
   const int newest = focus_.target().direction;
   return focus_.arrived() || newest == map->direction
-             ? shown
-             : tr("%1; direction %2 follows").arg(shown, count_text(newest + 1));
+             ? QStringList{shown}
+             : QStringList{shown, tr("direction %1 follows").arg(count_text(newest + 1))};
 }
 
 QString MapView::whole_text() const {
@@ -525,49 +521,52 @@ void MapView::show_title() {
   const auto map = focus_.map();
   show_buttons();
   if (!map) {
-    title_->setText(
-        focus_.arrived()
-            ? tr("No direction yet")
-            : tr("Recording direction %1…").arg(count_text(focus_.target().direction + 1)));
-    step_text_->setText(tr("View along ω, toward the source"));
-    return;
+    title_->set_clauses(
+        {focus_.arrived()
+             ? tr("No direction yet")
+             : tr("Recording direction %1…").arg(count_text(focus_.target().direction + 1))});
+  } else if (shows_hemicube()) {
+    title_->set_clauses({tr("Hemicube, seen from inside")},
+                        tr("Half a cube on the center of the selected patch, unfolded: the top in "
+                           "the middle, the four sides around it"));
+  } else {
+    title_->set_clauses(
+        direction_clauses(),
+        tr("ω = %1 points toward the source").arg(vector_text(map->record().frame.omega)));
   }
-  title_->setText(direction_text());
-  title_->setToolTip(
-      tr("ω = %1 points toward the source").arg(vector_text(map->record().frame.omega)));
+  step_text_->set_clauses(
+      step_clauses(),
+      tr("Drag to move, wheel to zoom, double-click to show all, click to select a patch"));
+}
+
+QStringList MapView::step_clauses() const {
+  const auto map = focus_.map();
+  if (!map) {
+    return {tr("View along ω, toward the source")};
+  }
   if (shows_hemicube()) {
-    title_->setText(tr("Hemicube, seen from inside"));
-    title_->setToolTip(
-        tr("Half a cube on the center of the selected patch, unfolded:\n"
-           "the top in the middle, the four sides around it"));
-    step_text_->setText(hemicube_->status_text());
-    return;
+    return {hemicube_->status_text()};
   }
   if (canvas_->pixels()) {
-    step_text_->setText(pixel_text());
-    return;
+    return {pixel_text()};
   }
   if (shows_beside() && beside_.comparison()) {
-    step_text_->setText(tr("The open scene and %1, along the same ω").arg(beside_.name()));
-    return;
+    return {tr("The open scene and %1, along the same ω").arg(beside_.name().toHtmlEscaped())};
   }
   if (shown_whole()) {
-    step_text_->setText(whole_text());
-    return;
+    return {whole_text()};
   }
   if (shown_phase() == Phase::split && focus_.position().step >= 0) {
-    step_text_->setText(QStringLiteral("%1 &nbsp; %2 &nbsp; %3")
-                            .arg(legend_entry(theme::processed.darker(120), tr("fragment")),
-                                 legend_entry(theme::inside, tr("inside list")),
-                                 legend_entry(theme::outside, tr("outside list"))));
-    return;
+    return {QStringLiteral("%1 &nbsp; %2 &nbsp; %3")
+                .arg(legend_entry(theme::processed.darker(120), tr("fragment")),
+                     legend_entry(theme::inside, tr("inside list")),
+                     legend_entry(theme::outside, tr("outside list")))};
   }
   const std::int32_t after = focus_.position().step + (shown_phase() == Phase::before ? 0 : 1);
   const auto polygons = static_cast<std::int64_t>(canvas_->polygon_count());
-  step_text_->setText(
-      (polygons == 1 ? tr("V after %1 of %2 steps: %3 polygon")
-                     : tr("V after %1 of %2 steps: %3 polygons"))
-          .arg(count_text(after), count_text(map->history.step_count()), count_text(polygons)));
+  return {
+      tr("V after %1 of %2 steps").arg(count_text(after), count_text(map->history.step_count())),
+      (polygons == 1 ? tr("%1 polygon") : tr("%1 polygons")).arg(count_text(polygons))};
 }
 
 QString MapView::pixel_text() const {

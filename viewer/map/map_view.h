@@ -15,13 +15,13 @@
 
 class QBoxLayout;
 class QButtonGroup;
-class QLabel;
 class QStackedWidget;
 class QTimer;
 class QToolButton;
 
 namespace transillum::viewer {
 
+class ClauseLabel;
 class HemicubeView;
 class EngineMenu;
 class PhasePair;
@@ -74,8 +74,9 @@ class MapView : public QWidget {
   void show_position();
   void show_title();
   void show_buttons();
-  QString direction_text() const;
+  QStringList direction_clauses() const;
   QString whole_text() const;
+  QStringList step_clauses() const;
   QString pixel_text() const;
   bool shows_hemicube() const;
   /// Whether both phases of the step are shown, at once or in turn.
@@ -102,8 +103,8 @@ class MapView : public QWidget {
   const ColorChoice& colors_;
   const RunBeside& beside_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
-  QLabel* title_;
-  QLabel* step_text_;
+  ClauseLabel* title_;
+  ClauseLabel* step_text_;
   MapCanvas* canvas_;
   MapCanvas* second_;  ///< beside canvas_: V before the step, or what receives; else hidden
   QWidget* canvases_;

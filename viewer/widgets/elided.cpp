@@ -59,11 +59,12 @@ ClauseLabel::ClauseLabel(QWidget* parent) : QLabel(parent) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
 }
 
-void ClauseLabel::set_clauses(const QStringList& clauses) {
-  if (clauses == clauses_) {
+void ClauseLabel::set_clauses(const QStringList& clauses, const QString& tip) {
+  if (clauses == clauses_ && tip == tip_) {
     return;
   }
   clauses_ = clauses;
+  tip_ = tip;
   fit();
 }
 
@@ -93,7 +94,8 @@ void ClauseLabel::fit() {
     text = QStringList(clauses_.mid(0, count)).join(separator) + QStringLiteral(" …");
   }
   setText(text);
-  setToolTip(clauses_.join(separator));
+  const QString all = clauses_.join(separator);
+  setToolTip(tip_.isEmpty() ? all : all + QStringLiteral("<br>") + tip_);
 }
 
 }  // namespace transillum::viewer

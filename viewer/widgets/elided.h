@@ -39,8 +39,9 @@ class ClauseLabel : public QLabel {
  public:
   explicit ClauseLabel(QWidget* parent = nullptr);
 
-  /// May be rich text.
-  void set_clauses(const QStringList& clauses);
+  /// @param clauses  may be rich text
+  /// @param tip  further lines of the tool tip
+  void set_clauses(const QStringList& clauses, const QString& tip = {});
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -50,6 +51,7 @@ class ClauseLabel : public QLabel {
   void fit();
 
   QStringList clauses_;
+  QString tip_;
 };
 
 }  // namespace transillum::viewer
