@@ -5,13 +5,16 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QClipboard>
+#include <QDir>
 #include <QDoubleSpinBox>
 #include <QPushButton>
 #include <QSlider>
 #include <QTemporaryDir>
+#include <QToolButton>
 #include <cmath>
 #include <limits>
 
+#include "film_frames.h"
 #include "model/solver/draft.h"
 #include "scene/shadow_finder.h"
 #include "solve/sun_controls.h"
@@ -19,6 +22,7 @@
 #include "solved_window.h"
 #include "test_files.h"
 #include "transillum/at.h"
+#include "window/files/frame_recorder.h"
 #include "window/sun_drag.h"
 
 namespace transillum::viewer::sun_test {
@@ -88,6 +92,16 @@ struct Yard {
     return sum / area;
   }
 };
+
+double mean_gray(const QImage& picture) {
+  double sum = 0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      sum += qGray(picture.pixel(x, y));
+    }
+  }
+  return sum / picture.width() / picture.height();
+}
 
 double angle_between(const Vec3& a, const Vec3& b) { return norm(cross(a, b)); }
 
@@ -251,6 +265,85 @@ class SunTest : public QObject {
     yard.part<QDoubleSpinBox>("sun_elevation")->setValue(-1);
     QVERIFY(wait_for([&] { return yard.solved_sun().below_horizon; }) && yard.solves());
     QCOMPARE(yard.floor(), 0.0);
+  }
+
+  void a_film_shows_a_day() {
+    const Yard yard;
+    QVERIFY(yard.solves());
+    FrameRecorder& recorder = *yard.shown.window->findChild<FrameRecorder*>();
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("day.mp4");
+    const FilmPlan plan{FilmPlan::Show::scene, FilmPlan::Over::day, {480, 360}, 1};
+    recorder.begin_film(path, plan);
+    QVERIFY(!recorder.writing());  // the sun is not placed by time
+    yard.part<QCheckBox>("sun_by_time")->setChecked(true);
+    yard.part<QSlider>("sun_time")->setValue(9 * 60);
+    QVERIFY(yard.solves());
+    const auto solved = yard.shown.window->snapshot();
+    const QImage shown = yard.shown.picture();
+    const auto* settings = yard.shown.window->findChild<SettingsPanel*>();
+    const Sun sun = settings->solve_options().sky.sun;
+    const auto is_as_before = [&] {
+      return !yard.drag->busy() && yard.shown.window->snapshot() == solved &&
+             settings->solve_options().sky.sun == sun &&
+             different_pixels(yard.shown.picture(), shown) == 0;
+    };
+
+    recorder.begin_film(path, plan);
+    QVERIFY(wait_for([&] { return !recorder.writing(); }));
+    QVERIFY(is_as_before());
+    const std::vector<QImage> day = decoded_film(path).frames;
+    QCOMPARE(static_cast<int>(day.size()), 10);
+    const double noon = mean_gray(day[5]);
+    QVERIFY2(
+        noon > mean_gray(day.front()) + 10 && noon > mean_gray(day.back()) + 10,
+        qPrintable(
+            QString("%1 %2 %3").arg(mean_gray(day.front())).arg(noon).arg(mean_gray(day.back()))));
+    if (const QString pictures = qEnvironmentVariable("TRANSILLUM_PICTURES"); !pictures.isEmpty()) {
+      for (const std::size_t k : {0U, 2U, 5U, 9U}) {
+        day[k].save(pictures + QString("/day-%1.png").arg(k));
+      }
+    }
+
+    const QString canceled = folder.filePath("canceled.webm");
+    recorder.begin_film(canceled, plan);
+    QVERIFY(wait_for([&] { return recorder.frames() >= 3; }));
+    QTest::mouseClick(yard.part<QToolButton>("cancel_recording"), Qt::LeftButton);
+    QVERIFY(!recorder.writing() && is_as_before());
+    QVERIFY(wait_for([&] {
+      return QDir(folder.path()).entryList({"*canceled*"}, QDir::Files | QDir::Hidden).isEmpty();
+    }));
+    // A sun that is moved by hand ends the film, and is solved.
+    recorder.begin_film(canceled, plan);
+    QVERIFY(wait_for([&] { return recorder.frames() >= 1; }));
+    emit yard.dome->moved({90, 45});
+    QVERIFY(!recorder.writing());
+    QVERIFY(yard.shown.window->banner_text().contains("The sun was moved"));
+    QVERIFY(yard.solves() && yard.shown.window->snapshot() != solved);
+    QVERIFY(angle_between(yard.solved_sun().direction, normalized({1, 0, 1})) < 1e-12);
+  }
+
+  void a_day_goes_from_sunrise_to_sunset() {
+    SunControls controls;
+    const Vec3 up{0, 0, 1};
+    controls.set_sun({{800, 800, 800}, {0, 0, 1}}, up);
+    QVERIFY(controls.day(up, 9).empty());
+    controls.findChild<QCheckBox*>("sun_by_time")->setChecked(true);
+    const std::vector<SunOfDay> day = controls.day(up, 9);
+    QCOMPARE(static_cast<int>(day.size()), 9);
+    // 16.2 h of sun at 50° north on June 21.
+    QCOMPARE(day.front().time.left(9), QString("21 Jun 03"));
+    QCOMPARE(day.back().time.left(9), QString("21 Jun 20"));
+    QVERIFY(day.front().sun.direction.x > 0.7 && day.back().sun.direction.x < -0.7);
+    QVERIFY(day.front().sun.is_set() && std::abs(day.front().sun.direction.z) < 0.01);
+    QVERIFY(day[4].sun.direction.z > 0.89);
+    // There is no night in the north, and no day in the south.
+    auto* latitude = controls.findChild<QDoubleSpinBox*>("sun_latitude");
+    latitude->setValue(80);
+    const std::vector<SunOfDay> polar = controls.day(up, 9);
+    QVERIFY(norm(polar.front().sun.direction - polar.back().sun.direction) < 0.01);
+    latitude->setValue(-80);
+    QVERIFY(controls.day(up, 9).empty());
   }
 };
 

@@ -367,7 +367,7 @@ void ColorChoice::fit_range() {
   const QuantityTraits& traits = traits_of(quantity_);
   const Scene& scene = *snapshot_->loaded->scene;
   if (scale_.mode == ColorMode::true_color) {
-    if (!automatic_) {
+    if (!automatic_ || range_is_held_) {
       return;
     }
     // Reflectances are between 0 and 1: white is 1.
@@ -387,7 +387,7 @@ void ColorChoice::fit_range() {
   const auto light = traits.by_eye ? eye_radiance_.result() : nullptr;
   const bool same_light = light && light->light == light_of_range_ && range_is_known_;
   light_of_range_ = light ? light->light : nullptr;
-  if (range_rule_ != RangeRule::fixed) {
+  if (range_rule_ != RangeRule::fixed && !range_is_held_) {
     if (quantity_ == Quantity::radiosity) {
       scale_.fit_range(scene, values_.values);
     } else {

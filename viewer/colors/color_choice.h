@@ -93,6 +93,8 @@ class ColorChoice : public QObject {
   void fit(std::shared_ptr<const SolverSnapshot> snapshot);
   /// The same, for the light of the scene while its faces are moved: range and kept runs stay.
   void fit_moved(std::shared_ptr<const SolverSnapshot> snapshot);
+  /// While held, range and exposure are not fitted: the pictures of a film can be compared.
+  void hold_range(bool held) { range_is_held_ = held; }
 
   /// One color per patch of the newest snapshot; grays if there are no values, and a neutral light
   /// where nothing emits.
@@ -146,6 +148,7 @@ class ColorChoice : public QObject {
   bool decades_logarithmic_ = true;  ///< the user's choice for quantities that span decades
   RangeRule range_rule_ = RangeRule::automatic;
   bool range_is_known_ = false;  ///< the range was fitted since reset_range()
+  bool range_is_held_ = false;
   bool automatic_ = true;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   KeptRuns kept_runs_;

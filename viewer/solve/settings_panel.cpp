@@ -338,6 +338,10 @@ Vec3 SettingsPanel::zenith() const {
              : other_zenith_;
 }
 
+std::vector<SunOfDay> SettingsPanel::sun_through_day(int count) const {
+  return sun_->day(zenith(), count);
+}
+
 Sky SettingsPanel::sky() const {
   const Sun sun = sun_->sun(zenith());
   if (!(sky_value_->value() > 0) || !takes_directions(engine_of(*engine_))) {

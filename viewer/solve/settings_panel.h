@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include <optional>
+#include <vector>
 
 #include "model/run_options.h"
 #include "solve/solve_cost.h"
@@ -27,6 +28,7 @@ class RefineControls;
 class RoundPanel;
 class SettingRows;
 class SunControls;
+struct SunOfDay;
 
 /// Controls for the options of the next solve: quality, patches and the button on top, the others
 /// below in sections that can be folded. A setting that has no effect is not shown.
@@ -56,6 +58,8 @@ class SettingsPanel : public QWidget {
   void set_in_effect(const std::shared_ptr<const SolverSnapshot>& snapshot,
                      const SceneOptions& scene);
   bool differ_from_effect() const;
+  /// SunControls::day(), with the zenith of the sky.
+  std::vector<SunOfDay> sun_through_day(int count) const;
   void set_restart_enabled(bool enabled);
   /// Sets the fraction of the light of all patches that escapes from the open scene; not set while
   /// it is unknown. If no light escapes, no sky is seen, and its controls are disabled.

@@ -164,7 +164,7 @@ void SunControls::show_rows() {
   SettingRows::show_row(time_->parentWidget(), by_time);
 }
 
-SolarPosition SunControls::position_at(int minute) const {
+SolarPosition SunControls::position_at(double minute) const {
   const QDateTime day(first_day().addDays(day_->value()), QTime(0, 0), Qt::UTC);
   const double utc = static_cast<double>(day.toSecsSinceEpoch()) +
                      60.0 * (minute - 60 * zone_of(longitude_->value()));
@@ -209,11 +209,11 @@ Sun SunControls::sun(const Vec3& up) const {
   if (is_given_) {
     return given_;
   }
+  return irradiance_->value() > 0 ? sun_at(dome_->position(), up) : Sun();
+}
+
+Sun SunControls::sun_at(const SolarPosition& position, const Vec3& up) const {
   Sun sun;
-  if (!(irradiance_->value() > 0)) {
-    return sun;
-  }
-  const SolarPosition& position = dome_->position();
   sun.direction = direction_of(position, up, default_north(up));
   sun.disc = given_.disc;
   sun.below_horizon = position.elevation <= 0;
@@ -221,6 +221,33 @@ Sun SunControls::sun(const Vec3& up) const {
     sun.irradiance = irradiance_->value() * color_;
   }
   return sun;
+}
+
+std::vector<SunOfDay> SunControls::day(const Vec3& up, int count) const {
+  std::vector<SunOfDay> day;
+  const auto elevation = [this](int minute) { return position_at(minute).elevation; };
+  int noon = 0;
+  for (int minute = 0; minute < minutes_of_day; ++minute) {
+    noon = elevation(minute) > elevation(noon) ? minute : noon;
+  }
+  if (!(irradiance_->value() > 0) || !by_time_->isChecked() || elevation(noon) <= 0) {
+    return day;
+  }
+  int rise = noon, set = noon;
+  while (rise > noon - minutes_of_day / 2 && elevation(rise - 1) > 0) {
+    --rise;
+  }
+  while (set < noon + minutes_of_day / 2 && elevation(set + 1) > 0) {
+    ++set;
+  }
+  const QDateTime midnight(first_day().addDays(day_->value()), QTime(0, 0), Qt::UTC);
+  for (int k = 0; k < count; ++k) {
+    const double minute = rise + (set - rise) * k / (count - 1.0);
+    const QDateTime time = midnight.addSecs(std::lround(60 * minute));
+    day.push_back(
+        {QLocale(QLocale::English).toString(time, "d MMM HH:mm"), sun_at(position_at(minute), up)});
+  }
+  return day;
 }
 
 void SunControls::set_sun(const Sun& sun, const Vec3& up) {

@@ -1,7 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QString>
 #include <QWidget>
+#include <vector>
 
 #include "transillum/sun.h"
 
@@ -15,6 +17,12 @@ namespace transillum::viewer {
 class SettingRows;
 class SunDome;
 
+/// A place of the sun on its way through a day.
+struct SunOfDay {
+  QString time;  ///< 21 Jun 14:30
+  Sun sun;
+};
+
 /// The sun: its irradiance, and its place in the sky, by hand or by place, day and time.
 class SunControls : public QWidget {
   Q_OBJECT
@@ -24,6 +32,11 @@ class SunControls : public QWidget {
 
   /// The sun in a scene with this vertical (unit vector) and the default north.
   Sun sun(const Vec3& up) const;
+  /// The sun on its way through the day that is set, in equal steps: from sunrise to sunset, or
+  /// through 24 hours around noon where the sun does not set. Empty where the sun is not placed by
+  /// time, or does not rise.
+  /// @param count  at least 2
+  std::vector<SunOfDay> day(const Vec3& up, int count) const;
   /// Shows a sun; emits nothing. sun() is it, with all digits, until the user changes something.
   void set_sun(const Sun& sun, const Vec3& up);
   /// The same, also where sun() is it: for another vertical, at which it has other angles.
@@ -39,7 +52,8 @@ class SunControls : public QWidget {
   void take_time();
   void show_rows();
   void show_position(const SolarPosition& position);
-  SolarPosition position_at(int minute) const;
+  SolarPosition position_at(double minute) const;
+  Sun sun_at(const SolarPosition& position, const Vec3& up) const;
   void tell();
 
   Sun given_;                   ///< the argument of set_sun()

@@ -202,7 +202,7 @@ void MainWindow::make_whole_window_actions() {
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
   memory_ = new LayoutMemory(frame, docks_, appearance_, *files_, *lesson_panel_);
   exports_ = new ExportActions(frame, *map_view_, *convergence_view_);
-  recorder_ = new FrameRecorder(frame, *timeline_->play(), *map_view_);
+  recorder_ = new FrameRecorder(frame, *timeline_->play(), *map_view_, *sun_);
   timeline_->play()->menu()->addSeparator();
   timeline_->play()->menu()->addAction(recorder_->film_action());
   new LoadingNotice(frame);

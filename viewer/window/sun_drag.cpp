@@ -10,6 +10,7 @@
 #include "scene/scene_view.h"
 #include "scene/sharp_view.h"
 #include "solve/settings_panel.h"
+#include "transillum/at.h"
 #include "transillum/glossy.h"
 
 namespace transillum::viewer {
@@ -22,7 +23,7 @@ constexpr int sun_rest_ms = 300;  // from the last move until the scene is solve
 
 // A running job is finished: a late picture is better than none.
 SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings, std::function<bool()> solve)
-    : QObject(&frame.window),
+    : FilmedChange(&frame.window),
       frame_(frame),
       settings_(settings),
       solve_(std::move(solve)),
@@ -30,7 +31,13 @@ SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings, std::functio
       lights_(
           *this, &live_light,
           [this](const LiveLightRequest& request, const std::shared_ptr<const Solution>& light,
-                 const QString&) { take_light(request, light); },
+                 const QString& error) {
+            if (light) {
+              take_light(request, light);
+            } else if (!day_.empty()) {
+              emit film_lost(error);
+            }
+          },
           CurrentJob::finish) {
   rest_timer_->setSingleShot(true);
   rest_timer_->setInterval(sun_rest_ms);
@@ -52,6 +59,9 @@ SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings, std::functio
   });
   for (const auto change : {&OpenScene::scene_loaded, &OpenScene::patches_changed}) {
     connect(&frame_.state.scene, change, this, [this] {
+      if (!day_.empty()) {
+        emit film_lost(tr("The scene has other patches"));
+      }
       const bool moves = solved_ && !awaited_;
       end();
       if (moves) {
@@ -65,22 +75,63 @@ SunDrag::~SunDrag() = default;
 
 bool SunDrag::busy() const { return lights_.busy() || rest_timer_->isActive() || awaited_; }
 
-void SunDrag::follow() {
+/// Whether a sun can light the scene shown; lobes and a sun exclude each other, as the settings
+/// say.
+bool SunDrag::can_light() const {
   const auto snapshot = frame_.state.scene.snapshot();
-  if (!snapshot) {
+  return snapshot && !(settings_.solve_options().glossy && has_lobes(*snapshot->loaded->scene));
+}
+
+void SunDrag::follow() {
+  if (!day_.empty()) {
+    emit film_lost(tr("The sun was moved"));
+  }
+  if (!can_light()) {
     return;  // the first solve has this sun
   }
-  const SolveOptions options = settings_.solve_options();
-  const Scene& scene = *snapshot->loaded->scene;
-  if (options.glossy && has_lobes(scene)) {
-    return;  // the settings say that lobes and a sun exclude each other
-  }
-  if (scene.patch_count() <= most_fitted_patches) {
+  if (frame_.state.scene.snapshot()->loaded->scene->patch_count() <= most_fitted_patches) {
     hold_solve();
-    const MaterialEdits& edits = frame_.state.relighting.edits();
-    lights_.request({solved_->loaded, options, edits.any() ? edits.materials() : nullptr});
+    request(settings_.solve_options());
   }
   rest_timer_->start();
+}
+
+void SunDrag::request(const SolveOptions& options) {
+  const MaterialEdits& edits = frame_.state.relighting.edits();
+  lights_.request({solved_->loaded, options, edits.any() ? edits.materials() : nullptr});
+}
+
+bool SunDrag::can_film() const {
+  return can_light() && !busy() && !settings_.sun_through_day(2).empty();
+}
+
+void SunDrag::begin_film(int count) {
+  hold_solve();
+  day_ = settings_.sun_through_day(count);
+  awaits_noon_ = true;
+  show_picture(count / 2);
+}
+
+void SunDrag::show_picture(int index) {
+  picture_ = index;
+  if (solved_ && !lights_.busy()) {
+    SolveOptions options = solved_->options;
+    options.sky.sun = at(day_, index).sun;
+    request(options);
+  }
+}
+
+QString SunDrag::caption(int index) const {
+  return day_.empty() ? QString() : at(day_, index).time;
+}
+
+void SunDrag::end_film() {
+  if (day_.empty()) {
+    return;
+  }
+  day_.clear();
+  frame_.state.colors.hold_range(false);
+  return_to_solve();
 }
 
 void SunDrag::hold_solve() {
@@ -98,7 +149,7 @@ void SunDrag::hold_solve() {
 
 void SunDrag::take_light(const LiveLightRequest& request,
                          const std::shared_ptr<const Solution>& light) {
-  if (!light || !solved_ || request.loaded != solved_->loaded) {
+  if (!solved_ || request.loaded != solved_->loaded) {
     return;
   }
   auto live = std::make_shared<SolverSnapshot>(*solved_);
@@ -110,6 +161,11 @@ void SunDrag::take_light(const LiveLightRequest& request,
   show_light_of(*light, *live);
   frame_.state.colors.fit_moved(live);
   frame_.page.scene_view()->show_snapshot(live);
+  if (std::exchange(awaits_noon_, false)) {
+    frame_.state.colors.hold_range(true);
+    show_picture(picture_);
+    return;
+  }
   emit lit();
 }
 
@@ -123,11 +179,15 @@ void SunDrag::finish() {
     awaited_ = settings_.solve_options().sky;
   }
   if (!solve_() && held) {
-    const bool runs_on = was_running_;
-    end();
-    if (runs_on) {
-      frame_.state.runner.run();
-    }
+    return_to_solve();
+  }
+}
+
+void SunDrag::return_to_solve() {
+  const bool runs_on = was_running_ && solved_->loaded == frame_.state.scene.loaded();
+  end();
+  if (runs_on) {
+    frame_.state.runner.run();
   }
 }
 

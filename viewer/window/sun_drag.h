@@ -1,12 +1,14 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <QObject>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "solve/sun_controls.h"
 #include "support/newest_result.h"
+#include "window/base/filmed_change.h"
 #include "window/base/window_views.h"
 #include "window/editing/live_scene.h"
 
@@ -17,10 +19,11 @@ namespace transillum::viewer {
 class SettingsPanel;
 
 /// Shows the light of a draft while the user moves the sun in the settings; when the hand rests,
-/// the scene is solved. A scene of very many patches is only solved.
+/// the scene is solved. A scene of very many patches is only solved. A film shows the day that is
+/// set, with the exposure of noon unless it is fixed.
 ///
 /// Threads: the main thread only.
-class SunDrag : public QObject {
+class SunDrag : public FilmedChange {
   Q_OBJECT
 
  public:
@@ -29,18 +32,22 @@ class SunDrag : public QObject {
   SunDrag(const WindowFrame& frame, SettingsPanel& settings, std::function<bool()> solve);
   ~SunDrag() override;
 
-  /// Whether something is computed that is not shown yet.
-  bool busy() const;
-
- signals:
-  void lit();  ///< the light of a place of the sun is shown
+  bool can_film() const override;
+  void begin_film(int count) override;
+  void show_picture(int index) override;
+  QString caption(int index) const override;
+  void end_film() override;
+  bool busy() const override;
 
  private:
   void follow();
+  bool can_light() const;
+  void request(const SolveOptions& options);
   void hold_solve();
   void take_light(const LiveLightRequest& request, const std::shared_ptr<const Solution>& light);
   void finish();
   void end();
+  void return_to_solve();
 
   WindowFrame frame_;
   SettingsPanel& settings_;
@@ -48,6 +55,9 @@ class SunDrag : public QObject {
   std::shared_ptr<const SolverSnapshot> solved_;  ///< from before the move; null while none is made
   bool was_running_ = false;
   std::optional<Sky> awaited_;  ///< the sky of the solve that follows, until it has light
+  std::vector<SunOfDay> day_;   ///< of a film; empty while there is none
+  int picture_ = 0;             ///< of the film, shown once noon has set the exposure
+  bool awaits_noon_ = false;
   QTimer* rest_timer_;
   NewestResult<LiveLightRequest, Solution> lights_;
 };

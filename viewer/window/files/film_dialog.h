@@ -17,7 +17,8 @@ class FilmDialog : public QDialog {
  public:
   /// @param plan  the first values of the fields; its size is the size of the window
   /// @param has_map  whether a direction can be stepped through
-  FilmDialog(const FilmPlan& plan, bool has_map, QWidget* parent = nullptr);
+  /// @param has_day  whether there is a day of the sun
+  FilmDialog(const FilmPlan& plan, bool has_map, bool has_day, QWidget* parent = nullptr);
 
   FilmPlan plan() const;
 

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/files/film_plan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,14 +11,15 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double seconds_per_turn = 10;
+constexpr double seconds_per_turn = 10;  // or change
 
 }  // namespace
 
-FilmWalk::FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view)
+FilmWalk::FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view, FilmedChange* change)
     : plan_(plan),
       focus_(focus),
       view_(&view),
+      change_(change),
       begin_(focus.position()),
       view_point_(view.view_point()),
       followed_(focus.following()) {
@@ -34,10 +36,15 @@ FilmWalk::FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view)
       count_ = focus.iterations();
       break;
     case FilmPlan::Over::turn:
+    case FilmPlan::Over::day:
       count_ = static_cast<int>(std::lround(seconds_per_turn * plan.per_second));
       break;
   }
   view.hold(true);
+  if (change) {
+    count_ = std::max(2, count_);
+    change->begin_film(count_);
+  }
   if (plan.over != FilmPlan::Over::turn) {
     go();
   }
@@ -47,7 +54,9 @@ FilmWalk::~FilmWalk() {
   if (!view_) {
     return;
   }
-  if (plan_.over == FilmPlan::Over::turn) {
+  if (change_) {
+    change_->end_film();
+  } else if (plan_.over == FilmPlan::Over::turn) {
     view_->set_view_point(view_point_);
   } else if (followed_) {
     focus_.set_following(true);
@@ -58,6 +67,9 @@ FilmWalk::~FilmWalk() {
 }
 
 bool FilmWalk::arrived() {
+  if (change_) {
+    return !change_->busy();
+  }
   if (plan_.over == FilmPlan::Over::turn) {
     return true;
   }
@@ -98,6 +110,9 @@ void FilmWalk::go() {
       break;
     case FilmPlan::Over::turn:
       view_->turn(360.0 / count_, 0);
+      break;
+    case FilmPlan::Over::day:
+      change_->show_picture(done_);
       break;
   }
 }

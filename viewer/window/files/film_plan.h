@@ -6,6 +6,7 @@
 
 #include "state/camera_views.h"
 #include "state/focus.h"
+#include "window/base/filmed_change.h"
 
 namespace transillum::viewer {
 
@@ -21,6 +22,7 @@ struct FilmPlan {
     directions,  ///< the directions of the iteration shown, each after its last step
     iterations,  ///< the iterations, in the direction shown
     turn,        ///< the camera turns once about the vertical of the scene
+    day,         ///< the FilmedChange of the sun
   };
   Show show = Show::scene;
   Over over = Over::changes;
@@ -33,7 +35,8 @@ class FilmWalk {
  public:
   /// @param plan  not over changes
   /// @param focus must outlive this object
-  FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view);
+  /// @param change what is filmed, if it can be; null for the focus or the camera
+  FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view, FilmedChange* change);
   ~FilmWalk();
   FilmWalk(const FilmWalk&) = delete;
   FilmWalk& operator=(const FilmWalk&) = delete;
@@ -42,6 +45,8 @@ class FilmWalk {
   int count() const { return count_; }
   /// Number of pictures for which next() was called.
   int done() const { return done_; }
+  /// The text in the next picture; empty for none.
+  QString caption() const { return change_ ? change_->caption(done_) : QString(); }
   /// Whether the views show the next picture. Where somebody else has moved the focus, goes there.
   bool arrived();
   /// Goes to the next picture. @returns false after the last
@@ -53,6 +58,7 @@ class FilmWalk {
   const FilmPlan plan_;
   Focus& focus_;
   const QPointer<SceneView> view_;  ///< null once the window is closing
+  const QPointer<FilmedChange> change_;
   const RunPosition begin_;
   const ViewPoint view_point_;
   const bool followed_;

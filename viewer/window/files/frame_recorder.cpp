@@ -25,6 +25,7 @@
 #include "stepping/play_control.h"
 #include "widgets/build.h"
 #include "widgets/dialogs.h"
+#include "widgets/theme.h"
 #include "window/base/notifier.h"
 #include "window/files/film_dialog.h"
 #include "window/files/whole_file.h"
@@ -44,13 +45,29 @@ int last_frame_in(const QString& folder) {
   return last;
 }
 
+/// Writes a text on a dark plate in the lower left corner.
+void write_caption(QImage& picture, const QString& text) {
+  QPainter painter(&picture);
+  QFont font = painter.font();
+  font.setPixelSize(std::max(11, picture.height() / 28));
+  painter.setFont(font);
+  const int space = font.pixelSize() / 2;
+  QRect plate = painter.fontMetrics().boundingRect(text).adjusted(-space, 0, space, 0);
+  plate.moveBottomLeft(picture.rect().bottomLeft() + QPoint(space, -space));
+  painter.fillRect(plate, theme::scene_background.lighter(140));
+  painter.setPen(theme::on_dark);
+  painter.drawText(plate, Qt::AlignCenter, text);
+}
+
 }  // namespace
 
-FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map)
+FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map,
+                             FilmedChange& sun)
     : QObject(&frame.window),
       frame_(frame),
       play_(play),
       map_(map),
+      sun_(sun),
       worker_([this](const FilmRequest& film,
                      const Cancellation& cancellation) { write_waiting(film, cancellation); },
               [this](const FilmRequest& film, const QString& message) { report(film, message); }) {
@@ -79,11 +96,12 @@ FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play, MapVie
   });
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, [this] {
     if (walk_ && frame_.state.scene.loaded() != film_->loaded) {
-      cancel();
-      frame_.notifier.show_failure(tr("Another scene was opened: no film was written"));
+      lose(tr("Another scene was opened"));
     }
     show_state();
   });
+  connect(&sun_, &FilmedChange::lit, this, &FrameRecorder::walk_soon);
+  connect(&sun_, &FilmedChange::film_lost, this, &FrameRecorder::lose);
   show_state();
 }
 
@@ -148,7 +166,7 @@ void FrameRecorder::choose_film() {
   show_state();  // not yet checked
   const QWidget* canvas = frame_.page.scene_view()->canvas();
   plan_.size = FilmFile::even(canvas->size() * canvas->devicePixelRatioF());
-  FilmDialog dialog(plan_, frame_.state.focus.map() != nullptr, &frame_.window);
+  FilmDialog dialog(plan_, frame_.state.focus.map() != nullptr, sun_.can_film(), &frame_.window);
   if (dialog.exec() != QDialog::Accepted) {
     return;
   }
@@ -170,8 +188,17 @@ void FrameRecorder::begin_frames(const QString& folder) {
   show_state();
 }
 
+FilmedChange* FrameRecorder::change_of(FilmPlan::Over over) const {
+  return over == FilmPlan::Over::day ? &sun_ : nullptr;
+}
+
 void FrameRecorder::begin_film(const QString& path, const FilmPlan& plan) {
   cancel();
+  FilmedChange* change = change_of(plan.over);
+  if (change && !change->can_film()) {
+    lose(tr("The scene is being solved"));
+    return;
+  }
   folder_.clear();
   frames_ = 0;
   ended_ = missed_ = false;
@@ -184,7 +211,7 @@ void FrameRecorder::begin_film(const QString& path, const FilmPlan& plan) {
     record();
   } else {
     play_.stop();
-    walk_.emplace(plan, frame_.state.focus, *frame_.page.scene_view());
+    walk_.emplace(plan, frame_.state.focus, *frame_.page.scene_view(), change);
     walk_soon();
   }
   show_state();
@@ -209,6 +236,11 @@ void FrameRecorder::cancel() {
   film_ = nullptr;
   walk_.reset();
   show_state();
+}
+
+void FrameRecorder::lose(const QString& why) {
+  cancel();
+  frame_.notifier.show_failure(tr("%1: no film was written").arg(why));
 }
 
 bool FrameRecorder::has_room() const {
@@ -293,6 +325,9 @@ void FrameRecorder::record_picture() {
   QImage picture = this->picture();
   if (picture.isNull()) {
     return;
+  }
+  if (walk_ && !walk_->caption().isEmpty()) {
+    write_caption(picture, walk_->caption());
   }
   ++frames_;
   {

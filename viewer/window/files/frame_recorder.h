@@ -31,7 +31,8 @@ class FrameRecorder : public QObject {
 
  public:
   /// @param play  its pictures wait until the recording has room for them; must outlive this object
-  FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map);
+  /// @param sun  the change of a film over the day
+  FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map, FilmedChange& sun);
   ~FrameRecorder() override;
 
   /// Adds both kinds of recording.
@@ -79,6 +80,8 @@ class FrameRecorder : public QObject {
   void on_written();
   void record_file();
   void record_picture();
+  FilmedChange* change_of(FilmPlan::Over over) const;
+  void lose(const QString& why);
   QImage picture() const;
   bool has_room() const;
   void write_waiting(const FilmRequest& film, const Cancellation& cancellation);
@@ -88,6 +91,7 @@ class FrameRecorder : public QObject {
   WindowFrame frame_;
   PlayControl& play_;
   MapView& map_;
+  FilmedChange& sun_;
   QAction *frames_action_, *film_action_;
   QWidget* mark_;
   QLabel* mark_text_;
