@@ -11,6 +11,7 @@
 #include <QSignalSpy>
 #include <QTemporaryDir>
 
+#include "film_frames.h"
 #include "solved_window.h"
 #include "transillum/at.h"
 #include "transillum/solve_session.h"
@@ -19,6 +20,7 @@
 #include "window/editing/move_panel.h"
 #include "window/editing/scene_edits.h"
 #include "window/files/export_actions.h"
+#include "window/files/frame_recorder.h"
 
 namespace transillum::viewer::editing_test {
 
@@ -358,6 +360,44 @@ class EditingTest : public QObject {
     QVERIFY(e.at_rest());
     QCOMPARE(failures.count(), 0);
     QVERIFY(e.light() == e.light_of_file());
+  }
+
+  void a_film_shows_the_last_move() {
+    const Edited e;
+    QVERIFY(e.ready);
+    FrameRecorder& recorder = *e.window->findChild<FrameRecorder*>();
+    const QString path = e.folder.filePath("move.mp4");
+    const FilmPlan plan{FilmPlan::Show::scene, FilmPlan::Over::move, {480, 360}, 0.5};
+    recorder.begin_film(path, plan);
+    QVERIFY(!recorder.writing());  // nothing was moved
+    auto* view = e.window->findChild<SceneView*>();
+    const QImage unmoved = view->picture({.size = plan.size});
+    e.edits->place({{0.05, 0, 0}, {0, 30, 0}});
+    QVERIFY(e.at_rest());
+    const QImage moved = view->picture({.size = plan.size});
+    const auto solved = e.window->snapshot();
+    const FacePlacement placement = e.edits->placement();
+    recorder.begin_film(path, plan);
+    QVERIFY(wait_for([&] { return !recorder.writing(); }));
+    const std::vector<QImage> film = decoded_film(path).frames;
+    QCOMPARE(static_cast<int>(film.size()), 5);
+    // The light is of a draft, and the picture of a film.
+    const double change = mean_difference(unmoved, moved);
+    QVERIFY2(mean_difference(film.front(), unmoved) < 0.5 * mean_difference(film.front(), moved) &&
+                 mean_difference(film.back(), moved) < 0.5 * mean_difference(film.back(), unmoved),
+             qPrintable(QString("%1 %2 %3")
+                            .arg(change)
+                            .arg(mean_difference(film.front(), unmoved))
+                            .arg(mean_difference(film.back(), moved))));
+    QVERIFY(e.window->snapshot() == solved && e.edits->placement() == placement);
+    QVERIFY(e.at_rest() && e.window->snapshot() == solved);
+    QCOMPARE(different_pixels(view->picture({.size = plan.size}), moved), 0);
+    // A further move ends a film.
+    recorder.begin_film(path, plan);
+    QVERIFY(wait_for([&] { return recorder.frames() >= 2; }));
+    e.edits->place({{0.08, 0, 0}});
+    QVERIFY(!recorder.writing() && e.window->banner_text().contains("The faces were moved"));
+    QVERIFY(e.at_rest() && e.window->snapshot() != solved);
   }
 
   void solving_again_keeps_the_edited_faces() {

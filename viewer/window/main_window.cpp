@@ -202,7 +202,8 @@ void MainWindow::make_whole_window_actions() {
   files_ = new FileActions(frame, docks_, *settings_, *lesson_panel_, *applier_, *session_);
   memory_ = new LayoutMemory(frame, docks_, appearance_, *files_, *lesson_panel_);
   exports_ = new ExportActions(frame, *map_view_, *convergence_view_);
-  recorder_ = new FrameRecorder(frame, *timeline_->play(), *map_view_, *sun_);
+  recorder_ = new FrameRecorder(frame, *timeline_->play(), *map_view_);
+  recorder_->set_change(FilmPlan::Over::day, *sun_);
   timeline_->play()->menu()->addSeparator();
   timeline_->play()->menu()->addAction(recorder_->film_action());
   new LoadingNotice(frame);
@@ -445,6 +446,7 @@ void MainWindow::make_menus() {
   make_file_menu();
   inspection_->add_to(*menuBar());
   edits_ = add_editing(frame(), docks_, *findChild<QMenu*>("edit_menu"));
+  recorder_->set_change(FilmPlan::Over::move, *edits_);
 
   QMenu* solve = menuBar()->addMenu(tr("&Solve"));
   solve_actions_->add_to(*solve);

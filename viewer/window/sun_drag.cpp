@@ -75,7 +75,7 @@ SunDrag::~SunDrag() = default;
 
 bool SunDrag::busy() const { return lights_.busy() || rest_timer_->isActive() || awaited_; }
 
-/// Whether a sun can light the scene shown; lobes and a sun exclude each other, as the settings
+/// Whether a sun can light the scene shown. Lobes and a sun exclude each other, as the settings
 /// say.
 bool SunDrag::can_light() const {
   const auto snapshot = frame_.state.scene.snapshot();
@@ -87,7 +87,7 @@ void SunDrag::follow() {
     emit film_lost(tr("The sun was moved"));
   }
   if (!can_light()) {
-    return;  // the first solve has this sun
+    return;  // before the first picture, the solve that comes has this sun
   }
   if (frame_.state.scene.snapshot()->loaded->scene->patch_count() <= most_fitted_patches) {
     hold_solve();

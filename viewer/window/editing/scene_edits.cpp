@@ -43,7 +43,7 @@ class SceneEdits::Command : public QUndoCommand {
 
 // While the hand moves, a late picture is better than none: a running job is finished.
 SceneEdits::SceneEdits(const WindowFrame& frame)
-    : QObject(&frame.window),
+    : FilmedChange(&frame.window),
       frame_(frame),
       rest_timer_(new QTimer(this)),
       scenes_(
@@ -54,7 +54,12 @@ SceneEdits::SceneEdits(const WindowFrame& frame)
       lights_(
           *this, &live_light,
           [this](const LiveLightRequest& request, const std::shared_ptr<const Solution>& light,
-                 const QString&) { take_light(request, light); },
+                 const QString& error) {
+            if (!light) {
+              lose_film(error);
+            }
+            take_light(request, light);
+          },
           CurrentJob::finish) {
   rest_timer_->setSingleShot(true);
   rest_timer_->setInterval(rest_ms);
@@ -137,6 +142,7 @@ void SceneEdits::follow_scene() {
   rest_timer_->stop();
   scenes_.clear();
   end_live();
+  lose_film(tr("Another scene was opened"));
   awaits_solve_ = false;
   solved_edit_ = edit_;
   pinned_.reset();
@@ -176,6 +182,7 @@ void SceneEdits::choose_target() {
   state_.base = state_.description;
   state_.faces.clear();
   state_.placement = placement_ = {};
+  moved_from_.reset();
   const auto loaded = frame_.state.scene.loaded();
   const PatchId patch = frame_.state.selection.patch();
   if (active_ && state_.base && patch != no_patch && patch < loaded->scene->patch_count()) {
@@ -252,13 +259,47 @@ void SceneEdits::place(const FacePlacement& placement) {
   if (state_.faces.empty() || !can_begin() || placement == placement_) {
     return;
   }
+  lose_film(tr("The faces were moved"));
   begin_live();
+  show_placed(placement);
+  rest_timer_->start();
+}
+
+void SceneEdits::show_placed(const FacePlacement& placement) {
   placement_ = placement;
   State now = state_;
   now.placement = placement;
   request(now, {});
-  rest_timer_->start();
   emit changed();
+}
+
+void SceneEdits::begin_film(int count) {
+  film_pictures_ = count;
+  frame_.state.colors.hold_range(true);
+  begin_live();
+}
+
+void SceneEdits::show_picture(int index) {
+  if (film_pictures_ > 0) {
+    const FacePlacement &from = *moved_from_, &to = state_.placement;
+    const double t = index / (film_pictures_ - 1.0);
+    const auto between = [t](const Vec3& a, const Vec3& b) { return (1 - t) * a + t * b; };
+    show_placed(
+        {between(from.move, to.move), between(from.turn, to.turn), between(from.scale, to.scale)});
+  }
+}
+
+void SceneEdits::end_film() {
+  if (std::exchange(film_pictures_, 0) > 0) {
+    frame_.state.colors.hold_range(false);
+    cancel();
+  }
+}
+
+void SceneEdits::lose_film(const QString& why) {
+  if (film_pictures_ > 0) {
+    emit film_lost(why);
+  }
 }
 
 void SceneEdits::request(const State& state, std::optional<int> edit) {
@@ -293,6 +334,7 @@ void SceneEdits::take_scene(const LiveRequest& request,
     return;
   }
   if (!scene) {
+    lose_film(error);
     emit failed(error);
     if (request.edit) {
       solved_edit_ = edit_;
@@ -389,6 +431,7 @@ void SceneEdits::return_to_edit() {
 }
 
 void SceneEdits::finish() {
+  lose_film(tr("The faces were edited"));
   rest_timer_->stop();
   if (placement_ == state_.placement) {
     if (!scenes_.busy()) {
@@ -435,8 +478,13 @@ void SceneEdits::push(const QString& text, State after) {
 }
 
 void SceneEdits::apply(const State& state) {
+  lose_film(tr("The faces were edited"));
   rest_timer_->stop();
   begin_live();
+  moved_from_.reset();
+  if (state.base == state_.base && state.faces == state_.faces && !state.faces.empty()) {
+    moved_from_ = state_.placement;
+  }
   state_ = state;
   placement_ = state.placement;
   if (!state.faces.empty()) {

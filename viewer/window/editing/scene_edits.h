@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <QObject>
 #include <QString>
 #include <memory>
 #include <optional>
@@ -9,6 +8,7 @@
 
 #include "scene/edit/face_edits.h"
 #include "support/newest_result.h"
+#include "window/base/filmed_change.h"
 #include "window/base/window_views.h"
 #include "window/editing/live_scene.h"
 
@@ -19,10 +19,10 @@ namespace transillum::viewer {
 /// Edits of the open scene's faces: a target that follows the selection is moved, turned and
 /// scaled; faces are copied, removed and added. While the target moves, the picture, the map of the
 /// direction shown and the light of a draft follow; when the hand rests, the scene is solved. Each
-/// edit can be undone.
+/// edit can be undone. A film shows the last move of the target.
 ///
 /// Threads: the main thread only.
-class SceneEdits : public QObject {
+class SceneEdits : public FilmedChange {
   Q_OBJECT
 
  public:
@@ -66,8 +66,12 @@ class SceneEdits : public QObject {
   /// The axis of the vertical: 0 is x, 1 is y, 2 is z.
   int vertical_axis() const;
   const WindowFrame& frame() const { return frame_; }
-  /// Whether something is computed that is not shown yet.
-  bool busy() const;
+  bool busy() const override;
+  bool can_film() const override { return moved_from_ && !live_ && !busy(); }
+  void begin_film(int count) override;
+  void show_picture(int index) override;
+  QString caption(int /*index*/) const override { return {}; }
+  void end_film() override;
   /// The moved scene shown; null while none is.
   const std::shared_ptr<const LiveScene>& shown() const { return newest_; }
 
@@ -75,7 +79,6 @@ class SceneEdits : public QObject {
   void changed();  ///< the target, or its placement
   void failed(const QString& message);
   void moved();  ///< a moved scene is shown
-  void lit();    ///< the light of a moved scene is shown
 
  private:
   class Command;
@@ -98,6 +101,8 @@ class SceneEdits : public QObject {
   void select_target();
   bool can_begin() const;
   void begin_live();
+  void show_placed(const FacePlacement& placement);
+  void lose_film(const QString& why);
   void request(const State& state, std::optional<int> edit);
   void take_scene(const LiveRequest& request, const std::shared_ptr<const LiveScene>& scene,
                   const QString& error);
@@ -114,9 +119,11 @@ class SceneEdits : public QObject {
 
   WindowFrame frame_;
   bool active_ = false;
-  bool selecting_ = false;   ///< this object changes the selection
-  State state_;              ///< after the newest edit
-  FacePlacement placement_;  ///< the target's, now
+  bool selecting_ = false;                   ///< this object changes the selection
+  State state_;                              ///< after the newest edit
+  FacePlacement placement_;                  ///< the target's, now
+  std::optional<FacePlacement> moved_from_;  ///< before the newest edit, if that moved the target
+  int film_pictures_ = 0;                    ///< 0 while there is no film
   Vec3 extents_;
   int edit_ = 0;         ///< number of the newest edit
   int solved_edit_ = 0;  ///< the newest one that was handed to the solver

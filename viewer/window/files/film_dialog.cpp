@@ -20,7 +20,8 @@ void disable(const QComboBox& box, int row) {
 
 }  // namespace
 
-FilmDialog::FilmDialog(const FilmPlan& plan, bool has_map, bool has_day, QWidget* parent)
+FilmDialog::FilmDialog(const FilmPlan& plan, bool has_map,
+                       const std::vector<FilmPlan::Over>& missing, QWidget* parent)
     : QDialog(parent) {
   setObjectName("film_dialog");
   setWindowTitle(tr("Save film"));
@@ -29,7 +30,8 @@ FilmDialog::FilmDialog(const FilmPlan& plan, bool has_map, bool has_day, QWidget
   over_ = named("film_over", new QComboBox);
   over_->addItems({tr("Changes in the window, until you finish"), tr("Steps of this direction"),
                    tr("Directions of this iteration"), tr("Iterations"),
-                   tr("One turn of the camera"), tr("The day of the sun, by place and day")});
+                   tr("One turn of the camera"), tr("The day of the sun, by place and day"),
+                   tr("The last move of the selection")});
   size_ = named("film_size", new QComboBox);
   for (const QSize& size : {plan.size, QSize(640, 360), QSize(1280, 720), QSize(1920, 1080)}) {
     const QString text = tr("%1 × %2").arg(size.width()).arg(size.height());
@@ -47,8 +49,8 @@ FilmDialog::FilmDialog(const FilmPlan& plan, bool has_map, bool has_day, QWidget
     disable(*show_, static_cast<int>(FilmPlan::Show::map));
     disable(*show_, static_cast<int>(FilmPlan::Show::both));
   }
-  if (!has_day) {
-    disable(*over_, static_cast<int>(FilmPlan::Over::day));
+  for (const FilmPlan::Over over : missing) {
+    disable(*over_, static_cast<int>(over));
   }
   show_->setCurrentIndex(has_map ? static_cast<int>(plan.show) : 0);
   over_->setCurrentIndex(static_cast<int>(plan.over));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QDialog>
+#include <vector>
 
 #include "window/files/film_plan.h"
 
@@ -17,8 +18,9 @@ class FilmDialog : public QDialog {
  public:
   /// @param plan  the first values of the fields; its size is the size of the window
   /// @param has_map  whether a direction can be stepped through
-  /// @param has_day  whether there is a day of the sun
-  FilmDialog(const FilmPlan& plan, bool has_map, bool has_day, QWidget* parent = nullptr);
+  /// @param missing  changes that cannot be filmed now
+  FilmDialog(const FilmPlan& plan, bool has_map, const std::vector<FilmPlan::Over>& missing,
+             QWidget* parent = nullptr);
 
   FilmPlan plan() const;
 

@@ -37,6 +37,7 @@ FilmWalk::FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view, FilmedCh
       break;
     case FilmPlan::Over::turn:
     case FilmPlan::Over::day:
+    case FilmPlan::Over::move:
       count_ = static_cast<int>(std::lround(seconds_per_turn * plan.per_second));
       break;
   }
@@ -112,6 +113,7 @@ void FilmWalk::go() {
       view_->turn(360.0 / count_, 0);
       break;
     case FilmPlan::Over::day:
+    case FilmPlan::Over::move:
       change_->show_picture(done_);
       break;
   }

@@ -23,6 +23,7 @@ struct FilmPlan {
     iterations,  ///< the iterations, in the direction shown
     turn,        ///< the camera turns once about the vertical of the scene
     day,         ///< the FilmedChange of the sun
+    move,        ///< the FilmedChange of the faces moved last
   };
   Show show = Show::scene;
   Over over = Over::changes;

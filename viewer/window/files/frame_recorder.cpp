@@ -61,13 +61,11 @@ void write_caption(QImage& picture, const QString& text) {
 
 }  // namespace
 
-FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map,
-                             FilmedChange& sun)
+FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map)
     : QObject(&frame.window),
       frame_(frame),
       play_(play),
       map_(map),
-      sun_(sun),
       worker_([this](const FilmRequest& film,
                      const Cancellation& cancellation) { write_waiting(film, cancellation); },
               [this](const FilmRequest& film, const QString& message) { report(film, message); }) {
@@ -100,8 +98,6 @@ FrameRecorder::FrameRecorder(const WindowFrame& frame, PlayControl& play, MapVie
     }
     show_state();
   });
-  connect(&sun_, &FilmedChange::lit, this, &FrameRecorder::walk_soon);
-  connect(&sun_, &FilmedChange::film_lost, this, &FrameRecorder::lose);
   show_state();
 }
 
@@ -166,7 +162,13 @@ void FrameRecorder::choose_film() {
   show_state();  // not yet checked
   const QWidget* canvas = frame_.page.scene_view()->canvas();
   plan_.size = FilmFile::even(canvas->size() * canvas->devicePixelRatioF());
-  FilmDialog dialog(plan_, frame_.state.focus.map() != nullptr, sun_.can_film(), &frame_.window);
+  std::vector<FilmPlan::Over> missing;
+  for (const auto& [over, change] : changes_) {
+    if (!change->can_film()) {
+      missing.push_back(over);
+    }
+  }
+  FilmDialog dialog(plan_, frame_.state.focus.map() != nullptr, missing, &frame_.window);
   if (dialog.exec() != QDialog::Accepted) {
     return;
   }
@@ -188,13 +190,16 @@ void FrameRecorder::begin_frames(const QString& folder) {
   show_state();
 }
 
-FilmedChange* FrameRecorder::change_of(FilmPlan::Over over) const {
-  return over == FilmPlan::Over::day ? &sun_ : nullptr;
+void FrameRecorder::set_change(FilmPlan::Over over, FilmedChange& change) {
+  changes_[over] = &change;
+  connect(&change, &FilmedChange::lit, this, &FrameRecorder::walk_soon);
+  connect(&change, &FilmedChange::film_lost, this, &FrameRecorder::lose);
 }
 
 void FrameRecorder::begin_film(const QString& path, const FilmPlan& plan) {
   cancel();
-  FilmedChange* change = change_of(plan.over);
+  const auto found = changes_.find(plan.over);
+  FilmedChange* change = found == changes_.end() ? nullptr : found->second;
   if (change && !change->can_film()) {
     lose(tr("The scene is being solved"));
     return;

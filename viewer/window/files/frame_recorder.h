@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QString>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -31,13 +32,14 @@ class FrameRecorder : public QObject {
 
  public:
   /// @param play  its pictures wait until the recording has room for them; must outlive this object
-  /// @param sun  the change of a film over the day
-  FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map, FilmedChange& sun);
+  FrameRecorder(const WindowFrame& frame, PlayControl& play, MapView& map);
   ~FrameRecorder() override;
 
   /// Adds both kinds of recording.
   void add_to(QMenu& menu) const;
   QAction* film_action() const { return film_action_; }
+  /// Sets what a film over this shows; `change` must outlive the films.
+  void set_change(FilmPlan::Over over, FilmedChange& change);
 
   /// From now on, each new picture becomes the next frame_00001.png of `folder`.
   void begin_frames(const QString& folder);
@@ -80,7 +82,6 @@ class FrameRecorder : public QObject {
   void on_written();
   void record_file();
   void record_picture();
-  FilmedChange* change_of(FilmPlan::Over over) const;
   void lose(const QString& why);
   QImage picture() const;
   bool has_room() const;
@@ -91,7 +92,7 @@ class FrameRecorder : public QObject {
   WindowFrame frame_;
   PlayControl& play_;
   MapView& map_;
-  FilmedChange& sun_;
+  std::map<FilmPlan::Over, FilmedChange*> changes_;
   QAction *frames_action_, *film_action_;
   QWidget* mark_;
   QLabel* mark_text_;
