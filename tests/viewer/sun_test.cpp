@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "film_frames.h"
+#include "model/run_options.h"
 #include "model/solver/draft.h"
 #include "scene/shadow_finder.h"
 #include "solve/sun_controls.h"
@@ -161,6 +162,29 @@ class SunTest : public QObject {
     QVERIFY(std::abs(controls.findChild<QDoubleSpinBox*>("sun")->value() - 801.2) < 0.1);
     controls.findChild<QDoubleSpinBox*>("sun")->setValue(0);
     QVERIFY(controls.sun(up) == Sun());
+  }
+
+  void a_weak_sun_is_shown() {
+    SunControls controls;
+    const Vec3 up{0, 0, 1};
+    const auto* irradiance = controls.findChild<QDoubleSpinBox*>("sun");
+    for (const double weak : {0.04, 3e-7}) {
+      controls.set_sun({{weak, weak, weak}, up}, up);
+      QVERIFY(irradiance->text() != irradiance->specialValueText());
+      QVERIFY(std::abs(irradiance->value() - weak) < 0.01 * weak);
+    }
+    controls.set_sun({{800, 800, 800}, up}, up);
+    QCOMPARE(irradiance->text(), QString("800.0"));
+  }
+
+  void a_session_keeps_a_sun_below_the_horizon() {
+    RunOptions night;
+    night.solve.sky.sun = {{}, normalized({1, 2, -0.5}), false, true};
+    QVERIFY(run_options_from_json(to_json(night), "x") == night);
+    SunControls controls;
+    controls.set_sun(night.solve.sky.sun, {0, 0, 1});
+    QVERIFY(!controls.findChild<SunDome*>()->isHidden());
+    QVERIFY(controls.findChild<QDoubleSpinBox*>("sun_elevation")->value() < 0);
   }
 
   void a_day_moves_it_from_east_to_west() {

@@ -73,6 +73,8 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   object.done();
   try {
     set_dependent_defaults(options, given);
+    Sun& sun = options.solve.sky.sun;  // files have no irradiance of a sun below the horizon
+    sun.below_horizon = !sun.is_set() && !(sun.direction == Vec3{});
     options.input.patches = 0;  // only the command line has this option; files have the area
     options.validate();
   } catch (const InputError& error) {

@@ -24,6 +24,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr int minutes_of_day = 24 * 60;
+constexpr double clear_day = 1000;  // W/m²
 
 QDate first_day() { return {QDate::currentDate().year(), 1, 1}; }
 
@@ -263,7 +264,11 @@ void SunControls::show_sun(const Sun& sun, const Vec3& up) {
   if (!sun.below_horizon) {  // at night, the irradiance of the day stays
     const double largest = max_abs(sun.irradiance);
     color_ = largest > 0 ? (1 / largest) * sun.irradiance : Rgb{1, 1, 1};
+    const bool is_weak = largest > 0 && largest < 0.1;  // would be shown as none
+    irradiance_->setDecimals(is_weak ? 2 + static_cast<int>(std::ceil(-std::log10(largest))) : 1);
     irradiance_->setValue(largest);
+  } else if (!(irradiance_->value() > 0)) {
+    irradiance_->setValue(clear_day);  // a session at night has none
   }
   if (sun.is_set() || sun.below_horizon) {
     by_time_->setChecked(false);
