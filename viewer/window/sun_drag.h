@@ -55,8 +55,8 @@ class SunDrag : public FilmedChange {
   std::shared_ptr<const SolverSnapshot> solved_;  ///< from before the move; null while none is made
   bool was_running_ = false;
   std::optional<Sky> awaited_;  ///< the sky of the solve that follows, until it has light
-  std::vector<SunOfDay> day_;   ///< of a film; empty while there is none
-  int picture_ = 0;             ///< of the film, shown once noon has set the exposure
+  std::vector<SunOfDay> day_;   ///< a film's; empty while there is none
+  int picture_ = 0;             ///< the film's, shown once noon has set the exposure
   bool awaits_noon_ = false;
   QTimer* rest_timer_;
   NewestResult<LiveLightRequest, Solution> lights_;
