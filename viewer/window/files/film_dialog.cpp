@@ -14,9 +14,11 @@ namespace transillum::viewer {
 
 namespace {
 
-void disable(const QComboBox& box, int row) {
-  static_cast<QStandardItemModel*>(box.model())->item(row)->setEnabled(false);
+QStandardItem& item_of(const QComboBox& box, int row) {
+  return *static_cast<QStandardItemModel*>(box.model())->item(row);
 }
+
+void disable(const QComboBox& box, int row) { item_of(box, row).setEnabled(false); }
 
 }  // namespace
 
@@ -53,7 +55,8 @@ FilmDialog::FilmDialog(const FilmPlan& plan, bool has_map,
     disable(*over_, static_cast<int>(over));
   }
   show_->setCurrentIndex(has_map ? static_cast<int>(plan.show) : 0);
-  over_->setCurrentIndex(static_cast<int>(plan.over));
+  const int over = static_cast<int>(plan.over);
+  over_->setCurrentIndex(item_of(*over_, over).isEnabled() ? over : 0);
   auto* form = new QFormLayout;
   form->addRow(tr("Show"), show_);
   form->addRow(tr("Over"), over_);

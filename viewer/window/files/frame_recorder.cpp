@@ -201,7 +201,7 @@ void FrameRecorder::begin_film(const QString& path, const FilmPlan& plan) {
   const auto found = changes_.find(plan.over);
   FilmedChange* change = found == changes_.end() ? nullptr : found->second;
   if (change && !change->can_film()) {
-    lose(tr("The scene is being solved"));
+    lose(tr("There is nothing to film now"));
     return;
   }
   folder_.clear();
