@@ -23,6 +23,7 @@
 #include "cli/progress_display.h"
 #include "cli/reports/summaries.h"
 #include "io/results/error_report_files.h"
+#include "io/results/statistics_files.h"
 #include "io/runs/shard_files.h"
 #include "options/option_table.h"
 #include "radiosity/sun_light.h"
@@ -51,6 +52,7 @@ void print_powers(const SolveCall& call, const Solution& solution) {
 /// Writes the files and the summary.
 void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution,
                    const std::optional<MeasuredErrors>& errors,
+                   const std::optional<PatchCosts>& costs,
                    const std::shared_ptr<const LightMap>& sharp_map) {
   std::vector<std::function<void()>> writers;
   DisplayOptions display = call.colors.display;
@@ -70,7 +72,9 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
   if (!call.stats.empty()) {
     RunOptions run = call.scene.run;
     run.solve = options;
-    writers.emplace_back([=, &call, &solution] { write_statistics(call.stats, run, solution); });
+    writers.emplace_back([=, &call, &solution, &costs] {
+      write_statistics(call.stats, run, solution, costs ? &*costs : nullptr);
+    });
   }
   if (errors && !call.error_report.empty()) {
     writers.emplace_back(
@@ -244,6 +248,8 @@ int run_solve(SolveCall& call) {
   std::optional<Checkpoint> checkpoint;
   const RefineChoice& refine = call.scene.run.refine;
   std::optional<MeasuredErrors> errors;
+  std::optional<PatchCosts> costs;
+  const bool measures_costs = !call.stats.empty() && is_first_process();
   const SolveJob job{.scene = prepared.scene,
                      .options = options,
                      .refine = refine.is_set() ? std::optional(refine.options()) : std::nullopt,
@@ -260,6 +266,7 @@ int run_solve(SolveCall& call) {
                      .shards = call.shards,
                      .total = total_goal(call.scene.run),
                      .errors = measures_errors(call) ? &errors : nullptr,
+                     .costs = measures_costs ? &costs : nullptr,
                      .sums = shared ? processes().sums : nullptr};
   say_of_lobes(call, options, *prepared.scene);
   Solution solution = run_job(job, checkpoint);
@@ -282,7 +289,7 @@ int run_solve(SolveCall& call) {
     const auto shown = std::make_shared<const Solution>(std::move(solution));
     const auto sharp_map =
         sharp_map_of(call, shown, display, complete ? cancellation : Cancellation());
-    write_all({[&] { write_outputs(call, options, *shown, errors, sharp_map); },
+    write_all({[&] { write_outputs(call, options, *shown, errors, costs, sharp_map); },
                [&] {
                  write_pictures(pictures_of(call, *shown->scene), shown, display,
                                 complete ? cancellation : Cancellation());

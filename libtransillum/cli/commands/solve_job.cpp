@@ -278,6 +278,25 @@ void measure(const SolveSession& session, const SolveJob& job) {
   }
 }
 
+/// Measures the cost of some passes, unless another engine made them. An interruption leaves it
+/// unknown.
+void measure_costs(const SolveJob& job, const SolveOptions& options,
+                   std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
+                   const std::vector<Vec3>& directions) {
+  if (job.costs == nullptr || options.engine != Engine::fast || directions.empty()) {
+    return;
+  }
+  job.display.begin("measuring passes");
+  try {
+    *job.costs = patch_costs(options.engine, std::move(scene), std::move(tree),
+                             directions_to_measure(directions), options.basis == Basis::linear,
+                             job.cancellation);
+  } catch (const Canceled&) {
+    job.display.clear();
+    print_message("interrupted: the cost of passes is not measured");
+  }
+}
+
 /// Solves by passes.
 Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpoint) {
   SolveSession session(request_of(job), job.cancellation);
@@ -307,6 +326,9 @@ Solution solve_by_passes(const SolveJob& job, std::optional<Checkpoint>& checkpo
     saver.save(session);
   }
   measure(session, job);
+  if (session.finished()) {
+    measure_costs(job, session.options(), session.scene(), session.tree(), session.directions());
+  }
   Solution solution = session.solution();
   if (job.form_factors && solution.complete && solution.statistics.kept_form_factors) {
     solution.form_factors = std::make_shared<const FormFactors>(session.diffuse()->form_factors());
@@ -353,6 +375,10 @@ Solution solve_by_total(const SolveJob& job, std::optional<Checkpoint>& checkpoi
       fmt::format("{:.3g} % asked, {}; {} stages", 100 * job.total->total,
                   end_text(total.end, job.total->patches), total.stages.size());
   job.errors->emplace(MeasuredErrors{total.solve, total.report, text});
+  if (total.solve.solution.complete) {
+    measure_costs(job, total.solve.options, total.solve.solution.scene, total.solve.tree,
+                  total.solve.directions);
+  }
   return total.solve.solution;
 }
 

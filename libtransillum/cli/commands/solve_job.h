@@ -16,6 +16,7 @@
 #include "transillum/refinement.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
+#include "visibility/fast/patch_costs.h"
 
 namespace transillum::cli {
 
@@ -44,6 +45,7 @@ struct SolveJob {
   std::vector<std::string> shards = {};  ///< the passes are read from these
   std::optional<TotalGoal> total = {};   ///< the accuracy is a total error
   std::optional<MeasuredErrors>* errors = nullptr;  ///< gets the errors by cause, if not null
+  std::optional<PatchCosts>* costs = nullptr;       ///< gets the cost of passes, if not null
   std::shared_ptr<PatchSums> sums = nullptr;        ///< sums over the passes that processes share
 };
 

@@ -5,7 +5,9 @@
 #include <ostream>
 
 #include "io/results/result_writers.h"
+#include "io/results/statistics_files.h"
 #include "options/option_table.h"
+#include "transillum/at.h"
 #include "transillum/files.h"
 
 namespace transillum {
@@ -97,6 +99,43 @@ Json glossy_json(const GlossyStatistics& counted) {
           {"transfer_bytes", counted.transfer_bytes}};
 }
 
+/// The number of faces listed with their cost.
+constexpr std::size_t listed_faces = 10;
+
+Json cost_json(const PatchCost& cost) {
+  return {{"seconds", cost.seconds},
+          {"queries", cost.queries},
+          {"candidates", cost.candidates},
+          {"exact_queries", cost.exact_queries()}};
+}
+
+/// The cost of passes; null where it was not measured.
+Json costs_json(const Scene& scene, const PatchCosts* costs) {
+  if (costs == nullptr) {
+    return {};
+  }
+  const PatchCost total = costs->total();
+  Json json{{"passes", costs->passes}};
+  json.update(cost_json(total));
+  json["reasons"] = Json::array();
+  for (std::size_t k = 1; k < query_failures; ++k) {
+    json["reasons"].push_back({{"reason", name_of(static_cast<QueryFailure>(k))},
+                               {"repeated_queries", total.repeated[k]},
+                               {"exact_queries", total.exact[k]}});
+  }
+  json["faces"] = list_of(costly_faces(scene, *costs, listed_faces), [&](const FaceCost& face) {
+    const Patch& patch = scene.patch(face.patch);
+    Json line{{"face", patch.face},
+              {"group", patch.group == no_group ? Json() : Json(at(scene.groups(), patch.group))},
+              {"material", scene.material(face.patch).name},
+              {"patches", face.patches}};
+    line.update(cost_json(face.cost));
+    line["reason"] = name_of(face.cost.main_reason());
+    return line;
+  });
+  return json;
+}
+
 /// Values that are known only after an iteration are null without one.
 Json statistics_json(const SolveStatistics& statistics) {
   const bool stepped = statistics.iterations > 0;
@@ -167,6 +206,11 @@ Json statistics_json(const SolveStatistics& statistics) {
 
 void write_statistics(const std::filesystem::path& path, const RunOptions& options,
                       const Solution& solution) {
+  write_statistics(path, options, solution, nullptr);
+}
+
+void write_statistics(const std::filesystem::path& path, const RunOptions& options,
+                      const Solution& solution, const PatchCosts* costs) {
   Json json;
   json["program"] = "transillum " TRANSILLUM_VERSION;
   json["scene"] = solution.scene->name();
@@ -183,6 +227,7 @@ void write_statistics(const std::filesystem::path& path, const RunOptions& optio
   json.update(statistics_json(solution.statistics));
   json["error_estimate"] = error_json(solution);
   json["accuracy"] = accuracy_json(solution.accuracy);
+  json["costs"] = costs_json(*solution.scene, costs);
   // nlohmann writes doubles in the shortest form that reads back, and what is not finite as null.
   // A scene's name may be a file name, which need not be UTF-8; JSON must be.
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);

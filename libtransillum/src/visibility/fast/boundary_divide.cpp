@@ -53,7 +53,7 @@ bool BoundaryView::divide() {
   for (int part = 0; is_crowded(); ++part) {
     Waiting high;
     if (part == most_parts || !halve(high.segments, high.area)) {
-      failed_ = true;
+      failure_ = QueryFailure::crowded;
       return false;
     }
     waiting_.push_back(high);

@@ -18,7 +18,8 @@ namespace transillum {
 void BoundaryView::begin_query(std::int32_t fragment) {
   subject_ = &at(projected_.fragments, fragment);
   bin_ = nullptr;
-  loaded_ = failed_ = too_small_ = false;
+  loaded_ = too_small_ = false;
+  failure_ = QueryFailure::none;
   waiting_.clear();
   window_ = window_of(at(projected_.boxes, fragment));
 }
@@ -47,8 +48,11 @@ void BoundaryView::start(double area, double reach) {
   if (!in_frame_) {
     set_own_edges();
   }
-  failed_ = (subject_->cut_needle && !in_frame_) ||
-            is_inaccurate(per_area_ * cutter_.tolerance * reach, *subject_);
+  if (subject_->cut_needle && !in_frame_) {
+    failure_ = QueryFailure::cut_needle;
+  } else if (is_inaccurate(per_area_ * cutter_.tolerance * reach, *subject_)) {
+    failure_ = QueryFailure::thin;
+  }
   find_window();
 }
 
@@ -202,7 +206,7 @@ double BoundaryView::subtract(std::int32_t candidate) {
   too_small_ = false;
   if (!loaded_) {
     load();
-    if (failed_ || region_->count == 0) {
+    if (failed() || region_->count == 0) {
       return 0;
     }
   }
@@ -223,10 +227,12 @@ double BoundaryView::subtract(std::int32_t candidate) {
   const double noise =
       per_area_ * 0.25 * cutter_.tolerance * std::min(cutter_.perimeter, 8 * reach_);
   too_small_ = is_inaccurate(noise, by);
-  failed_ = !add_edges(twice_area);
+  if (!add_edges(twice_area)) {
+    failure_ = QueryFailure::inconsistent;
+  }
   const double area = per_area_ * 0.5 * twice_area;
   // A candidate that is too small is subtracted for the sake of small ones behind it.
-  if (failed_ || (area <= noise && !too_small_)) {
+  if (failed() || (area <= noise && !too_small_)) {
     return 0;
   }
   counts_.cuts += static_cast<std::int64_t>(cutter_.count);

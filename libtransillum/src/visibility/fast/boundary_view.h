@@ -14,6 +14,7 @@
 #include "visibility/fast/fragment_bins.h"
 #include "visibility/fast/needle_frame.h"
 #include "visibility/fast/projected_fragments.h"
+#include "visibility/fast/query_failure.h"
 
 namespace transillum {
 
@@ -56,7 +57,9 @@ class BoundaryView {
   }
   /// Whether the fragment or a candidate exceeded what doubles can resolve; the areas returned so
   /// far must be discarded.
-  bool failed() const { return failed_; }
+  bool failed() const { return failure_ != QueryFailure::none; }
+  /// Why it failed.
+  QueryFailure failure() const { return failure_; }
   /// Whether the last candidate is so small beside the fragment that the error of its area is too
   /// large for it, though not for the fragment.
   bool is_too_small() const { return too_small_; }
@@ -150,7 +153,7 @@ class BoundaryView {
   GridPoint origin_;
   double reach_ = 0;  ///< largest |x| + |y| of the fragment, or the size of the bin
   double area_ = 0, region_area_ = 0;
-  bool failed_ = false;
+  QueryFailure failure_ = QueryFailure::none;
   bool too_small_ = false;
   NeedleFrame frame_;    ///< a translation in Frame::plane, for candidates that the tree has cut
   double per_area_ = 1;  ///< square grid units per unit of area of the coordinates

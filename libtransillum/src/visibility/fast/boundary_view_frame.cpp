@@ -63,8 +63,8 @@ void BoundaryView::load_in_frame() {
   const auto outline =
       cut_corners_.outline(static_cast<std::int32_t>(subject_ - projected_.fragments.data()));
   const GridPoint longest = outline.empty() ? GridPoint{} : longest_edge(outline);
-  failed_ = longest.x == 0 && longest.y == 0;
-  if (failed_) {
+  if (longest.x == 0 && longest.y == 0) {
+    failure_ = QueryFailure::flat;
     return;
   }
   frame_.set_along(longest);
@@ -88,8 +88,8 @@ void BoundaryView::load_in_frame() {
   }
   const bool steep = frame_.kept == NeedleFrame::Kept::y;
   const double scale = scale_of(polygon, count, steep);
-  failed_ = scale == 0;
-  if (failed_) {
+  if (scale == 0) {
+    failure_ = QueryFailure::flat;
     return;
   }
   frame_.set_scale(scale);
@@ -145,8 +145,8 @@ bool BoundaryView::is_beside_frame(const ProjectedFragments::Fragment& by) const
 
 bool BoundaryView::load_cutter_in_frame(std::int32_t candidate) {
   const auto outline = cut_corners_.outline(candidate);
-  failed_ = outline.empty();
-  if (failed_) {
+  if (outline.empty()) {
+    failure_ = QueryFailure::candidate;
     return false;
   }
   if (!in_frame_) {

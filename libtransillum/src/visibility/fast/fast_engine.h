@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "transillum/engine.h"
+#include "visibility/fast/patch_costs.h"
 
 namespace transillum {
 
@@ -16,6 +18,11 @@ TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<c
 TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
                                  std::shared_ptr<const BspTree> tree, PatchId patch,
                                  bool moments = false);
+/// Engine `fast`, to be called by one thread at a time: adds the cost of each query to its patch.
+/// @param costs one per patch when the engine is called; must outlive it.
+TransferEngine measured_fast_engine(std::shared_ptr<const Scene> scene,
+                                    std::shared_ptr<const BspTree> tree, bool moments,
+                                    std::vector<PatchCost>& costs);
 /// Engine `corrected`: no cutting; partly hidden areas are corrected (the paper's section 8).
 TransferEngine corrected_engine(std::shared_ptr<const Scene> scene,
                                 std::shared_ptr<const BspTree> tree);
