@@ -196,6 +196,21 @@ TEST(CliSolve, OneWayUsesHalfTheDirections) {
   EXPECT_EQ(json.at("options").at("sampling"), "hammersley");
 }
 
+TEST(CliSolve, StatisticsHaveTheCostOfFaces) {
+  const TemporaryFolder folder;
+  expect_success({"solve", "cornell-box", "-m", "64", "-q", "--stats", folder / "fast.json"});
+  const auto costs = read_json(folder / "fast.json").at("costs");
+  EXPECT_EQ(costs.at("passes"), 1);
+  EXPECT_GT(costs.at("candidates"), costs.at("queries"));
+  ASSERT_EQ(costs.at("faces").size(), 10U);
+  EXPECT_GE(costs.at("faces").at(0).at("seconds"), costs.at("faces").at(9).at("seconds"));
+  EXPECT_LT(costs.at("faces").at(0).at("seconds"), costs.at("seconds"));
+  EXPECT_FALSE(costs.at("faces").at(0).at("material").get<std::string>().empty());
+  expect_success({"solve", "cornell-box", "-m", "64", "-q", "--engine", "zbuffer", "--stats",
+                  folder / "zbuffer.json"});
+  EXPECT_TRUE(read_json(folder / "zbuffer.json").at("costs").is_null());
+}
+
 TEST(CliSolve, RotationChangesOnlyTheError) {
   const TemporaryFolder folder;
   for (const char* seed : {"1", "2"}) {

@@ -17,6 +17,7 @@
 
 #include "io/results/error_report_files.h"
 #include "io/results/sensor_files.h"
+#include "io/results/statistics_files.h"
 #include "io/results/study_csv.h"
 #include "session/measure_errors.h"
 #include "support/program_call.h"
@@ -168,7 +169,9 @@ TEST_F(FileTables, Statistics) {
   Solution solution = solve(scene_, options_);
   solution.statistics.refinement = {{6, 0.5, 1}};
   solution.statistics.glossy.patches = 1;  // no solve has both
-  write_statistics(folder_ / "s.json", {.solve = options_}, solution);
+  PatchCosts costs{1, 0, {}};
+  costs.patches.resize(static_cast<std::size_t>(solution.scene->patch_count()));
+  write_statistics(folder_ / "s.json", {.solve = options_}, solution, &costs);
   EXPECT_THAT(keys_of(folder_ / "s.json"), ::testing::ContainerEq(leaf_keys("Statistics JSON")));
 }
 

@@ -184,6 +184,46 @@ class StudyTest : public QObject {
              qPrintable(text("summary_bound")));
   }
 
+  void the_summary_measures_what_faces_cost_and_colors_show_it() {
+    const SolvedWindow shown("cornell-box");
+    QVERIFY(shown.ready);
+    auto* time = shown.window->findChild<QLabel*>("summary_time");
+    QVERIFY2(time->text().contains("Measure"), qPrintable(time->text()));
+    QCOMPARE(shown.text("summary_costly"), QString("–"));
+    emit time->linkActivated("measure");
+    QVERIFY(wait_for([&] { return time->text().endsWith(" ms"); }));
+    QVERIFY(shown.text("summary_candidates").endsWith(" per query"));
+    QVERIFY(shown.text("summary_exact").startsWith("none"));
+    const QStringList faces = shown.text("summary_costly").split('\n');
+    QCOMPARE(faces.size(), 5);
+    QVERIFY2(faces[0].startsWith("face ") && faces[0].contains(" %, "), qPrintable(faces[0]));
+
+    ColorChoice& colors = shown.window->colors;
+    colors.set_quantity(Quantity::query_time);
+    QVERIFY(wait_for([&] { return !colors.values().empty(); }));
+    QCOMPARE(colors.values().size(), std::size_t(shown.window->snapshot()->radiosity.size()));
+    double sum = 0;
+    for (const Rgb& microseconds : colors.values()) {
+      QVERIFY(microseconds.r >= 0);
+      sum += microseconds.r;
+    }
+    QCOMPARE(time->text(), number_text(1e-3 * sum) + " ms");
+    colors.set_quantity(Quantity::exact_queries);
+    QVERIFY(!colors.values().empty());  // of the same measurement
+    shown.window->selection.select(2);
+    QVERIFY2(colors.note().contains("candidates"), qPrintable(colors.note()));
+
+    // Another solve was not measured.
+    colors.set_quantity(Quantity::radiosity);
+    shown.window->set_options({.directions = 16, .engine = Engine::zbuffer, .first_shot = {}}, {});
+    shown.window->open("cornell-box");
+    QVERIFY(wait_for([&] { return time->text().contains("Measure"); }));
+    colors.set_quantity(Quantity::query_time);
+    QVERIFY(wait_for([&] { return colors.missing().contains("choose fast"); }));
+    QVERIFY2(time->text().contains("choose fast"), qPrintable(time->text()));
+    QVERIFY(colors.values().empty());
+  }
+
   /// The directions of a replica hardly meet the small sources. Earlier, the row showed only
   /// errors.
   void the_summary_names_errors_that_cannot_be_trusted() {

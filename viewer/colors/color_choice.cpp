@@ -10,6 +10,7 @@
 
 #include "colors/neutral_light.h"
 #include "model/snapshot_values.h"
+#include "support/number_text.h"
 
 namespace transillum::viewer {
 
@@ -21,6 +22,17 @@ bool needs_light(Quantity quantity) {
          quantity == Quantity::irradiance || quantity == Quantity::eye_radiance ||
          quantity == Quantity::error || quantity == Quantity::measured_error ||
          quantity == Quantity::last_change || quantity == Quantity::jump;
+}
+
+/// What the selected patch costs, and why.
+QString cost_text(const PatchCost& cost, int passes) {
+  const auto per_pass = [&](std::int64_t count) {
+    return number_text(static_cast<double>(count) / passes);
+  };
+  const auto reason = static_cast<std::size_t>(cost.main_reason());
+  return ColorChoice::tr("Selected patch, per pass: %1 candidates, %2 exact queries; %3")
+      .arg(per_pass(cost.candidates), per_pass(cost.exact_queries()),
+           QString::fromStdString(choices_of<QueryFailure>().sentences[reason]));
 }
 
 /// B/pi: the mean of the radiance, weighted by the cosine.
@@ -44,9 +56,18 @@ ColorChoice::ColorChoice(const Selection& selection, QObject* parent)
           *this, &find_jumps, [this] { change_if(&QuantityTraits::by_jumps); }, CurrentJob::finish),
       eye_radiance_(
           *this, &radiance_toward, [this] { change_if(&QuantityTraits::by_eye); },
-          CurrentJob::finish) {
-  connect(&selection_, &Selection::changed, this,
-          [this] { change_if(&QuantityTraits::of_selection); });
+          CurrentJob::finish),
+      costs_(
+          *this, &measure_costs,
+          [this] {
+            tell_costs();
+            change_if(&QuantityTraits::by_costs);
+          },
+          CurrentJob::cancel) {
+  connect(&selection_, &Selection::changed, this, [this] {
+    change_if(&QuantityTraits::of_selection);
+    change_if(&QuantityTraits::by_costs);
+  });
   connect(&kept_runs_, &KeptRuns::compared_changed, this, [this] {
     shows_kept_run_ = shows_kept_run_ && run_a();
     change();
@@ -215,6 +236,9 @@ void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
   if (new_scene && range_rule_ != RangeRule::fixed) {
     reset_range();
   }
+  if (costs_.clear_unless(cost_request(*snapshot_))) {
+    tell_costs();
+  }
   refit();
   emit fitted();
 }
@@ -281,6 +305,7 @@ PatchValues ColorChoice::values_of_shown(const std::shared_ptr<const SolverSnaps
   const QuantityTraits& traits = traits_of(quantity_);
   return traits.by_response      ? values_by_response(*snapshot)
          : traits.by_jumps       ? values_by_jumps(snapshot)
+         : traits.by_costs       ? values_by_costs(*snapshot)
          : traits.by_measurement ? values_by_measurement(*snapshot)
          : traits.by_eye && snapshot->glossy
              ? values_by_eye(snapshot)
@@ -321,6 +346,42 @@ PatchValues ColorChoice::values_by_jumps(const std::shared_ptr<const SolverSnaps
   return result;
 }
 
+void ColorChoice::tell_costs() {
+  emit costs_changed(costs_.result(), costs_.busy() ? tr("measuring…") : costs_.error());
+}
+
+void ColorChoice::request_costs() {
+  if (snapshot_) {
+    costs_.request(cost_request(*snapshot_));
+    tell_costs();
+  }
+}
+
+PatchValues ColorChoice::values_by_costs(const SolverSnapshot& snapshot) {
+  costs_.request(cost_request(snapshot));
+  const auto measured = costs_.result();
+  PatchValues result;
+  if (!measured || measured->loaded != snapshot.loaded) {
+    result = values_of(quantity_, snapshot, no_patch, nullptr);
+    if (!costs_.error().isEmpty()) {
+      result.missing = costs_.error();
+    }
+    return result;
+  }
+  const PatchCosts& costs = measured->costs;
+  for (const PatchCost& cost : costs.patches) {
+    const double sum = quantity_ == Quantity::query_time
+                           ? 1e6 * cost.seconds
+                           : static_cast<double>(cost.exact_queries());
+    const double value = sum / costs.passes;
+    result.values.push_back({value, value, value});
+  }
+  if (selection_.patch() != no_patch) {
+    result.note = cost_text(at(costs.patches, selection_.patch()), costs.passes);
+  }
+  return result;
+}
+
 PatchValues ColorChoice::values_by_measurement(const SolverSnapshot& snapshot) const {
   PatchValues result;
   if (!errors_ || !errors_->are_of(snapshot)) {
@@ -342,6 +403,9 @@ PatchValues ColorChoice::values_of_kept(const std::shared_ptr<const SolverSnapsh
   }
   if (traits_of(quantity_).by_eye && kept->glossy) {
     return values_by_eye(kept);
+  }
+  if (traits_of(quantity_).by_costs) {
+    return values_by_costs(*snapshot_);
   }
   // The number of fragments comes from the tree of the open scene.
   const SolverSnapshot& shown = quantity_ == Quantity::fragments ? *snapshot_ : *kept;

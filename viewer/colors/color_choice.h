@@ -84,6 +84,10 @@ class ColorChoice : public QObject {
   const std::shared_ptr<const MeasuredErrors>& errors() const { return errors_; }
   void set_errors(std::shared_ptr<const MeasuredErrors> errors);
 
+  /// Measures the cost of passes of the newest snapshot's solve, unless that was done.
+  /// costs_changed() follows.
+  void request_costs();
+
   /// Sets the point, m, of quantities that depend on the camera.
   void set_eye(const Vec3& eye);
   const Vec3& eye() const { return eye_; }
@@ -114,13 +118,19 @@ class ColorChoice : public QObject {
   const QString& note() const { return values_.note; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
   /// Whether values() waits for a solve.
-  bool busy() const { return response_.busy() || jumps_.busy() || eye_radiance_.busy(); }
+  bool busy() const {
+    return response_.busy() || jumps_.busy() || eye_radiance_.busy() ||
+           (costs_.busy() && traits_of(quantity_).by_costs);
+  }
 
  signals:
   void changed();  ///< all pictures must be recolored
   void fitted();
   void form_factors_requested();
   void eye_changed();
+  /// @param costs  null while they are measured, and where they were not
+  /// @param missing  the reason, for the user; empty where nobody has asked for them
+  void costs_changed(std::shared_ptr<const MeasuredCosts> costs, const QString& missing);
 
  private:
   /// Recolors if the shown quantity is of a kind.
@@ -128,6 +138,8 @@ class ColorChoice : public QObject {
   bool& logarithmic_choice();
   PatchValues values_by_response(const SolverSnapshot& snapshot);
   PatchValues values_by_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot);
+  void tell_costs();
+  PatchValues values_by_costs(const SolverSnapshot& snapshot);
   PatchValues values_by_measurement(const SolverSnapshot& snapshot) const;
   PatchValues values_by_eye(const std::shared_ptr<const SolverSnapshot>& snapshot);
   PatchValues values_of_shown(const std::shared_ptr<const SolverSnapshot>& snapshot,
@@ -165,6 +177,7 @@ class ColorChoice : public QObject {
   // While one is being computed, only the newest of later ones is kept.
   KeptResult<std::shared_ptr<const SolverSnapshot>, PatchJumps> jumps_;
   KeptResult<EyeRequest, RadianceToward> eye_radiance_;
+  KeptResult<CostRequest, MeasuredCosts> costs_;
 };
 
 }  // namespace transillum::viewer

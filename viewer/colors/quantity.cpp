@@ -247,6 +247,23 @@ constexpr QuantityTraits all_traits[] = {
      .symbol = "fragments",
      .meaning = QT_TRANSLATE_NOOP("Quantity", "Number of fragments of each patch in the BSP tree"),
      .section = "4"},
+    {.quantity = Quantity::query_time,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Time per pass"),
+     .symbol = "t",
+     .unit = "µs",
+     .meaning = QT_TRANSLATE_NOOP(
+         "Quantity",
+         "Time of the visibility queries of each patch in one direction, by engine fast on one "
+         "thread: faces where it is long make the solve slow"),
+     .spans_decades = true,
+     .by_costs = true},
+    {.quantity = Quantity::exact_queries,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Exact queries per pass"),
+     .symbol = "exact",
+     .meaning = QT_TRANSLATE_NOOP("Quantity",
+                                  "Visibility queries of each patch in one direction that engine "
+                                  "fast repeated with exact predicates, which are slow"),
+     .by_costs = true},
     {.quantity = Quantity::error,
      .name = QT_TRANSLATE_NOOP("Quantity", "Error estimate of B"),
      .symbol = "± B",
@@ -368,6 +385,9 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
       const std::vector<int> counts = fragment_counts(*snapshot.loaded);
       return {grays({counts.begin(), counts.end()}), {}};
     }
+    case Quantity::query_time:
+    case Quantity::exact_queries:
+      return {{}, tr("Measuring passes…")};
     case Quantity::error:
       if (snapshot.error.replicas == 0) {
         return {{},

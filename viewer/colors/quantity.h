@@ -25,6 +25,8 @@ enum class Quantity {
   origin,
   response,
   fragments,
+  query_time,
+  exact_queries,
   error,
   measured_error,
   last_change,
@@ -49,6 +51,7 @@ struct QuantityTraits {
   bool spans_decades = false;
   bool by_response = false;     ///< computed from a PatchResponse
   bool by_jumps = false;        ///< computed by find_jumps()
+  bool by_costs = false;        ///< computed by measure_costs()
   bool by_measurement = false;  ///< taken from MeasuredErrors
   bool by_eye = false;  ///< depends on the camera; where lobes take part by radiance_toward()
 };

@@ -38,6 +38,8 @@ constexpr Name<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
                                          {"origin", Quantity::origin},
                                          {"response", Quantity::response},
                                          {"fragments", Quantity::fragments},
+                                         {"query-time", Quantity::query_time},
+                                         {"exact-queries", Quantity::exact_queries},
                                          {"error", Quantity::error},
                                          {"last-change", Quantity::last_change},
                                          {"jump", Quantity::jump}};
@@ -46,12 +48,10 @@ constexpr Name<ColorMap> color_maps[] = {
 constexpr Name<RangeRule> range_rules[] = {{"automatic", RangeRule::automatic},
                                            {"locked", RangeRule::widening},
                                            {"fixed", RangeRule::fixed}};
-constexpr Name<Overlay> overlays[] = {{"normals", Overlay::normals},
-                                      {"back-sides", Overlay::back_sides},
-                                      {"cuts", Overlay::cuts},
-                                      {"shadow-edges", Overlay::shadows},
-                                      {"wireframe", Overlay::wireframe},
-                                      {"smooth", Overlay::smooth}};
+constexpr Name<Overlay> overlays[] = {
+    {"normals", Overlay::normals},     {"back-sides", Overlay::back_sides},
+    {"cuts", Overlay::cuts},           {"shadow-edges", Overlay::shadows},
+    {"wireframe", Overlay::wireframe}, {"smooth", Overlay::smooth}};
 constexpr Name<ClipPlane::Axis> axes[] = {
     {"x", ClipPlane::Axis::x}, {"y", ClipPlane::Axis::y}, {"z", ClipPlane::Axis::z}};
 constexpr Name<MapKind> algorithms[] = {{"local-map", MapKind::local},

@@ -1,6 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "solve/solve_summary.h"
 
+#include <QLabel>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include "model/snapshot_values.h"
 #include "radiosity/analysis/power_table.h"
 #include "scene/build/patch_count.h"
@@ -28,6 +33,32 @@ QString closure_text(const SolverSnapshot& snapshot) {
   return fraction
              ? SolveSummary::tr("open: %1 % of the light escapes").arg(number_text(100 * *fraction))
              : SolveSummary::tr("open: light escapes");
+}
+
+QString reason_text(QueryFailure reason) {
+  const QString label =
+      QString::fromStdString(choices_of<QueryFailure>().labels[static_cast<std::size_t>(reason)]);
+  return label.toLower();
+}
+
+/// The exact and the repeated queries of some passes, each with its most frequent reason.
+QString reasons_text(const PatchCost& total, int passes) {
+  const auto main_of = [](const FailureCounts& counts) {
+    return reason_text(
+        static_cast<QueryFailure>(std::max_element(counts.begin(), counts.end()) - counts.begin()));
+  };
+  const std::int64_t exact = total.exact_queries();
+  const auto repeated = std::accumulate(total.repeated.begin(), total.repeated.end(), 0.0);
+  QString text =
+      exact == 0 ? SolveSummary::tr("none")
+                 : SolveSummary::tr("%1 per pass (%2)")
+                       .arg(number_text(static_cast<double>(exact) / passes), main_of(total.exact));
+  if (repeated > 0) {
+    text += SolveSummary::tr("; %1 % repeated (%2)")
+                .arg(number_text(100 * repeated / static_cast<double>(total.queries)),
+                     main_of(total.repeated));
+  }
+  return text;
 }
 
 }  // namespace
@@ -87,9 +118,61 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
                     tr("M extrapolated from the error of this run, which requires replicas, and\n"
                        "from the rate at which errors decrease with M"));
   estimate_->setObjectName("summary_estimate");
+  add_cost_rows(*grid);
   auto* layout = make_column(this, {12, 8, 12, 10});
   layout->addWidget(grid);
   layout->addStretch(1);
+}
+
+void SolveSummary::add_cost_rows(ValueGrid& grid) {
+  const auto add = [&grid](const QString& name, const QString& title, const QString& tip) {
+    QLabel* row = grid.add_row(title, {}, tip);
+    row->setObjectName(name);
+    return row;
+  };
+  time_ = add("summary_time", tr("Time of a pass"),
+              tr("Time of the visibility queries of one direction, by engine fast on one thread.\n"
+                 "A few directions are run again to measure it"));
+  time_->setTextInteractionFlags(Qt::TextBrowserInteraction);
+  connect(time_, &QLabel::linkActivated, this, &SolveSummary::costs_wanted);
+  candidates_ = add("summary_candidates", tr("Candidates"),
+                    tr("Fragments that may hide others, compared in each query"));
+  exact_ = add("summary_exact", tr("Exact queries"),
+               tr("Queries repeated with exact predicates, per pass, and why; and the fraction\n"
+                  "repeated in coordinates for needles"));
+  costly_ =
+      add("summary_costly", tr("Costly faces"), tr("Faces that take most of the time, and why"));
+  show_costs(nullptr, {});
+}
+
+void SolveSummary::show_costs(const std::shared_ptr<const MeasuredCosts>& measured,
+                              const QString& missing) {
+  if (!measured) {
+    time_->setText(missing.isEmpty()
+                       ? QStringLiteral("<a href=\"measure\">%1</a>").arg(tr("Measure"))
+                       : missing);
+    for (QLabel* row : {candidates_, exact_, costly_}) {
+      row->setText(QStringLiteral("–"));
+    }
+    return;
+  }
+  const PatchCosts& costs = measured->costs;
+  const Scene& scene = *measured->loaded->scene;
+  const PatchCost total = costs.total();
+  const auto queries = static_cast<double>(std::max<std::int64_t>(total.queries, 1));
+  time_->setText(tr("%1 ms").arg(number_text(1e3 * total.seconds / costs.passes)));
+  candidates_->setText(
+      tr("%1 per query").arg(number_text(static_cast<double>(total.candidates) / queries)));
+  exact_->setText(reasons_text(total, costs.passes));
+  QStringList lines;
+  for (const FaceCost& face : costly_faces(scene, costs, 5)) {
+    lines << tr("face %1 (%2): %3 %, %4")
+                 .arg(QString::number(scene.patch(face.patch).face),
+                      QString::fromStdString(scene.material(face.patch).name),
+                      number_text(std::round(100 * face.cost.seconds / total.seconds)),
+                      reason_text(face.cost.main_reason()));
+  }
+  costly_->setText(lines.join('\n'));
 }
 
 void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {

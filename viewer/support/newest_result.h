@@ -104,6 +104,14 @@ class KeptResult {
     result_ = nullptr;
     error_.clear();
   }
+  /// Clears unless it is the request of the last call. Returns whether there was another.
+  bool clear_unless(const Request& request) {
+    const bool other = requested_ && requested_ != request;
+    if (other) {
+      clear();
+    }
+    return other;
+  }
   /// The newest radiance, which may belong to an older request; null if none has been computed or
   /// the last request failed.
   std::shared_ptr<const Result> result() const { return result_; }

@@ -411,6 +411,8 @@ void MainWindow::connect_scene() {
   send_to(inspection_);
   send_to(algorithm_);
   send_to(summary_);
+  connect(summary_, &SolveSummary::costs_wanted, &state_.colors, &ColorChoice::request_costs);
+  connect(&state_.colors, &ColorChoice::costs_changed, summary_, &SolveSummary::show_costs);
   send_to(settings_->rounds());
   send_to(progress_);
   send_to(timeline_);

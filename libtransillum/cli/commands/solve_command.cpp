@@ -272,7 +272,7 @@ int run_solve(SolveCall& call) {
   Solution solution = run_job(job, checkpoint);
   display.clear();
   solution.statistics.seconds_load = seconds_load;
-  solution.statistics.seconds_total = seconds_since(start);
+  solution.statistics.seconds_total = seconds_since(start) - (costs ? costs->seconds : 0);
   solution.eye = call.eye;
   for (const std::string& warning : solve_warnings(solution)) {
     print_message("warning: " + warning);

@@ -26,6 +26,19 @@ RadianceToward radiance_toward(const EyeRequest& request, const Cancellation&) {
   return {request.light, request.light->radiance_toward(request.eye)};
 }
 
+CostRequest cost_request(const SolverSnapshot& snapshot) {
+  return {snapshot.loaded, snapshot.directions_of(0), snapshot.options.engine,
+          snapshot.options.basis == Basis::linear};
+}
+
+MeasuredCosts measure_costs(const CostRequest& request, const Cancellation& cancellation) {
+  const LoadedScene& loaded = *request.loaded;
+  const std::vector<Vec3> directions =
+      request.directions ? directions_to_measure(*request.directions) : std::vector<Vec3>();
+  return {request.loaded, patch_costs(request.engine, loaded.scene, loaded.tree, directions,
+                                      request.moments, cancellation)};
+}
+
 std::vector<Rgb> light_of_sun(const LightRequest& request, const Cancellation& cancellation) {
   return request.sky.empty()
              ? std::vector<Rgb>()

@@ -15,6 +15,7 @@
 #include "transillum/adjoint.h"
 #include "transillum/cancellation.h"
 #include "transillum/glossy.h"
+#include "visibility/fast/patch_costs.h"
 
 namespace transillum::viewer {
 
@@ -77,6 +78,24 @@ struct RadianceToward {
   std::vector<Rgb> values;  ///< W/(m² sr), one per patch
 };
 RadianceToward radiance_toward(const EyeRequest& request, const Cancellation& cancellation);
+
+/// A solve of whose passes some are run again, to measure their cost.
+struct CostRequest {
+  std::shared_ptr<const LoadedScene> loaded;
+  std::shared_ptr<const std::vector<Vec3>> directions;  ///< of its first iteration; may be null
+  Engine engine = Engine::fast;
+  bool moments = false;  ///< its functions are linear
+
+  friend bool operator==(const CostRequest&, const CostRequest&) = default;
+};
+CostRequest cost_request(const SolverSnapshot& snapshot);
+/// The cost of passes, and of what scene.
+struct MeasuredCosts {
+  std::shared_ptr<const LoadedScene> loaded;
+  PatchCosts costs;
+};
+/// @throws InputError where the engine has no cost by patch, or no pass was made
+MeasuredCosts measure_costs(const CostRequest& request, const Cancellation& cancellation);
 
 /// The effect that light emitted by each patch has on one patch.
 struct PatchResponse {

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
 
 #include "base/choice.h"
+#include "base/seconds_since.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/fast/fast_engine.h"
@@ -18,7 +20,7 @@ namespace {
 
 constexpr std::array failures{
     Choice{QueryFailure::none, "candidates", "Candidates", "no query was repeated"},
-    Choice{QueryFailure::thin, "thin", "Too thin", "the face is too thin for its length"},
+    Choice{QueryFailure::thin, "thin", "Too thin", "the face is too thin, or too nearly edge-on"},
     Choice{QueryFailure::cut_needle, "cut-needle", "Cut to needles",
            "the BSP tree has cut the face to needles"},
     Choice{QueryFailure::flat, "flat", "Flat", "rounding leaves needles of the face no area"},
@@ -69,7 +71,7 @@ PatchCost PatchCosts::total() const {
 }
 
 std::vector<Vec3> directions_to_measure(std::span<const Vec3> directions) {
-  const std::size_t count = std::clamp<std::size_t>(directions.size() / 16, 1, 4);
+  const std::size_t count = std::clamp<std::size_t>(directions.size() / 64, 1, 4);
   std::vector<Vec3> chosen;
   for (std::size_t k = 0; k < count && !directions.empty(); ++k) {
     chosen.push_back(directions[k * directions.size() / count]);
@@ -89,7 +91,8 @@ PatchCosts patch_costs(Engine engine, std::shared_ptr<const Scene> scene,
   if (directions.empty()) {
     throw InputError("no passes were made, whose cost could be measured");
   }
-  PatchCosts costs{static_cast<int>(directions.size()), {}};
+  const auto start = std::chrono::steady_clock::now();
+  PatchCosts costs{static_cast<int>(directions.size()), 0, {}};
   const auto patches = static_cast<std::size_t>(scene->patch_count());
   costs.patches.resize(patches);
   std::vector<PatchCost> run;
@@ -105,6 +108,7 @@ PatchCosts patch_costs(Engine engine, std::shared_ptr<const Scene> scene,
       costs.patches[i] += run[i];
     }
   }
+  costs.seconds = seconds_since(start);
   return costs;
 }
 

@@ -38,13 +38,15 @@ struct PatchCost {
 /// The cost of some passes.
 struct PatchCosts {
   int passes = 0;                  ///< >= 1
+  double seconds = 0;              ///< wall time of the measurement, s
   std::vector<PatchCost> patches;  ///< one per patch, sums over the passes
 
   /// The sum over all patches.
   PatchCost total() const;
 };
 
-/// Some of a solve's directions, evenly spread in its list: no more than 4, nor than a sixteenth.
+/// Some of a solve's directions, evenly spread in its list: one in 64, at least 1 and at most 4;
+/// nothing of an empty list.
 std::vector<Vec3> directions_to_measure(std::span<const Vec3> directions);
 
 /// Measures the cost of passes: runs each twice, one after the other on the calling thread. The

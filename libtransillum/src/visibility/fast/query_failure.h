@@ -12,7 +12,7 @@ namespace transillum {
 /// Why a BoundaryView of engine fast failed, so that another view repeats the visibility query.
 enum class QueryFailure : std::uint8_t {
   none,          ///< no view has failed
-  thin,          ///< the face is too thin for its length to have its area in doubles
+  thin,          ///< the face is too thin, or too nearly edge-on, to have its area in doubles
   cut_needle,    ///< the BSP tree has cut the face to a needle
   flat,          ///< the corners of a needle, as rounded, bound no area
   candidate,     ///< the corners of a candidate that the tree has cut to a needle bound no area
