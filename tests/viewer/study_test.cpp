@@ -209,7 +209,7 @@ class StudyTest : public QObject {
     }
     QCOMPARE(time->text(), number_text(1e-3 * sum) + " ms");
     colors.set_quantity(Quantity::exact_queries);
-    QVERIFY(!colors.values().empty());  // of the same measurement
+    QVERIFY(!colors.values().empty());  // by the same measurement
     shown.window->selection.select(2);
     QVERIFY2(colors.note().contains("candidates"), qPrintable(colors.note()));
 

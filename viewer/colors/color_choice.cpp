@@ -24,7 +24,7 @@ bool needs_light(Quantity quantity) {
          quantity == Quantity::last_change || quantity == Quantity::jump;
 }
 
-/// What the selected patch costs, and why.
+/// Candidates and exact queries of the selected patch, and their reason.
 QString cost_text(const PatchCost& cost, int passes) {
   const auto per_pass = [&](std::int64_t count) {
     return number_text(static_cast<double>(count) / passes);

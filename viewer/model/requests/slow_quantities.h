@@ -82,7 +82,7 @@ RadianceToward radiance_toward(const EyeRequest& request, const Cancellation& ca
 /// A solve of whose passes some are run again, to measure their cost.
 struct CostRequest {
   std::shared_ptr<const LoadedScene> loaded;
-  std::shared_ptr<const std::vector<Vec3>> directions;  ///< of its first iteration; may be null
+  std::shared_ptr<const std::vector<Vec3>> directions;  ///< the first iteration's; may be null
   Engine engine = Engine::fast;
   bool moments = false;  ///< its functions are linear
 

@@ -14,7 +14,7 @@
 #include "visibility/fast/fragment_bins.h"
 #include "visibility/fast/needle_frame.h"
 #include "visibility/fast/projected_fragments.h"
-#include "visibility/fast/query_failure.h"
+#include "visibility/fast/query_cost.h"
 
 namespace transillum {
 

@@ -31,9 +31,9 @@
 #include "visibility/fast/exchange_rows.h"
 #include "visibility/fast/fragment_bins.h"
 #include "visibility/fast/fragment_moments.h"
-#include "visibility/fast/patch_costs.h"
 #include "visibility/fast/patch_shaft.h"
 #include "visibility/fast/projected_fragments.h"
+#include "visibility/fast/query_cost.h"
 
 namespace transillum {
 

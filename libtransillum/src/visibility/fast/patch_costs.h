@@ -14,26 +14,9 @@
 #include "transillum/engine.h"
 #include "transillum/scene.h"
 #include "transillum/vec3.h"
-#include "visibility/fast/query_failure.h"
+#include "visibility/fast/query_cost.h"
 
 namespace transillum {
-
-/// The cost of visibility queries.
-struct PatchCost {
-  double seconds = 0;           ///< wall time, s
-  std::int64_t queries = 0;     ///< queries of a fragment, or of its part in one bin
-  std::int64_t candidates = 0;  ///< fragments compared with what they have left, repeats included
-  FailureCounts repeated{};     ///< by its reason: queries repeated in another frame
-  FailureCounts exact{};        ///< by its reason: those of them repeated with exact predicates
-
-  /// PassCounts::exact_queries.
-  std::int64_t exact_queries() const;
-  /// The most frequent reason of exact queries, else of repeated ones; none where none failed: the
-  /// number of candidates is the reason then.
-  QueryFailure main_reason() const;
-  /// Adds all of it.
-  PatchCost& operator+=(const PatchCost& other);
-};
 
 /// The cost of some passes.
 struct PatchCosts {

@@ -28,4 +28,21 @@ inline constexpr std::size_t query_failures = 7;
 /// A number of queries for each QueryFailure.
 using FailureCounts = std::array<std::int32_t, query_failures>;
 
+/// The cost of visibility queries.
+struct PatchCost {
+  double seconds = 0;           ///< wall time, s
+  std::int64_t queries = 0;     ///< queries of a fragment, or of its part in one bin
+  std::int64_t candidates = 0;  ///< fragments compared with what they have left, repeats included
+  FailureCounts repeated{};     ///< by its reason: queries repeated in another frame
+  FailureCounts exact{};        ///< by its reason: queries repeated with exact predicates
+
+  /// PassCounts::exact_queries.
+  std::int64_t exact_queries() const;
+  /// The most frequent reason of exact queries, else of repeated ones; none where none failed: the
+  /// number of candidates is the reason then.
+  QueryFailure main_reason() const;
+  /// Adds all of it.
+  PatchCost& operator+=(const PatchCost& other);
+};
+
 }  // namespace transillum
