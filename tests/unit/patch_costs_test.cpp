@@ -86,7 +86,6 @@ TEST(PatchCosts, SumToTheCountsOfThePasses) {
 TEST(PatchCosts, TellsThatNeedlesAreRepeatedAndWhy) {
   const Measured measured(truss());
   const PatchCost needles = measured.of("thing"), total = measured.costs.total();
-  EXPECT_GT(needles.seconds, 0.5 * total.seconds);
   EXPECT_GT(repeated_queries(needles), 0.9 * static_cast<double>(repeated_queries(total)));
   EXPECT_GT(repeated_queries(needles), 0.2 * static_cast<double>(needles.queries));
   EXPECT_TRUE(needles.main_reason() == QueryFailure::thin ||
