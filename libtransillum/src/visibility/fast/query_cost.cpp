@@ -11,7 +11,7 @@ namespace transillum {
 namespace {
 
 constexpr std::array failures{
-    Choice{QueryFailure::none, "candidates", "Candidates", "no query was repeated"},
+    Choice{QueryFailure::none, "candidates", "Many candidates", "no query was repeated"},
     Choice{QueryFailure::thin, "thin", "Too thin", "the face is too thin, or too nearly edge-on"},
     Choice{QueryFailure::cut_needle, "cut-needle", "Cut to needles",
            "the BSP tree has cut the face to needles"},
