@@ -337,6 +337,9 @@ class SunTest : public QObject {
     QVERIFY(wait_for([&] {
       return QDir(folder.path()).entryList({"*canceled*"}, QDir::Files | QDir::Hidden).isEmpty();
     }));
+    recorder.begin_film(canceled, plan);  // before the light of noon
+    QTest::mouseClick(yard.part<QToolButton>("cancel_recording"), Qt::LeftButton);
+    QVERIFY(wait_for(is_as_before));
     // A sun that is moved by hand ends the film, and is solved.
     recorder.begin_film(canceled, plan);
     QVERIFY(wait_for([&] { return recorder.frames() >= 1; }));

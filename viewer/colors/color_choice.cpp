@@ -347,21 +347,26 @@ PatchValues ColorChoice::values_by_jumps(const std::shared_ptr<const SolverSnaps
 }
 
 void ColorChoice::tell_costs() {
-  emit costs_changed(costs_.result(), costs_.busy() ? tr("measuring…") : costs_.error());
+  const bool busy = costs_.busy();
+  emit costs_changed(busy ? nullptr : costs_.result(), busy ? tr("measuring…") : costs_.error());
 }
 
 void ColorChoice::request_costs() {
-  if (snapshot_) {
-    costs_.request(cost_request(*snapshot_));
+  if (!snapshot_) {
+    return;
+  }
+  const bool was_busy = costs_.busy();
+  costs_.request(cost_request(*snapshot_));
+  if (costs_.busy() != was_busy) {
     tell_costs();
   }
 }
 
 PatchValues ColorChoice::values_by_costs(const SolverSnapshot& snapshot) {
-  costs_.request(cost_request(snapshot));
+  request_costs();
   const auto measured = costs_.result();
   PatchValues result;
-  if (!measured || measured->loaded != snapshot.loaded) {
+  if (!measured || costs_.busy() || measured->loaded != snapshot.loaded) {
     result = values_of(quantity_, snapshot, no_patch, nullptr);
     if (!costs_.error().isEmpty()) {
       result.missing = costs_.error();
@@ -376,7 +381,7 @@ PatchValues ColorChoice::values_by_costs(const SolverSnapshot& snapshot) {
     const double value = sum / costs.passes;
     result.values.push_back({value, value, value});
   }
-  if (selection_.patch() != no_patch) {
+  if (has_index(costs.patches, selection_.patch())) {
     result.note = cost_text(at(costs.patches, selection_.patch()), costs.passes);
   }
   return result;
@@ -405,7 +410,7 @@ PatchValues ColorChoice::values_of_kept(const std::shared_ptr<const SolverSnapsh
     return values_by_eye(kept);
   }
   if (traits_of(quantity_).by_costs) {
-    return values_by_costs(*snapshot_);
+    return {{}, tr("Kept runs have no cost of passes.")};
   }
   // The number of fragments comes from the tree of the open scene.
   const SolverSnapshot& shown = quantity_ == Quantity::fragments ? *snapshot_ : *kept;

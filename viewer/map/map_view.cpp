@@ -545,7 +545,7 @@ QStringList MapView::step_clauses() const {
     return {tr("View along ω, toward the source")};
   }
   if (shows_hemicube()) {
-    return {hemicube_->status_text()};
+    return {hemicube_->status_text().toHtmlEscaped()};
   }
   if (canvas_->pixels()) {
     return {pixel_text()};

@@ -526,14 +526,14 @@ bool SceneView::drawn() const { return !draw_timer_->isActive() && !shadow_finde
 void SceneView::draw() {
   draw_timer_->stop();
   prepare_picture(1, antialiased_ && at_rest());
-  if (canvas_->isVisible() && !held_) {
+  if (canvas_->isVisible() && holds_ == 0) {
     window_->Render();
   }
 }
 
 void SceneView::hold(bool held) {
-  held_ = held;
-  if (!held) {
+  holds_ += held ? 1 : -1;
+  if (holds_ == 0) {
     render();
   }
 }

@@ -231,7 +231,7 @@ class SceneView : public QWidget {
   QPoint press_position_;
   bool pressed_ = false;
 
-  bool held_ = false;
+  int holds_ = 0;
 
   std::vector<Callout> callouts_;
   SceneSketch sketch_;

@@ -43,20 +43,16 @@ QString reason_text(QueryFailure reason) {
 
 /// The exact and the repeated queries of some passes, each with its most frequent reason.
 QString reasons_text(const PatchCost& total, int passes) {
-  const auto main_of = [](const FailureCounts& counts) {
-    return reason_text(
-        static_cast<QueryFailure>(std::max_element(counts.begin(), counts.end()) - counts.begin()));
-  };
   const std::int64_t exact = total.exact_queries();
   const auto repeated = std::accumulate(total.repeated.begin(), total.repeated.end(), 0.0);
-  QString text =
-      exact == 0 ? SolveSummary::tr("none")
-                 : SolveSummary::tr("%1 per pass (%2)")
-                       .arg(number_text(static_cast<double>(exact) / passes), main_of(total.exact));
+  QString text = exact == 0 ? SolveSummary::tr("none")
+                            : SolveSummary::tr("%1 per pass (%2)")
+                                  .arg(number_text(static_cast<double>(exact) / passes),
+                                       reason_text(main_of(total.exact)));
   if (repeated > 0) {
     text += SolveSummary::tr("; %1 % repeated (%2)")
                 .arg(number_text(100 * repeated / static_cast<double>(total.queries)),
-                     main_of(total.repeated));
+                     reason_text(main_of(total.repeated)));
   }
   return text;
 }
@@ -130,7 +126,7 @@ void SolveSummary::add_cost_rows(ValueGrid& grid) {
     row->setObjectName(name);
     return row;
   };
-  time_ = add("summary_time", tr("Time of a pass"),
+  time_ = add("summary_time", tr("Queries of a pass"),
               tr("Time of the visibility queries of one direction, by engine fast on one thread.\n"
                  "A few directions are run again to measure it"));
   time_->setTextInteractionFlags(Qt::TextBrowserInteraction);
@@ -142,6 +138,7 @@ void SolveSummary::add_cost_rows(ValueGrid& grid) {
                   "repeated in coordinates for needles"));
   costly_ =
       add("summary_costly", tr("Costly faces"), tr("Faces that take most of the time, and why"));
+  costly_->setTextFormat(Qt::PlainText);  // has names of the file
   show_costs(nullptr, {});
 }
 

@@ -112,7 +112,7 @@ class KeptResult {
     }
     return other;
   }
-  /// The newest radiance, which may belong to an older request; null if none has been computed or
+  /// The newest result, which may belong to an older request; null if none has been computed or
   /// the last request failed.
   std::shared_ptr<const Result> result() const { return result_; }
   /// Why the last request failed; empty while the next is computed.

@@ -60,7 +60,7 @@ SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings, std::functio
   for (const auto change : {&OpenScene::scene_loaded, &OpenScene::patches_changed}) {
     connect(&frame_.state.scene, change, this, [this] {
       if (!day_.empty()) {
-        emit film_lost(tr("The scene has other patches"));
+        emit film_lost(tr("Scene or patches changed"));
       }
       const bool moves = solved_ && !awaited_;
       end();
@@ -82,6 +82,11 @@ bool SunDrag::can_light() const {
   return snapshot && !(settings_.solve_options().glossy && has_lobes(*snapshot->loaded->scene));
 }
 
+/// Whether drafts follow the sun. Requires can_light().
+bool SunDrag::has_drafts() const {
+  return frame_.state.scene.snapshot()->loaded->scene->patch_count() <= most_fitted_patches;
+}
+
 void SunDrag::follow() {
   if (!day_.empty()) {
     emit film_lost(tr("The sun was moved"));
@@ -89,7 +94,7 @@ void SunDrag::follow() {
   if (!can_light()) {
     return;  // before the first picture, the solve that comes has this sun
   }
-  if (frame_.state.scene.snapshot()->loaded->scene->patch_count() <= most_fitted_patches) {
+  if (has_drafts()) {
     hold_solve();
     request(settings_.solve_options());
   }
@@ -102,7 +107,7 @@ void SunDrag::request(const SolveOptions& options) {
 }
 
 bool SunDrag::can_film() const {
-  return can_light() && !busy() && !settings_.sun_through_day(2).empty();
+  return can_light() && has_drafts() && !busy() && !settings_.sun_through_day(2).empty();
 }
 
 void SunDrag::begin_film(int count) {
@@ -130,6 +135,7 @@ void SunDrag::end_film() {
     return;
   }
   day_.clear();
+  awaits_noon_ = false;
   frame_.state.colors.hold_range(false);
   return_to_solve();
 }
@@ -184,7 +190,7 @@ void SunDrag::finish() {
 }
 
 void SunDrag::return_to_solve() {
-  const bool runs_on = was_running_ && solved_->loaded == frame_.state.scene.loaded();
+  const bool runs_on = was_running_ && solved_ && solved_->loaded == frame_.state.scene.loaded();
   end();
   if (runs_on) {
     frame_.state.runner.run();

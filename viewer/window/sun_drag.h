@@ -42,6 +42,7 @@ class SunDrag : public FilmedChange {
  private:
   void follow();
   bool can_light() const;
+  bool has_drafts() const;
   void request(const SolveOptions& options);
   void hold_solve();
   void take_light(const LiveLightRequest& request, const std::shared_ptr<const Solution>& light);

@@ -287,13 +287,12 @@ int run_solve(SolveCall& call) {
   const bool complete = solution.complete;
   if (is_first_process()) {
     const auto shown = std::make_shared<const Solution>(std::move(solution));
-    const auto sharp_map =
-        sharp_map_of(call, shown, display, complete ? cancellation : Cancellation());
+    // What was interrupted before is written all the same.
+    const bool stops = complete && !cancellation.canceled();
+    const Cancellation stop = stops ? cancellation : Cancellation();
+    const auto sharp_map = sharp_map_of(call, shown, display, stop);
     write_all({[&] { write_outputs(call, options, *shown, errors, costs, sharp_map); },
-               [&] {
-                 write_pictures(pictures_of(call, *shown->scene), shown, display,
-                                complete ? cancellation : Cancellation());
-               }});
+               [&] { write_pictures(pictures_of(call, *shown->scene), shown, display, stop); }});
   }
   if (checkpoint) {
     print_cost(call, *checkpoint);

@@ -151,6 +151,7 @@ void SceneEdits::follow_scene() {
   state_.reach = reach;
   state_.description = state_.base = whole_of(frame_.state.scene.loaded())->description;
   placement_ = {};
+  moved_from_.reset();
   emit changed();
 }
 
@@ -296,9 +297,14 @@ void SceneEdits::end_film() {
   }
 }
 
+/// Whether the scene that is open is the one whose faces move.
+bool SceneEdits::shows_solved_scene() const {
+  return solved_ && is_same_origin(solved_->loaded, frame_.state.scene.loaded());
+}
+
 void SceneEdits::lose_film(const QString& why) {
   if (film_pictures_ > 0) {
-    emit film_lost(why);
+    emit film_lost(shows_solved_scene() ? why : tr("Another scene was opened"));
   }
 }
 
@@ -405,6 +411,7 @@ void SceneEdits::end_live() {
 }
 
 void SceneEdits::cancel() {
+  lose_film(tr("The move was canceled"));
   rest_timer_->stop();
   scenes_.clear();
   placement_ = state_.placement;
@@ -424,8 +431,9 @@ void SceneEdits::return_to_edit() {
   if (map_before_) {
     frame_.state.focus.replace_map(map_before_);
   }
+  const bool runs_on = was_running_ && shows_solved_scene();
   end_live();
-  if (was_running_) {
+  if (runs_on) {
     frame_.state.runner.run();
   }
 }

@@ -67,7 +67,9 @@ class SceneEdits : public FilmedChange {
   int vertical_axis() const;
   const WindowFrame& frame() const { return frame_; }
   bool busy() const override;
-  bool can_film() const override { return moved_from_ && !live_ && !busy(); }
+  bool can_film() const override {
+    return moved_from_ && !state_.faces.empty() && can_begin() && !live_ && !busy();
+  }
   void begin_film(int count) override;
   void show_picture(int index) override;
   QString caption(int /*index*/) const override { return {}; }
@@ -102,6 +104,7 @@ class SceneEdits : public FilmedChange {
   bool can_begin() const;
   void begin_live();
   void show_placed(const FacePlacement& placement);
+  bool shows_solved_scene() const;
   void lose_film(const QString& why);
   void request(const State& state, std::optional<int> edit);
   void take_scene(const LiveRequest& request, const std::shared_ptr<const LiveScene>& scene,

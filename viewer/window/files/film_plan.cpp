@@ -11,7 +11,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double seconds_per_turn = 10;  // or change
+constexpr double seconds_per_film = 10;  // over a turn or a change
 
 }  // namespace
 
@@ -38,7 +38,7 @@ FilmWalk::FilmWalk(const FilmPlan& plan, Focus& focus, SceneView& view, FilmedCh
     case FilmPlan::Over::turn:
     case FilmPlan::Over::day:
     case FilmPlan::Over::move:
-      count_ = static_cast<int>(std::lround(seconds_per_turn * plan.per_second));
+      count_ = static_cast<int>(std::lround(seconds_per_film * plan.per_second));
       break;
   }
   view.hold(true);

@@ -201,7 +201,7 @@ void FrameRecorder::begin_film(const QString& path, const FilmPlan& plan) {
   const auto found = changes_.find(plan.over);
   FilmedChange* change = found == changes_.end() ? nullptr : found->second;
   if (change && !change->can_film()) {
-    lose(tr("There is nothing to film now"));
+    lose(tr("This change cannot be filmed now"));
     return;
   }
   folder_.clear();

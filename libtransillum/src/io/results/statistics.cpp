@@ -115,7 +115,7 @@ Json costs_json(const Scene& scene, const PatchCosts* costs) {
     return {};
   }
   const PatchCost total = costs->total();
-  Json json{{"passes", costs->passes}};
+  Json json{{"passes", costs->passes}, {"seconds_measuring", costs->seconds}};
   json.update(cost_json(total));
   json["reasons"] = Json::array();
   for (std::size_t k = 1; k < query_failures; ++k) {

@@ -11,12 +11,12 @@ namespace transillum {
 namespace {
 
 constexpr std::array failures{
-    Choice{QueryFailure::none, "candidates", "Many candidates", "no query was repeated"},
+    Choice{QueryFailure::none, "many-candidates", "Many candidates", "no query was repeated"},
     Choice{QueryFailure::thin, "thin", "Too thin", "the face is too thin, or too nearly edge-on"},
     Choice{QueryFailure::cut_needle, "cut-needle", "Cut to needles",
            "the BSP tree has cut the face to needles"},
     Choice{QueryFailure::flat, "flat", "Flat", "rounding leaves needles of the face no area"},
-    Choice{QueryFailure::candidate, "candidate", "Flat candidate",
+    Choice{QueryFailure::candidate, "flat-candidate", "Flat candidate",
            "rounding leaves a needle in front of the face no area"},
     Choice{QueryFailure::inconsistent, "inconsistent", "Edges too near",
            "edges in front of the face are nearer to each other than rounding"},
@@ -38,9 +38,12 @@ const Choices& choices_of<QueryFailure>() {
 
 std::int64_t PatchCost::exact_queries() const { return sum_of(exact); }
 
-QueryFailure PatchCost::main_reason() const {
-  const FailureCounts& counts = exact_queries() > 0 ? exact : repeated;
+QueryFailure main_of(const FailureCounts& counts) {
   return static_cast<QueryFailure>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+QueryFailure PatchCost::main_reason() const {
+  return main_of(exact_queries() > 0 ? exact : repeated);
 }
 
 PatchCost& PatchCost::operator+=(const PatchCost& other) {

@@ -28,6 +28,9 @@ inline constexpr std::size_t query_failures = 7;
 /// A number of queries for each QueryFailure.
 using FailureCounts = std::array<std::int32_t, query_failures>;
 
+/// The most frequent reason; QueryFailure::none where all are 0.
+QueryFailure main_of(const FailureCounts& counts);
+
 /// The cost of visibility queries.
 struct PatchCost {
   double seconds = 0;           ///< wall time, s
