@@ -287,7 +287,7 @@ int run_solve(SolveCall& call) {
   const bool complete = solution.complete;
   if (is_first_process()) {
     const auto shown = std::make_shared<const Solution>(std::move(solution));
-    // What was interrupted before is written all the same.
+    // An interruption before, of a measurement, leaves the rest to be written.
     const bool stops = complete && !cancellation.canceled();
     const Cancellation stop = stops ? cancellation : Cancellation();
     const auto sharp_map = sharp_map_of(call, shown, display, stop);
