@@ -129,7 +129,7 @@ class ColorChoice : public QObject {
   void form_factors_requested();
   void eye_changed();
   /// @param costs  null while they are measured, and where they were not
-  /// @param missing  the reason, for the user; empty where nobody has asked for them
+  /// @param missing  why there are none, for the user; empty before request_costs()
   void costs_changed(std::shared_ptr<const MeasuredCosts> costs, const QString& missing);
 
  private:
