@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The inner loop of engine fast: known cuts, and all backends give the same bits.
-#include "visibility/fast/boundary_cut.h"
-#include "visibility/fast/simd_backend.h"
+#include "visibility/queries/boundary_cut.h"
+#include "visibility/queries/simd_backend.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Sides of lines and meetings of lines on the grid, against exact fractions.
-#include "visibility/fast/exact_side.h"
+#include "visibility/queries/exact_side.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "visibility/fast/boundary_view.h"
-#include "visibility/fast/exact_view.h"
+#include "visibility/queries/boundary_view.h"
+#include "visibility/queries/exact_view.h"
 
 namespace transillum::needle_view_test {
 namespace {

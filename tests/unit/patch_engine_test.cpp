@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
-#include "visibility/fast/patch_shaft.h"
+#include "visibility/queries/patch_shaft.h"
 
 namespace transillum::patch_engine_test {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "transillum/at.h"
-#include "visibility/fast/fragment_bins.h"
-#include "visibility/fast/projected_fragments.h"
+#include "visibility/queries/fragment_bins.h"
+#include "visibility/queries/projected_fragments.h"
 
 namespace transillum {
 

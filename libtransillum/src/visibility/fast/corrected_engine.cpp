@@ -16,10 +16,10 @@
 #include <utility>
 
 #include "transillum/at.h"
-#include "visibility/fast/convex_overlap.h"
 #include "visibility/fast/fast_engine.h"
-#include "visibility/fast/fragment_bins.h"
-#include "visibility/fast/projected_fragments.h"
+#include "visibility/queries/convex_overlap.h"
+#include "visibility/queries/fragment_bins.h"
+#include "visibility/queries/projected_fragments.h"
 #include "visibility/transfers/transfer_sums.h"
 
 namespace transillum {

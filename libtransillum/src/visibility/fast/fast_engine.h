@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "transillum/engine.h"
-#include "visibility/fast/query_cost.h"
+#include "visibility/queries/query_cost.h"
 
 namespace transillum {
 

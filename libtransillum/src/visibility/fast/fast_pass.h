@@ -24,16 +24,16 @@
 
 #include "base/invariant.h"
 #include "transillum/at.h"
-#include "visibility/fast/boundary_view.h"
 #include "visibility/fast/candidate_search.h"
-#include "visibility/fast/cut_corners.h"
-#include "visibility/fast/exact_view.h"
 #include "visibility/fast/exchange_rows.h"
-#include "visibility/fast/fragment_bins.h"
 #include "visibility/fast/fragment_moments.h"
-#include "visibility/fast/patch_shaft.h"
-#include "visibility/fast/projected_fragments.h"
-#include "visibility/fast/query_cost.h"
+#include "visibility/queries/boundary_view.h"
+#include "visibility/queries/cut_corners.h"
+#include "visibility/queries/exact_view.h"
+#include "visibility/queries/fragment_bins.h"
+#include "visibility/queries/patch_shaft.h"
+#include "visibility/queries/projected_fragments.h"
+#include "visibility/queries/query_cost.h"
 
 namespace transillum {
 

@@ -11,8 +11,8 @@
 
 #include "transillum/at.h"
 #include "transillum/linear_basis.h"
-#include "visibility/fast/projected_fragments.h"
 #include "visibility/plane/overlap_moments.h"
+#include "visibility/queries/projected_fragments.h"
 
 namespace transillum {
 

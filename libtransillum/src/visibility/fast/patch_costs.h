@@ -14,7 +14,7 @@
 #include "transillum/engine.h"
 #include "transillum/scene.h"
 #include "transillum/vec3.h"
-#include "visibility/fast/query_cost.h"
+#include "visibility/queries/query_cost.h"
 
 namespace transillum {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "visibility/fast/projected_fragments.h"
+#include "visibility/queries/projected_fragments.h"
 
 namespace transillum {
 

@@ -3,7 +3,7 @@
 // Subtracting a candidate has two parts: cut_boundary() cuts the segments of the region's boundary
 // by the candidate, and add_edges() adds the parts of the candidate's edges that lie in the region,
 // reversed, so that the remaining boundary is closed again.
-#include "visibility/fast/boundary_view.h"
+#include "visibility/queries/boundary_view.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "transillum/at.h"
-#include "visibility/fast/bin_clip.h"
+#include "visibility/queries/bin_clip.h"
 
 namespace transillum {
 

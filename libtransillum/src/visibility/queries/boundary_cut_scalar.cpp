@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "visibility/fast/simd_backend.h"
+#include "visibility/queries/simd_backend.h"
 
 namespace transillum {
 

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/simd_backend.h"
+#include "visibility/queries/simd_backend.h"
 
 #include <cmath>
 

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "transillum/transfers.h"
-#include "visibility/fast/boundary_cut.h"
-#include "visibility/fast/cut_corners.h"
-#include "visibility/fast/fragment_bins.h"
-#include "visibility/fast/needle_frame.h"
-#include "visibility/fast/projected_fragments.h"
-#include "visibility/fast/query_cost.h"
+#include "visibility/queries/boundary_cut.h"
+#include "visibility/queries/cut_corners.h"
+#include "visibility/queries/fragment_bins.h"
+#include "visibility/queries/needle_frame.h"
+#include "visibility/queries/projected_fragments.h"
+#include "visibility/queries/query_cost.h"
 
 namespace transillum {
 

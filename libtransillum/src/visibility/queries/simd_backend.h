@@ -8,7 +8,7 @@
 #include <bit>
 #include <vector>
 
-#include "visibility/fast/boundary_cut.h"
+#include "visibility/queries/boundary_cut.h"
 
 namespace transillum {
 

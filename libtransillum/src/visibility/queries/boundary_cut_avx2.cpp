@@ -10,7 +10,7 @@
 #include <bit>
 #include <cmath>
 
-#include "visibility/fast/simd_backend.h"
+#include "visibility/queries/simd_backend.h"
 
 #define TRANSILLUM_AVX2 __attribute__((target("avx2,popcnt")))
 #define TRANSILLUM_AVX2_INLINE TRANSILLUM_AVX2 __attribute__((always_inline)) inline

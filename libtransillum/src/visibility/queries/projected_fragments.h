@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "transillum/at.h"
-#include "visibility/fast/exact_side.h"
-#include "visibility/fast/grid_projection.h"
-#include "visibility/fast/patch_shaft.h"
+#include "visibility/queries/exact_side.h"
+#include "visibility/queries/grid_projection.h"
+#include "visibility/queries/patch_shaft.h"
 
 namespace transillum {
 

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/convex_overlap.h"
+#include "visibility/queries/convex_overlap.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 
 #include "transillum/at.h"
 #include "transillum/cancellation.h"
-#include "visibility/fast/projected_fragments.h"
+#include "visibility/queries/projected_fragments.h"
 
 namespace transillum {
 

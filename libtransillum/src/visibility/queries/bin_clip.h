@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "visibility/fast/projected_fragments.h"
+#include "visibility/queries/projected_fragments.h"
 
 namespace transillum {
 

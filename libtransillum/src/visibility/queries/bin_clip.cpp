@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/bin_clip.h"
+#include "visibility/queries/bin_clip.h"
 
 namespace transillum {
 namespace {

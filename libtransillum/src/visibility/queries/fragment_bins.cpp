@@ -3,7 +3,7 @@
 // The bins are built top down from a square around the whole grid: a region with many fragments is
 // divided into square cells, about as wide as its fragments, which are regions in turn; a region
 // that is not worth dividing becomes a bin.
-#include "visibility/fast/fragment_bins.h"
+#include "visibility/queries/fragment_bins.h"
 
 #include <algorithm>
 #include <cmath>

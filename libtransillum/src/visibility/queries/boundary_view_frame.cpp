@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "transillum/at.h"
-#include "visibility/fast/bin_clip.h"
-#include "visibility/fast/boundary_view.h"
+#include "visibility/queries/bin_clip.h"
+#include "visibility/queries/boundary_view.h"
 
 namespace transillum {
 namespace {

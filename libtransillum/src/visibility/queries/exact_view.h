@@ -43,9 +43,9 @@
 #include "base/invariant.h"
 #include "transillum/at.h"
 #include "transillum/transfers.h"
-#include "visibility/fast/exact_side.h"
-#include "visibility/fast/fragment_bins.h"
-#include "visibility/fast/projected_fragments.h"
+#include "visibility/queries/exact_side.h"
+#include "visibility/queries/fragment_bins.h"
+#include "visibility/queries/projected_fragments.h"
 
 namespace transillum {
 

@@ -2,7 +2,7 @@
 //
 // Visibility queries with exact signs. States and notation are described in exact_view.h. Order of
 // the file: loading fragments, sides of lines, subtracting and splitting.
-#include "visibility/fast/exact_view.h"
+#include "visibility/queries/exact_view.h"
 
 #include <algorithm>
 #include <bit>

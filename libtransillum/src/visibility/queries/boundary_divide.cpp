@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "visibility/fast/boundary_view.h"
+#include "visibility/queries/boundary_view.h"
 
 namespace transillum {
 namespace {

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/grid_projection.h"
+#include "visibility/queries/grid_projection.h"
 
 #include <array>
 #include <cmath>

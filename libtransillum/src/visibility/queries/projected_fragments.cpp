@@ -3,7 +3,7 @@
 // Projection of the BSP tree's fragments for one direction: corners come from GridProjection, the
 // order from BspTree::order(). Fragments that are too thin for the grid are omitted; needles cut
 // by the tree get their areas from their lines instead of their rounded corners.
-#include "visibility/fast/projected_fragments.h"
+#include "visibility/queries/projected_fragments.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "transillum/at.h"
-#include "visibility/fast/exact_side.h"
+#include "visibility/queries/exact_side.h"
 
 namespace transillum {
 namespace {

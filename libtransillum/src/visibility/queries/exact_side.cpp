@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/exact_side.h"
+#include "visibility/queries/exact_side.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
 

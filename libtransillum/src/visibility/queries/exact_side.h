@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include "visibility/fast/grid_projection.h"
+#include "visibility/queries/grid_projection.h"
 
 namespace transillum {
 

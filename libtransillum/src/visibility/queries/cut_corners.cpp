@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/cut_corners.h"
+#include "visibility/queries/cut_corners.h"
 
 #include <algorithm>
 #include <array>

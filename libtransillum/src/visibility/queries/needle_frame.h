@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "visibility/fast/cut_corners.h"
-#include "visibility/fast/exact_side.h"
+#include "visibility/queries/cut_corners.h"
+#include "visibility/queries/exact_side.h"
 
 namespace transillum {
 

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "visibility/fast/grid_projection.h"
+#include "visibility/queries/grid_projection.h"
 
 namespace transillum {
 

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/patch_shaft.h"
+#include "visibility/queries/patch_shaft.h"
 
 #include <algorithm>
 

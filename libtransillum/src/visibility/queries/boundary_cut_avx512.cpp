@@ -10,7 +10,7 @@
 #include <bit>
 #include <cmath>
 
-#include "visibility/fast/simd_backend.h"
+#include "visibility/queries/simd_backend.h"
 
 #define TRANSILLUM_AVX512 __attribute__((target("avx512f,avx512dq,popcnt")))
 #define TRANSILLUM_AVX512_INLINE TRANSILLUM_AVX512 __attribute__((always_inline)) inline

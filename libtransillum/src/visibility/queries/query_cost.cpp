@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/query_cost.h"
+#include "visibility/queries/query_cost.h"
 
 #include <algorithm>
 #include <array>
