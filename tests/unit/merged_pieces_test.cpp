@@ -56,6 +56,27 @@ TEST(MergedPieces, OfConcaveFacesAreTheirPiecesAndOfNonplanarOnesTheirTriangles)
   }
 }
 
+TEST(MergedPieces, OfCoincidentFacesAreOne) {
+  Sketch sketch;
+  const std::vector<Vec3> corners{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
+  const std::vector<Vec3> reversed(corners.rbegin(), corners.rend());
+  for (const double reflectance : {0.1, 0.2, 0.3}) {
+    sketch.face(corners, sketch.material(reflectance, 0));
+    sketch.face(reversed, sketch.material(reflectance, 1));
+  }
+  sketch.face({{0, 0, 1}, {2, 0, 1}, {2, 1, 1}}, sketch.material(0.5, 0));
+  const auto polygons = merged_pieces(*sketch.scene());
+  ASSERT_EQ(polygons.size(), 2U);
+  EXPECT_EQ(polygons[0].patches, (std::vector<PatchId>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(polygons[1].patches, (std::vector<PatchId>{6}));
+  // The lamps are above the others, and the last one above the first.
+  std::vector<PatchId> uppermost;
+  for (const Piece& piece : uppermost_pieces(*sketch.scene())) {
+    uppermost.push_back(piece.patch);
+  }
+  EXPECT_EQ(uppermost, (std::vector<PatchId>{4, 5, 6}));
+}
+
 TEST(MergedPieces, CoverTheSameAreaAsThePatches) {
   for (const char* spec : {"cornell-box", "rooms", "stars", "sphere-flake:levels=1"}) {
     const auto scene = load_scene(spec, {.max_patch_area = 0.05});

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <random>
 
+#include "pictures/light_by_picker.h"
 #include "pictures/sequences.h"
 #include "support/canceled.h"
 #include "support/glossy_scenes.h"
@@ -95,6 +96,21 @@ TEST(Picture, DirectLightIsThatOfExactFormFactors) {
           << scene->name() << ", patch " << points[n].patch;
     }
     EXPECT_GT(largest, 0);
+  }
+}
+
+TEST(Picture, IsTheSameWithThePickerOfAnother) {
+  const auto scene = load_scene("gallery");
+  const auto solution = solved(scene);
+  const SurfaceLight light(solution);
+  const SurfaceLight sharing =
+      LightByPicker::light(solution, std::make_shared<const Picker>(scene), {});
+  const Vec3 eye = scene->patch(0).center + 0.1 * scene->patch(0).normal;
+  for (const SurfacePoint& point : points_of(*scene, 50)) {
+    EXPECT_EQ(light.radiance(eye, point.position - eye),
+              sharing.radiance(eye, point.position - eye));
+    EXPECT_EQ(light.radiosity(point.patch, point.position),
+              sharing.radiosity(point.patch, point.position));
   }
 }
 

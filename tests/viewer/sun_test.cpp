@@ -23,6 +23,7 @@
 #include "solved_window.h"
 #include "test_files.h"
 #include "transillum/at.h"
+#include "window/editing/live_scene.h"
 #include "window/files/frame_recorder.h"
 #include "window/sun_drag.h"
 
@@ -233,6 +234,35 @@ class SunTest : public QObject {
     session.advance(SolveSession::Until::finished);
     QVERIFY(session.solution().radiosity == snapshot->radiosity);
     save_picture(*yard.shown.window, "sun");
+  }
+
+  // The same directions as of a new solve, so that only tolerances differ.
+  void moved_light_from_the_form_factors_of_a_solve_is_its_light() {
+    const Yard yard;
+    QVERIFY(yard.solves());
+    SolveRunner& runner = yard.shown.window->runner;
+    runner.include_form_factors();
+    QVERIFY(wait_for([&] { return yard.shown.window->snapshot()->form_factors != nullptr; }));
+    const auto solved = yard.shown.window->snapshot();
+    for (const bool disc : {false, true}) {
+      LiveLightRequest request{solved->loaded, solved->options, nullptr, solved};
+      request.options.sky.sun = {{50, 100, 150}, normalized({1, 0.2, 0.7}), disc};
+      const Solution light = live_light(request, {});
+      SolveSession session({.scene = solved->loaded->scene,
+                            .options = request.options,
+                            .tree = solved->loaded->tree});
+      session.advance(SolveSession::Until::finished);
+      const std::vector<Rgb> expected = session.solution().radiosity;
+      QCOMPARE(light.radiosity.size(), expected.size());
+      double largest = 0;
+      for (const Rgb& value : expected) {
+        largest = std::max(largest, max_abs(value));
+      }
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        QVERIFY(max_abs(light.radiosity[i] - expected[i]) <= 1e-5 * largest);
+      }
+      QVERIFY(largest > 1);
+    }
   }
 
   void patches_are_divided_along_the_shadow_edges_that_are_drawn() {

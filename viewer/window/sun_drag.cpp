@@ -46,6 +46,7 @@ SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings, std::functio
   // The light of the draft stays until the solve has its own.
   connect(&frame_.state.runner, &SolveRunner::snapshot_ready, this,
           [this](const std::shared_ptr<const SolverSnapshot>& snapshot) {
+            take_factors(snapshot);
             const bool has_light =
                 snapshot->of_draft || snapshot->passes_done > 0 || snapshot->progress.finished;
             if (awaited_ && has_light && snapshot->options.sky == *awaited_) {
@@ -103,7 +104,7 @@ void SunDrag::follow() {
 
 void SunDrag::request(const SolveOptions& options) {
   const MaterialEdits& edits = frame_.state.relighting.edits();
-  lights_.request({solved_->loaded, options, edits.any() ? edits.materials() : nullptr});
+  lights_.request({solved_->loaded, options, edits.any() ? edits.materials() : nullptr, factors_});
 }
 
 bool SunDrag::can_film() const {
@@ -140,11 +141,20 @@ void SunDrag::end_film() {
   return_to_solve();
 }
 
+void SunDrag::take_factors(const std::shared_ptr<const SolverSnapshot>& snapshot) {
+  if (solved_ && !awaited_ && snapshot->loaded == solved_->loaded && snapshot->progress.finished &&
+      snapshot->form_factors) {
+    factors_ = snapshot;
+  }
+}
+
 void SunDrag::hold_solve() {
   const bool runs = frame_.state.runner.state() == RunState::running;
   if (!solved_) {
     solved_ = frame_.state.scene.snapshot();
     was_running_ = runs;
+    take_factors(solved_);
+    frame_.state.runner.include_form_factors();
     frame_.state.scene.hold(true);
     frame_.page.sharp()->set_solving(true);
   } else if (!std::exchange(awaited_, std::nullopt)) {
@@ -205,6 +215,7 @@ void SunDrag::end() {
   rest_timer_->stop();
   lights_.clear();
   solved_ = nullptr;
+  factors_ = nullptr;
   frame_.state.scene.hold(false);
   const RunState state = frame_.state.runner.state();
   frame_.page.sharp()->set_solving(state == RunState::running || state == RunState::loading);

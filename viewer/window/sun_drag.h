@@ -18,9 +18,9 @@ namespace transillum::viewer {
 
 class SettingsPanel;
 
-/// Shows the light of a draft while the user moves the sun in the settings; when the hand rests,
-/// the scene is solved. A scene of very many patches is only solved. A film shows the day that is
-/// set, with the exposure of noon unless it is fixed.
+/// Shows the light while the user moves the sun in the settings, by the form factors of a finished
+/// solve or else by a draft; when the hand rests, the scene is solved. A scene of very many patches
+/// is only solved. A film shows the day that is set, with the exposure of noon unless it is fixed.
 ///
 /// Threads: the main thread only.
 class SunDrag : public FilmedChange {
@@ -44,6 +44,7 @@ class SunDrag : public FilmedChange {
   bool can_light() const;
   bool has_drafts() const;
   void request(const SolveOptions& options);
+  void take_factors(const std::shared_ptr<const SolverSnapshot>& snapshot);
   void hold_solve();
   void take_light(const LiveLightRequest& request, const std::shared_ptr<const Solution>& light);
   void finish();
@@ -54,6 +55,8 @@ class SunDrag : public FilmedChange {
   SettingsPanel& settings_;
   std::function<bool()> solve_;
   std::shared_ptr<const SolverSnapshot> solved_;  ///< from before the move; null while none is made
+  /// The same with form factors, where it is finished and has them; else drafts are made.
+  std::shared_ptr<const SolverSnapshot> factors_;
   bool was_running_ = false;
   std::optional<Sky> awaited_;  ///< the sky of the solve that follows, until it has light
   std::vector<SunOfDay> day_;   ///< a film's; empty while there is none

@@ -128,7 +128,10 @@ class SurfaceLight {
   int gathered_lamps() const;
 
  private:
+  friend class LightByPicker;  // makes one with a picker that exists
   struct Impl;
+  explicit SurfaceLight(std::unique_ptr<Impl> impl);
+
   std::unique_ptr<Impl> impl_;
 };
 

@@ -8,6 +8,7 @@
 #include "pictures/hit_light.h"
 #include "pictures/interpolated_light.h"
 #include "pictures/lamp_light.h"
+#include "pictures/light_by_picker.h"
 #include "pictures/lobe_light.h"
 #include "transillum/picture.h"
 #include "visibility/embree/picking.h"
@@ -28,7 +29,7 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
   std::shared_ptr<const Solution> solution;
   const Scene& scene;
   bool is_interpolated;
-  Picker picker;
+  std::shared_ptr<const Picker> picker;
   const EmbreeScene& embree;
   PlanePoints points;
   LampLight lamps;
@@ -37,12 +38,13 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
   InterpolatedLight interpolated;
   std::optional<LobeLight> lobes;
 
-  Impl(std::shared_ptr<const Solution> shown, int gather, const Cancellation& cancellation)
+  Impl(std::shared_ptr<const Solution> shown, int gather, const Cancellation& cancellation,
+       std::shared_ptr<const Picker> asked)
       : solution(std::move(shown)),
         scene(*solution->scene),
         is_interpolated(gather == 0),
-        picker(solution->scene, cancellation),
-        embree(picker.embree()),
+        picker(std::move(asked)),
+        embree(picker->embree()),
         points(scene, cancellation),
         lamps(*solution, embree, cancellation),
         hits(*solution, embree, points, lamps),
@@ -76,10 +78,20 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
 
 SurfaceLight::SurfaceLight(std::shared_ptr<const Solution> solution, int gather,
                            const Cancellation& cancellation)
-    : impl_(std::make_unique<Impl>(std::move(solution), gather, cancellation)) {}
+    : impl_(std::make_unique<Impl>(solution, gather, cancellation,
+                                   std::make_shared<const Picker>(solution->scene, cancellation))) {
+}
+SurfaceLight::SurfaceLight(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 SurfaceLight::~SurfaceLight() = default;
 SurfaceLight::SurfaceLight(SurfaceLight&&) noexcept = default;
 SurfaceLight& SurfaceLight::operator=(SurfaceLight&&) noexcept = default;
+
+SurfaceLight LightByPicker::light(std::shared_ptr<const Solution> solution,
+                                  std::shared_ptr<const Picker> picker,
+                                  const Cancellation& cancellation) {
+  return SurfaceLight(std::make_unique<SurfaceLight::Impl>(std::move(solution), 0, cancellation,
+                                                           std::move(picker)));
+}
 
 Rgb SurfaceLight::radiosity(PatchId patch, const Vec3& point, const Cancellation& cancellation,
                             const Interpolation& precision) const {
@@ -95,7 +107,7 @@ Rgb SurfaceLight::direct_irradiance(PatchId patch, const Vec3& point,
 Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt,
                            const Cancellation& cancellation) const {
   const Vec3 along = normalized(direction);
-  const auto hit = impl_->picker.first_lit_hit(origin, along);
+  const auto hit = impl_->picker->first_lit_hit(origin, along);
   const Sky& sky = impl_->solution->sky;
   Rgb light;
   if (hit) {
@@ -112,7 +124,7 @@ Rgb SurfaceLight::radiance(const Vec3& origin, const Vec3& direction, std::uint6
 
 Rgb SurfaceLight::irradiance(const Vec3& origin, const Vec3& direction, std::uint64_t salt,
                              const Cancellation& cancellation) const {
-  const auto hit = impl_->picker.first_lit_hit(origin, direction);
+  const auto hit = impl_->picker->first_lit_hit(origin, direction);
   return hit ? impl_->irradiance(hit->patch, hit->point, {cancellation, salt}) : Rgb();
 }
 

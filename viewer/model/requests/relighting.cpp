@@ -40,18 +40,28 @@ bool shows_iterations(const SolverSnapshot& solved) {
 
 }  // namespace
 
-RelightResult Relighting::relit(const Request& request, const Cancellation& cancellation) {
+RelightOptions relight_options(const SolverSnapshot& solved) {
   RelightOptions options;
-  const SolverSnapshot& solved = *request.snapshot;
   options.tolerance = solved.options.tolerance;
-  if (!shows_iterations(solved)) {
-    options.start = request.start ? request.start->radiosity : solved.radiosity;
-    options.start_linear_terms = request.start ? request.start->linear_terms : solved.linear_terms;
-  }
+  options.start = solved.radiosity;
+  options.start_linear_terms = solved.linear_terms;
   options.sky_irradiance = solved.sky_irradiance;
   options.sky_linear_terms = solved.sky_linear_terms;
   options.basis = solved.options.basis;
   options.shot = solved.shot.get();
+  return options;
+}
+
+RelightResult Relighting::relit(const Request& request, const Cancellation& cancellation) {
+  const SolverSnapshot& solved = *request.snapshot;
+  RelightOptions options = relight_options(solved);
+  if (shows_iterations(solved)) {
+    options.start = {};
+    options.start_linear_terms = {};
+  } else if (request.start) {
+    options.start = request.start->radiosity;
+    options.start_linear_terms = request.start->linear_terms;
+  }
   options.patch_materials = request.materials->of_patch;
   return relight(*solved.loaded->scene, *solved.form_factors, request.materials->materials, options,
                  cancellation);

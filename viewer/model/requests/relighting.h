@@ -12,6 +12,9 @@
 
 namespace transillum::viewer {
 
+/// The options of relight() that a snapshot with form factors determines; they refer to its lists.
+RelightOptions relight_options(const SolverSnapshot& solved);
+
 /// Replaces the light in snapshots by the light of edited materials, computed from stored form
 /// factors.
 ///

@@ -50,7 +50,7 @@ namespace {
 // Limit for all directions; later ones are not stored.
 constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
 // Limit for all B(n) together. Beyond it, only the newest two are stored, for the last change.
-constexpr std::size_t most_radiosity_bytes = std::size_t{16} << 20;
+constexpr std::size_t most_radiosity_bytes = std::size_t{8} << 20;
 
 template <class Value>
 std::shared_ptr<const std::vector<Value>> shared(std::vector<Value> values) {

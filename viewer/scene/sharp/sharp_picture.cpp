@@ -11,6 +11,7 @@
 
 #include "base/memory_limit.h"
 #include "model/snapshot_values.h"
+#include "pictures/light_by_picker.h"
 #include "pictures/visit_pixels.h"
 #include "scene/sharp/shown_hit.h"
 #include "widgets/theme.h"
@@ -216,8 +217,14 @@ std::shared_ptr<const SnapshotLight> SharpRenderer::light_of(
     auto solution = std::make_shared<Solution>(solution_of(*snapshot));
     solution->scene = scene_of(*snapshot);
     std::shared_ptr<const Scene> scene = solution->scene;
-    light_ = std::make_shared<const SnapshotLight>(SnapshotLight{
-        snapshot, std::move(scene), SurfaceLight(std::move(solution), 0, cancellation)});
+    // While faces are moved, the picker may still be the one of the scene before.
+    const LoadedScene& loaded = *snapshot->loaded;
+    auto picker = loaded.picker && loaded.picker->scene() == loaded.scene
+                      ? loaded.picker
+                      : std::make_shared<const Picker>(scene, cancellation);
+    light_ = std::make_shared<const SnapshotLight>(
+        SnapshotLight{snapshot, std::move(scene),
+                      LightByPicker::light(std::move(solution), std::move(picker), cancellation)});
     return_freed_memory();
   }
   return light_;

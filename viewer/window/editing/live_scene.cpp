@@ -2,11 +2,15 @@
 #include "window/editing/live_scene.h"
 
 #include <QElapsedTimer>
+#include <algorithm>
 #include <map>
 #include <utility>
 
+#include "model/requests/relighting.h"
+#include "model/snapshot_values.h"
 #include "model/solver/draft.h"
 #include "model/solver/scene_loading.h"
+#include "radiosity/sun_light.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -31,6 +35,67 @@ std::vector<Rgb> by_face(const std::vector<Rgb>& values, const Scene& before, co
     spread.push_back(found == means.end() ? Rgb{} : (1 / found->second.area) * found->second.sum);
   }
   return spread;
+}
+
+bool differ_by_sun(Sky a, const Sky& b) {
+  a.sun = b.sun;
+  return a == b;
+}
+
+Rgb difference(const Rgb& a, const Rgb& b) { return a - b; }
+LinearTerm difference(const LinearTerm& a, const LinearTerm& b) {
+  return {a.first - b.first, a.second - b.second};
+}
+Rgb sum(const Rgb& a, const Rgb& b) { return a + b; }
+LinearTerm sum(const LinearTerm& a, const LinearTerm& b) {
+  return {a.first + b.first, a.second + b.second};
+}
+
+/// values - removed + added, without rounding where values and removed are equal; empty lists count
+/// as 0.
+template <class Value>
+std::vector<Value> exchanged(std::vector<Value> values, std::vector<Value> removed,
+                             std::vector<Value> added) {
+  const std::size_t count = std::max({values.size(), removed.size(), added.size()});
+  for (std::vector<Value>* list : {&values, &removed, &added}) {
+    list->resize(count);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    values[i] = sum(difference(values[i], removed[i]), added[i]);
+  }
+  return values;
+}
+
+/// The light of the sun requested, in place of the one of the solve.
+Solution light_by_form_factors(const LiveLightRequest& request, const Cancellation& cancellation) {
+  const SolverSnapshot& solved = *request.solved;
+  const LoadedScene& loaded = *solved.loaded;
+  const auto light_of = [&](const Sky& sky) {
+    SolveOptions options = solved.options;
+    options.sky = sky;
+    return sun_light(loaded.scene, loaded.tree, options, cancellation);
+  };
+  const SunLight before = light_of(solved.options.sky), now = light_of(request.options.sky);
+  Solution light = solution_of(solved, true);
+  light.sky = request.options.sky;
+  light.sky_irradiance =
+      exchanged(std::move(light.sky_irradiance), before.irradiance, now.irradiance);
+  light.sky_linear_terms =
+      exchanged(std::move(light.sky_linear_terms), before.linear_terms, now.linear_terms);
+  RelightOptions options = relight_options(solved);
+  options.sky_irradiance = light.sky_irradiance;
+  options.sky_linear_terms = light.sky_linear_terms;
+  std::vector<Material> materials = loaded.scene->materials();
+  if (request.materials) {
+    materials = request.materials->materials;
+    options.patch_materials = request.materials->of_patch;
+  }
+  RelightResult result =
+      relight(*loaded.scene, *solved.form_factors, materials, options, cancellation);
+  light.radiosity = std::move(result.radiosity);
+  light.irradiance = std::move(result.irradiance);
+  light.linear_terms = std::move(result.linear_terms);
+  return light;
 }
 
 }  // namespace
@@ -62,6 +127,9 @@ LiveScene live_scene(const LiveRequest& request, const Cancellation& cancellatio
 }
 
 Solution live_light(const LiveLightRequest& request, const Cancellation& cancellation) {
+  if (request.solved && differ_by_sun(request.solved->options.sky, request.options.sky)) {
+    return light_by_form_factors(request, cancellation);
+  }
   LoadedScene loaded = *request.loaded;
   const auto& materials = request.materials;
   if (materials && std::ssize(materials->of_patch) == loaded.scene->patch_count()) {

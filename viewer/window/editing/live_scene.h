@@ -41,12 +41,15 @@ struct LiveScene {
 /// Any thread. @throws InputError, Canceled
 LiveScene live_scene(const LiveRequest& request, const Cancellation& cancellation);
 
-/// The light that a draft finds in a scene.
+/// The light of a scene in which something has moved: by a draft, or where only the sun has, by the
+/// form factors of its solve.
 struct LiveLightRequest {
   std::shared_ptr<const LoadedScene> loaded;
   SolveOptions options;  ///< the solve's; lobes reflect diffusely
   /// Changed materials of its patches; null for the scene's own.
   std::shared_ptr<const PatchMaterials> materials;
+  /// The finished solve of the same patches, with form factors; null for a draft.
+  std::shared_ptr<const SolverSnapshot> solved = nullptr;
 };
 /// Any thread. @throws InputError, Canceled, NotConvergent
 Solution live_light(const LiveLightRequest& request, const Cancellation& cancellation);

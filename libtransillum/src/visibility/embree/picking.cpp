@@ -57,6 +57,7 @@ struct [[gnu::visibility("hidden")]] Picker::Impl {
 
 Picker::Picker(std::shared_ptr<const Scene> scene, const Cancellation& cancellation)
     : impl_(std::make_unique<Impl>(std::move(scene), cancellation)) {}
+const std::shared_ptr<const Scene>& Picker::scene() const { return impl_->scene; }
 const EmbreeScene& Picker::embree() const { return impl_->embree; }
 Picker::~Picker() = default;
 Picker::Picker(Picker&&) noexcept = default;

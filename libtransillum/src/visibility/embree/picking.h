@@ -45,6 +45,8 @@ class Picker {
   /// outside.
   std::optional<PickedPoint> first_lit_hit(const Vec3& origin, const Vec3& direction) const;
 
+  /// The scene that rays meet.
+  const std::shared_ptr<const Scene>& scene() const;
   /// The structure that the picker asks, for other rays in the same scene; lives as long as it.
   const EmbreeScene& embree() const;
 

@@ -5,11 +5,13 @@
 #include "visibility/pairs/merged_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <set>
 #include <utility>
 
+#include "scene/build/cover_rank.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -163,6 +165,15 @@ std::map<PatchId, std::vector<PatchId>> coplanar_sets(const Scene& scene,
   return sets;
 }
 
+constexpr std::array<PatchId, 2> no_sides{no_patch, no_patch};
+
+std::vector<PointId> sorted_corners(const Scene& scene, const Piece& piece) {
+  const auto corners = scene.corners(piece);
+  std::vector<PointId> sorted(corners.begin(), corners.end());
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
 }  // namespace
 
 std::vector<MergedFace> merged_faces(const Scene& scene) {
@@ -211,9 +222,19 @@ std::vector<MergedPiece> merged_pieces(const Scene& scene) {
       at(kept, i) = false;
     }
   }
+  const bool any_coincide = scene.report().coincident_faces > 0;
+  std::map<std::vector<PointId>, std::size_t> by_corners;
   for (const Piece& piece : scene.pieces()) {
     if (!at(kept, piece.patch)) {
       continue;
+    }
+    if (any_coincide) {
+      const auto [same, is_new] =
+          by_corners.try_emplace(sorted_corners(scene, piece), merged.size());
+      if (!is_new) {
+        at(merged, same->second).patches.push_back(piece.patch);
+        continue;
+      }
     }
     MergedPiece& kept_piece = merged.emplace_back();
     kept_piece.patches = {piece.patch};
@@ -223,6 +244,33 @@ std::vector<MergedPiece> merged_pieces(const Scene& scene) {
     kept_piece.bend = bend_of(kept_piece.outline, lit_half_space(kept_piece.outline));
   }
   return merged;
+}
+
+std::vector<Piece> uppermost_pieces(const Scene& scene) {
+  if (scene.report().coincident_faces == 0) {
+    return {scene.pieces().begin(), scene.pieces().end()};
+  }
+  // By their corners, the uppermost of one side, and of the other.
+  std::map<std::vector<PointId>, std::array<PatchId, 2>> by_corners;
+  const auto place_of = [&](const Piece& piece) -> PatchId& {
+    auto& sides = by_corners.try_emplace(sorted_corners(scene, piece), no_sides).first->second;
+    const bool is_other = sides[0] != no_patch &&
+                          dot(scene.patch(piece.patch).normal, scene.patch(sides[0]).normal) <= 0;
+    return sides[is_other ? 1 : 0];
+  };
+  for (const Piece& piece : scene.pieces()) {
+    PatchId& upper = place_of(piece);
+    if (upper == no_patch || cover_rank(scene, piece.patch) < cover_rank(scene, upper)) {
+      upper = piece.patch;
+    }
+  }
+  std::vector<Piece> uppermost;
+  for (const Piece& piece : scene.pieces()) {
+    if (place_of(piece) == piece.patch) {
+      uppermost.push_back(piece);
+    }
+  }
+  return uppermost;
 }
 
 std::vector<PatchId> first_sides(const Scene& scene) {

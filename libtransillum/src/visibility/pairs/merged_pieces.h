@@ -21,12 +21,17 @@ std::vector<MergedFace> merged_faces(const Scene& scene);
 /// A convex polygon of one or several patches.
 struct MergedPiece {
   Corners outline;
-  double bend = 0;               ///< bend of the MergedFace, or of the piece itself, m
-  std::vector<PatchId> patches;  ///< patches of this piece; if two-sided, patches of the first side
+  double bend = 0;  ///< bend of the MergedFace, or of the piece itself, m
+  /// The patches of this piece, ascending; several if faces coincide. If two-sided, patches of the
+  /// first side.
+  std::vector<PatchId> patches;
 };
 /// Convex polygons with the same union as the scene's patches; they may overlap: the outlines of
 /// merged_faces(), and the pieces of the other patches.
 std::vector<MergedPiece> merged_pieces(const Scene& scene);
+/// The scene's pieces, in their order, without those that another one with the same corners on the
+/// same side covers.
+std::vector<Piece> uppermost_pieces(const Scene& scene);
 /// Per patch: itself, or for the second side of a two-sided one the first side.
 std::vector<PatchId> first_sides(const Scene& scene);
 

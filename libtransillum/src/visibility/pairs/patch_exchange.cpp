@@ -119,22 +119,23 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
       blockers_(blockers_of(scene)),
       tree_(boxes_of(blockers_)),
       open_begin_(static_cast<std::size_t>(scene.patch_count()) + 1) {
+  const std::vector<Piece> uppermost = uppermost_pieces(scene);
   std::vector<Bounds> boxes;
-  for (const Piece& piece : scene.pieces()) {
+  for (const Piece& piece : uppermost) {
     boxes.push_back(bounds_of(corners_of(piece)));
   }
-  const BoxTree pieces(boxes);
-  open_pieces_.reserve(scene.pieces().size());
-  for (std::size_t k = 0; k < scene.pieces().size(); ++k) {
+  const BoxTree tree(boxes);
+  open_pieces_.reserve(uppermost.size());
+  for (const Piece& piece : uppermost) {
     cancellation.throw_if_canceled();
-    const double bend = bend_of(corners_of(scene.pieces()[k]));
-    for (const Corners& open : open_pieces(k, pieces)) {
+    const double bend = bend_of(corners_of(piece));
+    for (const Corners& open : open_pieces(piece, uppermost, tree)) {
       const auto begin = static_cast<std::uint32_t>(open_corners_.size());
       open_corners_.insert(open_corners_.end(), open.begin(), open.end());
       open_pieces_.push_back(
           {{lit_half_space(open), bend}, begin, static_cast<std::uint32_t>(open_corners_.size())});
     }
-    at(open_begin_, scene.pieces()[k].patch + 1) = open_pieces_.size();
+    at(open_begin_, piece.patch + 1) = open_pieces_.size();
   }
   for (std::size_t i = 1; i < open_begin_.size(); ++i) {
     open_begin_[i] = std::max(open_begin_[i], open_begin_[i - 1]);
@@ -189,9 +190,11 @@ bool ExchangeFinder::covers(PatchId upper, PatchId lower) const {
   return cover_rank(scene_, upper) < cover_rank(scene_, lower);
 }
 
-std::vector<Corners> ExchangeFinder::open_pieces(std::size_t piece, const BoxTree& pieces) const {
-  const Corners corners = corners_of(scene_.pieces()[piece]);
-  const PatchId patch = scene_.pieces()[piece].patch;
+std::vector<Corners> ExchangeFinder::open_pieces(const Piece& piece,
+                                                 const std::vector<Piece>& pieces,
+                                                 const BoxTree& tree) const {
+  const Corners corners = corners_of(piece);
+  const PatchId patch = piece.patch;
   const HalfSpace front = lit_half_space(corners);
   const double bend = bend_of(corners);
   const Bounds box = bounds_of(corners);
@@ -201,8 +204,8 @@ std::vector<Corners> ExchangeFinder::open_pieces(std::size_t piece, const BoxTre
            std::abs(apart.z) <= sum.z + tolerance_;
   };
   std::vector<Corners> covering;
-  pieces.for_each(overlaps, [&](std::int32_t number) {
-    const Piece& other = at(scene_.pieces(), number);
+  tree.for_each(overlaps, [&](std::int32_t number) {
+    const Piece& other = at(pieces, number);
     if (other.patch == patch || dot(scene_.patch(other.patch).normal, front.normal) <= 0 ||
         !covers(other.patch, patch)) {
       return;

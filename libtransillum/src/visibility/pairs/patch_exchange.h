@@ -135,7 +135,8 @@ class ExchangeFinder {
   double bend_of(Outline corners) const;
   std::vector<Blocker> blockers_of(const Scene& scene) const;
   static std::vector<Bounds> boxes_of(const std::vector<Blocker>& blockers);
-  std::vector<Corners> open_pieces(std::size_t piece, const BoxTree& pieces) const;
+  std::vector<Corners> open_pieces(const Piece& piece, const std::vector<Piece>& pieces,
+                                   const BoxTree& tree) const;
   bool covers(PatchId upper, PatchId lower) const;
   bool is_open(PatchId j) const;
   Corners corners_of(const Piece& piece) const;
