@@ -223,6 +223,10 @@ class SunTest : public QObject {
     emit yard.dome->moved({90, 45});
     QVERIFY(wait_for([&] { return pictures > 0; }));
     QVERIFY(yard.shown.window->snapshot() == before);  // other views keep the solve from before
+    QVERIFY(wait_for([&] {
+      emit yard.dome->moved({90, 45});  // before the hand rests
+      return yard.drag->by_form_factors();
+    }));
     QVERIFY(wait_for([&] { return yard.shown.window->snapshot() != before; }) && yard.solves());
     QVERIFY(angle_between(yard.solved_sun().direction, normalized({1, 0, 1})) < 1e-12);
     QVERIFY(std::abs(yard.floor() / overhead - std::sqrt(0.5)) < 0.02);

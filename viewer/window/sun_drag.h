@@ -38,6 +38,8 @@ class SunDrag : public FilmedChange {
   QString caption(int index) const override;
   void end_film() override;
   bool busy() const override;
+  /// Whether the light comes from the form factors of a solve, not from drafts.
+  bool by_form_factors() const { return factors_ != nullptr; }
 
  private:
   void follow();
