@@ -23,18 +23,22 @@ constexpr double draft_tolerance = 2e-2;
 /// still below the error of the few directions.
 constexpr int draft_points = 4;
 
-std::shared_ptr<const DirectLight> shoot_few_points(const SolveOptions& options, const Scene& scene,
+/// Takes the first shot out of the options where it does not pay, so that the session does not ask
+/// again: that takes most of the time in a scene of a few patches.
+std::shared_ptr<const DirectLight> shoot_few_points(SolveOptions& options, const Scene& scene,
                                                     const Cancellation& cancellation) {
   if (!options.used_first_shot()) {
     return nullptr;
   }
   const std::vector<PatchId> sources = first_shot_sources(
       scene, *options.first_shot, options.directions, options.basis, cancellation);
+  if (sources.empty()) {
+    options.first_shot.reset();
+    return nullptr;
+  }
   ShotOptions shot = shot_options(options);
   shot.points = draft_points;
-  return sources.empty()
-             ? nullptr
-             : std::make_shared<const DirectLight>(shoot(scene, sources, shot, cancellation));
+  return std::make_shared<const DirectLight>(shoot(scene, sources, shot, cancellation));
 }
 
 /// The same patches, whose lobes reflect diffusely.
