@@ -14,7 +14,8 @@ namespace transillum::viewer {
 Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
   Solution solution;
   solution.scene = snapshot.loaded->scene;
-  static_cast<SolvedLight&>(solution) = snapshot;
+  const SolvedLight& light = snapshot;
+  static_cast<SolvedLight&>(solution) = light;
   solution.error = snapshot.error;
   solution.statistics = snapshot.statistics;
   solution.complete = snapshot.of_file ? snapshot.loaded->stored->complete : complete;

@@ -90,10 +90,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   shadow_finder_ = new ShadowFinder(this);
   connect(shadow_finder_, &ShadowFinder::changed, this, &SceneView::show_shadows);
   connect(&focus_, &Focus::moved, this, &SceneView::request_shadows);
-  connect(&colors_, &ColorChoice::changed, this, [this] {
-    recolor();
-    render();
-  });
+  connect(&colors_, &ColorChoice::changed, this, [this] { redraw(); });
 }
 
 SceneView::~SceneView() = default;
@@ -168,8 +165,7 @@ void SceneView::set_direction_followed(bool followed) {
 
 void SceneView::set_outlines_shown(bool shown) {
   surface_->set_outlined(shown);
-  recolor();
-  render();
+  redraw();
 }
 
 void SceneView::set_overlay_shown(SceneOverlays::Kind kind, bool shown) {
@@ -182,14 +178,12 @@ void SceneView::set_wireframe(bool wireframe) {
   wireframe_ = wireframe;
   surface_->set_wireframe(wireframe || previews_covered_);
   surface_->set_invisible(previews_covered_);
-  recolor();
-  render();
+  redraw();
 }
 
 void SceneView::set_smooth_shading(bool smooth) {
   surface_->set_smooth(smooth);
-  recolor();
-  render();
+  redraw();
 }
 
 void SceneView::leave_out_hidden() {
@@ -199,8 +193,7 @@ void SceneView::leave_out_hidden() {
   }
   surface_->leave_out_hidden();
   overlays_->leave_out(hidden_.flags());
-  recolor();
-  render();
+  redraw();
 }
 
 void SceneView::set_clip(const std::optional<ClipPlane>& clip) {
@@ -235,11 +228,9 @@ bool SceneView::in_picture(const PickedPoint& point) const {
 }
 
 void SceneView::set_antialiased(bool antialiased) {
-  if (antialiased == antialiased_) {
-    return;
+  if (std::exchange(antialiased_, antialiased) != antialiased) {
+    render();
   }
-  antialiased_ = antialiased;
-  render();
 }
 
 void SceneView::preview(const MarkedFaces& faces) {
@@ -284,15 +275,14 @@ void SceneView::draw_paths() {
 }
 
 void SceneView::reset_view() {
-  if (!loaded_) {
-    return;
+  if (loaded_) {
+    fit([this] {
+      const ViewPoint view = initial_view(*loaded_->scene, aspect(), vertical_);
+      focus_point_ = view.target;
+      radius_ = view.radius;
+      return view;
+    });
   }
-  fit([this] {
-    const ViewPoint view = initial_view(*loaded_->scene, aspect(), vertical_);
-    focus_point_ = view.target;
-    radius_ = view.radius;
-    return view;
-  });
 }
 
 void SceneView::fit(std::function<ViewPoint()> view) {
@@ -397,6 +387,11 @@ void SceneView::recolor() {
     surface_->color(colors_, patch_colors_, dimmed);
   }
   show_edges();
+}
+
+void SceneView::redraw() {
+  recolor();
+  render();
 }
 
 void SceneView::show_map(const SurfaceMap& map) {

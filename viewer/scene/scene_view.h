@@ -191,6 +191,7 @@ class SceneView : public QWidget {
   void fit(std::function<ViewPoint()> view);
   void follow_size(const QSize& before);
   void recolor();
+  void redraw();
   std::shared_ptr<const SolverSnapshot> lit_snapshot() const;
   void show_direction();
   void draw_paths();

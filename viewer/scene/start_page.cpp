@@ -17,6 +17,7 @@
 #include <QTimer>
 #include <algorithm>
 
+#include "support/first_sentence.h"
 #include "transillum/scene.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
@@ -222,9 +223,7 @@ StartPage::StartPage(QWidget* parent) : QScrollArea(parent) {
   page_->setRowStretch(4, 1);
   for (const BuiltInScene& scene : built_in_scenes()) {
     const QString name = QString::fromStdString(scene.name);
-    // The first sentence; others are about parameters.
-    const QString summary =
-        QString::fromStdString(scene.summary).section(QStringLiteral(". "), 0, 0);
+    const QString summary = first_sentence(scene.summary);  // others are about parameters
     auto* card = named("built_in_" + name,
                        new StartCard(StartCard::Look::picture_above, name, summary,
                                      QPixmap(QStringLiteral(":/pictures/scene-%1.png").arg(name))),

@@ -75,6 +75,7 @@
 #include "window/layout_memory.h"
 #include "window/menus/command_actions.h"
 #include "window/menus/help_pages.h"
+#include "window/menus/leave_action.h"
 #include "window/menus/palette_actions.h"
 #include "window/menus/projector_mode.h"
 #include "window/scene_bars.h"
@@ -478,11 +479,7 @@ void MainWindow::make_menus() {
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   help->addAction((new PaletteActions(frame(), docks_))->action());
-  help->addAction(tr("User guide"), this, [this] { show_guide(*this); });
-  QAction* keys = help->addAction(tr("Keys and mouse"), this, [this] { show_keys(*this); });
-  keys->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
-  help->addAction(tr("All settings"), this, [this] { show_settings(*this); });
-  help->addAction(tr("About transillum"), this, [this] { show_about(this); });
+  add_help_pages(*help, *this);
   addToolBar(
       new WorkspaceBar(docks_, *page_->start_action(), *files_->open_action(), *solve_actions_));
   new ContextMenus(frame(), docks_);
@@ -490,7 +487,6 @@ void MainWindow::make_menus() {
 
 void MainWindow::make_file_menu() {
   QMenu* file = menuBar()->addMenu(tr("&File"));
-  fill_built_in_menu(*file->addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene")));
   files_->add_to(*file);
   file->addAction(exports_->save_scene_action());
   file->addAction(exports_->figure_action());
@@ -521,30 +517,7 @@ void MainWindow::make_view_menu() {
                   &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
   view->addAction(page_->sharp()->action());
   view->addAction(page_->color_controls()->show_menu()->next_clip_axis());
-  QAction* stop = view->addAction(
-      tr("Stop loading or searching, leave the full screen, or clear the selection"), this,
-      [this] {
-        if (state_.runner.state() == RunState::loading) {
-          state_.runner.stop();
-        } else if (state_.focus.seeking()) {
-          state_.focus.stop();
-        } else if (full_screen_.action()->isChecked()) {
-          full_screen_.action()->trigger();
-        } else {
-          state_.selection.select(no_patch);
-        }
-      },
-      QKeySequence(Qt::Key_Escape));
-  stop->setObjectName("clear_selection");
-}
-
-void MainWindow::fill_built_in_menu(QMenu& menu) {
-  for (const BuiltInScene& built_in : built_in_scenes()) {
-    const QString name = QString::fromStdString(built_in.name);
-    const QString summary = QString::fromStdString(built_in.summary).section(". ", 0, 0);
-    menu.addAction(tr("%1 – %2").arg(name, summary), files_,
-                   [this, name] { files_->open_scene(name); });
-  }
+  view->addAction(new_leave_action(frame(), full_screen_));
 }
 
 bool MainWindow::may_close() {

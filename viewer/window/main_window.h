@@ -87,7 +87,6 @@ class MainWindow : public QMainWindow {
   void make_menus();
   void make_file_menu();
   void make_view_menu();
-  void fill_built_in_menu(QMenu& menu);
   /// Asks about long work and unsaved notes. @returns whether the window may close
   bool may_close();
 

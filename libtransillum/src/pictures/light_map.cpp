@@ -276,8 +276,9 @@ LightMap::LightMap(const Solution& solution) {
     for (std::size_t n = 0; n < columns * rows; ++n) {
       Rgb b = at(solution.radiosity, i);
       if (!solution.linear_terms.empty()) {
-        const Vec3 middle = chart.point_of(static_cast<double>(n % columns) + 0.5,
-                                           static_cast<double>(n / columns) + 0.5);
+        const std::size_t column = n % columns, row = n / columns;
+        const Vec3 middle =
+            chart.point_of(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
         const auto [first, second] = linear_basis(scene, i).at(middle);
         const LinearTerm& term = at(solution.linear_terms, i);
         b += first * term.first + second * term.second;

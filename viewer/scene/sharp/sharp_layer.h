@@ -14,10 +14,14 @@ namespace transillum::viewer {
 
 /// A picture over all that the renderer has drawn before it. It changes no depth: what is drawn
 /// after it is in front of it, or hidden by the surfaces that it covers.
+// VTK deletes by reference counts: its destructors are protected.
+// NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor)
 class SharpLayer final : public vtkProp {
  public:
   static SharpLayer* New();
+  // clang-format off
   vtkTypeMacro(SharpLayer, vtkProp)
+      // clang-format on
 
       /// @param picture  as large as the renderer's picture, RGBA; pixels without alpha are
       /// omitted. Null hides it.

@@ -21,6 +21,7 @@
 #include "scene/scene_page.h"
 #include "solve/settings_panel.h"
 #include "support/failure_text.h"
+#include "support/first_sentence.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
@@ -176,7 +177,13 @@ void FileActions::on_scene_shown() {
   reload_->setEnabled(true);
 }
 
-void FileActions::add_to(QMenu& menu) const {
+void FileActions::add_to(QMenu& menu) {
+  QMenu* built_in = menu.addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene"));
+  for (const BuiltInScene& scene : built_in_scenes()) {
+    const QString name = QString::fromStdString(scene.name);
+    built_in->addAction(tr("%1 – %2").arg(name, first_sentence(scene.summary)), this,
+                        [this, name] { open_scene(name); });
+  }
   menu.addAction(open_);
   menu.addMenu(recent_menu_);
   menu.addActions({save_session_, reload_, watch_, reading_});

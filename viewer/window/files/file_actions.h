@@ -33,7 +33,7 @@ class FileActions : public QObject {
   FileActions(const WindowFrame& frame, DockLayouts& docks, SettingsPanel& settings,
               LessonPanel& lessons, ViewStateApplier& applier, WindowSession& session);
 
-  void add_to(QMenu& menu) const;
+  void add_to(QMenu& menu);
   QAction* open_action() const { return open_; }
 
   /// Opens a scene, a result, a session or a lesson, by its name and content.

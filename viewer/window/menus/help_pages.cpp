@@ -51,35 +51,6 @@ QString document_text(const QUrl& page) {
 
 }  // namespace
 
-void show_guide(QWidget& parent) {
-  init_documents();
-  auto* dialog = new PageDialog("guide", tr("User guide"), {}, parent);
-  auto* browser = dialog->findChild<QTextBrowser*>();
-  browser->setOpenLinks(false);
-  const auto show = [browser](const QUrl& page) {
-    const QUrl whole = browser->property("page").toUrl().resolved(page);
-    const QString text = document_text(whole);
-    if (!text.isEmpty()) {
-      browser->setProperty("page", whole);
-      browser->setMarkdown(text);
-      constexpr double margin = 16;
-      browser->document()->setDocumentMargin(margin);
-      spread_paragraphs(*browser->document());
-    }
-  };
-  QObject::connect(browser, &QTextBrowser::anchorClicked, browser, show);
-  show(QUrl(QStringLiteral("qrc:/documents/viewer/USER_GUIDE.md")));
-  dialog->show();
-}
-
-void show_about(QWidget* parent) {
-  QMessageBox::about(
-      parent, tr("About transillum"),
-      tr("<p><b>transillum %1</b></p><p>Diffuse light by the transillumination method of "
-         "Szirmay-Kalos, Fóris, Neumann and Csébfalvi.</p><p>GPL-3.0-or-later.</p>")
-          .arg(QStringLiteral(TRANSILLUM_VERSION)));
-}
-
 QString setting_page() {
   QString rows;
   for (const Option& setting : options()) {
@@ -97,10 +68,6 @@ QString setting_page() {
              "<table cellpadding=4><tr><th align=left>Name</th><th align=left>Meaning</th>"
              "<th align=left>Value</th><th align=left>Default</th></tr>") +
          rows + QStringLiteral("</table>");
-}
-
-void show_settings(QWidget& parent) {
-  (new PageDialog("settings_page", PageDialog::tr("All settings"), setting_page(), parent))->show();
 }
 
 namespace {
@@ -188,8 +155,56 @@ QString key_page(const QMainWindow& window) {
       .arg(columns[0], columns[1]);
 }
 
+namespace {
+
+void show_guide(QWidget& parent) {
+  init_documents();
+  auto* dialog = new PageDialog("guide", tr("User guide"), {}, parent);
+  auto* browser = dialog->findChild<QTextBrowser*>();
+  browser->setOpenLinks(false);
+  const auto show = [browser](const QUrl& page) {
+    const QUrl whole = browser->property("page").toUrl().resolved(page);
+    const QString text = document_text(whole);
+    if (!text.isEmpty()) {
+      browser->setProperty("page", whole);
+      browser->setMarkdown(text);
+      constexpr double margin = 16;
+      browser->document()->setDocumentMargin(margin);
+      spread_paragraphs(*browser->document());
+    }
+  };
+  QObject::connect(browser, &QTextBrowser::anchorClicked, browser, show);
+  show(QUrl(QStringLiteral("qrc:/documents/viewer/USER_GUIDE.md")));
+  dialog->show();
+}
+
+void show_about(QWidget& parent) {
+  QMessageBox::about(
+      &parent, tr("About transillum"),
+      tr("<p><b>transillum %1</b></p><p>Diffuse light by the transillumination method of "
+         "Szirmay-Kalos, Fóris, Neumann and Csébfalvi.</p><p>GPL-3.0-or-later.</p>")
+          .arg(QStringLiteral(TRANSILLUM_VERSION)));
+}
+
+void show_settings(QWidget& parent) {
+  (new PageDialog("settings_page", PageDialog::tr("All settings"), setting_page(), parent))->show();
+}
+
 void show_keys(QMainWindow& window) {
   (new PageDialog("keys", QMainWindow::tr("Keys and mouse"), key_page(window), window))->show();
+}
+
+}  // namespace
+
+void add_help_pages(QMenu& menu, QMainWindow& window) {
+  const auto add = [&](const QString& text, auto show) {
+    return menu.addAction(text, &window, [&window, show] { show(window); });
+  };
+  add(QMainWindow::tr("User guide"), show_guide);
+  add(QMainWindow::tr("Keys and mouse"), show_keys)
+      ->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
+  add(QMainWindow::tr("All settings"), show_settings);
+  add(QMainWindow::tr("About transillum"), show_about);
 }
 
 }  // namespace transillum::viewer

@@ -6,21 +6,13 @@
 #include <QString>
 #include <vector>
 
-class QWidget;
 class QMainWindow;
+class QMenu;
 
 namespace transillum::viewer {
 
-/// Shows name, version, authors of the method and license, until it is closed.
-void show_about(QWidget* parent);
-
-/// Shows the user guide in a non-modal dialog; its links lead to its pages and to the glossary.
-void show_guide(QWidget& parent);
-
 /// All settings of a solve with type, default and description, as a page of HTML.
 QString setting_page();
-/// Shows that page in a non-modal dialog.
-void show_settings(QWidget& parent);
 
 /// A key of the window and what it does.
 struct KeyUse {
@@ -37,7 +29,7 @@ struct KeySection {
 std::vector<KeySection> keys_of(const QMainWindow& window);
 /// All keys as a page of HTML in two columns, with the functions of the pointer.
 QString key_page(const QMainWindow& window);
-/// Shows that page in a non-modal dialog.
-void show_keys(QMainWindow& window);
+/// Adds the guide, the keys, the settings and what the program is, each in a dialog.
+void add_help_pages(QMenu& menu, QMainWindow& window);
 
 }  // namespace transillum::viewer

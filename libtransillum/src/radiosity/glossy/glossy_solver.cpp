@@ -183,9 +183,9 @@ SolveStatistics GlossySolver::Impl::solve_statistics() const {
   }
   result.energy_balance = ratio_or_zero(absorbed, emitted);
   result.rho_max = rho_max();
-  result.predicted_contraction = contraction_bound(
-      result.rho_max,
-      quadrature_error_bound(result.directions / static_cast<int>(replicas.size())));
+  const int directions_each = result.directions / static_cast<int>(replicas.size());
+  result.predicted_contraction =
+      contraction_bound(result.rho_max, quadrature_error_bound(directions_each));
   GlossyStatistics& counted = result.glossy;
   counted.patches = std::ssize(glossy);
   for (const auto& lobes : light->lobes) {
