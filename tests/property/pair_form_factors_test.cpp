@@ -9,12 +9,14 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "support/scenes.h"
 #include "transillum/errors.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/point_sensors.h"
+#include "transillum/shading.h"
 #include "transillum/solve_session.h"
 #include "transillum/study.h"
 
@@ -130,6 +132,36 @@ TEST(PairFormFactors, OfAPointToABentQuadrilateralIsThatToThePlanarOne) {
       const FormFactors f = sensor_form_factors(*bent_pair(corner, bend), {{sensor}});
       EXPECT_NEAR(f.value.at(0), planar, 1e2 * std::abs(bend)) << corner << ' ' << bend;
     }
+  }
+}
+
+/// A box near a floor, below a far lamp whose edges are parallel to none of its own. The floor was
+/// sampled at few points, since it is small for its distance from the lamp: its light was up to
+/// 22 % off. From far, the part of it in the shadow is that of a sun.
+TEST(PairFormFactors, PastABlockerThatIsNearTheReceiverOfAFarLamp) {
+  const Vec3 toward = normalized({0.6, 0.3, 1}), up{0, 0, 1};
+  for (const auto& [distance, half, allowed] :
+       {std::tuple{30.0, 0.2, 2e-3}, {1000.0, 0.5, 1e-4}, {1000.0, 20.0, 2e-3}}) {
+    Sketch sketch;
+    const int gray = sketch.material(0.5, 0);
+    sketch.face({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, gray);
+    sketch.box({-1, -1, 0.2}, {0, 0.5, 1.5}, false, gray);
+    // The sun casts the same shadow, but for the penumbra and the difference of directions.
+    double lit = 0;
+    const Vec3 rays[] = {toward};
+    const auto without_lamp = sketch.scene();
+    sunlit_fractions(without_lamp, std::make_shared<const BspTree>(*without_lamp), rays,
+                     [&](std::size_t, const std::vector<double>& found) { lit = found[0]; });
+    const Vec3 middle = distance * toward, u = normalized(cross(toward, up)), v = cross(toward, u);
+    sketch.face({middle - half * u - half * v, middle - half * u + half * v,
+                 middle + half * u + half * v, middle + half * u - half * v},
+                sketch.material(0, 1));
+    const auto scene = sketch.scene();
+    const PatchId lamp = scene->patch_count() - 1;
+    const DirectLight light = shoot(*scene, {lamp});
+    const double far = 4 * half * half * toward.z / (std::numbers::pi * distance * distance);
+    EXPECT_NEAR(light.irradiance[0].r, lit * far, (allowed + 4 / distance) * far) << distance;
+    EXPECT_LT(lit, 0.85);
   }
 }
 

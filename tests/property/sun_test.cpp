@@ -11,11 +11,13 @@
 #include <numbers>
 
 #include "radiosity/form_factors/light_paths.h"
+#include "support/glossy_scenes.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/adjoint.h"
 #include "transillum/at.h"
 #include "transillum/form_factor_solve.h"
+#include "transillum/glossy.h"
 #include "transillum/picture.h"
 #include "transillum/relight.h"
 #include "transillum/shading.h"
@@ -407,6 +409,88 @@ TEST(Sun, AnEdgeHasTheKnownRadiosity) {
   }
 }
 
+/// By hand: no other surface sends light.
+TEST(Sun, IsReflectedByALobeAlone) {
+  constexpr double rho = 0.3, fraction = 0.4, power = 1000;
+  for (const Lobe& lobe : {testing::phong(fraction, 20), testing::ggx(fraction, 0.3)}) {
+    Sketch sketch;
+    const int material = sketch.material(rho, 0);
+    sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
+    SceneDescription description = sketch.description();
+    at(description.materials, material).lobe = lobe;
+    const Vec3 sun = normalized({0.5, 0.2, 1});
+    SolveOptions options = testing::glossy_options(64);
+    options.sky = sunny(sun, power);
+    const auto solution = std::make_shared<const Solution>(
+        solve(std::make_shared<const Scene>(description), options));
+    const double h = power * sun.z;
+    EXPECT_NEAR(solution->irradiance[0].r, h, 1e-12 * h);
+    EXPECT_NEAR(solution->sky_irradiance[0].r, h, 1e-12 * h);
+    EXPECT_NEAR(solution->radiosity[0].r, (rho + fraction) * h, 1e-12 * h);
+    const SurfaceLight light(solution);
+    const LobeFunction function(lobe);
+    for (const Vec3& to :
+         {Vec3{-0.5, -0.2, 1}, Vec3{0.5, 0.2, 1}, Vec3{0, 0, 1}, Vec3{-1, 0, 0.2}}) {
+      const Vec3 toward = normalized(to);
+      const double expected =
+          rho * h / std::numbers::pi + fraction * function.value(sun, toward, up) * h;
+      EXPECT_NEAR(solution->glossy->radiance(0, toward).r, expected, 1e-9 * h);
+      EXPECT_NEAR(light.radiance(Vec3{0.4, 0.6, 0} + toward, -toward).r, expected, 1e-6 * h);
+    }
+  }
+}
+
+/// The lamp is as large as the sun's disc from 1 km, and its light is as strong.
+TEST(Sun, WithLobesIsAFarLamp) {
+  constexpr double power = 1000, distance = 1000, half = 2;
+  const Vec3 sun = normalized({0.6, 0.3, 1});
+  const auto sketch_of = [&](bool lamp) {
+    Sketch sketch;
+    const int floor = sketch.material(0.3, 0), wall = sketch.material(0.5, 0);
+    sketch.face({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, floor);
+    sketch.box({-1, -1, 0.2}, {0, 0.5, 1.5}, false, wall);
+    if (lamp) {
+      const Vec3 middle = distance * sun, u = normalized(cross(sun, up)), v = cross(sun, u);
+      const double area = 4 * half * half;
+      sketch.face({middle - half * u - half * v, middle - half * u + half * v,
+                   middle + half * u + half * v, middle + half * u - half * v},
+                  sketch.material(0, std::numbers::pi * distance * distance * power / area));
+    }
+    SceneDescription description = sketch.description();
+    at(description.materials, floor).lobe = testing::phong(0.5, 30);
+    return description;
+  };
+  SolveOptions options = testing::glossy_options(256);
+  const auto solved = [&](bool lamp) {
+    options.first_shot = lamp ? std::optional<double>(0) : std::nullopt;
+    options.sky = lamp ? Sky{} : sunny(sun, power);
+    return solve(std::make_shared<const Scene>(sketch_of(lamp)), options);
+  };
+  const Solution by_sun = solved(false), by_lamp = solved(true);
+  const std::size_t patches = by_sun.radiosity.size();
+  ASSERT_EQ(by_lamp.radiosity.size(), patches + 1);
+  double most = 0;
+  for (std::size_t i = 0; i < patches; ++i) {
+    EXPECT_NEAR(by_sun.irradiance[i].r, by_lamp.irradiance[i].r, 3e-3 * power) << i;
+    most = std::max(most, by_sun.irradiance[i].r);
+    for (const Vec3& to : {Vec3{-0.6, -0.3, 1}, Vec3{0.2, -0.5, 1}}) {
+      const auto patch = static_cast<PatchId>(i);
+      EXPECT_NEAR(by_sun.glossy->radiance(patch, normalized(to)).r,
+                  by_lamp.glossy->radiance(patch, normalized(to)).r, 3e-3 * power)
+          << i;
+    }
+  }
+  EXPECT_GT(most, 0.5 * power);
+  // The side of the box that is away from the sun gets light from the floor's lobe, too.
+  options.glossy = false;
+  const Solution diffuse = solved(false);
+  double added = 0;
+  for (std::size_t i = 1; i < patches; ++i) {
+    added = std::max(added, by_sun.irradiance[i].r - diffuse.irradiance[i].r);
+  }
+  EXPECT_GT(added, 0.05 * power);
+}
+
 TEST(Sun, RefusesWhatItCannotLight) {
   SolveOptions options{.sky = sunny(up)};
   options.sky.sun.direction = {0, 0, 2};
@@ -415,9 +499,6 @@ TEST(Sun, RefusesWhatItCannotLight) {
   EXPECT_THAT(refusal([&] { options.validate(); }), HasSubstr("direction is missing"));
   options.sky = sunny(up, -1);
   EXPECT_THAT(refusal([&] { options.validate(); }), HasSubstr("not"));
-  options.sky = sunny(up);
-  options.glossy = true;
-  EXPECT_THAT(refusal([&] { options.validate(); }), HasSubstr("not available with a sun"));
 }
 
 /// An unobstructed roof sees all of the sky, a wall half of it.

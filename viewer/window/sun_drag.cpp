@@ -11,7 +11,6 @@
 #include "scene/sharp_view.h"
 #include "solve/settings_panel.h"
 #include "transillum/at.h"
-#include "transillum/glossy.h"
 
 namespace transillum::viewer {
 
@@ -76,12 +75,8 @@ SunDrag::~SunDrag() = default;
 
 bool SunDrag::busy() const { return lights_.busy() || rest_timer_->isActive() || awaited_; }
 
-/// Whether a sun can light the scene shown. Lobes and a sun exclude each other, as the settings
-/// say.
-bool SunDrag::can_light() const {
-  const auto snapshot = frame_.state.scene.snapshot();
-  return snapshot && !(settings_.solve_options().glossy && has_lobes(*snapshot->loaded->scene));
-}
+/// Whether there is a scene that a sun can light.
+bool SunDrag::can_light() const { return frame_.state.scene.snapshot() != nullptr; }
 
 /// Whether drafts follow the sun. Requires can_light().
 bool SunDrag::has_drafts() const {

@@ -26,7 +26,6 @@ bool has_goal(const RunOptions& r) { return r.solve.goal.is_set(); }
 bool has_iterations(const RunOptions& r) { return r.solve.iterations > 0; }
 /// A first shot where it pays excludes nothing: where it cannot be, there is none.
 bool has_shot(const RunOptions& r) { return r.solve.first_shot.value_or(-1) >= 0; }
-bool has_sun(const RunOptions& r) { return r.solve.sky.sun.is_set(); }
 bool has_rounds(const RunOptions& r) { return r.refine.is_set(); }
 bool has_no_limit_of_patches(const RunOptions& r) { return r.refine.patches == 0; }
 bool has_time_limit(const RunOptions& r) { return r.solve.goal.seconds > 0; }
@@ -74,7 +73,6 @@ constexpr Conflict conflicts[] = {
     {"glossy", is_glossy, is_not_fixed,
      "lobes are not available with another scheme than fixed: every iteration needs the same "
      "directions"},
-    {"glossy", is_glossy, has_sun, "lobes are not available with a sun"},
     {"accuracy", has_goal, chooses_directions,
      "the scheme {scheme} chooses its directions itself; choose fixed or conjugate-gradients"},
     {"accuracy", has_goal, has_iterations,

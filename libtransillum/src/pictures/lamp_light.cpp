@@ -157,20 +157,22 @@ Rgb LampLight::at_point(PatchId patch, const Vec3& x, const Cancellation& cancel
       sum += own->form_factor(scaled, normal, tick) * view.lamp->exitance;
     }
   }
-  return sun_rays_.empty() ? sum : sum + sun_fraction(patch, x) * sun_irradiance_;
+  visit_sun(patch, x, [&sum](const Vec3&, const Rgb& irradiance) { sum += irradiance; });
+  return sum;
 }
 
-double LampLight::sun_fraction(PatchId patch, const Vec3& x) const {
+void LampLight::visit_sun(PatchId patch, const Vec3& x, const SunVisit& visit) const {
+  if (sun_rays_.empty()) {
+    return;
+  }
   const Vec3& normal = scene_->patch(patch).normal;
   const Vec3 start = start_of_rays(embree_, x, normal);
-  double fraction = 0;
   for (const SunRay& ray : sun_rays_) {
     const double cosine = dot(normal, ray.direction);
     if (cosine > 0 && met_by(embree_, start, ray.direction).patch == no_patch) {
-      fraction += ray.weight * cosine;
+      visit(ray.direction, ray.weight * cosine * sun_irradiance_);
     }
   }
-  return fraction;
 }
 
 }  // namespace transillum

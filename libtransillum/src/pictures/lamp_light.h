@@ -39,6 +39,11 @@ class LampLight {
   /// @param x on the patch, m
   /// @throws Canceled
   Rgb at_point(PatchId patch, const Vec3& x, const Cancellation& cancellation) const;
+  /// Called with a direction toward the sun and the irradiance that comes along it, W/m².
+  using SunVisit = std::function<void(const Vec3& direction, const Rgb& irradiance)>;
+  /// Visits the rays toward the sun that nothing blocks.
+  /// @param x on the patch, m
+  void visit_sun(PatchId patch, const Vec3& x, const SunVisit& visit) const;
 
  private:
   /// The view of one lamp from a patch.
@@ -50,9 +55,6 @@ class LampLight {
   using ViewsByPatch = std::unordered_map<PatchId, Views>;
 
   Views& views_of(PatchId patch, const Cancellation& cancellation) const;
-
-  /// The part of the sun's irradiance that arrives.
-  double sun_fraction(PatchId patch, const Vec3& x) const;
 
   std::shared_ptr<const Scene> scene_;
   const EmbreeScene& embree_;

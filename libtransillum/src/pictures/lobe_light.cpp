@@ -77,17 +77,18 @@ struct LobeLight::Query {
   }
 };
 
-LobeLight::LobeLight(const Scene& scene, const GatheredLight& gathered,
-                     const std::vector<PatchId>& lamps, int rays, const Cancellation& cancellation)
-    : scene_(scene), gathered_(gathered), rays_(rays) {
+LobeLight::LobeLight(const Scene& scene, const GatheredLight& gathered, const LampLight& lamps,
+                     int rays, const Cancellation& cancellation)
+    : scene_(scene), gathered_(gathered), lamp_light_(lamps), rays_(rays) {
   for (const Material& material : scene.materials()) {
     const Lobe lobe = used_lobe(material);
     lobes_.push_back(
         {lobe, lobe.present() ? std::make_unique<LobeFunction>(lobe, cancellation) : nullptr});
   }
+  const std::vector<PatchId>& of_lamps = lamps.patches();
   double power = 0;
   for (const Piece& piece : scene.pieces()) {
-    if (!std::binary_search(lamps.begin(), lamps.end(), piece.patch)) {
+    if (!std::binary_search(of_lamps.begin(), of_lamps.end(), piece.patch)) {
       continue;
     }
     const auto corners = scene.corners(piece);
@@ -181,6 +182,9 @@ Rgb LobeLight::at_point(PatchId patch, const Vec3& x, const Vec3& toward, std::u
         number * static_cast<std::uint32_t>(lamp_rays_) + static_cast<std::uint32_t>(k), ~pixel);
     sum += by_lamps(query, u, v);
   }
+  lamp_light_.visit_sun(patch, x, [&](const Vec3& direction, const Rgb& irradiance) {
+    sum += std::numbers::pi * function->value(toward, direction, normal) * irradiance;
+  });
   return lobe.reflectance * sum;
 }
 

@@ -6,21 +6,22 @@
 #include <vector>
 
 #include "pictures/gathered_light.h"
+#include "pictures/lamp_light.h"
 #include "transillum/glossy.h"
 
 namespace transillum {
 
 /// The light that the lobes of a glossy solve reflect toward a point: by rays that the lobe
-/// distributes, and of lamps also by rays to points of theirs.
+/// distributes, of lamps also by rays to points of theirs, and of the sun by rays toward it.
 ///
 /// Threads: immutable once built.
 class LobeLight {
  public:
-  /// @param lamps the patches that GatheredLight treats as lamps.
+  /// @param lamps the lamps and sun of GatheredLight.
   /// @param rays from each point.
   /// @throws Canceled
-  LobeLight(const Scene& scene, const GatheredLight& gathered, const std::vector<PatchId>& lamps,
-            int rays, const Cancellation& cancellation);
+  LobeLight(const Scene& scene, const GatheredLight& gathered, const LampLight& lamps, int rays,
+            const Cancellation& cancellation);
 
   /// pi times the radiance that the lobe of a patch sends from x, W/m²; 0 without a lobe.
   /// @param toward unit, away from the surface
@@ -46,6 +47,7 @@ class LobeLight {
 
   const Scene& scene_;
   const GatheredLight& gathered_;
+  const LampLight& lamp_light_;
   int rays_, lamp_rays_ = 0;
   std::vector<Used> lobes_;  ///< by material; no function: no lobe
   std::vector<LampTriangle> lamps_;

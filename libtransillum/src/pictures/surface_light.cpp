@@ -51,7 +51,7 @@ struct [[gnu::visibility("hidden")]] SurfaceLight::Impl {
         gathered(*solution, embree, hits, gather > 0 ? gather : interpolated_rays(scene)),
         interpolated(scene, points, gathered, lamps) {
     if (solution->glossy) {
-      lobes.emplace(scene, gathered, lamps.patches(), std::max(gather, least_lobe_rays),
+      lobes.emplace(scene, gathered, lamps, std::max(gather, least_lobe_rays),
                     cancellation);
     }
   }

@@ -25,10 +25,13 @@ struct GlossyLight::Data {
   std::vector<std::vector<Rgb>> lambertian;
   std::vector<Rgb> arriving;   ///< by glossy patch and pass: Phi
   std::vector<Rgb> reflected;  ///< by glossy patch and pass: radiance of the lobe
-  // The first shot; null without one. `lambertian` lacks what the sources emit.
-  std::shared_ptr<const DirectLight> shot;  ///< light with the materials in effect
-  std::shared_ptr<const ShotRays> rays;     ///< by glossy patch
-  /// The part of `reflected` that comes from the shot; null until lobes are scaled.
+  /// The first shot with the materials in effect; null without one. `lambertian` lacks what its
+  /// sources emit.
+  std::shared_ptr<const DirectLight> shot;
+  /// By glossy patch: the light of the first shot and of the sun; null without both.
+  std::shared_ptr<const ShotRays> rays;
+  std::vector<Rgb> ray_sources;  ///< by ShotRay::source: exitance, or irradiance by the sun, W/m²
+  /// The part of `reflected` that comes from `rays`; null until lobes are scaled.
   std::shared_ptr<const std::vector<Rgb>> direct;
 
   /// Radiance that a patch emits and that was shot, W/(m² sr).

@@ -73,10 +73,12 @@ void GlossySolver::Impl::find_glossy(GlossyLight::Data& data) {
     }
   }
   check_radiance_memory(found.size(), data.passes());
-  if (shot) {
+  data.rays = nullptr;
+  if (shot || has_sun()) {
     const DirectLight& before = *input.shot;
     std::shared_ptr<const DirectLight> paired = input.shot;
-    if (!std::includes(before.paired.begin(), before.paired.end(), found.begin(), found.end())) {
+    if (shot &&
+        !std::includes(before.paired.begin(), before.paired.end(), found.begin(), found.end())) {
       auto made = std::make_shared<DirectLight>(before);
       made->pairs = shoot_pairs(*input.scene, made->sources, found, shot_options(input.options),
                                 input.requested);
@@ -84,8 +86,12 @@ void GlossySolver::Impl::find_glossy(GlossyLight::Data& data) {
       paired = std::move(made);
     }
     WorkerThreads workers(input.threads);
-    data.rays = std::make_shared<const ShotRays>(*input.scene, paired->pairs, found, workers,
-                                                 input.requested);
+    const auto rays =
+        std::make_shared<ShotRays>(*input.scene, paired->pairs, found, workers, input.requested);
+    if (has_sun()) {
+      rays->add_sun(*input.scene, found, input.options.sky.sun, input.sun.irradiance);
+    }
+    data.rays = rays;
     retired_shot.swap(input.shot);
     input.shot = std::move(paired);
   }
@@ -108,9 +114,9 @@ std::shared_ptr<const DirectLight> GlossySolver::Impl::shot_of(
 
 /// Refuses what would not fit before it is allocated.
 void GlossySolver::Impl::check_radiance_memory(std::size_t patches, std::size_t directions) const {
-  // Phi, its successor, the lobe's radiance, its successor, its part from the shot, and areas seen.
-  const std::uint64_t per_slot =
-      (shot ? 5 : 4) * sizeof(Rgb) + (input.options.sky.is_set() ? 2 : 1) * sizeof(double);
+  // Phi, its successor, the lobe's radiance, its successor, its part from rays, and areas seen.
+  const std::uint64_t per_slot = (shot || has_sun() ? 5 : 4) * sizeof(Rgb) +
+                                 (input.options.sky.is_set() ? 2 : 1) * sizeof(double);
   const std::uint64_t needed = patches * directions * per_slot;
   if (const std::uint64_t available = free_memory(); needed > available) {
     throw std::runtime_error(
@@ -164,6 +170,9 @@ void GlossySolver::Impl::start(Start from) {
     data->arriving.assign(slots, Rgb{});
     data->reflected.assign(slots, Rgb{});
     irradiance = shot ? shot->irradiance : std::vector<Rgb>(input.patch_count());
+    for (std::size_t i = 0; has_sun() && i < irradiance.size(); ++i) {
+      irradiance[i] += input.sun.irradiance[i];
+    }
     from_sky.clear();
     for (Replica& replica : replicas) {
       replica.irradiance = irradiance;
@@ -171,6 +180,8 @@ void GlossySolver::Impl::start(Start from) {
   }
   incoming.assign(slots, Rgb{});
   data->shot = shot;
+  data->ray_sources = shot ? shot->exitance : std::vector<Rgb>(input.patch_count());
+  data->ray_sources.push_back(input.options.sky.sun.irradiance);
   data->direct = nullptr;
   data->lambertian.resize(replicas.size());
   for (std::size_t r = 0; r < replicas.size(); ++r) {
@@ -228,10 +239,10 @@ void GlossySolver::Impl::make_lobes(WorkerThreads& workers, const Observer& obse
         patches, directions, old_lobes.empty() ? nullptr : old_lobes[r].get(), workers,
         input.requested, report(r)));
   }
-  if (shot) {
+  if (data->rays) {
     auto direct = std::make_shared<std::vector<Rgb>>(data->reflected.size());
     for (std::size_t r = 0; r < replicas.size(); ++r) {
-      data->lobes[r]->reflect(*data->rays, {shot->exitance, data->fractions, data->passes()},
+      data->lobes[r]->reflect(*data->rays, {data->ray_sources, data->fractions, data->passes()},
                               std::span(*direct).subspan(data->begin[r]), workers, input.requested);
     }
     data->direct = std::move(direct);
@@ -294,6 +305,7 @@ GlossySolver::Impl::Next GlossySolver::Impl::next_light() const {
   Next next{std::make_shared<GlossyLight::Data>(), {}, {}};
   next.light->shot = light->shot;
   next.light->rays = light->rays;
+  next.light->ray_sources = light->ray_sources;
   next.light->direct = light->direct;
   next.light->scene = light->scene;
   next.light->directions = light->directions;
@@ -314,7 +326,10 @@ GlossySolver::Impl::Next GlossySolver::Impl::next_light() const {
         received[i] += shot->irradiance[i];
       }
       if (has_sky) {
-        const Rgb of_sky = scale(r, i) * replicas[r].sky_area[i] / pi * input.options.sky.exitance;
+        Rgb of_sky = scale(r, i) * replicas[r].sky_area[i] / pi * input.options.sky.exitance;
+        if (has_sun()) {
+          of_sky += input.sun.irradiance[i];
+        }
         received[i] += of_sky;
         next.from_sky[i] += fraction * of_sky;
       }

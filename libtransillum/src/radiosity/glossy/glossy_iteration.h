@@ -73,6 +73,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
     return materials[static_cast<std::size_t>(of_patch[i])];
   }
   std::size_t passes() const { return light->passes(); }
+  bool has_sun() const { return !input.sun.irradiance.empty(); }
   /// The factor from what a replica gathers to its H.
   double scale(std::size_t r, std::size_t i) const;
   /// The sum of the fractions that patch i reflects diffusely and by its lobe.

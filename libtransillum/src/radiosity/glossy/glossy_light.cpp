@@ -60,11 +60,11 @@ Rgb GlossyLight::radiance(PatchId i, const Vec3& toward) const {
   Rgb result = 1 / static_cast<double>(data_->replicas()) * sum;
   if (data_->shot) {
     result += data_->shot_radiance(i);
-    if (g >= 0 && !data_->lobes.empty()) {
-      const auto k = static_cast<std::size_t>(g);
-      result += data_->fractions[k] * data_->lobes.front()->reflected_toward(
-                                          data_->rays->of(k), data_->shot->exitance, k, toward);
-    }
+  }
+  if (data_->rays && g >= 0 && !data_->lobes.empty()) {
+    const auto k = static_cast<std::size_t>(g);
+    result += data_->fractions[k] * data_->lobes.front()->reflected_toward(
+                                        data_->rays->of(k), data_->ray_sources, k, toward);
   }
   return result;
 }

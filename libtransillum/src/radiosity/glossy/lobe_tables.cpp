@@ -349,7 +349,7 @@ void LobeTables::reflect(const ShotRays& rays, const ShotLight& light, std::span
         std::fill(row.begin(), row.end(), 1.0);
         all = std::accumulate(above.cosine.begin(), above.cosine.end(), 0.0);
       }
-      const Rgb power = ray.irradiance * light.exitance[static_cast<std::size_t>(ray.source)];
+      const Rgb power = ray.irradiance * light.sources[static_cast<std::size_t>(ray.source)];
       const Rgb sent = all > 0 ? 1 / (weight() * all) * (light.fractions[g] * power) : Rgb{};
       for (std::size_t q = 0; q < row.size(); ++q) {
         reflected[g * light.stride + q] += row[q] * sent;
@@ -358,14 +358,14 @@ void LobeTables::reflect(const ShotRays& rays, const ShotLight& light, std::span
   });
 }
 
-Rgb LobeTables::reflected_toward(std::span<const ShotRay> rays, const std::vector<Rgb>& exitance,
+Rgb LobeTables::reflected_toward(std::span<const ShotRay> rays, const std::vector<Rgb>& sources,
                                  std::size_t g, const Vec3& toward) const {
   const LobeTable& table = tables_[table_of_[g]];
   const LobeFunction& lobe = *functions_[table.kernel];
   Rgb sum;
   for (const ShotRay& ray : rays) {
     sum += ray.irradiance * lobe.value(ray.direction, toward, table.normal) *
-           exitance[static_cast<std::size_t>(ray.source)];
+           sources[static_cast<std::size_t>(ray.source)];
   }
   return sum;
 }

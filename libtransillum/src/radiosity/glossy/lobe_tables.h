@@ -57,9 +57,9 @@ class LobeTables {
     /// Radiance without the lobe.
     std::span<const Rgb> lambertian_before, lambertian_after;
   };
-  /// The light of a first shot.
+  /// The light of a first shot and of the sun.
   struct ShotLight {
-    std::span<const Rgb> exitance;   ///< exitance of the sources, W/m², by patch
+    std::span<const Rgb> sources;    ///< GlossyLight::Data::ray_sources
     std::span<const Rgb> fractions;  ///< k, by glossy patch
     std::size_t stride;              ///< from one patch to the next
   };
@@ -79,7 +79,7 @@ class LobeTables {
                WorkerThreads& workers, const Cancellation& cancellation) const;
   /// Radiance that patch `g` reflects toward a direction above it, of the light of a first shot, if
   /// its lobe reflects everything; by the lobe itself instead of its values on the set.
-  Rgb reflected_toward(std::span<const ShotRay> rays, const std::vector<Rgb>& exitance,
+  Rgb reflected_toward(std::span<const ShotRay> rays, const std::vector<Rgb>& sources,
                        std::size_t g, const Vec3& toward) const;
   /// The mean of what arrives at patch `g`, weighted by its lobe toward any direction above it.
   Rgb reflected_toward(const Rgb* arriving, std::size_t g, const Vec3& toward) const;

@@ -119,6 +119,17 @@ ShotRays::ShotRays(const Scene& scene, const std::vector<DirectLight::Pair>& pai
   });
 }
 
+void ShotRays::add_sun(const Scene& scene, const std::vector<PatchId>& receivers, const Sun& sun,
+                       const std::vector<Rgb>& irradiance) {
+  for (std::size_t g = 0; g < receivers.size(); ++g) {
+    // All channels have the same ratio.
+    const double lit = max_abs(at(irradiance, receivers[g])) / max_abs(sun.irradiance);
+    if (lit > 0) {
+      rays_[g].push_back({sun.direction, scene.patch_count(), lit});
+    }
+  }
+}
+
 std::uint64_t ShotRays::bytes() const {
   std::uint64_t bytes = 0;
   for (const std::vector<ShotRay>& rays : rays_) {

@@ -10,18 +10,19 @@
 #include "transillum/cancellation.h"
 #include "transillum/first_shot.h"
 #include "transillum/scene.h"
+#include "transillum/sun.h"
 
 namespace transillum {
 
-/// Light of a first shot that comes to a patch from one direction.
+/// Light of a first shot, or of the sun, that comes to a patch from one direction.
 struct ShotRay {
-  Vec3 direction;  ///< unit, from the patch toward the source
-  PatchId source = no_patch;
-  double irradiance = 0;  ///< H of the patch for an exitance of 1
+  Vec3 direction;             ///< unit, from the patch toward the source
+  PatchId source = no_patch;  ///< an emitting patch; the number of patches for the sun
+  double irradiance = 0;      ///< H of the patch for an exitance, or irradiance of the sun, of 1
 };
 
-/// The light of a first shot at patches with lobes, by the directions from which it comes. They do
-/// not depend on materials.
+/// The light of a first shot and of the sun at patches with lobes, by the directions from which it
+/// comes. They do not depend on materials.
 ///
 /// A pair of patches near each other has many directions, between parts of both that are small
 /// compared with their distance. The parts share the exact form factor of the pair in proportion to
@@ -35,6 +36,11 @@ class ShotRays {
   ShotRays(const Scene& scene, const std::vector<DirectLight::Pair>& pairs,
            const std::vector<PatchId>& receivers, WorkerThreads& workers,
            const Cancellation& cancellation);
+  /// Adds a ray from the middle of the sun to each receiver that it lights.
+  /// @param receivers of the constructor
+  /// @param irradiance by the sun, by patch
+  void add_sun(const Scene& scene, const std::vector<PatchId>& receivers, const Sun& sun,
+               const std::vector<Rgb>& irradiance);
 
   /// The rays to receiver number g.
   std::span<const ShotRay> of(std::size_t g) const { return rays_[g]; }

@@ -17,6 +17,7 @@
 #include "visibility/pairs/merged_pieces.h"
 #include "visibility/pairs/point_view.h"
 #include "visibility/pairs/refined_cells.h"
+#include "visibility/pairs/sampled_polygon.h"
 #include "visibility/pairs/shaft.h"
 
 namespace transillum {
@@ -275,36 +276,13 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
   return true;
 }
 
-/// Two polygons of which the smaller one is sampled.
-struct ExchangeFinder::Sampled {
-  bool p_is_smaller;
-  Outline small, large;
-  const Vec3& normal;  ///< normal of `small`
-  double size;         ///< radius of `small` over the distance
-
-  Sampled(const FacingPolygons& facing, double tolerance)
-      : Sampled(facing, tolerance, middle_of(facing.p), middle_of(facing.q)) {}
-
- private:
-  Sampled(const FacingPolygons& facing, double tolerance, const Vec3& middle_p,
-          const Vec3& middle_q)
-      : Sampled(facing, radius_about(middle_p, facing.p), radius_about(middle_q, facing.q),
-                std::max(norm(middle_p - middle_q), tolerance)) {}
-  Sampled(const FacingPolygons& facing, double radius_p, double radius_q, double distance)
-      : p_is_smaller(radius_p < radius_q),
-        small(p_is_smaller ? facing.p : facing.q),
-        large(p_is_smaller ? facing.q : facing.p),
-        normal((p_is_smaller ? facing.before_p : facing.before_q).normal),
-        size(std::min(radius_p, radius_q) / distance) {}
-};
-
 /// Calls visit(cell, size) for the parts of the sampled polygon within which what it sees of the
-/// other has no kinks; size as Sampled::size.
+/// other has no kinks; size as SampledPolygon::size.
 template <class Visit>
-void ExchangeFinder::for_each_cell(const Sampled& sampled, const std::vector<Corners>& blockers,
-                                   Visit visit) const {
-  const double whole = norm(area_vector(sampled.small));
-  for (const Corners& cell : smooth_cells(sampled.small, sampled.large, blockers, tolerance_)) {
+void ExchangeFinder::for_each_cell(const SampledPolygon& sampled,
+                                   const std::vector<Corners>& blockers, Visit visit) const {
+  const double whole = norm(area_vector(sampled.polygon));
+  for (const Corners& cell : smooth_cells(sampled.polygon, sampled.other, blockers, tolerance_)) {
     visit(cell, sampled.size * std::sqrt(norm(area_vector(cell)) / whole));
   }
 }
@@ -321,14 +299,14 @@ std::vector<Corners> ExchangeFinder::polygons_of(const Numbers& blockers) const 
 class ExchangeFinder::PointQuadrature {
  public:
   /// @param polygons blockers
-  PointQuadrature(const Sampled& sampled, const std::vector<Corners>& polygons, const Query& query,
-                  double scale)
+  PointQuadrature(const SampledPolygon& sampled, const std::vector<Corners>& polygons,
+                  const Query& query, double scale)
       : sampled_(sampled),
         query_(query),
         scale_(scale),
         is_free_(polygons.empty()),
-        view_(sampled.large, polygons),
-        free_view_(sampled.large, {}) {}
+        view_(sampled.other, polygons),
+        free_view_(sampled.other, {}) {}
 
   PointSums operator()(Outline cell, int divisions) {
     PointSums sums;
@@ -361,7 +339,7 @@ class ExchangeFinder::PointQuadrature {
       return view_.form_factor(x, sampled_.normal, query_.tick);
     }
     const LinearBasis& basis = *query_.receiver;
-    if (sampled_.p_is_smaller) {
+    if (sampled_.p_is_sampled) {
       const double one = view_.form_factor(x, sampled_.normal, query_.tick);
       const std::array<double, 2> at_x = basis.at(x / scale_);
       for (std::size_t a = 0; a < 2; ++a) {
@@ -377,20 +355,20 @@ class ExchangeFinder::PointQuadrature {
     return seen.one;
   }
 
-  const Sampled& sampled_;
+  const SampledPolygon& sampled_;
   const Query& query_;
   double scale_;  ///< from meters
   bool is_free_;  ///< no blockers
   PointView view_, free_view_;
 };
 
-/// Adds the exchange of two polygons past blockers, by points of the smaller polygon.
+/// Adds the exchange of two polygons past blockers, by points of one of them.
 void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& blockers,
                                  const Query& query, PatchExchange& exchange) const {
-  const Sampled sampled(facing, tolerance_);
   const std::vector<Corners> polygons = polygons_of(blockers);
+  const SampledPolygon sampled(facing, tolerance_, polygons);
   PointQuadrature by_points(sampled, polygons, query, scale_);
-  RefinedCells refined(facing, sampled.p_is_smaller, std::ref(by_points));
+  RefinedCells refined(facing, sampled.p_is_sampled, std::ref(by_points));
   for_each_cell(sampled, polygons, [&](const Corners& cell, double cell_size) {
     const int divisions = divisions_of(cell_size);
     const PointSums sums = by_points(cell, divisions);
@@ -438,27 +416,27 @@ void ExchangeFinder::add_whole(const FacingPolygons& facing, const Query& query,
     return;
   }
   // The values at points have no kinks: half as many in a row are enough.
-  const Sampled sampled(facing, tolerance_);
+  const SampledPolygon sampled(facing, tolerance_);
   PointQuadrature by_points(sampled, {}, query, scale_);
   const int divisions = std::max(divisions_of(sampled.size / 2), moment_divisions_);
-  const PointSums sums = by_points(sampled.small, divisions);
-  RefinedCells refined(facing, sampled.p_is_smaller, std::ref(by_points), area);
+  const PointSums sums = by_points(sampled.polygon, divisions);
+  RefinedCells refined(facing, sampled.p_is_sampled, std::ref(by_points), area);
   if (refined.misses(sums.free, area)) {
-    add_moments_of(refined(sampled.small), exchange);
+    add_moments_of(refined(sampled.polygon), exchange);
     return;
   }
-  add_moments_of(area, sums, by_points(sampled.small, divisions / 2), exchange);
+  add_moments_of(area, sums, by_points(sampled.polygon, divisions / 2), exchange);
 }
 
-/// Adds the moments of two polygons past blockers, by points of the smaller polygon.
+/// Adds the moments of two polygons past blockers, by points of one of them.
 void ExchangeFinder::add_moments(const FacingPolygons& facing, const Numbers& blockers,
                                  const LinearBasis& of_p, const LinearBasis& of_q,
                                  const std::function<void()>& tick, TransferMoments& sum) const {
-  const Sampled sampled(facing, tolerance_);
-  const LinearBasis& own = sampled.p_is_smaller ? of_p : of_q;
-  const LinearBasis& other = sampled.p_is_smaller ? of_q : of_p;
   const std::vector<Corners> polygons = polygons_of(blockers);
-  PointView view(sampled.large, polygons);
+  const SampledPolygon sampled(facing, tolerance_, polygons);
+  const LinearBasis& own = sampled.p_is_sampled ? of_p : of_q;
+  const LinearBasis& other = sampled.p_is_sampled ? of_q : of_p;
+  PointView view(sampled.other, polygons);
   for_each_cell(sampled, polygons, [&](const Corners& cell, double cell_size) {
     // The rule of three points is exact for products of two functions; that of one is not. Past
     // nothing, what the points see has no kinks: half as many in a row are enough.
@@ -473,7 +451,7 @@ void ExchangeFinder::add_moments(const FacingPolygons& facing, const Numbers& bl
                                     other_at[1] * seen.one + dot(other.gradient[1], first)};
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t l = 0; l < 3; ++l) {
-          (sampled.p_is_smaller ? sum.of(k, l) : sum.of(l, k)) += weight * a[k] * b[l];
+          (sampled.p_is_sampled ? sum.of(k, l) : sum.of(l, k)) += weight * a[k] * b[l];
         }
       }
     });

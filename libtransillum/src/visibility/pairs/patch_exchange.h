@@ -40,14 +40,16 @@ struct LampPolygon {
   std::vector<PatchId> patches;  ///< ascending
 };
 
+struct SampledPolygon;
+
 /// Form factors of single pairs of patches, with blockers between them.
 ///
 /// If nothing reaches into the shaft between the two, the polygons alone give the form factor.
-/// Otherwise the smaller patch is sampled by points, and the form factor from each point to the
-/// visible part of the larger patch is computed exactly: the error decreases about as the square of
-/// the distance between points, or in proportion to it if a blocker touches the smaller patch. It
-/// is estimated, for the former, from what a quarter of the points give; where one point suffices,
-/// as the square of the patch's size over the distance.
+/// Otherwise one of the two is sampled by points (SampledPolygon), and the form factor from each
+/// point to the visible part of the other is computed exactly: the error decreases about as the
+/// square of the distance between points, or in proportion to it if a blocker touches the sampled
+/// patch. It is estimated, for the former, from what a quarter of the points give; where one point
+/// suffices, as the square of the patch's size over the distance.
 ///
 /// Among coplanar patches with the same normal, those cover others that do so in BspTree::order().
 /// Surfaces closer to each other than 1e-12 of the scene's size are treated as touching, and then
@@ -157,10 +159,9 @@ class ExchangeFinder {
   void add_moments(const FacingPolygons& facing, const Numbers& blockers, const LinearBasis& of_p,
                    const LinearBasis& of_q, const std::function<void()>& tick,
                    TransferMoments& sum) const;
-  struct Sampled;
   class PointQuadrature;
   template <class Visit>
-  void for_each_cell(const Sampled& sampled, const std::vector<Corners>& blockers,
+  void for_each_cell(const SampledPolygon& sampled, const std::vector<Corners>& blockers,
                      Visit visit) const;
   std::vector<Corners> polygons_of(const Numbers& blockers) const;
   template <class Visit>
