@@ -7,7 +7,7 @@ namespace transillum::manual {
 namespace {
 
 /// "obj|gltf", for a pattern of bash
-std::string pattern(const std::vector<std::string>& endings) {
+std::string glob_of(const std::vector<std::string>& endings) {
   std::string text;
   for (const std::string& ending : endings) {
     text += (text.empty() ? "" : "|") + ending.substr(1);
@@ -22,7 +22,7 @@ std::string proposals(const Option& option) {
       return fmt::format("{} '{}'; return", option.is_list ? "@list" : "@words",
                          fmt::join(option.choices, " "));
     case Proposal::file:
-      return fmt::format("@files '{}'; return", pattern(option.endings));
+      return fmt::format("@files '{}'; return", glob_of(option.endings));
     case Proposal::folder:
       return "@folders; return";
     case Proposal::scene:
@@ -125,7 +125,7 @@ std::string bash_completion(const Program& program) {
   text += fmt::format(
       "@scenes() {{\n  local files names='{}'\n  @files '{}'\n  files=(\"${{COMPREPLY[@]}}\")\n"
       "  @words \"$names\"\n  COMPREPLY+=(\"${{files[@]}}\")\n}}\n\n",
-      fmt::join(scene_names(), " "), pattern(scene_endings(program)));
+      fmt::join(scene_names(), " "), glob_of(scene_endings(program)));
   text += "@complete() {\n";
   text += beginning;
   std::string cases;

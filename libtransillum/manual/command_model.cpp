@@ -104,7 +104,7 @@ std::string description_of_option(const CLI::Option& option) {
   return text;
 }
 
-Option describe(const std::string& command, const CLI::Option& source) {
+Option describe_option(const std::string& command, const CLI::Option& source) {
   Option option;
   for (const std::string& name : source.get_snames()) {
     option.names.push_back("-" + name);
@@ -141,7 +141,7 @@ Command describe_command(const CLI::App& app, const std::string& name) {
   command.footer = app.get_footer();
   for (const CLI::Option* option : app.get_options()) {
     auto& list = option->get_positional() ? command.arguments : command.options;
-    list.push_back(describe(name, *option));
+    list.push_back(describe_option(name, *option));
   }
   return command;
 }

@@ -22,7 +22,7 @@ std::string escaped(const std::string& text, const char* special) {
 }
 
 /// "*.(obj|gltf)(-.)"; without the qualifier, zsh would take "(csv)" for one
-std::string pattern(const std::vector<std::string>& endings) {
+std::string qualified_glob_of(const std::vector<std::string>& endings) {
   std::string text;
   for (const std::string& ending : endings) {
     text += (text.empty() ? "" : "|") + ending.substr(1);
@@ -36,8 +36,9 @@ std::string action(const Option& option, const std::string& function) {
       return option.is_list ? fmt::format("_sequence compadd - {}", fmt::join(option.choices, " "))
                             : fmt::format("({})", fmt::join(option.choices, " "));
     case Proposal::file:
-      return option.endings.empty() ? "_files"
-                                    : fmt::format("_files -g \"{}\"", pattern(option.endings));
+      return option.endings.empty()
+                 ? "_files"
+                 : fmt::format("_files -g \"{}\"", qualified_glob_of(option.endings));
     case Proposal::folder:
       return "_files -/";
     case Proposal::scene:
@@ -95,7 +96,7 @@ std::string zsh_completion(const Program& program) {
   text += fmt::format(
       "{0}_scenes() {{\n  _alternative 'built-in:built-in scene:({1})' \\\n"
       "    'file:file:_files -g \"{2}\"'\n}}\n\n",
-      function, fmt::join(scene_names(), " "), pattern(scene_endings(program)));
+      function, fmt::join(scene_names(), " "), qualified_glob_of(scene_endings(program)));
   std::string names;
   for (const Command& command : program.commands) {
     text += function_of(command, function);

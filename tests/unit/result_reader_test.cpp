@@ -354,7 +354,7 @@ TEST_F(ResultReader, RejectsOrReadsDamagedFiles) {
   const std::string whole = read_file(path_);
   const auto error_of = [&](const std::string& text) {
     write_text(path_, text);
-    const std::string sentence = refusal([&] { read_result(path_); });
+    std::string sentence = refusal([&] { read_result(path_); });
     EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
     return sentence;
   };

@@ -321,7 +321,7 @@ void DirectionView::draw_legend(QPainter& painter) const {
   const QString most = tr("%1 W/m²").arg(number_text(largest)), middle = number_text(largest / 4);
   painter.drawText(below, Qt::AlignRight, most);
   // color_position() maps a quarter of the largest value to the middle of the bar.
-  if (width_of(middle) / 2 + width_of(most) < below.width() / 2 - line / 2.0) {
+  if (width_of(middle) / 2.0 + width_of(most) < below.width() / 2 - line / 2.0) {
     painter.drawText(below, Qt::AlignHCenter, middle);
   }
 }

@@ -12,6 +12,7 @@
 #include <limits>
 #include <span>
 
+#include "lessons/result_text.h"
 #include "lessons/symbols.h"
 #include "state/callout.h"
 #include "state/section.h"
@@ -70,7 +71,7 @@ for (const box of document.querySelectorAll('.stepper')) {
 }
 )";
 
-QString tr(const char* text) { return QObject::tr(text); }
+QString page_tr(const char* text) { return QObject::tr(text); }
 
 // The body of Qt's HTML, without fonts and colors, and without the links of symbols.
 QString html_of(const QString& markdown) {
@@ -111,11 +112,6 @@ QString text_of(const Lesson::Page& page) {
   return text;
 }
 
-QString value_text(const Question& question, double value) {
-  const QString unit = QString::fromStdString(question.unit);
-  return (number_text(question.percent ? 100 * value : value) + ' ' + unit).trimmed();
-}
-
 QString answer_text(const Question& question, const Solved& solved) {
   QStringList right;
   if (question.kind == Question::Kind::curve) {
@@ -127,7 +123,7 @@ QString answer_text(const Question& question, const Solved& solved) {
   }
   for (const int k : solved.right) {
     if (question.kind == Question::Kind::patch) {
-      right << tr("patch %1 (%2)").arg(k).arg(value_text(question, at(solved.values, k)));
+      right << page_tr("patch %1 (%2)").arg(k).arg(value_text(question, at(solved.values, k)));
     } else {
       const Question::Choice& choice = at(question.choices, k);
       right << (choice.text.empty() ? value_text(question, at(solved.values, k))
@@ -135,7 +131,7 @@ QString answer_text(const Question& question, const Solved& solved) {
     }
   }
   if (right.isEmpty() || question.rule == Question::Rule::nearest) {
-    right << tr("computed: %1").arg(value_text(question, solved.value));
+    right << page_tr("computed: %1").arg(value_text(question, solved.value));
   }
   return right.join(QStringLiteral("; "));
 }
@@ -153,9 +149,10 @@ QString question_html(const ShownPage& shown) {
     html += QStringLiteral("</ul>");
   }
   if (shown.solved) {
-    html += QStringLiteral("<details><summary>%1</summary><p><b>%2</b></p>%3</details>")
-                .arg(tr("Reveal the answer"), answer_text(question, *shown.solved).toHtmlEscaped(),
-                     html_of(web_text(question.then)));
+    html +=
+        QStringLiteral("<details><summary>%1</summary><p><b>%2</b></p>%3</details>")
+            .arg(page_tr("Reveal the answer"), answer_text(question, *shown.solved).toHtmlEscaped(),
+                 html_of(web_text(question.then)));
   }
   return html + QStringLiteral("</div>\n");
 }
@@ -172,7 +169,7 @@ QString map_html(const ShownPage& shown) {
     for (const bool receivers : {false, true}) {
       sides += QStringLiteral("<div>%1<p>%2</p></div>\n")
                    .arg(QString::fromUtf8(side_svg(*shown.map, receivers, shown.patch_colors)),
-                        receivers ? tr("receives, along −ω") : tr("emits, along ω"));
+                        receivers ? page_tr("receives, along −ω") : page_tr("emits, along ω"));
     }
     return sides;
   }
@@ -194,7 +191,7 @@ QString map_html(const ShownPage& shown) {
       .arg(svg)
       .arg(history.step_count())
       .arg(shown.step + 1)
-      .arg(tr("Step"));
+      .arg(page_tr("Step"));
 }
 
 QByteArray number(double value) { return QByteArray::number(value, 'f', 2); }
@@ -419,7 +416,7 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
     html += html_of(text) + QStringLiteral("<div class=\"views\">\n");
     if (!shown.picture.isEmpty()) {
       html += QStringLiteral("<img alt=\"%1\" src=\"data:image/png;base64,%2\">\n")
-                  .arg(tr("The scene"), QString::fromLatin1(shown.picture.toBase64()));
+                  .arg(page_tr("The scene"), QString::fromLatin1(shown.picture.toBase64()));
     }
     if (shown.map) {
       html += map_html(shown);

@@ -23,7 +23,7 @@ Vec3 vec3_of(const double p[3]) { return {p[0], p[1], p[2]}; }
 
 /// The snapshot whose light is shown in true color; null where something else is.
 std::shared_ptr<const SolverSnapshot> SceneView::lit_snapshot() const {
-  const auto shown = colors_.shows_kept_run() ? colors_.run_a() : colors_.snapshot();
+  auto shown = colors_.shows_kept_run() ? colors_.run_a() : colors_.snapshot();
   const bool by_eye = colors_.quantity() == Quantity::eye_radiance;
   const bool of_light = by_eye || (colors_.quantity() == Quantity::radiosity && shown &&
                                    shown->glossy == nullptr);  // else B is not what is seen

@@ -25,7 +25,8 @@ std::shared_ptr<const SolverSnapshot> part_to_keep(const SolverSnapshot& snapsho
   kept->options = snapshot.options;
   kept->progress = snapshot.progress;
   kept->statistics = snapshot.statistics;
-  static_cast<SolvedLight&>(*kept) = snapshot;
+  const SolvedLight& light = snapshot;
+  static_cast<SolvedLight&>(*kept) = light;
   kept->bases = snapshot.bases;
   kept->materials = snapshot.materials;
   kept->of_file = snapshot.of_file;

@@ -91,7 +91,7 @@ void check_options(const FactorsCall& call) {
   refuse_unless(factors == Factors::rays, *call.scene.command, "--rays",
                 "used only with engine rays");
   const std::string conflict = conflict_of("basis", call.scene.run);
-  refuse_unless(conflict.empty(), *call.scene.command, "--basis", conflict.c_str());
+  refuse_unless(conflict.empty(), *call.scene.command, "--basis", conflict);
   const bool has_no_moments = std::filesystem::path(call.out).extension() == ".vf";
   refuse_unless(!has_no_moments || call.passes().basis == Basis::constant, *call.scene.command,
                 "--basis", "linear has moments, which a .vf file cannot hold; write .npz or .mtx");

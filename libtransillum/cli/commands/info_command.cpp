@@ -169,7 +169,7 @@ void print_overlaps(const Scene& scene, const Cancellation& cancellation) {
 BackFraction print_rays(const Scene& scene, int threads, const Cancellation& cancellation) {
   ProgressDisplay display;
   display.begin("checking what light meets");
-  const BackFraction backs = back_fraction(scene, threads, cancellation);
+  BackFraction backs = back_fraction(scene, threads, cancellation);
   display.clear();
   print_row("closed", backs.open == 0
                           ? std::string("yes: no ray from a lit side leaves")

@@ -58,7 +58,9 @@ class ColorBar {
     const double top = std::round(1.5 * size_), bottom = std::round(height - 1.5 * size_);
     const double bar_left = std::round(left + size_), bar_right = std::round(left + 2.5 * size_);
     canvas.fill({left, 0, left + width, height}, paper);
-    for (double y = top; y < bottom; ++y) {
+    const int rows = static_cast<int>(bottom - top);
+    for (int row = 0; row < rows; ++row) {
+      const double y = top + row;
       const auto [red, green, blue] =
           color_of(default_color_map, (bottom - y - 0.5) / (bottom - top));
       canvas.fill({bar_left, y, bar_right, y + 1}, {red, green, blue});

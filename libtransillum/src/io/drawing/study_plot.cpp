@@ -94,7 +94,9 @@ std::string slope_text(double slope) {
 std::vector<ChartTick> decade_ticks(double low, double high, bool detailed, bool fine,
                                     const std::function<std::string(double)>& text) {
   std::vector<ChartTick> ticks;
-  for (double power = std::floor(std::log10(low)); power <= std::log10(high) + 1e-9; ++power) {
+  const int first = static_cast<int>(std::floor(std::log10(low)));
+  const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
+  for (int power = first; power <= last; ++power) {
     for (int k = 1; k < (fine ? 10 : 2); ++k) {
       const double value = k * std::pow(10, power);
       const bool labeled = k == 1 || (detailed && (k == 2 || k == 5));

@@ -83,11 +83,11 @@ std::string text_of(const Sky& sky) {
     return "none";
   }
   const Sun& sun = sky.sun;
-  const std::string of_sun =
-      sun.is_set() ? fmt::format("a sun of {} W/m2 from {} {} {}{}", text_of(sun.irradiance),
-                                 sun.direction.x, sun.direction.y, sun.direction.z,
-                                 sun.disc ? ", a disc" : "")
-                   : "";
+  std::string of_sun = sun.is_set()
+                           ? fmt::format("a sun of {} W/m2 from {} {} {}{}",
+                                         text_of(sun.irradiance), sun.direction.x, sun.direction.y,
+                                         sun.direction.z, sun.disc ? ", a disc" : "")
+                           : "";
   if (!sky.is_bright()) {
     return of_sun;
   }

@@ -176,6 +176,7 @@ class Search {
     double luminance;
     std::int64_t first;
     LightOrigin origin;
+    // NOLINTNEXTLINE(modernize-use-nullptr)
     auto operator<=>(const Found&) const = default;
   };
   std::priority_queue<Found, std::vector<Found>, std::greater<>> found_;  ///< the weakest on top

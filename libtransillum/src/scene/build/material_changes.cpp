@@ -162,7 +162,7 @@ class TargetFinder {
   std::string known_names(const std::string& name) const {
     Names all = materials_;
     all.insert(all.end(), description_.groups.begin(), description_.groups.end());
-    const std::string similar = did_you_mean(name, all);
+    std::string similar = did_you_mean(name, all);
     if (!similar.empty() || all.empty()) {
       return similar;
     }

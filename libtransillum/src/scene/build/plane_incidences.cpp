@@ -21,7 +21,7 @@ namespace transillum {
 namespace {
 
 /// Largest rounding relative to the width of a face that takes part: thinner ones lose their shape.
-constexpr double largest_rounding_by_width = 0.005;
+constexpr double most_rounding_by_width = 0.005;
 /// Width of a cell of normals.
 constexpr double normal_cell = 0.02;
 /// Faces compared with a growing plane, per face of the scene; then faces stay on their own.
@@ -132,7 +132,7 @@ class IncidenceSearch {
       check();
       const PolygonShape shape = measure(points_, outline);
       const double width = shape.area / shape.diameter;
-      const bool wide = !shape.degenerate && rounding_ <= largest_rounding_by_width * width;
+      const bool wide = !shape.degenerate && rounding_ <= most_rounding_by_width * width;
       takes_part_.push_back(wide && shape.deviation <= off_plane(shape.normal, rounding_));
       if (!wide) {
         for (const PointId p : outline) {

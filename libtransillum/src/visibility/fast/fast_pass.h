@@ -193,6 +193,7 @@ class FastPass {
   /// A fragment, and a larger one that it sees, or may see.
   struct SmallerOfTwo {
     std::int32_t smaller, larger;
+    // NOLINTNEXTLINE(modernize-use-nullptr)
     auto operator<=>(const SmallerOfTwo&) const = default;
   };
   /// An entry of found_ with its index.

@@ -69,7 +69,7 @@ std::vector<Point> part_of(const std::vector<Point>& outline, const TileCut& cut
     if (side_a * side_b >= 0) {
       continue;
     }
-    const Rational from = cut.coordinate(a), to = cut.coordinate(b);
+    const Rational &from = cut.coordinate(a), &to = cut.coordinate(b);
     const Rational t = (at - from) / (to - from);
     part.push_back(between(a, b, t));
   }
