@@ -137,7 +137,7 @@ TEST(PairFormFactors, OfAPointToABentQuadrilateralIsThatToThePlanarOne) {
 
 /// A box near a floor, below a far lamp whose edges are parallel to none of its own. The floor was
 /// sampled at few points, since it is small for its distance from the lamp: its light was up to
-/// 22 % off. From far, the part of it in the shadow is that of a sun.
+/// 22 % off. A far lamp casts the shadow of a sun.
 TEST(PairFormFactors, PastABlockerThatIsNearTheReceiverOfAFarLamp) {
   const Vec3 toward = normalized({0.6, 0.3, 1}), up{0, 0, 1};
   for (const auto& [distance, half, allowed] :

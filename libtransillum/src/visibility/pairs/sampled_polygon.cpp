@@ -52,7 +52,7 @@ struct SampledPolygon::Places {
     seen_q = radius_q / std::max(distance_to(blockers, q), tolerance);
   }
   bool is_p_sampled() const {
-    // Of 1 to 8, 4 had the least errors in rooms.
+    // Compared with 1, 2 and 8, this has the least errors in rooms.
     constexpr double much = 4;
     return radius_p < radius_q ? seen_p <= much * seen_q : seen_q > much * seen_p;
   }
