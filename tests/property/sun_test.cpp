@@ -440,6 +440,62 @@ TEST(Sun, IsReflectedByALobeAlone) {
   }
 }
 
+/// Under sky and sun, in replicas, with a disc; and with materials that replace others.
+TEST(Sun, WithLobesAddsToASkyAndStaysWithOtherMaterials) {
+  SceneDescription description = testing::glossy_box_description();
+  // Without the ceiling, the light of sky and sun enters.
+  SceneDescription open;
+  open.name = "open box";
+  open.points = description.points;
+  open.materials = description.materials;
+  for (std::size_t f = 0; f < description.face_count(); ++f) {
+    const auto outline = description.outline(f);
+    const bool is_ceiling = std::all_of(outline.begin(), outline.end(), [&](PointId p) {
+      return at(description.points, p).z > 0.999;
+    });
+    if (!is_ceiling) {
+      open.add_face(outline, description.face_material[f]);
+    }
+  }
+  const auto scene = std::make_shared<const Scene>(open);
+  SolveOptions options = testing::glossy_options(64);
+  options.replicas = 2;
+  const Sky sky{.exitance = {200, 300, 400}};
+  const auto solution_under = [&](const Sky& light) {
+    options.sky = light;
+    return solve(scene, options);
+  };
+  Sky both = sky;
+  both.sun = {{500, 400, 300}, normalized({0.2, 0.1, 1}), true};
+  const Solution of_sky = solution_under(sky), of_both = solution_under(both);
+  Sky sun = both;
+  sun.exitance = {};
+  const Solution of_sun = solution_under(sun);
+  for (std::size_t i = 0; i < of_both.radiosity.size(); ++i) {
+    const Rgb expected = of_sky.irradiance[i] + of_sun.irradiance[i];
+    EXPECT_LE(max_abs(of_both.irradiance[i] - expected), 1e-9 * 1000) << i;
+    EXPECT_LE(
+        max_abs(of_both.sky_irradiance[i] - of_sky.sky_irradiance[i] - of_sun.sky_irradiance[i]),
+        1e-9 * 1000);
+  }
+  // The solver of other materials, given these later.
+  std::vector<Material> dull = scene->materials();
+  for (Material& material : dull) {
+    material.reflectance = {0.1, 0.1, 0.1};
+    material.lobe = {};
+  }
+  std::vector<std::int32_t> of_patch;
+  for (const Patch& patch : scene->patches()) {
+    of_patch.push_back(patch.material);
+  }
+  options.sky = both;
+  GlossySolver solver(std::make_shared<const Scene>(*scene, dull, of_patch), options);
+  solver.solve();
+  solver.set_materials(scene->materials(), of_patch, GlossySolver::Start::emission);
+  solver.solve();
+  EXPECT_LE(testing::largest_difference(solver.solution().radiosity, of_both.radiosity), 1e-9);
+}
+
 /// The lamp is as large as the sun's disc from 1 km, and its light is as strong.
 TEST(Sun, WithLobesIsAFarLamp) {
   constexpr double power = 1000, distance = 1000, half = 2;

@@ -205,6 +205,15 @@ class AppearanceTest : public QObject {
     }
   }
 
+  void answers_can_be_read_in_both_modes() {
+    for (const bool dark : {true, false}) {
+      theme::apply(*qApp, {.dark = dark});
+      for (const QColor& ink : {theme::good, theme::warm}) {
+        QVERIFY(contrast_of(ink, theme::paper) >= 4.5 && contrast_of(ink, theme::window) >= 4.5);
+      }
+    }
+  }
+
   void messages_can_be_read_in_both_modes() {
     Banner banner;
     banner.resize(600, 60);

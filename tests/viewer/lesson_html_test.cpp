@@ -80,7 +80,7 @@ class LessonHtmlTest : public QObject {
         record_local_map(*scene, *loaded->tree, normalized(Vec3{0.3, 0.8, -0.4})).record);
     const std::vector<Color8> colors(static_cast<std::size_t>(scene->patch_count()),
                                      Color8{1, 2, 3});
-    const QByteArray svg = map_svg(map, 9, colors, true);
+    const QByteArray svg = map_svg(map, {9}, colors, true);
     const QRegularExpression polygon(
         "<polygon data-made=\"(\\d+)\" data-consumed=\"(\\d+)\"[^>]*?( style=\"display:none\")?>");
     for (const std::int32_t step : {-1, 0, 5, 9, map.history.step_count() - 1}) {
@@ -93,14 +93,30 @@ class LessonHtmlTest : public QObject {
       QCOMPARE(shown, map.record().map_after(step).size());
       QCOMPARE(visible, map.record().map_after(9).size());  // without a script: the given step
     }
-    QCOMPARE(count(map_svg(map, 9, colors, false), "<polygon"),
+    QCOMPARE(count(map_svg(map, {9}, colors, false), "<polygon"),
              int(map.record().map_after(9).size()));
+    // Before a step, V is as after the one before; the step's polygon and what it cuts are marked.
+    for (const Phase phase : {Phase::before, Phase::split}) {
+      const QByteArray marked = map_svg(map, {9, phase}, colors, false);
+      QCOMPARE(count(marked, "<polygon data-made"), int(map.record().map_after(8).size()));
+      QCOMPARE(count(marked, "<polygon class=\"step\""), 1);
+      const bool split = phase == Phase::split;
+      QCOMPARE(count(marked, "<polygon class=\"cut\""),
+               split ? 0 : int(map.history.cut_at(9).size()));
+      QCOMPARE(count(marked, "<polygon class=\"inside"),
+               split ? int(map.history.inside_at(9).size()) : 0);
+      QCOMPARE(count(marked, "<polygon class=\"outside"),
+               split ? int(map.history.outside_at(9).size()) : 0);
+    }
+    QVERIFY(!map.history.inside_at(9).empty() || !map.history.cut_at(9).empty());
+    const QByteArray labeled = map_svg(map, {9, Phase::after, true}, colors, false);
+    QVERIFY(count(labeled, "<text class=\"label\"") > 3);
     // Only the objects that the page names are named, where they are shown.
     const PatchId shown = map.row(map.record().map_after(9).front()).patch;
     const std::vector<Callout> callouts{{"this < that", Callout::Anchor::patch, shown, {}},
                                         {"the same", Callout::Anchor::patch, shown, {}},
                                         {"nowhere", Callout::Anchor::patch, no_patch, {}}};
-    const QByteArray named = map_svg(map, 9, colors, true, callouts);
+    const QByteArray named = map_svg(map, {9}, colors, true, callouts);
     QVERIFY(named.contains(">this &lt; that</text>") && named.contains(">the same</text>"));
     QVERIFY(!named.contains("nowhere"));
   }
@@ -122,7 +138,7 @@ class LessonHtmlTest : public QObject {
     QCOMPARE(count(emits, "<polygon") + count(receives, "<polygon"), fragments);
     QVERIFY(count(emits, "<polygon") > 3 && count(receives, "<polygon") > 3);
     const QByteArray named =
-        map_svg(map, 3, colors, false, {{"omega", Callout::Anchor::direction, no_patch, {}}});
+        map_svg(map, {3}, colors, false, {{"omega", Callout::Anchor::direction, no_patch, {}}});
     static const QRegularExpression symbol(
         "<g stroke=\"#fff\" fill=\"none\"><circle "
         "(cx=\"[^\"]*\" cy=\"[^\"]*\")");

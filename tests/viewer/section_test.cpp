@@ -250,7 +250,7 @@ class SectionTest : public QObject {
     const RecordedMap map = record("flatland", slanted);
     const std::vector<Color8> colors(static_cast<std::size_t>(map.loaded->scene->patch_count()),
                                      Color8{1, 2, 3});
-    const QByteArray svg = section_svg(map, 3, colors, true);
+    const QByteArray svg = section_svg(map, {3}, colors, true);
     QCOMPARE(svg.count("<line "), 14);
     QCOMPARE(svg.count("data-made="), 2 * static_cast<int>(map.record().rows.size()));
     QCOMPARE(svg.count("data-made=") - svg.count("display:none"),

@@ -248,11 +248,27 @@ class SunTest : public QObject {
     runner.include_form_factors();
     QVERIFY(wait_for([&] { return yard.shown.window->snapshot()->form_factors != nullptr; }));
     const auto solved = yard.shown.window->snapshot();
-    for (const bool disc : {false, true}) {
-      LiveLightRequest request{solved->loaded, solved->options, nullptr, solved};
+    const Scene& scene = *solved->loaded->scene;
+    auto changed = std::make_shared<PatchMaterials>();
+    changed->materials = scene.materials();
+    for (Material& material : changed->materials) {
+      material.reflectance = {0.7, 0.2, 0};
+    }
+    for (const Patch& patch : scene.patches()) {
+      changed->of_patch.push_back(patch.material);
+    }
+    for (const auto& [disc, materials] :
+         {std::pair<bool, std::shared_ptr<const PatchMaterials>>{false, nullptr},
+          {true, nullptr},
+          {false, changed}}) {
+      LiveLightRequest request{solved->loaded, solved->options, materials, solved};
       request.options.sky.sun = {{50, 100, 150}, normalized({1, 0.2, 0.7}), disc};
       const Solution light = live_light(request, {});
-      SolveSession session({.scene = solved->loaded->scene,
+      QVERIFY(request.sun_of_solve->has_value());
+      QCOMPARE(light.linear_terms.size(), light.radiosity.size());  // smooth
+      SolveSession session({.scene = materials ? std::make_shared<const Scene>(
+                                                     scene, changed->materials, changed->of_patch)
+                                               : solved->loaded->scene,
                             .options = request.options,
                             .tree = solved->loaded->tree});
       session.advance(SolveSession::Until::finished);

@@ -42,6 +42,12 @@ svg.map .callout circle { fill: #fff; }
 svg.map .callout text { font: bold 14px system-ui, sans-serif; fill: #fff; stroke: #000; stroke-width: 4px; paint-order: stroke; }
 svg.map polygon.strip { opacity: .3; }
 svg.map line { stroke-width: 4; }
+svg.map .phase polygon { fill: none; stroke: #fff; stroke-width: 1.2; }
+svg.map .phase polygon.outside { fill: #4fb3e8; fill-opacity: .85; }
+svg.map .phase polygon.inside { fill: #e67e22; fill-opacity: .5; }
+svg.map .phase polygon.exchanged { fill-opacity: 1; }
+svg.map .phase polygon.step { stroke: #ffe04d; stroke-width: 3; }
+svg.map text.label { font: 12px system-ui, sans-serif; fill: #fff; stroke: #000; stroke-width: 3px; paint-order: stroke; text-anchor: middle; pointer-events: none; }
 svg.map polygon.now { stroke: #ffe04d; stroke-width: 3; }
 .steps { display: flex; gap: .6rem; align-items: center; flex-wrap: wrap; }
 .steps input { flex: 1; }
@@ -53,13 +59,16 @@ table { border-collapse: collapse; } td, th { border: 1px solid #8888; padding: 
 const char* const script = R"(
 for (const box of document.querySelectorAll('.stepper')) {
   const input = box.querySelector('input'), text = box.querySelector('output');
-  const polygons = box.querySelectorAll('svg polygon');
+  const polygons = box.querySelectorAll('svg [data-made]'), first = input.value;
   const show = () => {
     const step = Number(input.value) - 1;
     for (const p of polygons) {
       const made = Number(p.dataset.made), consumed = Number(p.dataset.consumed);
       p.style.display = made <= step && step < consumed ? '' : 'none';
       p.classList.toggle('now', made === step && p.dataset.whole === '1');
+    }
+    for (const mark of box.querySelectorAll('.phase')) {
+      mark.style.display = input.value === first ? '' : 'none';
     }
     text.textContent = input.value + ' / ' + input.max;
   };
@@ -190,7 +199,7 @@ QString map_html(const ShownPage& shown) {
              "<output>%3 / %2</output></div></div>\n")
       .arg(svg)
       .arg(history.step_count())
-      .arg(shown.step + 1)
+      .arg(shown.step.last() + 1)
       .arg(page_tr("Step"));
 }
 
@@ -298,23 +307,79 @@ QByteArray omega_svg(const QPointF& place) {
          number(place.y() + 5) + "\" fill=\"#fff\">ω</text>";
 }
 
+/// The number of a polygon's patch, if it has room.
+QByteArray label_svg(const MapRecord::Row& row, const std::vector<QPointF>& corners, bool shown) {
+  constexpr double least_area = 500;
+  QPointF middle;
+  double twice_area = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const QPointF &a = corners[k], &b = corners[(k + 1) % corners.size()];
+    middle += a / static_cast<double>(corners.size());
+    twice_area += a.x() * b.y() - b.x() * a.y();
+  }
+  if (std::abs(twice_area) / 2 < least_area) {
+    return {};
+  }
+  return "<text class=\"label\" data-made=\"" + QByteArray::number(row.made) +
+         "\" data-consumed=\"" + QByteArray::number(row.consumed) + "\" x=\"" + number(middle.x()) +
+         "\" y=\"" + number(middle.y() + 4) + (shown ? "\">" : "\" style=\"display:none\">") +
+         QByteArray::number(row.patch) + "</text>";
+}
+
+/// What a phase marks over V before a step: the polygon of the step, and what it cuts, or the
+/// parts.
+QByteArray phase_svg(const RecordedMap& map, const SvgFrame& frame, const ShownStep& shown) {
+  if (shown.phase == Phase::after || shown.step < 0 || shown.step >= map.history.step_count()) {
+    return {};
+  }
+  QByteArray svg = "<g class=\"phase\">";
+  const auto add = [&](std::int32_t r, const QByteArray& kind) {
+    svg += "<polygon class=\"" + kind + "\" points=\"";
+    for (const QPointF& p : corners_of(frame, map.record(), map.row(r))) {
+      svg += number(p.x()) + ',' + number(p.y()) + ' ';
+    }
+    svg += "\"/>";
+  };
+  if (shown.phase == Phase::before) {
+    for (const std::int32_t r : map.history.cut_at(shown.step)) {
+      add(r, "cut");
+    }
+  } else {
+    for (const std::int32_t r : map.history.outside_at(shown.step)) {
+      add(r, "outside");
+    }
+    for (const std::int32_t r : map.history.inside_at(shown.step)) {
+      add(r, map.history.exchanges(r) ? "inside exchanged" : "inside");
+    }
+  }
+  if (const std::int32_t row = map.history.step(shown.step).row; row != MapRecord::no_row) {
+    add(row, "step");
+  }
+  return svg + "</g>";
+}
+
 }  // namespace
 
-QByteArray map_svg(const RecordedMap& map, std::int32_t step,
+QByteArray map_svg(const RecordedMap& map, const ShownStep& shown_step,
                    const std::vector<Color8>& patch_colors, bool all,
                    const std::vector<Callout>& callouts) {
+  const std::int32_t step = shown_step.step, last = shown_step.last();
   const MapRecord& record = map.record();
   const SvgFrame frame = frame_of(record);
   const double scale = frame.scale, width = scale * (frame.high.x - frame.low.x);
-  QByteArray svg = svg_begin(width, scale * (frame.high.y - frame.low.y) + omega_room);
+  QByteArray svg = svg_begin(width, scale * (frame.high.y - frame.low.y) + omega_room), labels;
   for (const MapRecord::Row& row : record.rows) {
-    const bool shown = row.made <= step && step < row.consumed;
+    const bool shown = row.made <= last && last < row.consumed;
     if (!shown && !all) {
       continue;
     }
     const std::vector<QPointF> corners = corners_of(frame, record, row);
     svg += polygon_svg(row, corners, row.parent == MapRecord::no_row, patch_colors, shown);
+    if (shown_step.labels) {
+      labels += label_svg(row, corners, shown);
+    }
   }
+  svg += phase_svg(map, frame, shown_step) + labels;
   std::vector<QRectF> taken;
   const std::vector<std::int32_t> rows = record.map_after(step);
   for (const Callout& callout : callouts) {
@@ -353,9 +418,10 @@ QByteArray side_svg(const RecordedMap& map, bool receivers,
   return svg + omega_svg(omega_place(frame)) + "</svg>";
 }
 
-QByteArray section_svg(const RecordedMap& map, std::int32_t step,
+QByteArray section_svg(const RecordedMap& map, const ShownStep& shown_step,
                        const std::vector<Color8>& patch_colors, bool all,
                        const std::vector<Callout>& callouts) {
+  const std::int32_t step = shown_step.step, last = shown_step.last();
   const Section section = section_of(map);
   const auto [left, right, bottom, top] = section.box();
   constexpr double bar = 10;
@@ -367,7 +433,7 @@ QByteArray section_svg(const RecordedMap& map, std::int32_t step,
   for (const bool strips : {true, false}) {
     for (const Section::Interval& interval : section.intervals) {
       const MapRecord::Row& row = map.row(interval.row);
-      const bool shown = row.made <= step && step < row.consumed;
+      const bool shown = row.made <= last && last < row.consumed;
       const auto strip = strip_of(section, map, interval, no_patch);
       if (!strip || (!shown && !all)) {
         continue;

@@ -10,15 +10,26 @@
 #include "colors/color_map.h"
 #include "lessons/lesson.h"
 #include "model/requests/recorded_map.h"
+#include "state/focus.h"
 
 namespace transillum::viewer {
+
+/// A step of a direction as an SVG element shows it without a script.
+struct ShownStep {
+  std::int32_t step = -1;      ///< from 0; -1 is before the first
+  Phase phase = Phase::after;  ///< before and split show V before the step, and mark the step
+  bool labels = false;         ///< with the numbers of patches
+
+  /// The last step that V has taken in.
+  std::int32_t last() const { return phase == Phase::after ? step : step - 1; }
+};
 
 /// A page of a lesson as the window shows it.
 struct ShownPage {
   Lesson::Page page;
   QByteArray picture;                      ///< the scene as PNG
   std::shared_ptr<const RecordedMap> map;  ///< map of the page's direction; null if it has none
-  std::int32_t step = -1;                  ///< shown first, from 0
+  ShownStep step;                          ///< shown first
   bool whole = false;                      ///< shows both sides of the direction instead of a step
   std::vector<Color8> patch_colors;        ///< colors of the map, one per patch
   std::optional<Solved> solved;            ///< answer to the page's question
@@ -31,10 +42,9 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
 
 /// The map of a direction as an SVG element. Each polygon that was ever in V has the steps at which
 /// it was made and consumed (`data-made`, `data-consumed`), so that a script shows any step.
-/// @param step  shown without a script
 /// @param all  whether the element has the polygons of all steps, not only of that step
 /// @param callouts  drawn over it, where they are after that step
-QByteArray map_svg(const RecordedMap& map, std::int32_t step,
+QByteArray map_svg(const RecordedMap& map, const ShownStep& step,
                    const std::vector<Color8>& patch_colors, bool all,
                    const std::vector<Callout>& callouts = {});
 
@@ -45,7 +55,7 @@ QByteArray side_svg(const RecordedMap& map, bool receivers,
 
 /// The section of a direction as an SVG element (Section), with the same attributes, so that one
 /// script shows a step of both.
-QByteArray section_svg(const RecordedMap& map, std::int32_t step,
+QByteArray section_svg(const RecordedMap& map, const ShownStep& step,
                        const std::vector<Color8>& patch_colors, bool all,
                        const std::vector<Callout>& callouts = {});
 

@@ -124,6 +124,13 @@ class ScaledStyle : public QProxyStyle {
     }
   }
 
+  int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                QStyleHintReturn* more) const override {
+    return hint == SH_DialogButtonBox_ButtonsHaveIcons
+               ? 0
+               : QProxyStyle::styleHint(hint, option, widget, more);
+  }
+
   /// Fusion's triangle in the corner of a button with a menu has two pixels; this one lies beside
   /// the text, in its margin.
   void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
@@ -265,7 +272,7 @@ void set_colors(const Appearance& appearance) {
     ink_dim = {0x5a, 0x64, 0x72};
     rule = {0xd3, 0xd8, 0xde};
     accent = {0x1f, 0x66, 0xc2};
-    warm = {0xd9, 0x5f, 0x02};
+    warm = {0xb3, 0x4a, 0x00};
     exchange_ink = inside.darker(140);
     good = {0x1a, 0x7f, 0x4b};
     hover = {0xe3, 0xe8, 0xef};

@@ -42,7 +42,7 @@ SunDrag::SunDrag(const WindowFrame& frame, SettingsPanel& settings, std::functio
   rest_timer_->setInterval(sun_rest_ms);
   connect(rest_timer_, &QTimer::timeout, this, &SunDrag::finish);
   connect(&settings_, &SettingsPanel::sun_moved, this, &SunDrag::follow);
-  // The light of the draft stays until the solve has its own.
+  // The light that followed the sun stays until the solve has its own.
   connect(&frame_.state.runner, &SolveRunner::snapshot_ready, this,
           [this](const std::shared_ptr<const SolverSnapshot>& snapshot) {
             take_factors(snapshot);
@@ -78,7 +78,7 @@ bool SunDrag::busy() const { return lights_.busy() || rest_timer_->isActive() ||
 /// Whether there is a scene that a sun can light.
 bool SunDrag::can_light() const { return frame_.state.scene.snapshot() != nullptr; }
 
-/// Whether drafts follow the sun. Requires can_light().
+/// Whether light follows the sun. Requires can_light().
 bool SunDrag::has_drafts() const {
   return frame_.state.scene.snapshot()->loaded->scene->patch_count() <= most_fitted_patches;
 }
@@ -99,7 +99,8 @@ void SunDrag::follow() {
 
 void SunDrag::request(const SolveOptions& options) {
   const MaterialEdits& edits = frame_.state.relighting.edits();
-  lights_.request({solved_->loaded, options, edits.any() ? edits.materials() : nullptr, factors_});
+  lights_.request({solved_->loaded, options, edits.any() ? edits.materials() : nullptr, factors_,
+                   sun_of_factors_});
 }
 
 bool SunDrag::can_film() const {
@@ -136,10 +137,12 @@ void SunDrag::end_film() {
   return_to_solve();
 }
 
+/// A film keeps to the kind of light with which it began.
 void SunDrag::take_factors(const std::shared_ptr<const SolverSnapshot>& snapshot) {
-  if (solved_ && !awaited_ && snapshot->loaded == solved_->loaded && snapshot->progress.finished &&
-      snapshot->form_factors) {
+  if (solved_ && !awaited_ && day_.empty() && snapshot->loaded == solved_->loaded &&
+      snapshot->progress.finished && !snapshot->of_draft && snapshot->form_factors) {
     factors_ = snapshot;
+    sun_of_factors_ = std::make_shared<std::optional<SunLight>>();
   }
 }
 
@@ -149,7 +152,9 @@ void SunDrag::hold_solve() {
     solved_ = frame_.state.scene.snapshot();
     was_running_ = runs;
     take_factors(solved_);
-    frame_.state.runner.include_form_factors();
+    if (solved_->progress.finished && !solved_->of_file && !solved_->glossy) {
+      frame_.state.runner.include_form_factors();
+    }
     frame_.state.scene.hold(true);
     frame_.page.sharp()->set_solving(true);
   } else if (!std::exchange(awaited_, std::nullopt)) {
@@ -211,6 +216,7 @@ void SunDrag::end() {
   lights_.clear();
   solved_ = nullptr;
   factors_ = nullptr;
+  sun_of_factors_ = nullptr;
   frame_.state.scene.hold(false);
   const RunState state = frame_.state.runner.state();
   frame_.page.sharp()->set_solving(state == RunState::running || state == RunState::loading);

@@ -38,7 +38,8 @@ class SunDrag : public FilmedChange {
   QString caption(int index) const override;
   void end_film() override;
   bool busy() const override;
-  /// Whether the light comes from the form factors of a solve, not from drafts.
+  /// Whether there are form factors of a solve, so that no drafts are made while only the sun
+  /// moves.
   bool by_form_factors() const { return factors_ != nullptr; }
 
  private:
@@ -59,6 +60,7 @@ class SunDrag : public FilmedChange {
   std::shared_ptr<const SolverSnapshot> solved_;  ///< from before the move; null while none is made
   /// The same with form factors, where it is finished and has them; else drafts are made.
   std::shared_ptr<const SolverSnapshot> factors_;
+  std::shared_ptr<std::optional<SunLight>> sun_of_factors_;  ///< LiveLightRequest::sun_of_solve
   bool was_running_ = false;
   std::optional<Sky> awaited_;  ///< the sky of the solve that follows, until it has light
   std::vector<SunOfDay> day_;   ///< a film's; empty while there is none

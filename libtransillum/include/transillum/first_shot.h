@@ -89,7 +89,7 @@ struct DirectLight {
 /// Options of a first shot.
 struct ShotOptions {
   int threads = 0;  ///< 0: all cores are used; the result does not depend on it
-  /// linear: the linear terms of H are computed too, by points of the smaller polygon; the means
+  /// linear: the linear terms of H are computed too, by points of one polygon; the means
   /// have the same bits as with constant functions
   Basis basis = Basis::constant;
   /// Number of points along a polygon as large as its distance from the other, where something is
@@ -103,7 +103,7 @@ struct ShotOptions {
 ShotOptions shot_options(const SolveOptions& options);
 
 /// Distributes the emission of `sources` to all patches by exact form factors: of whole polygons
-/// where nothing stands between, else by points of the smaller polygon with exact shadows
+/// where nothing stands between, else by points of one polygon with exact shadows
 /// (decisions/0022-first-shot.md). Time grows as sources times patches times polygons between them.
 /// @param scene the scene.
 /// @param sources find_small_sources(), or any emitting patches, ascending.

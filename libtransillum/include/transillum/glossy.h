@@ -89,7 +89,7 @@ class GlossyLight {
   /// opposite, whichever is above the patch. Unit.
   Vec3 direction(PatchId i, int pass) const;
   /// Phi_i: flux density that arrives along direction(i, pass), W/(m² sr), one per pass; it
-  /// contains the cosine, but no light of a first shot. Empty for a patch without a lobe.
+  /// contains the cosine, but no light of a first shot or sun. Empty for a patch without a lobe.
   std::span<const Rgb> arriving(PatchId i) const;
   /// Radiance that patch i sends along direction(i, pass), W/(m² sr), after the last iteration, in
   /// the pass's replica.

@@ -32,7 +32,7 @@ struct PairOptions {
 /// others.
 ///
 /// Each pair is computed once, as the rows by exact_form_factors(): in closed form where nothing is
-/// between; otherwise from points of the smaller patch, where the blockers hide parts of the other.
+/// between; otherwise from points of one patch, where the blockers hide parts of the other.
 /// Thus A_i F_ij = A_j F_ji up to one rounding of each, in closed scenes rows sum to 1 up to the
 /// distance of the points, and for pairs with nothing between exactly. Time grows as the square of
 /// the number of patches, times the number of blockers between two.
@@ -47,7 +47,7 @@ FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
 
 /// F_ij of one patch i to every patch j, without directions or pixels: a reference for engines.
 ///
-/// Exact where nothing stands between two patches. Otherwise the smaller of them is sampled at many
+/// Exact where nothing stands between two patches. Otherwise one of them is sampled at many
 /// points, from each of which the other's visible part is computed exactly (first_shot.h). In a
 /// closed scene the sum is 1 up to that sampling. Takes one computation per patch j; its cost for a
 /// partly hidden pair grows with the number of polygons between them.

@@ -49,7 +49,8 @@ namespace {
 
 // Limit for all directions; later ones are not stored.
 constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
-// Limit for all B(n) together. Beyond it, only the newest two are stored, for the last change.
+// Limit for all B(n) together: with it, the window needs at most 250 MB and 1.1 times the memory of
+// the command line. Beyond it, only the newest two are stored, for the last change.
 constexpr std::size_t most_radiosity_bytes = std::size_t{8} << 20;
 
 template <class Value>

@@ -6,8 +6,8 @@
 
 namespace transillum::viewer {
 
-/// A change of the open scene that a film shows in equal steps, each in the light of a draft. The
-/// scene and its solve are as before once the film ends.
+/// A change of the open scene that a film shows in equal steps, each in the light that follows such
+/// a change. The scene and its solve are as before once the film ends.
 ///
 /// Threads: the main thread only.
 class FilmedChange : public QObject {

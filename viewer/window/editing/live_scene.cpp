@@ -10,8 +10,9 @@
 #include "model/snapshot_values.h"
 #include "model/solver/draft.h"
 #include "model/solver/scene_loading.h"
-#include "radiosity/sun_light.h"
 #include "transillum/at.h"
+#include "transillum/errors.h"
+#include "transillum/glossy.h"
 
 namespace transillum::viewer {
 
@@ -35,11 +36,6 @@ std::vector<Rgb> by_face(const std::vector<Rgb>& values, const Scene& before, co
     spread.push_back(found == means.end() ? Rgb{} : (1 / found->second.area) * found->second.sum);
   }
   return spread;
-}
-
-bool differ_by_sun(Sky a, const Sky& b) {
-  a.sun = b.sun;
-  return a == b;
 }
 
 Rgb difference(const Rgb& a, const Rgb& b) { return a - b; }
@@ -66,32 +62,62 @@ std::vector<Value> exchanged(std::vector<Value> values, std::vector<Value> remov
   return values;
 }
 
+/// The scene with the materials that a request changes.
+std::shared_ptr<const Scene> scene_of(const LiveLightRequest& request) {
+  const auto& scene = request.loaded->scene;
+  const auto& materials = request.materials;
+  return materials && std::ssize(materials->of_patch) == scene->patch_count()
+             ? std::make_shared<const Scene>(*scene, materials->materials, materials->of_patch)
+             : scene;
+}
+
+/// Whether the request differs from its solve by the sun alone.
+bool moves_sun_only(const LiveLightRequest& request) {
+  if (!request.solved) {
+    return false;
+  }
+  const SolveOptions& solved = request.solved->options;
+  Sky sky = solved.sky;
+  sky.sun = request.options.sky.sun;
+  return sky == request.options.sky &&
+         (solved.glossy == request.options.glossy || !has_lobes(*request.loaded->scene));
+}
+
 /// The light of the sun requested, in place of the one of the solve.
+/// @throws InputError, SolveError where form factors do not give it
 Solution light_by_form_factors(const LiveLightRequest& request, const Cancellation& cancellation) {
   const SolverSnapshot& solved = *request.solved;
-  const LoadedScene& loaded = *solved.loaded;
+  const LoadedScene& loaded = *request.loaded;
   const auto light_of = [&](const Sky& sky) {
     SolveOptions options = solved.options;
     options.sky = sky;
     return sun_light(loaded.scene, loaded.tree, options, cancellation);
   };
-  const SunLight before = light_of(solved.options.sky), now = light_of(request.options.sky);
+  if (!request.sun_of_solve->has_value()) {
+    *request.sun_of_solve = light_of(solved.options.sky);
+  }
+  const SunLight& before = **request.sun_of_solve;
+  const SunLight now = light_of(request.options.sky);
   Solution light = solution_of(solved, true);
+  light.scene = scene_of(request);
   light.sky = request.options.sky;
   light.sky_irradiance =
       exchanged(std::move(light.sky_irradiance), before.irradiance, now.irradiance);
+  for (Rgb& value : light.sky_irradiance) {  // rounding
+    value = {std::max(value.r, 0.0), std::max(value.g, 0.0), std::max(value.b, 0.0)};
+  }
   light.sky_linear_terms =
       exchanged(std::move(light.sky_linear_terms), before.linear_terms, now.linear_terms);
   RelightOptions options = relight_options(solved);
   options.sky_irradiance = light.sky_irradiance;
   options.sky_linear_terms = light.sky_linear_terms;
-  std::vector<Material> materials = loaded.scene->materials();
-  if (request.materials) {
-    materials = request.materials->materials;
-    options.patch_materials = request.materials->of_patch;
+  std::vector<std::int32_t> of_patch;
+  for (const Patch& patch : light.scene->patches()) {
+    of_patch.push_back(patch.material);
   }
+  options.patch_materials = of_patch;
   RelightResult result =
-      relight(*loaded.scene, *solved.form_factors, materials, options, cancellation);
+      relight(*loaded.scene, *solved.form_factors, light.scene->materials(), options, cancellation);
   light.radiosity = std::move(result.radiosity);
   light.irradiance = std::move(result.irradiance);
   light.linear_terms = std::move(result.linear_terms);
@@ -127,15 +153,15 @@ LiveScene live_scene(const LiveRequest& request, const Cancellation& cancellatio
 }
 
 Solution live_light(const LiveLightRequest& request, const Cancellation& cancellation) {
-  if (request.solved && differ_by_sun(request.solved->options.sky, request.options.sky)) {
-    return light_by_form_factors(request, cancellation);
+  if (moves_sun_only(request)) {
+    try {
+      return smoothed(light_by_form_factors(request, cancellation));
+    } catch (const InputError&) {  // as where a first shot is not stored by source
+    } catch (const SolveError&) {
+    }
   }
   LoadedScene loaded = *request.loaded;
-  const auto& materials = request.materials;
-  if (materials && std::ssize(materials->of_patch) == loaded.scene->patch_count()) {
-    loaded.scene =
-        std::make_shared<const Scene>(*loaded.scene, materials->materials, materials->of_patch);
-  }
+  loaded.scene = scene_of(request);
   SolveOptions options = request.options;
   if (!takes_directions(options.engine)) {
     options.engine = SolveOptions{}.engine;

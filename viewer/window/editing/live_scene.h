@@ -11,6 +11,7 @@
 
 #include "model/requests/recorded_map.h"
 #include "model/snapshot.h"
+#include "radiosity/sun_light.h"
 #include "scene/edit/face_edits.h"
 #include "transillum/cancellation.h"
 #include "transillum/linear_basis.h"
@@ -50,6 +51,9 @@ struct LiveLightRequest {
   std::shared_ptr<const PatchMaterials> materials;
   /// The finished solve of the same patches, with form factors; null for a draft.
   std::shared_ptr<const SolverSnapshot> solved = nullptr;
+  /// The light of the sun of `solved`, set by the first request.
+  std::shared_ptr<std::optional<SunLight>> sun_of_solve =
+      std::make_shared<std::optional<SunLight>>();
 };
 /// Any thread. @throws InputError, Canceled, NotConvergent
 Solution live_light(const LiveLightRequest& request, const Cancellation& cancellation);

@@ -52,6 +52,11 @@ LessonExport::LessonExport(const WindowFrame& frame, LessonPanel& lessons,
   poll_.setInterval(poll_ms);
   connect(&poll_, &QTimer::timeout, this, &LessonExport::take_when_settled);
   connect(action_, &QAction::triggered, this, &LessonExport::choose);
+  const auto enable = [this] {
+    enable_if(*action_, lessons_.lesson() >= 0, tr("No lesson is open"));
+  };
+  connect(&lessons_, &LessonPanel::page_shown, this, enable);
+  enable();
 }
 
 void LessonExport::choose() {
@@ -117,8 +122,10 @@ void LessonExport::take_page() {
   picture.save(&buffer, "PNG");
   if (shown.page.state.focus && frame_.state.focus.map()) {
     shown.map = frame_.state.focus.map();
-    shown.step = frame_.state.focus.picture_step();
-    shown.whole = !frame_.state.focus.at_step();
+    const Focus& focus = frame_.state.focus;
+    shown.whole = !focus.at_step();
+    shown.step = {focus.picture_step(), shown.whole ? Phase::after : focus.phase(),
+                  shown.page.state.labels};
     shown.patch_colors = frame_.state.colors.patch_colors();
   }
   pages_.push_back(std::move(shown));

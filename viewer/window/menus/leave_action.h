@@ -8,8 +8,8 @@ class QAction;
 
 namespace transillum::viewer {
 
-/// An action of the window for Esc: stops what runs, else leaves the full screen, else clears the
-/// selection.
+/// An action of the window for Esc: stops loading or searching, else leaves the full screen, else
+/// clears the selection.
 QAction* new_leave_action(const WindowFrame& frame, FullScreen& full_screen);
 
 }  // namespace transillum::viewer

@@ -28,7 +28,7 @@ struct GlossyLight::Data {
   /// The first shot with the materials in effect; null without one. `lambertian` lacks what its
   /// sources emit.
   std::shared_ptr<const DirectLight> shot;
-  /// By glossy patch: the light of the first shot and of the sun; null without both.
+  /// By glossy patch: the light of the first shot and of the sun; null without either.
   std::shared_ptr<const ShotRays> rays;
   std::vector<Rgb> ray_sources;  ///< by ShotRay::source: exitance, or irradiance by the sun, W/m²
   /// The part of `reflected` that comes from `rays`; null until lobes are scaled.

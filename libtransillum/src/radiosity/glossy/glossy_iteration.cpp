@@ -173,7 +173,7 @@ void GlossySolver::Impl::start(Start from) {
     for (std::size_t i = 0; has_sun() && i < irradiance.size(); ++i) {
       irradiance[i] += input.sun.irradiance[i];
     }
-    from_sky.clear();
+    from_sky = input.sun.irradiance;
     for (Replica& replica : replicas) {
       replica.irradiance = irradiance;
     }

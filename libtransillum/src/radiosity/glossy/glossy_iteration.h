@@ -43,7 +43,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   std::vector<std::shared_ptr<const LobeTables>> old_lobes;
   bool has_light = false;         ///< an iteration was finished: irradiance and Phi are its
   std::vector<Rgb> irradiance;    ///< H of the last finished iteration, W/m²: mean over replicas
-  std::vector<Rgb> from_sky;      ///< the part of it from the sky; empty without one
+  std::vector<Rgb> from_sky;      ///< the part of it from sky and sun; empty without both
   std::vector<Replica> replicas;  ///< one or more
   std::vector<Rgb> incoming;      ///< Phi by glossy patch and pass, of the iteration under way
   std::vector<double> sky_seen;   ///< uncovered area times relative radiance, by glossy patch and
@@ -88,8 +88,8 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   /// Sets radiance to the emission E, or keeps the light that arrived last. The lobes of
   /// `materials` are scaled by the next iteration.
   void start(Start from = Start::emission);
-  /// Numbers the glossy patches and finds the directions from which a first shot lights them.
-  /// Changes nothing where it throws.
+  /// Numbers the glossy patches and finds the directions from which a first shot and the sun light
+  /// them. Changes nothing where it throws.
   /// @throws std::runtime_error where what is kept of them by direction does not fit into memory;
   /// Canceled
   void find_glossy(GlossyLight::Data& data);
@@ -138,7 +138,7 @@ struct [[gnu::visibility("hidden")]] GlossySolver::Impl {
   struct Lambertian {
     const std::vector<Rgb>&before, &after;
   };
-  /// Sets data.reflected of replica r to what the lobes reflect of `arriving` and the shot.
+  /// Sets data.reflected of replica r to what the lobes reflect of `arriving` and of rays.
   LobeTables::Change reflect(GlossyLight::Data& data, std::size_t r,
                              const std::vector<Rgb>& arriving, const Lambertian& lambertian,
                              WorkerThreads& workers, const LobeReport& report) const;

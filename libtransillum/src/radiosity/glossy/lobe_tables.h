@@ -77,7 +77,7 @@ class LobeTables {
   /// @param reflected by patch and pass, as Light::arriving
   void reflect(const ShotRays& rays, const ShotLight& light, std::span<Rgb> reflected,
                WorkerThreads& workers, const Cancellation& cancellation) const;
-  /// Radiance that patch `g` reflects toward a direction above it, of the light of a first shot, if
+  /// Radiance that patch `g` reflects toward a direction above it, of the light of rays, if
   /// its lobe reflects everything; by the lobe itself instead of its values on the set.
   Rgb reflected_toward(std::span<const ShotRay> rays, const std::vector<Rgb>& sources,
                        std::size_t g, const Vec3& toward) const;

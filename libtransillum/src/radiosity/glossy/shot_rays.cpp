@@ -125,7 +125,11 @@ void ShotRays::add_sun(const Scene& scene, const std::vector<PatchId>& receivers
     // All channels have the same ratio.
     const double lit = max_abs(at(irradiance, receivers[g])) / max_abs(sun.irradiance);
     if (lit > 0) {
-      rays_[g].push_back({sun.direction, scene.patch_count(), lit});
+      // Part of a disc may light a patch below whose plane its middle is.
+      constexpr double least_cosine = 1e-3;
+      const Vec3& normal = scene.patch(receivers[g]).normal;
+      const double lift = std::max(0.0, least_cosine - dot(sun.direction, normal));
+      rays_[g].push_back({normalized(sun.direction + lift * normal), scene.patch_count(), lit});
     }
   }
 }

@@ -22,8 +22,8 @@ std::vector<MergedFace> merged_faces(const Scene& scene);
 struct MergedPiece {
   Corners outline;
   double bend = 0;  ///< bend of the MergedFace, or of the piece itself, m
-  /// The patches of this piece, ascending; several if faces coincide. If two-sided, patches of the
-  /// first side.
+  /// The patches that it has parts of, or that coincide with it, ascending. If two-sided, patches
+  /// of the first side.
   std::vector<PatchId> patches;
 };
 /// Convex polygons with the same union as the scene's patches; they may overlap: the outlines of

@@ -69,14 +69,14 @@ class ExchangeFinder {
 
   /// Past thousands of blockers, one pair takes minutes.
   /// @param tick if set, called often, on this thread; may throw to abandon the query.
-  /// @param receiver basis of i, whose moments are then computed too, by points of the smaller
+  /// @param receiver basis of i, whose moments are then computed too, by points of one
   /// patch, also where nothing blocks; null: moments are not computed
   PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {},
                            const LinearBasis* receiver = nullptr) const;
   /// Calls visit(j, exchange, moments) for the patches j > i with which i exchanges light, in
   /// order. Faster than pair by pair: blockers are first found for all patches of a face, and no
   /// error is estimated. The moments are T^ab(i,j) over all directions, T^00 being the area. The
-  /// others are found by points of the smaller patch, also where nothing blocks; of the larger one
+  /// others are found by points of one patch, also where nothing blocks; of the other one
   /// exactly.
   /// @param bases of all patches; empty: T^00 alone is found
   void for_each_after(

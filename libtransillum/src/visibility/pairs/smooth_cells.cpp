@@ -164,9 +164,9 @@ class Cells {
 
 }  // namespace
 
-std::vector<Corners> smooth_cells(Outline small, Outline large,
+std::vector<Corners> smooth_cells(Outline sampled, Outline other,
                                   const std::vector<Corners>& blockers, double tolerance) {
-  Cells cells(small, tolerance);
+  Cells cells(sampled, tolerance);
   for (const Corners& blocker : blockers) {
     cells.cut_where_met(blocker);
   }
@@ -175,7 +175,7 @@ std::vector<Corners> smooth_cells(Outline small, Outline large,
   }
   for (const Corners& blocker : blockers) {
     for_each_side(blocker, [&](const Side& edge) {
-      for_each_side(large, [&](const Side& light) {
+      for_each_side(other, [&](const Side& light) {
         if (!cells.full() && are_parallel(edge, light)) {
           cells.cut(edge, light);
         }
