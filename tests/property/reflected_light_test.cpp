@@ -258,6 +258,20 @@ TEST(ReflectedLight, ALampOf5MillimetersIsSolvedByDefault) {
   EXPECT_NEAR(mean(*scene, solution.radiosity).r, 0.532, 0.002);
 }
 
+/// Engines of samples miss a lamp of 5 mm: B = E, which was "converged".
+TEST(ReflectedLight, HasNotConvergedWhereAllOfItIsLost) {
+  const ScenePtr scene = lamp_room(0.005, 0.8, 0);
+  const Solution by_hemicubes = solve_by_form_factors(scene, {.engine = Engine::hemicube});
+  const Solution by_rays =
+      solve(scene, {.directions = 256, .engine = Engine::rays, .first_shot = {}});
+  for (const Solution* solution : {&by_hemicubes, &by_rays}) {
+    ASSERT_EQ(*std::max_element(solution->irradiance.begin(), solution->irradiance.end(),
+                                [](const Rgb& a, const Rgb& b) { return a.r < b.r; }),
+              Rgb{});
+    EXPECT_FALSE(solution->statistics.converged);
+  }
+}
+
 /// Each run has rotations of its own, so that they are independent. More than 4 of 22 limits of 95
 /// % are exceeded in 0.5 % of such tests.
 TEST(ReflectedLight, AccuracyIsThatOfReflectedLight) {

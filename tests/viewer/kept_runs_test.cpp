@@ -83,7 +83,7 @@ class KeptRunsTest : public QObject {
     QVERIFY(shown.ready);
     QCOMPARE(shown.table->rowCount(), 2);
     QCOMPARE(shown.table->item(0, 1)->text(), QString("32"));
-    QCOMPARE(shown.table->item(0, 2)->text(), QString("antipodal"));
+    QCOMPARE(shown.table->item(0, 2)->text(), QString("Antipodal"));
     QVERIFY(shown.table->item(0, 0)->toolTip().contains("--directions 32"));
     QVERIFY(shown.rename_first());
     QCOMPARE(shown.table->item(0, 0)->text(), QString("one bounce"));

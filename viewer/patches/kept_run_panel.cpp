@@ -48,13 +48,14 @@ QStringList texts_of(const KeptRun& run) {
   const SolveOptions& options = snapshot.options;
   const bool by_directions = !snapshot.of_file && takes_directions(options.engine);
   const QString none = QStringLiteral("–");
-  return {run.name,
-          by_directions ? QString::number(options.directions) : none,
-          by_directions ? QString::fromStdString(name_of(options.used_sampling())) : none,
-          snapshot.of_file && !snapshot.loaded->description ? KeptRunPanel::tr("a file")
-                                                            : engine_label(options.engine),
-          QString::number(snapshot.progress.iteration),
-          QLocale::c().toString(run.kept, QStringLiteral("HH:mm:ss"))};
+  return {
+      run.name,
+      by_directions ? QString::number(options.directions) : none,
+      by_directions ? capitalized(QString::fromStdString(name_of(options.used_sampling()))) : none,
+      snapshot.of_file && !snapshot.loaded->description ? KeptRunPanel::tr("a file")
+                                                        : engine_label(options.engine),
+      QString::number(snapshot.progress.iteration),
+      QLocale::c().toString(run.kept, QStringLiteral("HH:mm:ss"))};
 }
 
 void set_choosable(const QComboBox& box, int index, const QString& reason) {

@@ -41,6 +41,10 @@ class ReflectedLight {
   std::vector<char> emits_;  ///< by patch
 };
 
+/// Whether sources see other patches, and yet no patch receives light, as where an engine of
+/// samples has missed all sources: B = E is no result then.
+bool is_all_light_lost(const Solution& solution);
+
 /// Whether the changes of an iteration are rounding, which further iterations do not decrease.
 inline bool is_rounding(const IterationRecord& record) {
   constexpr double rounding = 1e-12;  // relative to the largest reflected light

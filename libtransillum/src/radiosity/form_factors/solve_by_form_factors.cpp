@@ -18,6 +18,7 @@
 #include "radiosity/linear_solution.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
+#include "radiosity/reflected_light.h"
 #include "radiosity/sun_light.h"
 #include "radiosity/two_sided.h"
 #include "transillum/at.h"
@@ -147,6 +148,7 @@ Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
   solution.scene = std::move(scene);
   solution.radiosity = means_of(std::move(iteration.b), per_patch);
   solution.irradiance = means_of(std::move(iteration.h), per_patch);
+  statistics.converged = statistics.converged && !is_all_light_lost(solution);
   statistics.negative_corners = negative_corners(solution);
   solution.form_factors = std::make_shared<const FormFactors>(std::move(form_factors));
   solution.complete = true;
