@@ -128,7 +128,7 @@ class SolveRunnerTest : public QObject {
                        drafts += snapshot->of_draft ? 1 : 0;
                        const bool before = drafts == 0 && snapshot->passes_done == 0;
                        worst = before ? worst : std::max(worst, error(*snapshot));
-                       of_draft = drafts == 1 ? error(*snapshot) : of_draft;
+                       of_draft = snapshot->of_draft && drafts == 1 ? error(*snapshot) : of_draft;
                        QCOMPARE(snapshot->linear_terms.empty(), !snapshot->of_draft);
                      });
     QVERIFY(solved(watched) == expected);
