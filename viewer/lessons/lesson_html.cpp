@@ -42,6 +42,7 @@ svg.map .callout circle { fill: #fff; }
 svg.map .callout text { font: bold 14px system-ui, sans-serif; fill: #fff; stroke: #000; stroke-width: 4px; paint-order: stroke; }
 svg.map polygon.strip { opacity: .3; }
 svg.map line { stroke-width: 4; }
+svg.map .phase { filter: drop-shadow(0 0 1px #000); }
 svg.map .phase polygon { fill: none; stroke: #fff; stroke-width: 1.2; }
 svg.map .phase polygon.outside { fill: #4fb3e8; fill-opacity: .85; }
 svg.map .phase polygon.inside { fill: #e67e22; fill-opacity: .5; }
