@@ -327,7 +327,7 @@ QByteArray label_svg(const MapRecord::Row& row, const std::vector<QPointF>& corn
          QByteArray::number(row.patch) + "</text>";
 }
 
-/// What a phase marks over V before a step: the polygon of the step, and what it cuts, or the
+/// The marks of a phase over V before a step: the polygon of the step, and what it cuts, or its
 /// parts.
 QByteArray phase_svg(const RecordedMap& map, const SvgFrame& frame, const ShownStep& shown) {
   if (shown.phase == Phase::after || shown.step < 0 || shown.step >= map.history.step_count()) {

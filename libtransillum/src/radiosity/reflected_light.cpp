@@ -203,18 +203,15 @@ double RemainderBound::changed_power(const std::vector<Rgb>& changes,
 
 bool is_all_light_lost(const Solution& solution) {
   const Scene& scene = *solution.scene;
-  double emitted = 0, seen = 0;
+  double area = 0, seen = 0;
   for (std::size_t i = 0; i < solution.form_factor_sums.size(); ++i) {
     if (max_abs(solution.irradiance[i]) > 0) {
       return false;
     }
-    const auto patch = static_cast<PatchId>(i);
-    const double power = scene.patch(patch).area * max_abs(scene.exitance(patch));
-    emitted += power;
-    seen += solution.form_factor_sums[i] * power;
+    area += scene.patches()[i].area;
+    seen += solution.form_factor_sums[i] * scene.patches()[i].area;
   }
-  constexpr double most = 0.5;  // of the power goes to other patches
-  return emitted > 0 && seen > most * emitted;
+  return scene.has_light() && seen > area / 2;
 }
 
 }  // namespace transillum

@@ -41,8 +41,8 @@ class ReflectedLight {
   std::vector<char> emits_;  ///< by patch
 };
 
-/// Whether sources see other patches, and yet no patch receives light, as where an engine of
-/// samples has missed all sources: B = E is no result then.
+/// Whether no patch receives light although sources emit and patches mostly see each other, so that
+/// an engine of samples has missed all sources: B = E is no result then.
 bool is_all_light_lost(const Solution& solution);
 
 /// Whether the changes of an iteration are rounding, which further iterations do not decrease.

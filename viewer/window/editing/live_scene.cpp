@@ -156,7 +156,7 @@ Solution live_light(const LiveLightRequest& request, const Cancellation& cancell
   if (moves_sun_only(request)) {
     try {
       return smoothed(light_by_form_factors(request, cancellation));
-    } catch (const InputError&) {  // as where a first shot is not stored by source
+    } catch (const InputError&) {  // a first shot may not be stored by source
     } catch (const SolveError&) {
     }
   }

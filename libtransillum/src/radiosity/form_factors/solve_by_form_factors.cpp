@@ -148,7 +148,9 @@ Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
   solution.scene = std::move(scene);
   solution.radiosity = means_of(std::move(iteration.b), per_patch);
   solution.irradiance = means_of(std::move(iteration.h), per_patch);
-  statistics.converged = statistics.converged && !is_all_light_lost(solution);
+  if (traits_of(options.engine).error != EngineTraits::Error::none && is_all_light_lost(solution)) {
+    statistics.converged = false;
+  }
   statistics.negative_corners = negative_corners(solution);
   solution.form_factors = std::make_shared<const FormFactors>(std::move(form_factors));
   solution.complete = true;

@@ -232,7 +232,10 @@ Solution RadiositySolver::solution() const {
   solution.error = error_estimate();
   solution.statistics = statistics();
   solution.linear_terms = linear_terms();
-  solution.statistics.converged = solution.statistics.converged && !is_all_light_lost(solution);
+  if (traits_of(options().engine).error != EngineTraits::Error::none &&
+      is_all_light_lost(solution)) {
+    solution.statistics.converged = false;
+  }
   solution.statistics.negative_corners = negative_corners(solution);
   solution.complete = impl_->history.finished();
   return solution;
