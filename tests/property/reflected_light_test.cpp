@@ -101,6 +101,21 @@ ScenePtr dark_channel() {
   return std::make_shared<const Scene>(description, SceneOptions{.max_patch_area = 1});
 }
 
+/// A room with a large lamp without blue, and a small blue lamp, whose light fewer directions meet.
+ScenePtr small_blue_lamp() {
+  testing::Sketch sketch("small blue lamp");
+  const int walls = sketch.material(0.5, 0), large = sketch.material(0, 1);
+  sketch.box({0, 0, 0}, {4, 3, 2.5}, true, walls);
+  sketch.face({{1, 0.8, 2.45}, {1, 2, 2.45}, {2.2, 2, 2.45}, {2.2, 0.8, 2.45}}, large);
+  const int small = sketch.material(0, 2);
+  sketch.face({{3.2, 2.4, 2.45}, {3.2, 2.46, 2.45}, {3.26, 2.46, 2.45}, {3.26, 2.4, 2.45}}, small);
+  SceneDescription description = sketch.description();
+  description.materials[0].reflectance = {0.6, 0.6, 0.3};
+  description.materials[1].exitance = {100, 60, 0};
+  description.materials[2].exitance = {0, 0, 50};
+  return std::make_shared<const Scene>(description, SceneOptions{.max_patch_area = 0.5});
+}
+
 ScenePtr without_light() {
   testing::Sketch sketch("dark");
   sketch.box({0, 0, 0}, {3, 3, 3}, true, sketch.material(0.5, 0));
@@ -117,6 +132,7 @@ std::vector<TestScene> scenes_with_light() {
   scenes.push_back({"furnace with one bright patch", uneven_furnace()});
   scenes.push_back({"lamp at the wall", lamp_at_the_wall()});
   scenes.push_back({"one dark channel", dark_channel()});
+  scenes.push_back({"small blue lamp", small_blue_lamp()});
   scenes.push_back(under_a_sky());
   return scenes;
 }
@@ -272,8 +288,8 @@ TEST(ReflectedLight, HasNotConvergedWhereAllOfItIsLost) {
   }
 }
 
-/// Each run has rotations of its own, so that they are independent. More than 4 of 22 limits of 95
-/// % are exceeded in 0.5 % of such tests.
+/// Each run has rotations of its own, so that they are independent. More than 4 of 24 limits of 95
+/// % are exceeded in 0.6 % of such tests.
 TEST(ReflectedLight, AccuracyIsThatOfReflectedLight) {
   int runs = 0, limits_exceeded = 0, means_missed = 0;
   for (const TestScene& test : scenes_with_light()) {
@@ -302,7 +318,7 @@ TEST(ReflectedLight, AccuracyIsThatOfReflectedLight) {
       means_missed += missed ? 1 : 0;
     }
   }
-  EXPECT_EQ(runs, 22);
+  EXPECT_EQ(runs, 24);
   EXPECT_LE(limits_exceeded, 4);
   EXPECT_LE(means_missed, 4);
 }

@@ -66,7 +66,7 @@ TEST(Study, ErrorsAreRelativeToReflectedLightWithoutSources) {
   off[3].g += 0.5;
   off[28].g += 1000;
   const RadiosityError error = radiosity_error(*scene, off, one);
-  EXPECT_NEAR(error.rms, std::sqrt(0.25 / (3 * 27)), 1e-15);
+  EXPECT_NEAR(error.rms, std::sqrt(0.25 / 27), 1e-15);
   EXPECT_DOUBLE_EQ(error.max, 0.5);
   for (std::vector<Rgb>* values : {&one, &off}) {
     for (Rgb& b : *values) {

@@ -209,10 +209,12 @@ class ColorChoiceTest : public QObject {
     colors.fit(times(*snapshot, 1.25));
     QCOMPARE(colors.scale().low, -colors.scale().high);
     bool any = false;
-    const std::vector<double> units = compare_runs(*snapshot, *snapshot).units;
+    const std::vector<Rgb> units = compare_runs(*snapshot, *snapshot).units;
     for (std::size_t i = 0; i < colors.values().size(); ++i) {
-      const Rgb expected = (25 / units[i]) * snapshot->radiosity[i];  // percent
-      QVERIFY(units[i] == 0 || max_abs(colors.values()[i] - expected) < 1e-9);
+      const Rgb& unit = units[i];
+      const Rgb expected =
+          25 * snapshot->radiosity[i] * Rgb{1 / unit.r, 1 / unit.g, 1 / unit.b};  // percent
+      QVERIFY(max_abs(unit) == 0 || max_abs(colors.values()[i] - expected) < 1e-9);
       any = any || colors.patch_colors()[i] == color_of(ColorMap::diverging, 1);
     }
     QVERIFY(any);

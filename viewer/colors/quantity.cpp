@@ -95,15 +95,18 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
   if (!other) {
     return {{}, tr("Keep a run of this scene first (K): it becomes A.")};
   }
-  // Percent of the surface's level; not a number where the patch is omitted.
+  // Percent of each channel of the surface's level; not a number where the patch is omitted.
   const ResultComparison comparison = compare_runs(*other, snapshot);
-  const std::vector<double>& units = comparison.units;
-  if (std::all_of(units.begin(), units.end(), [](double unit) { return unit == 0; })) {
+  const std::vector<Rgb>& units = comparison.units;
+  if (std::all_of(units.begin(), units.end(), [](const Rgb& u) { return max_abs(u) == 0; })) {
     return {{}, tr("A reflects no light, which differences would be relative to.")};
   }
-  std::vector<double> percent;
-  for (const double unit : units) {
-    percent.push_back(unit > 0 ? 100 / unit : std::numeric_limits<double>::quiet_NaN());
+  std::vector<Rgb> percent;
+  const auto percent_of = [](double unit) {
+    return unit > 0 ? 100 / unit : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (const Rgb& unit : units) {
+    percent.push_back({percent_of(unit.r), percent_of(unit.g), percent_of(unit.b)});
   }
   PatchValues result;
   for (std::size_t i = 0; i < snapshot.radiosity.size(); ++i) {

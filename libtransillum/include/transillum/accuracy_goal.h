@@ -12,17 +12,18 @@
 namespace TRANSILLUM_API transillum {
 
 /// The error that an AccuracyGoal is about, relative to reflected light (reflected_light()). All
-/// are limits that are not exceeded in 95 % of all runs, by the spread of replicas.
+/// are limits that are not exceeded in 95 % of all runs, by the spread of replicas, of the channel
+/// that is off the most; each channel is relative to its own light.
 enum class AccuracyOf {
   /// RMS error of B - E on the worst surface, over the RMS of B - E there (SurfaceErrors::limit).
   /// Surfaces are groups; in a file without, materials; without both, connected components.
   surfaces,
   groups,      ///< the same, of the surfaces named alone
   irradiance,  ///< the same as `surfaces`, of H instead of B - E
-  rms,         ///< RMS error of B over RMS of reflected light, over patches and channels
+  rms,         ///< RMS error of B over RMS of reflected light, over patches
   max,         ///< largest error over the largest reflected light
-  patch,       ///< error of one patch over its B - E, as lengths of RGB vectors
-  mean,  ///< error of the area-weighted mean of B over the mean of B - E, as lengths of RGB vectors
+  patch,       ///< error of one patch over its B - E
+  mean,        ///< error of the area-weighted mean of B over the mean of B - E
 };
 
 /// The names of the errors (choice.h). The number of a patch follows the name `patch`, names

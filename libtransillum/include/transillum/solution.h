@@ -62,13 +62,15 @@ struct SurfaceError {
   std::int64_t patches = 0;  ///< number of patches that are measured
   double area = 0;           ///< their area, m²
   double level = 0;          ///< RMS of the quantity over patches and channels, W/m²
-  /// `level`, or 1/1000 of the level of the brightest surface where that is larger, W/m²
-  double unit = 0;
-  bool is_dark = false;  ///< `level` is below 1/1000 of the level of the brightest surface
-  double spread = 0;     ///< RMS error by the spread of replicas, relative
-  double bias = 0;       ///< RMS of what iterations and the first shot may leave, relative
-  double rms = 0;        ///< root of the sum of the squares of both
-  double limit = 0;  ///< relative RMS error that this surface does not exceed in 95 % of all runs
+  /// RMS of the quantity over the patches, or 1/1000 of the brightest surface's where that is
+  /// larger; each channel by itself, unless it is unlit (below 1e-6 of the brightest one). W/m²
+  Rgb unit;
+  bool is_dark = false;  ///< all channels are below 1/1000 of the brightest surface's
+  // The errors are given for the channel that is off the most, over its unit.
+  double spread = 0;  ///< RMS error by the spread of replicas, relative
+  double bias = 0;    ///< RMS of what iterations and the first shot may leave, relative
+  double rms = 0;     ///< root of the sum of the squares of both
+  double limit = 0;   ///< relative RMS error that this surface does not exceed in 95 % of all runs
   double independent_errors = 1;  ///< see ErrorEstimate::independent_errors
 };
 
@@ -92,15 +94,16 @@ struct ErrorEstimate {
   int replicas = 0;                 ///< 0 means no estimate: all other members are empty
   std::vector<Rgb> standard_error;  ///< standard error of B, W/m², one per patch
   double quantile = 0;  ///< Student's t, two-sided 95 %, replicas - 1 degrees of freedom
-  /// RMS of the errors over RMS of the reflected light (reflected_light()), over patches and
-  /// channels
+  /// RMS over patches of the errors over that of the reflected light (reflected_light()), of the
+  /// channel that is off the most. A channel below 1e-6 of the brightest one is relative to this.
   double rms = 0;
   /// Limit that the relative RMS error stays below in 95 % of all runs. Larger than `rms` by the
   /// uncertainty of an estimate from few replicas: a quantile of the F distribution, less so the
   /// more independent the errors of the patches are.
   double rms_limit = 0;
   double rms_lowest = 0;  ///< limit exceeded in 95 % of all runs; with rms_limit a 90 % interval
-  /// Number of independent errors that would vary as the errors of all patches do together, >= 1
+  /// Number of independent errors that would vary as the errors of all patches do together, in the
+  /// same channel, >= 1
   double independent_errors = 1;
   Rgb mean_radiosity;        ///< area-weighted mean of B, W/m²
   Rgb mean_standard_error;   ///< standard error of this mean, W/m²

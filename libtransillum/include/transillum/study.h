@@ -28,8 +28,9 @@ namespace TRANSILLUM_API transillum {
 /// The error of B against a reference, relative to the reference's reflected light, on the patches
 /// where that is measured (reflected_light()).
 struct RadiosityError {
-  double rms = 0;  ///< RMS of the difference over RMS of the light, over patches and channels
-  double max = 0;  ///< largest magnitude of the difference over the largest of the light
+  double rms = 0;  ///< RMS of the difference over RMS of the light, as ErrorEstimate::rms
+  /// Largest magnitude of the difference over the largest of the light, over patches and channels.
+  double max = 0;
 };
 /// Computes the error of `b`. Not finite where nothing is reflected.
 /// @param scene the scene, with E.

@@ -200,7 +200,8 @@ void add_accuracy(Table& t) {
             "that emit: surfaces, the RMS error of each group (material, connected component) over "
             "its own RMS, the worst of all; groups:NAME,..., the same of these groups; irradiance, "
             "the same of H; rms, of all surfaces together; max, the largest error over the largest "
-            "value; patch:I, the error of patch I; mean, the error of the mean");
+            "value; patch:I, the error of patch I; mean, the error of the mean; each in the color "
+            "channel that is off the most");
   of.choices = {"surfaces", "groups:NAME,...", "irradiance", "rms", "max", "patch:I", "mean"};
   of.lists_choices = true;
   of.parse = [](RunOptions& o, const std::string& text) {

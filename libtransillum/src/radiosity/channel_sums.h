@@ -1,6 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <algorithm>
+
+#include "radiosity/ratio.h"
 #include "transillum/vec3.h"
 
 namespace transillum {
@@ -9,5 +12,25 @@ namespace transillum {
 inline double sum(const Rgb& c) { return c.r + c.g + c.b; }
 /// Square of the length of a color as a vector of its channels.
 inline double sum_of_squares(const Rgb& c) { return c.r * c.r + c.g * c.g + c.b * c.b; }
+
+/// A patch or channel with less than this fraction of the largest reflected light is unlit.
+inline constexpr double least_light = 1e-6;
+
+/// The larger of each channel.
+inline Rgb largest_of(const Rgb& a, const Rgb& b) {
+  return {std::max(a.r, b.r), std::max(a.g, b.g), std::max(a.b, b.b)};
+}
+
+/// The values that errors are relative to: each channel has its own, as if it were solved alone
+/// (decision 79). An unlit channel is relative to the least light that is not.
+inline Rgb channel_units(const Rgb& values) {
+  return largest_of(values, least_light * max_abs(values) * Rgb{1, 1, 1});
+}
+
+/// The largest of the channels' ratios; 0 where `units` is not above 0.
+inline double largest_ratio(const Rgb& values, const Rgb& units) {
+  return std::max({ratio_or_zero(values.r, units.r), ratio_or_zero(values.g, units.g),
+                   ratio_or_zero(values.b, units.b)});
+}
 
 }  // namespace transillum

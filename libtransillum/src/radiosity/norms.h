@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/power_of_two.h"
 #include "radiosity/channel_sums.h"
 #include "transillum/scene.h"
 
@@ -25,6 +26,15 @@ inline double max_norm(const std::vector<Rgb>& values) {
   double largest = 0;
   for (const Rgb& value : values) {
     largest = std::max(largest, max_abs(value));
+  }
+  return largest;
+}
+
+/// Largest magnitude over patches, of each channel.
+inline Rgb largest_magnitudes(const std::vector<Rgb>& values) {
+  Rgb largest;
+  for (const Rgb& value : values) {
+    largest = largest_of(largest, {std::abs(value.r), std::abs(value.g), std::abs(value.b)});
   }
   return largest;
 }
@@ -53,6 +63,20 @@ inline double root_of_squares(const std::vector<Rgb>& values, double unit) {
     squares += sum_of_squares((1 / unit) * value);
   }
   return std::sqrt(squares);
+}
+
+/// Relative RMS error of the channel that is off the most: a dark channel has its own measure.
+/// @param errors of `values`, 0 where these are not measured
+inline double worst_relative_rms(const std::vector<Rgb>& errors, const std::vector<Rgb>& values) {
+  const double scale = scale_to_one(max_norm(values));
+  const auto root = [&](const std::vector<Rgb>& list) {
+    Rgb squares;
+    for (const Rgb& value : list) {
+      squares += (scale * value) * (scale * value);
+    }
+    return Rgb{std::sqrt(squares.r), std::sqrt(squares.g), std::sqrt(squares.b)};
+  };
+  return largest_ratio(root(errors), channel_units(root(values)));
 }
 
 }  // namespace transillum

@@ -19,8 +19,6 @@
 namespace transillum {
 namespace {
 
-/// Patches with less than this fraction of the largest reflected light are reported as unlit.
-constexpr double least_light = 1e-6;
 constexpr double dimmest_fraction = 0.1;  ///< fraction of the lit area
 
 constexpr double Rgb::*channels[] = {&Rgb::r, &Rgb::g, &Rgb::b};

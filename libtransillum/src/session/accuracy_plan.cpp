@@ -85,15 +85,14 @@ double fitting_directions(const StageResult& result) {
                    : max_directions;
 }
 
-double length(const Rgb& v) { return std::hypot(v.r, v.g, v.b); }
-
 double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorEstimate& error) {
   const std::vector<char> measured = ReflectedLight(scene).measured(b);
-  double largest = 0;
+  Rgb largest;
   for (std::size_t i = 0; i < b.size(); ++i) {
-    largest = measured[i] != 0 ? std::max(largest, max_abs(error.standard_error[i])) : largest;
+    largest = measured[i] != 0 ? largest_of(largest, error.standard_error[i]) : largest;
   }
-  return ratio_or_zero(error.quantile * largest, max_norm(reflected_light(scene, b)));
+  return error.quantile *
+         largest_ratio(largest, channel_units(largest_magnitudes(reflected_light(scene, b))));
 }
 
 /// The part of error_for() that a bias of B makes; 0 without an estimate.
@@ -131,11 +130,12 @@ double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector
     case AccuracyOf::max:
       return largest_error(scene, b, error);
     case AccuracyOf::patch:
-      return ratio_or_zero(error.quantile * length(at(error.standard_error, goal.patch)),
-                           length(at(b, goal.patch) - scene.exitance(goal.patch)));
+      return error.quantile *
+             largest_ratio(at(error.standard_error, goal.patch),
+                           channel_units(at(b, goal.patch) - scene.exitance(goal.patch)));
     case AccuracyOf::mean:
-      return ratio_or_zero(error.quantile * length(error.mean_standard_error),
-                           length(error.mean_reflected));
+      return error.quantile *
+             largest_ratio(error.mean_standard_error, channel_units(error.mean_reflected));
     case AccuracyOf::rms:
       break;
   }

@@ -19,7 +19,8 @@
 
 namespace transillum {
 
-/// The four errors of a surface, relative to SurfaceError::unit.
+/// The four errors of a surface, relative to SurfaceError::unit, each of the channel that is off
+/// the most by it.
 struct CauseErrors {
   double directions = 0;  ///< too few: limit that holds in 95 % of all runs, by replicas
   double patches = 0;     ///< too large: RMS of B(x) against the functions of patches, estimated
@@ -35,7 +36,7 @@ struct SurfaceCauses {
   std::string name;          ///< SurfaceError::name
   std::int64_t patches = 0;  ///< SurfaceError::patches
   double area = 0;           ///< m²
-  double unit = 0;           ///< SurfaceError::unit, W/m²
+  Rgb unit;                  ///< SurfaceError::unit, W/m²
   bool is_dark = false;      ///< SurfaceError::is_dark
   CauseErrors errors = {};   ///< now
   double divided_alone = 0;  ///< CauseErrors::patches with the patches of this surface divided
@@ -77,10 +78,10 @@ struct ErrorReport {
   std::vector<SurfaceCauses> surfaces;  ///< in the order of SurfaceErrors::surfaces
   int worst = -1;                       ///< index of the largest total; -1 if there is none
   std::vector<NextStep> steps;          ///< by decreasing gain(), without those that gain nothing
-  /// Per patch: RMS over the patch of B(x) against its functions, estimated, W/m².
+  /// Per patch: RMS over the patch of B(x) against its functions, estimated, over the unit of its
+  /// surface, of the channel that is off the most; 0 where no error is reported.
   std::vector<double> patch_errors;
-  /// Per patch: `patch_errors` and the standard error of B, added, over the unit of its surface; 0
-  /// where no error is reported.
+  /// Per patch: `patch_errors` and the relative standard error of B, added; likewise.
   std::vector<double> relative_errors;
   ErrorMeasurements measurements;
 

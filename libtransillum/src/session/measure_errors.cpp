@@ -81,7 +81,8 @@ class Measuring {
   Solution solve_again(SolveOptions options, const std::shared_ptr<const Scene>& scene,
                        const std::shared_ptr<const DirectLight>& shot, Measurement what) const;
   std::shared_ptr<const DirectLight> shot_of(const DividedScene& divided) const;
-  /// RMS of a quantity by surface, over the unit of each; 0 without values.
+  /// RMS of a quantity by surface, over the unit of each, of the channel where it is largest; 0
+  /// without values.
   std::vector<double> relative(const std::vector<Rgb>& values) const;
 
   const MeasuredSolve& solve_;
@@ -158,13 +159,10 @@ void Measuring::measure_directions() {
 }
 
 std::vector<double> Measuring::relative(const std::vector<Rgb>& values) const {
-  const std::vector<Rgb>& b = solve_.solution.radiosity;
-  const SurfaceErrors errors = surface_differences(
-      surfaces_.reflecting, difference(b, ReflectedLight(scene_).exitance()), values);
+  const std::vector<Rgb> rms = rms_by_surface(surfaces_.reflecting, values);
   std::vector<double> result;
   for (std::size_t s = 0; s < report_.surfaces.size(); ++s) {
-    const SurfaceError& surface = errors.surfaces[s];
-    result.push_back(ratio_or_zero(surface.rms * surface.unit, report_.surfaces[s].unit));
+    result.push_back(largest_ratio(rms[s], report_.surfaces[s].unit));
   }
   return result;
 }
@@ -184,7 +182,7 @@ void Measuring::measure_method() {
       relative(solve_.shot ? bias_of_shot(scene_, surfaces_, *solve_.shot) : std::vector<Rgb>());
   for (std::size_t s = 0; s < report_.surfaces.size(); ++s) {
     SurfaceCauses& surface = report_.surfaces[s];
-    const double engine = ratio_or_zero(at(method.rms, s), surface.unit);
+    const double engine = largest_ratio(at(method.rms, s), surface.unit);
     surface.errors.method = std::max(engine, method.lost.value_or(0)) + shot[s];
   }
   ErrorMeasurements& measurements = report_.measurements;
@@ -263,16 +261,17 @@ void Measuring::measure_patches(std::int64_t most_patches) {
   sum_patches(squares, chosen, noise_of_division(fine.error.surfaces));
 }
 
-/// Mean square of what the parts of patches differ by because of the directions alone: their
-/// replicas vary more than replicas of the whole patches.
+/// Mean square of what the parts of patches differ by because of the directions alone, relative:
+/// their replicas vary more than replicas of the whole patches.
 std::vector<double> Measuring::noise_of_division(const SurfaceErrors& fine) const {
   const SurfaceErrors& whole = solve_.solution.error.surfaces;
   std::vector<double> noise(report_.surfaces.size());
   const bool known = report_.measurements.divided_fraction == 1 &&
                      fine.surfaces.size() == noise.size() && whole.surfaces.size() == noise.size();
   for (std::size_t s = 0; known && s < noise.size(); ++s) {
-    const double parts = fine.surfaces[s].spread * fine.surfaces[s].unit;
-    const double wholes = whole.surfaces[s].spread * whole.surfaces[s].unit;
+    const double parts = fine.surfaces[s].spread * ratio_or_zero(max_abs(fine.surfaces[s].unit),
+                                                                 max_abs(whole.surfaces[s].unit));
+    const double wholes = whole.surfaces[s].spread;
     noise[s] = std::max(0.0, parts * parts - wholes * wholes);
   }
   return noise;
@@ -281,16 +280,18 @@ std::vector<double> Measuring::noise_of_division(const SurfaceErrors& fine) cons
 void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchId>& chosen,
                             const std::vector<double>& noise) {
   struct Sums {
-    double area = 0, within = 0, shifted = 0;
+    double area = 0;
+    Rgb within, shifted;
   };
   std::vector<Sums> sums(surfaces_.reflecting.surfaces.size());
   report_.patch_errors.assign(scene_.patches().size(), 0);
   for (const PatchId i : chosen) {
-    const double within = at(squares.unrepresented, i), shifted = at(squares.displaced, i);
+    const Rgb &within = at(squares.unrepresented, i), &shifted = at(squares.displaced, i);
     const double area = scene_.patch(i).area;
-    at(report_.patch_errors, i) =
-        std::sqrt((within_error * within + shift_error * shifted) / (3 * area));
     if (const std::int32_t s = surfaces_.reflecting.of(i); s != Surfaces::none) {
+      const Rgb& unit = at(report_.surfaces, s).unit;
+      at(report_.patch_errors, i) = std::sqrt(
+          largest_ratio((1 / area) * (within_error * within + shift_error * shifted), unit * unit));
       at(sums, s).area += area;
       at(sums, s).within += within;
       at(sums, s).shifted += shifted;
@@ -298,12 +299,18 @@ void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchI
   }
   for (std::size_t s = 0; s < sums.size(); ++s) {
     SurfaceCauses& surface = report_.surfaces[s];
-    const double entries = 3 * sums[s].area;
-    const double within = std::max(0.0, ratio_or_zero(sums[s].within, entries) - noise[s]);
-    const double shifted = ratio_or_zero(sums[s].shifted, entries);
+    const Rgb unit = sums[s].area * surface.unit * surface.unit;
     const auto error = [&](double within_factor, double shift_factor) {
-      return ratio_or_zero(std::sqrt(within_factor * within + shift_factor * shifted),
-                           surface.unit);
+      double largest = 0;
+      for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+        const auto relative = [&](const Rgb& of) {
+          return ratio_or_zero(of.*channel, unit.*channel);
+        };
+        const double within = std::max(0.0, relative(sums[s].within) - noise[s]);
+        largest =
+            std::max(largest, within_factor * within + shift_factor * relative(sums[s].shifted));
+      }
+      return std::sqrt(largest);
     };
     surface.errors.patches = error(within_error, shift_error);
     surface.divided_alone = error(left_within * within_error, shift_error);
@@ -314,7 +321,7 @@ void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchI
     const std::int32_t s = surfaces_.reflecting.of(i);
     if (s != Surfaces::none && !std::binary_search(chosen.begin(), chosen.end(), i)) {
       const SurfaceCauses& surface = at(report_.surfaces, s);
-      at(report_.patch_errors, i) = surface.errors.patches * surface.unit;
+      at(report_.patch_errors, i) = surface.errors.patches;
     }
   }
 }
@@ -328,10 +335,11 @@ void Measuring::add_up() {
   }
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
     const std::int32_t s = surfaces_.reflecting.of(i);
-    const double error =
-        at(report_.patch_errors, i) + std::sqrt(sum_of_squares(at(standard_error_, i)) / 3);
     report_.relative_errors.push_back(
-        s == Surfaces::none ? 0 : ratio_or_zero(error, at(report_.surfaces, s).unit));
+        s == Surfaces::none
+            ? 0
+            : at(report_.patch_errors, i) +
+                  largest_ratio(at(standard_error_, i), at(report_.surfaces, s).unit));
   }
 }
 

@@ -62,10 +62,10 @@ double reflections(const Scene& scene) {
 }
 
 /// RMS over the patches of each surface of the error of M passes.
-std::vector<double> rms_by_surface(const DirectionSums& sums, const Scene& scene,
-                                   const Surfaces& surfaces, double compared, double passes) {
+std::vector<Rgb> rms_by_surface(const DirectionSums& sums, const Scene& scene,
+                                const Surfaces& surfaces, double compared, double passes) {
   const double growth = reflections(scene);
-  std::vector<double> squares(surfaces.surfaces.size());
+  std::vector<Rgb> squares(surfaces.surfaces.size());
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const std::int32_t s = surfaces.of(i);
     if (s == Surfaces::none) {
@@ -79,12 +79,14 @@ std::vector<double> rms_by_surface(const DirectionSums& sums, const Scene& scene
                        : 0;
       const double common = mean * mean - variance / compared;
       const double factor = growth * scene.reflectance(i).*channel;
-      at(squares, s) += factor * factor * (common + variance / passes);
+      at(squares, s).*channel += factor * factor * (common + variance / passes);
     }
   }
   for (std::size_t s = 0; s < squares.size(); ++s) {
-    const double entries = 3.0 * static_cast<double>(surfaces.surfaces[s].patches);
-    squares[s] = std::sqrt(std::max(0.0, squares[s]) / entries);
+    const auto patches = static_cast<double>(surfaces.surfaces[s].patches);
+    for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+      squares[s].*channel = std::sqrt(std::max(0.0, squares[s].*channel) / patches);
+    }
   }
   return squares;
 }

@@ -12,8 +12,8 @@ namespace transillum {
 
 /// The errors that the engine of a solve makes, from some of its directions.
 struct MethodErrors {
-  std::vector<double> rms;  ///< by surface: RMS error of B over patches and channels, W/m²
-  int directions = 0;       ///< along which transfers were compared
+  std::vector<Rgb> rms;              ///< by surface: RMS error of B over patches, W/m²
+  int directions = 0;                ///< along which transfers were compared
   Engine reference = Engine::exact;  ///< that they were compared with
   std::optional<double> lost;        ///< ErrorMeasurements::lost
 };

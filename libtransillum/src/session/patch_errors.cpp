@@ -16,7 +16,7 @@ namespace {
 
 /// Integrals of B over a patch, times its functions, from the patches that it is divided into.
 struct Projection {
-  double square = 0;                ///< integral of |B|²
+  Rgb square;                       ///< integral of B²
   std::array<Rgb, 3> coefficients;  ///< integrals of B phi_a, over the area
 };
 
@@ -74,11 +74,12 @@ std::array<Rgb, 3> coefficients(const Solution& solution, PatchId i) {
 
 }  // namespace
 
-double square_integral(const Solution& solution, PatchId i) {
-  double sum = sum_of_squares(at(solution.radiosity, i));
+Rgb square_integral(const Solution& solution, PatchId i) {
+  const Rgb& mean = at(solution.radiosity, i);
+  Rgb sum = mean * mean;
   if (!solution.linear_terms.empty()) {
     const LinearTerm& term = at(solution.linear_terms, i);
-    sum += sum_of_squares(term.first) + sum_of_squares(term.second);
+    sum += term.first * term.first + term.second * term.second;
   }
   return solution.scene->patch(i).area * sum;
 }
@@ -90,16 +91,17 @@ PatchErrors patch_errors(const Scene& whole, const DividedScene& divided, const 
   for (PatchId i = 0; i < whole.patch_count(); ++i) {
     const Projection& p = at(onto, i);
     const double area = whole.patch(i).area;
-    double represented = 0;
+    Rgb represented;
     for (const Rgb& c : p.coefficients) {
-      represented += sum_of_squares(c);
+      represented += c * c;
     }
-    errors.unrepresented.push_back(std::max(0.0, p.square - area * represented));
+    errors.unrepresented.push_back(largest_of({}, p.square - area * represented));
     if (coarse != nullptr) {
       const std::array<Rgb, 3> found = coefficients(*coarse, i);
-      double squares = 0;
+      Rgb squares;
       for (std::size_t a = 0; a < found.size(); ++a) {
-        squares += sum_of_squares(p.coefficients[a] - found[a]);
+        const Rgb off = p.coefficients[a] - found[a];
+        squares += off * off;
       }
       errors.displaced.push_back(area * squares);
     }

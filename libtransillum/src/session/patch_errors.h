@@ -10,13 +10,13 @@
 namespace transillum {
 
 /// The errors of the functions of patches, found by a solve with divided patches. Integrals over
-/// each patch of the whole scene of squares of W/m², summed over channels: W²/m².
+/// each patch of the whole scene of squares of W/m², by channel: W²/m².
 struct PatchErrors {
   /// The part of the radiosity that the functions of the patch cannot represent.
-  std::vector<double> unrepresented;
+  std::vector<Rgb> unrepresented;
   /// Difference between what they can represent and what the solve with whole patches has found:
   /// patches that send light are too coarse. Empty without such a solve.
-  std::vector<double> displaced;
+  std::vector<Rgb> displaced;
 };
 
 /// Compares a solve with divided patches with one with whole patches.
@@ -26,7 +26,7 @@ struct PatchErrors {
 PatchErrors patch_errors(const Scene& whole, const DividedScene& divided, const Solution& fine,
                          const Solution* coarse = nullptr);
 
-/// Integral of |B|² over patch i.
-double square_integral(const Solution& solution, PatchId i);
+/// Integral of B² over patch i.
+Rgb square_integral(const Solution& solution, PatchId i);
 
 }  // namespace transillum

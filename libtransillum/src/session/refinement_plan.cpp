@@ -13,6 +13,7 @@
 
 #include "base/choice.h"
 #include "base/seconds_since.h"
+#include "radiosity/channel_sums.h"
 #include "scene/build/patch_count.h"
 #include "session/divisions.h"
 #include "session/patch_errors.h"
@@ -29,15 +30,24 @@ constexpr double growth = 2;
 /// the rest, the others are left alone, though there would be room.
 constexpr double negligible = 1e-3;
 
-/// Integral of |B|² over all patches that emit nothing; over all if each emits.
+/// Integral of |B|², over channels, over all patches that emit nothing; over all if each emits.
 double square_integral(const Solution& solution) {
   double passive = 0, all = 0;
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
-    const double square = square_integral(solution, i);
+    const double square = sum(square_integral(solution, i));
     all += square;
     passive += max_abs(solution.scene->exitance(i)) > 0 ? 0 : square;
   }
   return passive > 0 ? passive : all;
+}
+
+std::vector<double> squares_by_error(const Scene& whole, const DividedScene& divided,
+                                     const Solution& solution) {
+  std::vector<double> result;
+  for (const Rgb& squares : patch_errors(whole, divided, solution).unrepresented) {
+    result.push_back(sum(squares));
+  }
+  return result;
 }
 
 std::vector<double> squares_by_jump(const Solution& solution, const Cancellation& cancellation) {
@@ -183,7 +193,7 @@ const RefinementRound& RefinementPlan::assess(const Solution& solution, double s
   const auto start = Clock::now();
   squares_ = refine_.by == RefineBy::jump
                  ? squares_by_jump(solution, cancellation)
-                 : patch_errors(*refined_, {scene_, parent_}, solution).unrepresented;
+                 : squares_by_error(*refined_, {scene_, parent_}, solution);
   const double sum = std::accumulate(squares_.begin(), squares_.end(), 0.0);
   RefinementRound& round = rounds_.emplace_back();
   round.patches = refined_->patch_count();

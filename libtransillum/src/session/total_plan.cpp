@@ -81,7 +81,7 @@ std::vector<PatchId> patches_to_divide(const Scene& scene, const ErrorReport& re
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     if (const std::int32_t s = surfaces.of(i); s != Surfaces::none) {
       const SurfaceCauses& surface = at(report.surfaces, s);
-      const double error = at(report.patch_errors, i) / surface.unit;
+      const double error = at(report.patch_errors, i);
       at(by_surface, s).push_back({error * error * scene.patch(i).area / surface.area, i});
     }
   }

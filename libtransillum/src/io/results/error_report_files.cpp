@@ -59,6 +59,8 @@ std::string duration(double seconds) {
                        : fmt::format("{:.0f} min", std::ceil(seconds / 60));
 }
 
+double root_mean_square(const Rgb& c) { return std::sqrt((c.r * c.r + c.g * c.g + c.b * c.b) / 3); }
+
 OrderedJson errors_json(const CauseErrors& errors) {
   OrderedJson json;
   for (const Cause& cause : causes) {
@@ -95,7 +97,7 @@ OrderedJson report_json(const ErrorReport& report, const MeasuredSolve& solve) {
     json["surfaces"].push_back({{"name", surface.name},
                                 {"patches", surface.patches},
                                 {"area", surface.area},
-                                {"unit", surface.unit},
+                                {"unit", root_mean_square(surface.unit)},
                                 {"dark", surface.is_dark},
                                 {"errors", errors_json(surface.errors)},
                                 {"divided_alone", surface.divided_alone},

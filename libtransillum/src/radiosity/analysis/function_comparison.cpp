@@ -100,19 +100,20 @@ class RadiosityFunction {
 
 /// Integrals of squares.
 struct Squares {
-  double difference = 0, reference = 0;
+  Rgb difference, reference;
 
-  void add(double of_difference, double of_reference) {
-    difference += of_difference;
-    reference += of_reference;
+  void add(double weight, const Rgb& of_difference, const Rgb& of_reference) {
+    difference += weight * of_difference * of_difference;
+    reference += weight * of_reference * of_reference;
   }
   double relative() const {
-    if (difference == 0) {
+    if (max_abs(difference) == 0) {
       return 0;
     }
-    return reference > 0 ? std::sqrt(difference / reference)
-                         : std::numeric_limits<double>::infinity();
+    return max_abs(reference) > 0 ? largest_ratio(root(difference), channel_units(root(reference)))
+                                  : std::numeric_limits<double>::infinity();
   }
+  static Rgb root(const Rgb& c) { return {std::sqrt(c.r), std::sqrt(c.g), std::sqrt(c.b)}; }
 };
 
 }  // namespace
@@ -151,17 +152,16 @@ FunctionDifference compare_functions(const Solution& reference, const Solution& 
                                        patch.face, material));
         }
         const Rgb one = of_fine.at_point(piece.patch, point), two = of_coarse.at_point(near, point);
-        const double difference = weight * sum_of_squares(one - two);
         const Rgb& exitance = fine.scene->exitance(piece.patch);
-        const double value = weight * sum_of_squares((other_is_finer ? two : one) - exitance);
-        of_all.add(difference, value);
+        const Rgb value = (other_is_finer ? two : one) - exitance;
+        of_all.add(weight, one - two, value);
         if (max_abs(exitance) == 0) {
-          of_others.add(difference, value);
+          of_others.add(weight, one - two, value);
         }
       }
     }
   }
-  return {(of_others.reference > 0 ? of_others : of_all).relative(), area};
+  return {(max_abs(of_others.reference) > 0 ? of_others : of_all).relative(), area};
 }
 
 }  // namespace transillum

@@ -7,9 +7,9 @@ namespace transillum {
 
 /// How much the radiosities of two results differ, as functions on the surfaces.
 struct FunctionDifference {
-  /// Root of ∫ |difference|² over channels and the faces where reflected light is measured
-  /// (reflected_light()), over the root of ∫ (B - E)² of the reference; 0 where nothing differs,
-  /// infinite where only the reference is dark.
+  /// Root of ∫ difference² over the faces where reflected light is measured (reflected_light()),
+  /// over the root of ∫ (B - E)² of the reference, of the channel that differs the most; 0 where
+  /// nothing differs, infinite where only the reference is dark.
   double l2 = 0;
   double area = 0;  ///< area of all patches, m²
 };

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 #include <vector>
@@ -156,12 +157,13 @@ Surfaces as_one(const Surfaces& surfaces) {
   return whole;
 }
 
-/// |value| over `unit`; 0 / 0 is 0.
-double relative(double value, double unit) {
-  if (value == 0) {
-    return 0;
+/// The largest |difference| of a channel over its unit; 0 / 0 is 0.
+double relative_size(const Rgb& difference, const Rgb& unit) {
+  if (max_abs(difference) > 0 && !(max_abs(unit) > 0)) {
+    return std::numeric_limits<double>::infinity();
   }
-  return unit > 0 ? value / unit : std::numeric_limits<double>::infinity();
+  return largest_ratio({std::abs(difference.r), std::abs(difference.g), std::abs(difference.b)},
+                       unit);
 }
 
 }  // namespace
@@ -184,12 +186,12 @@ ResultComparison compare_light(const Scene& scene, const PatchLight& first,
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const std::int32_t of = surfaces.of(i);
     if (of == Surfaces::none) {
-      result.units.push_back(0);
+      result.units.emplace_back();
       continue;
     }
     SurfaceDifference& surface = at(result.surfaces, of);
     result.units.push_back(surface.unit);
-    const double size = relative(max_abs(at(differences, i)), surface.unit);
+    const double size = relative_size(at(differences, i), surface.unit);
     if (size > surface.largest) {
       surface.largest = size;
       surface.worst = i;

@@ -15,11 +15,10 @@ struct SurfaceDifference {
   std::string name;          ///< group, material or component (SurfaceError::name)
   std::int64_t patches = 0;  ///< number of patches that are compared
   double level = 0;          ///< RMS of the reflected light of the first result, W/m²
-  /// `level`, or 1/1000 of the level of the brightest surface where that is larger, W/m²
-  double unit = 0;
-  bool is_dark = false;  ///< `level` is below 1/1000 of the level of the brightest surface
-  /// RMS of the differences of B over patches and channels, relative; 0 where nothing differs,
-  /// infinite where only the first result is dark everywhere
+  Rgb unit;                  ///< SurfaceError::unit of its reflected light
+  bool is_dark = false;      ///< SurfaceError::is_dark
+  /// RMS of the differences of B over patches, relative, of the channel that differs the most; 0
+  /// where nothing differs, infinite where only the first result is dark everywhere
   double rms = 0;
   double largest = 0;        ///< largest |difference| of a channel, relative
   PatchId worst = no_patch;  ///< the patch with the largest difference; no_patch: nothing differs
@@ -31,10 +30,11 @@ struct SurfaceDifference {
 /// omitted, unless all do.
 struct ResultComparison {
   std::vector<SurfaceDifference> surfaces;  ///< the largest RMS first; not empty
-  /// RMS of all differences over the RMS of all reflected light of the first result
+  /// RMS of all differences over the RMS of all reflected light of the first result, of the channel
+  /// that differs the most
   double rms = 0;
   /// By patch: `unit` of its surface, W/m²; 0 for patches that are omitted.
-  std::vector<double> units;
+  std::vector<Rgb> units;
   std::string sky_difference = {};  ///< transillum::sky_difference()
 };
 

@@ -54,10 +54,8 @@ std::vector<Rgb> measured_difference(const ReflectedLight& light, const std::vec
 
 /// @param off error of `reflected`
 RadiosityError relative_error(const std::vector<Rgb>& off, const std::vector<Rgb>& reflected) {
-  const double largest = max_norm(reflected);
-  // The squares of very large or very small radiosities are out of range.
-  const double unit = 1 / scale_to_one(largest);
-  return {root_of_squares(off, unit) / root_of_squares(reflected, unit), max_norm(off) / largest};
+  const double largest = max_norm(reflected), max = max_norm(off) / largest;
+  return {largest > 0 ? worst_relative_rms(off, reflected) : max, max};
 }
 
 /// The text on the command line: `zbuffer:256`, or `fast`.

@@ -51,28 +51,43 @@ Rgb mean_over_area(const Scene& scene, const std::vector<Rgb>& b) {
   return (1 / area) * power;
 }
 
-/// Scalar products of the deviations of replicas from `b`, over patches and channels.
+/// Scalar products of the deviations of replicas from `b`, over patches.
 /// @param measured of ReflectedLight
-DeviationProducts scalar_products(const std::vector<Rgb>& b, const std::vector<char>& measured,
-                                  double scale, const std::vector<std::vector<Rgb>>& replicas) {
-  const std::size_t count = replicas.size();
-  DeviationProducts products(count, std::vector<double>(count));
-  std::vector<Rgb> off(count);
+ChannelProducts scalar_products(const std::vector<Rgb>& b, const std::vector<char>& measured,
+                                double scale, const std::vector<std::vector<Rgb>>& replicas) {
+  ChannelProducts products(replicas.size());
+  std::vector<Rgb> off(replicas.size());
   for (std::size_t i = 0; i < b.size(); ++i) {
-    for (std::size_t r = 0; measured[i] != 0 && r < count; ++r) {
-      off[r] = scale * (replicas[r][i] - b[i]);
-      for (std::size_t s = 0; s <= r; ++s) {
-        const Rgb product = off[r] * off[s];
-        products[r][s] += product.r + product.g + product.b;
+    if (measured[i] != 0) {
+      for (std::size_t r = 0; r < replicas.size(); ++r) {
+        off[r] = scale * (replicas[r][i] - b[i]);
       }
-    }
-  }
-  for (std::size_t r = 0; r < count; ++r) {
-    for (std::size_t s = 0; s < r; ++s) {
-      products[s][r] = products[r][s];
+      products.add(off);
     }
   }
   return products;
+}
+
+/// Sets the relative RMS error and its limits, by the channel with the largest limit.
+/// @param errors sum of the squares of the standard errors
+/// @param values sum of the squares of the reflected light
+void set_rms(ErrorEstimate& error, const Rgb& errors, const Rgb& values,
+             const ChannelProducts& products) {
+  const Rgb units = channel_units({std::sqrt(values.r), std::sqrt(values.g), std::sqrt(values.b)});
+  error.rms_limit = -1;
+  for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+    const double rms = ratio_or_zero(std::sqrt(errors.*channel), units.*channel);
+    const double independent = independent_errors(products.of(channel));
+    // The sum of squared errors over its estimate, both as sums of so many squares.
+    const boost::math::fisher_f fisher(independent, (error.replicas - 1) * independent);
+    const double limit = rms * std::sqrt(quantile(fisher, error_confidence));
+    if (limit > error.rms_limit || std::isnan(limit)) {
+      error.rms = rms;
+      error.rms_limit = limit;
+      error.rms_lowest = rms * std::sqrt(quantile(fisher, 1 - error_confidence));
+      error.independent_errors = independent;
+    }
+  }
 }
 
 /// The bias of H where the bias of B is `bias`, W/m²; where nothing is reflected, the mean over the
@@ -124,7 +139,7 @@ ErrorEstimate estimate_error(const Scene& scene, const ErrorSurfaces& surfaces,
   const ReflectedLight light(scene, per_patch);
   const std::vector<char> measured = light.measured(b);
   const double scale = scale_to_one(max_norm(light.of(b)));
-  double errors = 0, values = 0;
+  Rgb errors, values;
   for (std::size_t u = 0; u < b.size(); ++u) {
     const Rgb standard_error =
         standard_error_of(replicas.size(), scale, [&](std::size_t r) { return replicas[r][u]; });
@@ -132,17 +147,12 @@ ErrorEstimate estimate_error(const Scene& scene, const ErrorSurfaces& surfaces,
       error.standard_error.push_back(standard_error);
     }
     if (measured[u] != 0) {
-      errors += sum_of_squares(scale * standard_error);
-      values += sum_of_squares(scale * light.of(u, b[u]));
+      const Rgb off = scale * standard_error, value = scale * light.of(u, b[u]);
+      errors += off * off;
+      values += value * value;
     }
   }
-  error.rms = values > 0 ? std::sqrt(errors / values) : 0.0;
-  error.independent_errors = independent_errors(scalar_products(b, measured, scale, replicas));
-  // The sum of squared errors over its estimate, both as sums of so many squares.
-  const boost::math::fisher_f fisher(error.independent_errors,
-                                     (error.replicas - 1) * error.independent_errors);
-  error.rms_limit = error.rms * std::sqrt(quantile(fisher, error_confidence));
-  error.rms_lowest = error.rms * std::sqrt(quantile(fisher, 1 - error_confidence));
+  set_rms(error, errors, values, scalar_products(b, measured, scale, replicas));
   std::vector<Rgb> means;
   for (const auto& replica : replicas) {
     means.push_back(mean_over_area(scene, replica));
@@ -170,13 +180,13 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces&
   include_bias(error.irradiance, surfaces.receiving, bias_of_irradiance(scene, surfaces, bias));
   const ReflectedLight light(scene, unknowns_per_patch(scene, b));
   const std::vector<Rgb> reflected = light.of(b);
-  if (const double unit = max_norm(reflected); unit > 0) {
+  if (max_norm(reflected) > 0) {
     const std::vector<char> measured = light.measured(b);
     std::vector<Rgb> counted = bias;
     for (std::size_t u = 0; u < bias.size(); ++u) {
       counted[u] = measured[u * b.size() / bias.size()] != 0 ? bias[u] : Rgb{};
     }
-    const double relative = root_of_squares(counted, unit) / root_of_squares(reflected, unit);
+    const double relative = worst_relative_rms(counted, reflected);
     error.rms = std::hypot(error.rms, relative);
     error.rms_limit = std::hypot(error.rms_limit, relative);
     error.rms_lowest = std::hypot(error.rms_lowest, relative);

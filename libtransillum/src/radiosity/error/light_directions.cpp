@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "radiosity/channel_sums.h"
 #include "radiosity/light_sources.h"
 #include "radiosity/ratio.h"
 #include "transillum/at.h"
@@ -82,7 +83,9 @@ std::vector<PatchId> uncertain_patches(const Solution& solution) {
         unmet += between.light;
       }
     }
-    if (max_abs(unmet) > 0.5 * error.quantile * max_abs(at(error.standard_error, i))) {
+    const Rgb& standard_error = at(error.standard_error, i);
+    if (largest_ratio(unmet, channel_units(standard_error)) > 0.5 * error.quantile ||
+        (max_abs(standard_error) == 0 && max_abs(unmet) > 0)) {
       uncertain.push_back(i);
     }
   }
@@ -100,9 +103,9 @@ LightDirections::LightDirections(const Scene& scene, bool two_way, const DirectL
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const Rgb unshot = scene.exitance(i) - at(shot.exitance, i);
     const bool measured = !others_reflect || !(max_abs(scene.exitance(i)) > 0);
-    at(weight_, i) =
-        measured ? std::pow(max_abs(at(reflectance, i)) / scene.patch(i).area, 2) : 0.0;
-    at(exitance_, i) = unshot.r + unshot.g + unshot.b;
+    const Rgb per_area = (1 / scene.patch(i).area) * at(reflectance, i);
+    at(weight_, i) = measured ? per_area * per_area : Rgb{};
+    at(exitance_, i) = sum(unshot);
     at(emits_, i) = at(exitance_, i) > 0 ? 1 : 0;
   }
   const std::vector<LightSource> sources = light_sources(scene);
@@ -114,6 +117,13 @@ LightDirections::LightDirections(const Scene& scene, bool two_way, const DirectL
     }
   }
   lights_.resize(exitance_.size() * columns_);
+  color_.resize(columns_);
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    at(color_, at(column_, i)) += scene.patch(i).area * (scene.exitance(i) - at(shot.exitance, i));
+  }
+  for (Rgb& color : color_) {
+    color = ratio_or_zero(3, sum(color)) * color;
+  }
 }
 
 void LightDirections::receive(PatchId receiver, PatchId source, double area) {
@@ -150,14 +160,25 @@ void LightDirections::add(const std::vector<Transfer>& exchanges) {
 void LightDirections::complete(const OwnedPatches& owned) { owned.complete(lights_); }
 
 /// The variance of what a pair contributes to B is proportional to w squares = w sum² / n.
-double LightDirections::mean() const {
+double LightDirections::mean_of(double Rgb::*channel) const {
   double sums = 0, squares = 0;
   for (std::size_t k = 0; k < lights_.size(); ++k) {
-    const double weight = weight_[k / columns_];
+    const double color = color_[k % columns_].*channel;
+    const double weight = weight_[k / columns_].*channel * color * color;
     sums += weight * lights_[k].sum * lights_[k].sum;
     squares += weight * lights_[k].squares;
   }
   return ratio_or_zero(sums, squares);
+}
+
+double LightDirections::mean() const {
+  double fewest = HUGE_VAL;
+  for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+    if (const double mean = mean_of(channel); mean > 0) {
+      fewest = std::min(fewest, mean);
+    }
+  }
+  return std::isfinite(fewest) ? fewest : 0;
 }
 
 }  // namespace transillum

@@ -26,7 +26,8 @@ class LightDirections {
   /// Completes the sums of all patches; to be called before mean().
   void complete(const OwnedPatches& owned);
   /// With n = (sum c)² / sum c² directions per pair of patch and source, the mean of n, each
-  /// weighted by what the pair contributes to the variance of B. 0 without light.
+  /// weighted by what the pair contributes to the variance of B, in the channel with the fewest. 0
+  /// without light.
   double mean() const;
 
   /// For StateOutput and StateInput, between two passes.
@@ -45,9 +46,12 @@ class LightDirections {
   };
   void receive(PatchId receiver, PatchId source, double area);
 
+  double mean_of(double Rgb::*channel) const;
+
   bool two_way_;
   std::size_t columns_ = 1;
-  std::vector<double> weight_;       ///< per patch: (rho / A)², 0 where errors are not measured
+  std::vector<Rgb> weight_;          ///< per patch: (rho / A)², 0 where errors are not measured
+  std::vector<Rgb> color_;           ///< per column: channels of its light, over their mean
   std::vector<double> exitance_;     ///< per patch: sum of channels, less that of the shot
   std::vector<std::uint8_t> emits_;  ///< per patch: whether exitance_ is above 0; in few bytes
   std::vector<std::size_t> column_;  ///< per patch: of its source

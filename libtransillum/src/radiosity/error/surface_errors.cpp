@@ -17,12 +17,40 @@ namespace {
 
 using boost::math::fisher_f;
 
-/// Surfaces with less than this fraction of the brightest one's level are measured relative to it.
+constexpr double Rgb::*channels[] = {&Rgb::r, &Rgb::g, &Rgb::b};
+
+/// Surfaces with less than this fraction of the brightest one's level are measured relative to
+/// this, in each channel.
 constexpr double least_level = 1e-3;
 
 /// The squared error over its estimate, both as sums of so many squares.
 fisher_f squared_ratio(const SurfaceErrors& errors, const SurfaceError& surface) {
   return {surface.independent_errors, (errors.replicas - 1) * surface.independent_errors};
+}
+
+double limit_of(const SurfaceErrors& errors, const SurfaceError& surface) {
+  const double ratio = std::sqrt(quantile(squared_ratio(errors, surface), error_confidence));
+  return std::hypot(surface.spread * ratio, surface.bias);
+}
+
+/// The spread of the channel with the largest limit.
+void set_spread(const SurfaceErrors& errors, SurfaceError& surface, const ChannelProducts& products,
+                double scale) {
+  const auto n = static_cast<double>(errors.replicas);
+  const double entries = n * (n - 1) * static_cast<double>(surface.patches);
+  double largest = -1;
+  for (const auto channel : channels) {
+    SurfaceError of_channel = surface;
+    of_channel.spread = ratio_or_zero(std::sqrt(products.squares().*channel / entries) / scale,
+                                      surface.unit.*channel);
+    of_channel.independent_errors = independent_errors(products.of(channel));
+    const double limit = limit_of(errors, of_channel);
+    if (limit > largest || std::isnan(limit)) {
+      largest = limit;
+      surface.spread = of_channel.spread;
+      surface.independent_errors = of_channel.independent_errors;
+    }
+  }
 }
 
 /// Probability that the error of a surface exceeds `limit`, relative.
@@ -43,8 +71,7 @@ void set_limits(SurfaceErrors& errors) {
   for (std::size_t s = 0; s < errors.surfaces.size(); ++s) {
     SurfaceError& surface = errors.surfaces[s];
     surface.rms = std::hypot(surface.spread, surface.bias);
-    const double ratio = std::sqrt(quantile(squared_ratio(errors, surface), error_confidence));
-    surface.limit = std::hypot(surface.spread * ratio, surface.bias);
+    surface.limit = limit_of(errors, surface);
     if (surface.limit > largest) {
       largest = surface.limit;
       errors.worst = static_cast<int>(s);
@@ -58,40 +85,77 @@ std::int32_t surface_of(const Surfaces& surfaces, std::size_t u, std::size_t unk
   return surfaces.of_patch[u * surfaces.of_patch.size() / unknowns];
 }
 
-/// RMS of a quantity over the patches of each surface, and channels.
-std::vector<double> rms_by_surface(const Surfaces& surfaces, const std::vector<Rgb>& values) {
-  const double scale = scale_to_one(max_norm(values));
-  std::vector<double> rms(surfaces.surfaces.size());
-  for (std::size_t u = 0; u < values.size(); ++u) {
-    if (const std::int32_t s = surface_of(surfaces, u, values.size()); s != Surfaces::none) {
-      at(rms, s) += sum_of_squares(scale * values[u]);
-    }
-  }
-  for (std::size_t s = 0; s < rms.size(); ++s) {
-    const double entries = 3.0 * static_cast<double>(surfaces.surfaces[s].patches);
-    rms[s] = std::sqrt(rms[s] / entries) / scale;
-  }
-  return rms;
-}
-
 /// The surfaces with their levels, and without errors.
 SurfaceErrors levels(const Surfaces& surfaces, const std::vector<Rgb>& values) {
-  const std::vector<double> rms = rms_by_surface(surfaces, values);
-  const double least = rms.empty() ? 0 : least_level * *std::max_element(rms.begin(), rms.end());
+  const std::vector<Rgb> rms = rms_by_surface(surfaces, values);
+  Rgb brightest;
+  for (const Rgb& level : rms) {
+    brightest = largest_of(brightest, level);
+  }
+  const Rgb least =
+      largest_of(least_level * brightest, least_light * max_abs(brightest) * Rgb{1, 1, 1});
   SurfaceErrors errors;
   for (std::size_t s = 0; s < rms.size(); ++s) {
     const Surfaces::Surface& of = surfaces.surfaces[s];
     errors.surfaces.push_back({.name = of.name,
                                .patches = of.patches,
                                .area = of.area,
-                               .level = rms[s],
-                               .unit = std::max(rms[s], least),
-                               .is_dark = rms[s] < least});
+                               .level = std::sqrt(sum_of_squares(rms[s]) / 3),
+                               .unit = largest_of(rms[s], least),
+                               .is_dark = max_abs(rms[s]) < max_abs(least)});
   }
   return errors;
 }
 
 }  // namespace
+
+std::vector<Rgb> rms_by_surface(const Surfaces& surfaces, const std::vector<Rgb>& values) {
+  const double scale = scale_to_one(max_norm(values));
+  std::vector<Rgb> rms(surfaces.surfaces.size());
+  for (std::size_t u = 0; u < values.size(); ++u) {
+    if (const std::int32_t s = surface_of(surfaces, u, values.size()); s != Surfaces::none) {
+      at(rms, s) += (scale * values[u]) * (scale * values[u]);
+    }
+  }
+  for (std::size_t s = 0; s < rms.size(); ++s) {
+    for (const auto channel : channels) {
+      double& value = rms[s].*channel;
+      value = std::sqrt(value / static_cast<double>(surfaces.surfaces[s].patches)) / scale;
+    }
+  }
+  return rms;
+}
+
+ChannelProducts::ChannelProducts(std::size_t replicas)
+    : replicas_(replicas), products_(replicas * (replicas + 1) / 2) {}
+
+void ChannelProducts::add(const std::vector<Rgb>& deviations) {
+  auto product = products_.begin();
+  for (std::size_t r = 0; r < replicas_; ++r) {
+    for (std::size_t q = 0; q <= r; ++q) {
+      *product++ += deviations[r] * deviations[q];
+    }
+  }
+}
+
+DeviationProducts ChannelProducts::of(double Rgb::*channel) const {
+  DeviationProducts result(replicas_, std::vector<double>(replicas_));
+  auto product = products_.begin();
+  for (std::size_t r = 0; r < replicas_; ++r) {
+    for (std::size_t q = 0; q <= r; ++q) {
+      result[r][q] = result[q][r] = (*product++).*channel;
+    }
+  }
+  return result;
+}
+
+Rgb ChannelProducts::squares() const {
+  Rgb sum;
+  for (std::size_t r = 0; r < replicas_; ++r) {
+    sum += products_[r * (r + 1) / 2 + r];
+  }
+  return sum;
+}
 
 double independent_errors(const DeviationProducts& products) {
   const auto product = [&](auto a, auto b, auto c, auto d) {  // sum of (a - b) (c - d)
@@ -111,7 +175,11 @@ double independent_errors(const DeviationProducts& products) {
       }
     }
   }
-  return norms > 0 ? std::max(1.0, 1 / (squares / norms + 1 / static_cast<double>(n))) : 1.0;
+  if (!(norms > 0)) {
+    return 1;
+  }
+  const double fraction = std::max(0.0, squares / norms), least = 1 / static_cast<double>(n);
+  return std::max(1.0, 1 / (fraction + least + std::min(fraction, least)));
 }
 
 SurfaceErrors surface_errors(const Surfaces& surfaces, const std::vector<Rgb>& values,
@@ -120,8 +188,7 @@ SurfaceErrors surface_errors(const Surfaces& surfaces, const std::vector<Rgb>& v
   SurfaceErrors errors = levels(surfaces, values);
   errors.replicas = static_cast<int>(count);
   const double scale = scale_to_one(max_norm(values));
-  std::vector<DeviationProducts> products(surfaces.surfaces.size(),
-                                          DeviationProducts(count, std::vector<double>(count)));
+  std::vector<ChannelProducts> products(surfaces.surfaces.size(), ChannelProducts(count));
   std::vector<Rgb> off(count);
   for (std::size_t u = 0; u < unknowns; ++u) {
     const std::int32_t s = surface_of(surfaces, u, unknowns);
@@ -134,26 +201,11 @@ SurfaceErrors surface_errors(const Surfaces& surfaces, const std::vector<Rgb>& v
     }
     for (std::size_t r = 0; r < count; ++r) {
       off[r] = scale * (replicas[r][u] - mean);
-      for (std::size_t q = 0; q <= r; ++q) {
-        const Rgb product = off[r] * off[q];
-        at(products, s)[r][q] += product.r + product.g + product.b;
-      }
     }
+    at(products, s).add(off);
   }
   for (std::size_t s = 0; s < products.size(); ++s) {
-    SurfaceError& surface = errors.surfaces[s];
-    double trace = 0;
-    for (std::size_t r = 0; r < count; ++r) {
-      trace += products[s][r][r];
-      for (std::size_t q = 0; q < r; ++q) {
-        products[s][q][r] = products[s][r][q];
-      }
-    }
-    const auto n = static_cast<double>(count);
-    const double entries = 3.0 * static_cast<double>(surface.patches);
-    surface.spread =
-        ratio_or_zero(std::sqrt(trace / (n * (n - 1) * entries)) / scale, surface.unit);
-    surface.independent_errors = independent_errors(products[s]);
+    set_spread(errors, errors.surfaces[s], products[s], scale);
   }
   set_limits(errors);
   return errors;
@@ -162,11 +214,11 @@ SurfaceErrors surface_errors(const Surfaces& surfaces, const std::vector<Rgb>& v
 SurfaceErrors surface_differences(const Surfaces& surfaces, const std::vector<Rgb>& values,
                                   const std::vector<Rgb>& differences) {
   SurfaceErrors errors = levels(surfaces, values);
-  const std::vector<double> rms = rms_by_surface(surfaces, differences);
+  const std::vector<Rgb> rms = rms_by_surface(surfaces, differences);
   for (std::size_t s = 0; s < rms.size(); ++s) {
     SurfaceError& surface = errors.surfaces[s];
-    surface.rms = surface.limit = ratio_or_zero(rms[s], surface.unit);
-    if (rms[s] > 0 && !(surface.unit > 0)) {
+    surface.rms = surface.limit = largest_ratio(rms[s], surface.unit);
+    if (max_abs(rms[s]) > 0 && !(max_abs(surface.unit) > 0)) {
       surface.rms = surface.limit = HUGE_VAL;
     }
     if (errors.worst < 0 || surface.limit > errors.limit) {
@@ -181,10 +233,10 @@ void include_bias(SurfaceErrors& errors, const Surfaces& surfaces, const std::ve
   if (errors.replicas == 0 || !(max_norm(bias) > 0)) {
     return;
   }
-  const std::vector<double> rms = rms_by_surface(surfaces, bias);
+  const std::vector<Rgb> rms = rms_by_surface(surfaces, bias);
   for (std::size_t s = 0; s < rms.size(); ++s) {
     SurfaceError& surface = errors.surfaces[s];
-    surface.bias = std::hypot(surface.bias, ratio_or_zero(rms[s], surface.unit));
+    surface.bias = std::hypot(surface.bias, largest_ratio(rms[s], surface.unit));
   }
   set_limits(errors);
 }

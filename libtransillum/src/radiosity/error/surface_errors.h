@@ -12,6 +12,9 @@ namespace transillum {
 /// Fraction of runs in which the limits of errors hold.
 inline constexpr double error_confidence = 0.95;
 
+/// RMS of a quantity over the patches of each surface, per channel. One value per unknown.
+std::vector<Rgb> rms_by_surface(const Surfaces& surfaces, const std::vector<Rgb>& values);
+
 /// How far some values are off from `values`, known exactly, by surface: the RMS of the differences
 /// as `rms` and `limit`. Lists have one value per unknown.
 /// @param values the quantity that is measured, W/m²
@@ -37,7 +40,23 @@ double limit_of_all(const SurfaceErrors& errors, const std::vector<std::string>&
 /// Scalar products of the deviations of replicas from their mean.
 using DeviationProducts = std::vector<std::vector<double>>;
 
-/// (trace C)² / trace C², where C is the covariance of the replicas over patches and channels: the
+/// The same of each channel, over some patches.
+class ChannelProducts {
+ public:
+  explicit ChannelProducts(std::size_t replicas);
+  /// Adds the deviations of one value, by replica.
+  void add(const std::vector<Rgb>& deviations);
+  /// @param channel a member of Rgb
+  DeviationProducts of(double Rgb::*channel) const;
+  /// Sum of the squares of all deviations.
+  Rgb squares() const;
+
+ private:
+  std::size_t replicas_;
+  std::vector<Rgb> products_;  ///< replicas r and q <= r, at r (r + 1) / 2 + q
+};
+
+/// (trace C)² / trace C², where C is the covariance of the replicas over patches: the
 /// number of equal independent errors whose sum of squares varies as that sum of all. Both traces
 /// are estimated without bias from differences of disjoint pairs of replicas; 1 for fewer than 4.
 /// The ratio of so few is uncertain, so it is taken rather too small: at most as many as there are
