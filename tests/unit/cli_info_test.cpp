@@ -157,9 +157,39 @@ TEST(CliOrient, SaysWhereASkyLightsNoFace) {
   EXPECT_EQ(turned.status, 0);
   EXPECT_THAT(turned.out, HasSubstr("0,0,4,0,0,0,0.5,0.5,0.5,0,0,0,")) << "B is 0";
   EXPECT_THAT(turned.err, HasSubstr("warning: the sky lights no face"));
-  EXPECT_THAT(turned.err, HasSubstr("(try --two-sided, or --orient keep)"));
+  EXPECT_THAT(turned.err, HasSubstr("(try --two-sided, or --orient auto or keep)"));
   const ProgramResult two_sided = solve({"--orient", "auto", "--two-sided"});
   EXPECT_THAT(two_sided.err, ::testing::Not(HasSubstr("the sky lights no face")));
+}
+
+/// Light of a face that is removed was lost silently.
+TEST(CliInfo, SaysThatAChangedFaceIsRemoved) {
+  const TemporaryFolder folder;
+  write_text(folder / "boxes.obj", box_obj(0, 4, 1) + box_obj(1, 2, 9));
+  for (const auto& [face, is_removed] : {std::pair{"face:8", true}, std::pair{"face:2", false}}) {
+    const ProgramResult solved =
+        run_program({"solve", folder / "boxes.obj", "--solids", "union", "--sky", "1", "-m", "16",
+                     "--emission", std::string(face) + "=10"});
+    EXPECT_EQ(solved.status, 0) << solved.err;
+    EXPECT_EQ(solved.err.find("warning: " + std::string(face) + " is changed, but removed") !=
+                  std::string::npos,
+              is_removed)
+        << solved.err;
+  }
+}
+
+/// A terrain whose faces point down. B was 0 silently.
+TEST(CliOrient, SaysThatTheSunLightsNoFaceThatIsTurnedAway) {
+  const TemporaryFolder folder;
+  write_text(folder / "terrain.obj",
+             "v 0 0 0\nv 2 0 0\nv 4 0 0\nv 0 2 0\nv 2 2 1\nv 4 2 0\nf 4 5 2 1\nf 5 6 3 2\n");
+  for (const char* orient : {"auto", "keep"}) {
+    const ProgramResult solved =
+        run_program({"solve", folder / "terrain.obj", "-m", "32", "--sun-direction", "0.2,0.3,0.9",
+                     "--sun-irradiance", "800", "--orient", orient, "--out", "-"});
+    EXPECT_EQ(solved.status, 0) << solved.err;
+    EXPECT_THAT(solved.err, HasSubstr("warning: the sky lights no face")) << orient;
+  }
 }
 
 /// In a rolled sheet, one turn sees mostly the back of the next, whichever side is lit.

@@ -281,12 +281,13 @@ TEST(Gltf, AveragesATextureOverEachFace) {
     EXPECT_EQ(material_of(d, f + 1).name, "poster");
   }
   EXPECT_THAT(d.files, Contains((folder.path() / "half.png").string()));
-  // Without the image, only the factor is known.
+  // Without the image, the default reflectance is taken for it.
   const test::TemporaryFolder empty;
   const SceneDescription missing = describe_scene(empty.write("a.glb", file.glb()));
-  EXPECT_NEAR(material_of(missing, 1).reflectance.g, 0.5, 1e-12);
-  EXPECT_THAT(missing.notes,
-              Contains(HasSubstr("image 0, `half.png`, has no data; it is taken as white")));
+  EXPECT_NEAR(material_of(missing, 1).reflectance.g, 0.5 * 0.5, 1e-12);
+  EXPECT_THAT(
+      missing.notes,
+      Contains(HasSubstr("image 0, `half.png`, has no data; reflectance 0.5 is assumed for it")));
 }
 
 TEST(Gltf, ColorsOfVerticesFilterTheBaseColor) {
@@ -336,8 +337,10 @@ TEST(Gltf, WarnsOfLoweredReflectanceOnlyWhereAFaceHasIt) {
 TEST(Gltf, NamesATextureThatIsMissing) {
   const SceneDescription d =
       read(textured_square({{"source", 0}}, {{"uri", "wood.png"}}, poster_of({1, 0.5, 1, 1})));
-  EXPECT_THAT(d.notes,
-              Contains(HasSubstr("image 0, `wood.png`, has no data; it is taken as white")));
+  EXPECT_THAT(
+      d.notes,
+      Contains(HasSubstr("image 0, `wood.png`, has no data; reflectance 0.5 is assumed for it")));
+  EXPECT_EQ(material_of(d, 0).reflectance, (Rgb{0.5, 0.25, 0.5}));
 }
 
 // No reader for Basis Universal exists; white would be the brightest of all guesses.
@@ -386,7 +389,8 @@ TEST(Gltf, NodesWithoutExtentAreLeftOut) {
   }
   File alone;
   alone.add(square_in(alone), {{"scale", {0, 0, 0}}});
-  EXPECT_THAT(refusal_of(alone.glb(), "a.glb"), HasSubstr("node 0, or one above it, has a scale of 0"));
+  EXPECT_THAT(refusal_of(alone.glb(), "a.glb"),
+              HasSubstr("node 0, or one above it, has a scale of 0"));
 }
 
 // Refused as invalid: more than 1,000,000 values.

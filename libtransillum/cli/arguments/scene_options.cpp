@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "cli/arguments/option_values.h"
@@ -76,18 +78,6 @@ void orient_input(const SceneInput& input, SceneDescription& description,
   }
 }
 
-/// One line that says that a sky lights nothing where all lit sides are shut in; else empty.
-std::string sky_advice(const SceneInput& input, const Scene& scene, const BackFraction& backs) {
-  // A room of two-sided faces is closed, but the sky lights it outside.
-  if (backs.open > 0 || has_two_sided_faces(scene)) {
-    return {};
-  }
-  return fmt::format(
-      "the sky lights no face: no ray from a lit side leaves the scene, and backs of faces absorb "
-      "its light (try --two-sided{})",
-      input.run.input.orient ? ", or --orient keep" : " or --orient auto");
-}
-
 /// "face 3 (lamp)", by group if the scene has groups, else by material.
 std::string face_text(const Scene& scene, PatchId patch) {
   const std::int32_t group = scene.patch(patch).group;
@@ -138,6 +128,25 @@ std::string overlap_advice(const Scene& scene, const Cancellation& cancellation)
       losses.size() == 1
           ? ""
           : fmt::format(" ({} more such pairs, listed by `info`)", losses.size() - 1));
+}
+
+/// Says which face:N of a change has no patch: a face without area, or inside a solid.
+void warn_of_lost_changes(const SceneInput& input, const Scene& scene) {
+  constexpr std::string_view prefix = "face:";
+  for (const MaterialChange& change : input.run.input.changes) {
+    std::int32_t face = -1;
+    if (change.target.starts_with(prefix)) {
+      std::from_chars(change.target.data() + prefix.size(),
+                      change.target.data() + change.target.size(), face);
+    }
+    const auto& patches = scene.patches();
+    if (face >= 0 && std::none_of(patches.begin(), patches.end(),
+                                  [&](const Patch& patch) { return patch.face == face; })) {
+      print_message(fmt::format(
+          "warning: {} is changed, but removed: it has no area, or is inside a united solid",
+          change.target));
+    }
+  }
 }
 
 /// The options of the scene with the limit of patch areas that --patches asks for. Prints what the
@@ -247,6 +256,7 @@ std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
   check_memory(description.name, static_cast<std::int64_t>(description.face_count()));
   auto scene = make_input_scene(input, description, cancellation);
   print_warnings(*scene);
+  warn_of_lost_changes(input, *scene);
   if (light == Light::optional) {
     return scene;
   }
@@ -260,10 +270,9 @@ std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
   if (const std::string advice = overlap_advice(*scene, cancellation); !advice.empty()) {
     print_message("warning: " + advice);
   }
-  if (solve.sky.is_set() || !input.run.input.orient) {
-    const BackFraction backs = back_fraction(*scene, solve.threads, cancellation);
+  if (!solve.sky.is_set() && !input.run.input.orient) {
     const std::string advice =
-        solve.sky.is_set() ? sky_advice(input, *scene, backs) : orientation_advice(input, backs);
+        orientation_advice(input, back_fraction(*scene, solve.threads, cancellation));
     if (!advice.empty()) {
       print_message("warning: " + advice);
     }

@@ -232,6 +232,17 @@ std::string solve_summary(const Solution& solution) {
   return text;
 }
 
+namespace {
+
+/// Whether a sky or sun gives light, but no lit side of a face sees it.
+bool is_sky_lost(const Solution& solution) {
+  return solution.sky.is_set() && !solution.sky_irradiance.empty() &&
+         std::all_of(solution.sky_irradiance.begin(), solution.sky_irradiance.end(),
+                     [](const Rgb& h) { return max_abs(h) == 0; });
+}
+
+}  // namespace
+
 std::vector<std::string> solve_warnings(const Solution& solution) {
   const SolveStatistics& s = solution.statistics;
   std::vector<std::string> warnings;
@@ -255,6 +266,11 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
   if (emits && std::all_of(solution.irradiance.begin(), solution.irradiance.end(), is_dark)) {
     warnings.push_back("no patch receives light from another: B = E" +
                        remedy_hint(Remedy::directions));
+  }
+  if (is_sky_lost(solution)) {
+    warnings.push_back(
+        "the sky lights no face: backs of faces absorb all its light, and the sun's (try "
+        "--two-sided, or --orient auto or keep)");
   }
   // Halfway between rho_max (the limit for exact form factors of a closed scene) and 1.
   const auto is_slow = [&](const IterationRecord& r) {

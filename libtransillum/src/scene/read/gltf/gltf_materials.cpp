@@ -270,15 +270,18 @@ SurfaceColors GltfMaterials::colors(std::int32_t material, const Vertices& verti
   Rgb base = surface.base, exitance = surface.exitance;
   double metallic = surface.metallic, roughness = surface.roughness;
   if (surface.base_texture) {
-    base = base * average(*surface.base_texture, vertices, corners);
+    const double otherwise = options_.default_reflectance;
+    base = base * average(*surface.base_texture, vertices, corners)
+                      .value_or(Rgb{otherwise, otherwise, otherwise});
   }
   if (surface.metallic_texture) {
-    const Rgb factors = average(*surface.metallic_texture, vertices, corners);
+    const Rgb factors =
+        average(*surface.metallic_texture, vertices, corners).value_or(Rgb{1, 1, 0});
     metallic *= factors.b;
     roughness *= factors.g;
   }
   if (surface.emissive_texture) {
-    exitance = exitance * average(*surface.emissive_texture, vertices, corners);
+    exitance = exitance * average(*surface.emissive_texture, vertices, corners).value_or(Rgb{});
   }
   if (!vertices.colors.empty()) {
     Rgb sum;
@@ -291,12 +294,15 @@ SurfaceColors GltfMaterials::colors(std::int32_t material, const Vertices& verti
   return colors_of(surface, base, metallic, roughness, exitance);
 }
 
-Rgb GltfMaterials::average(const Texture& texture, const Vertices& vertices,
-                           const std::array<std::uint32_t, 3>& corners) {
+std::optional<Rgb> GltfMaterials::average(const Texture& texture, const Vertices& vertices,
+                                          const std::array<std::uint32_t, 3>& corners) {
   const TexturePixels* pixels = pixels_of(texture);
+  if (pixels == nullptr) {
+    return {};
+  }
   const auto points = vertices.texture_points.find(texture.set);
-  if (pixels == nullptr || points == vertices.texture_points.end()) {
-    return {1, 1, 1};
+  if (points == vertices.texture_points.end()) {
+    return Rgb{1, 1, 1};
   }
   std::array<TexturePoint, 3> triangle;
   const double cosine = std::cos(texture.rotation), sine = std::sin(texture.rotation);
@@ -325,8 +331,9 @@ const TexturePixels* GltfMaterials::pixels_of(const Texture& texture) {
     }
     if (!problem.empty()) {
       notes_.add("images that cannot be read",
-                 fmt::format("{}: {} {}; it is taken as white", file_.files().front(),
-                             named("image", texture.image, texture.image), problem));
+                 fmt::format("{}: {} {}; reflectance {} is assumed for it", file_.files().front(),
+                             named("image", texture.image, texture.image), problem,
+                             options_.default_reflectance));
     }
   }
   return pixels->problem().empty() ? pixels.get() : nullptr;

@@ -84,8 +84,9 @@ class GltfMaterials {
   std::optional<Texture> texture_of(int index, int set, const tinygltf::ExtensionMap& extensions,
                                     bool linear);
   static void place(Texture& texture, const tinygltf::ExtensionMap& extensions);
-  Rgb average(const Texture& texture, const Vertices& vertices,
-              const std::array<std::uint32_t, 3>& corners);
+  /// Nothing where the image cannot be read: reflectance is assumed, no metal and no light.
+  std::optional<Rgb> average(const Texture& texture, const Vertices& vertices,
+                             const std::array<std::uint32_t, 3>& corners);
   /// Null where the image has no pixels.
   const TexturePixels* pixels_of(const Texture& texture);
   std::string place_of(std::size_t number, const std::string& name) const;
