@@ -362,10 +362,13 @@ class IncidenceSearch {
       values.emplace_back(Point(points_[k].x, points_[k].y, points_[k].z), static_cast<PointId>(k));
     }
     const bgi::rtree<std::pair<Point, PointId>, bgi::quadratic<16>> tree(values);
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
+    known_on_.assign(points_.size(), -1);
+    const std::size_t corners = found_.incidences.size();  // sorted by plane
+    std::size_t corner = 0;
+    for (const std::size_t f : faces_by_plane()) {
       check();
-      if (plane_of_[f] < 0) {
-        continue;
+      for (; corner < corners && found_.incidences[corner].plane <= plane_of_[f]; ++corner) {
+        at(known_on_, found_.incidences[corner].point) = found_.incidences[corner].plane;
       }
       Bounds bounds;
       for (const PointId p : faces_[f]) {
@@ -379,11 +382,25 @@ class IncidenceSearch {
         check();
         if (touches(f, found->second)) {
           found_.incidences.push_back({found->second, plane_of_[f], false});
+          at(known_on_, found->second) = plane_of_[f];
         }
       }
     }
     sort_incidences();
     drop_chance_touches();
+  }
+
+  /// The faces with a plane, so that those of one plane follow one another.
+  std::vector<std::size_t> faces_by_plane() const {
+    std::vector<std::size_t> faces;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      if (plane_of_[f] >= 0) {
+        faces.push_back(f);
+      }
+    }
+    std::stable_sort(faces.begin(), faces.end(),
+                     [&](std::size_t a, std::size_t b) { return plane_of_[a] < plane_of_[b]; });
+    return faces;
   }
 
   /// Corners first, so that they count where a point is also found to touch.
@@ -400,14 +417,16 @@ class IncidenceSearch {
     const auto edge_of = [](const EdgeIncidence& i) {
       return std::tuple(i.point, std::min(i.from, i.to), std::max(i.from, i.to), i.direction);
     };
-    std::stable_sort(
-        found_.on_edges.begin(), found_.on_edges.end(),
-        [&](const EdgeIncidence& a, const EdgeIncidence& b) { return edge_of(a) < edge_of(b); });
-    found_.on_edges.erase(std::unique(found_.on_edges.begin(), found_.on_edges.end(),
-                                      [&](const EdgeIncidence& a, const EdgeIncidence& b) {
-                                        return edge_of(a) == edge_of(b);
-                                      }),
-                          found_.on_edges.end());
+    // The first face counts that has the edge.
+    std::stable_sort(on_edges_.begin(), on_edges_.end(), [&](const FaceEdge& a, const FaceEdge& b) {
+      return std::tuple_cat(edge_of(a.edge), std::tuple(a.face)) <
+             std::tuple_cat(edge_of(b.edge), std::tuple(b.face));
+    });
+    for (const FaceEdge& of : on_edges_) {
+      if (found_.on_edges.empty() || edge_of(found_.on_edges.back()) != edge_of(of.edge)) {
+        found_.on_edges.push_back(of.edge);
+      }
+    }
   }
 
   bool is_on_plane(PointId point, std::int32_t plane) const {
@@ -451,7 +470,8 @@ class IncidenceSearch {
                   [&](const EdgeIncidence& i) { return !is_on_plane(i.point, i.plane); });
   }
 
-  /// Whether a point that is not its corner lies on a face; adds its place on the face's edges.
+  /// Whether a point that is not its corner lies on a face, and is not known to be on its plane;
+  /// adds its place on the face's edges.
   bool touches(std::size_t face, PointId point) {
     const RoundedPlane& plane = at(found_.planes, plane_of_[face]);
     const Vec3& p = at(points_, point);
@@ -462,7 +482,8 @@ class IncidenceSearch {
         std::count(outline.begin(), outline.end(), point) > 0) {
       return false;
     }
-    return is_at_corner(face, point) || is_on_edge(face, point) || is_inside(face, p);
+    const bool on_edge = is_at_corner(face, point) || is_on_edge(face, point);
+    return at(known_on_, point) != plane_of_[face] && (on_edge || is_inside(face, p));
   }
 
   bool is_at_corner(std::size_t face, PointId point) {
@@ -470,8 +491,8 @@ class IncidenceSearch {
       if (norm(at(points_, corner) - at(points_, point)) <= touching * rounding_) {
         const RoundedPlane& plane = at(found_.planes, plane_of_[face]);
         const Vec3 along = cross(plane.normal, plane.across);
-        found_.on_edges.push_back({point, corner, corner, 0, plane_of_[face], plane.across});
-        found_.on_edges.push_back({point, corner, corner, 1, plane_of_[face], along});
+        on_edges_.push_back({face, {point, corner, corner, 0, plane_of_[face], plane.across}});
+        on_edges_.push_back({face, {point, corner, corner, 1, plane_of_[face], along}});
         return true;
       }
     }
@@ -486,8 +507,9 @@ class IncidenceSearch {
       const Vec3 offset = at(points_, point) - from;
       const double t = std::clamp(dot(offset, edge) / dot(edge, edge), 0.0, 1.0);
       if (norm(offset - t * edge) <= touching * rounding_) {
-        found_.on_edges.push_back(
-            {point, a, b, 0, plane_of_[face], normalized(cross(shapes_[face].normal, edge))});
+        on_edges_.push_back(
+            {face,
+             {point, a, b, 0, plane_of_[face], normalized(cross(shapes_[face].normal, edge))}});
         return true;
       }
     }
@@ -540,6 +562,14 @@ class IncidenceSearch {
   std::vector<int> exact_axis_;
   std::vector<std::int32_t> plane_of_;
 
+  /// Per point: the plane of the faces being searched, where the point is known to lie on it.
+  std::vector<std::int32_t> known_on_;
+  /// A point on an edge of a face.
+  struct FaceEdge {
+    std::size_t face;
+    EdgeIncidence edge;
+  };
+  std::vector<FaceEdge> on_edges_;
   std::vector<Entry> entries_;  ///< sorted by cell, then distance
   std::vector<Cell> cells_;
   PlaneIncidences found_;
