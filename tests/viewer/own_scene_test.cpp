@@ -155,6 +155,27 @@ class OwnSceneTest : public QObject {
     }
   }
 
+  // A bust has no level surfaces, so that it may lie on its side at first.
+  void a_model_without_level_surfaces_is_turned_by_one_button() {
+    const OwnScene own;
+    QVERIFY(own.ready());
+    own.window->files().try_open(write_file(own.folder.filePath("bust.obj"),
+                                            "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 2\n"
+                                            "v 0 0 -2\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+                                            "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n"));
+    QVERIFY(wait_for(
+        [&] { return own.window->windowTitle().startsWith("bust.obj") && own.window->settled(); }));
+    const auto* bar = own.part<Banner>("vertical_bar");
+    QVERIFY2(bar->text().startsWith("Shown with +y up"), qPrintable(bar->text()));
+    const auto* view = own.window->findChild<SceneView*>();
+    QVERIFY(view->view_point().up == (Vec3{0, 1, 0}));
+    auto* turn = own.part<QPushButton>("turn_upright");
+    QCOMPARE(turn->text(), QString("Turn upright"));
+    turn->click();
+    QVERIFY(view->view_point().up == (Vec3{0, 0, 1}));
+    QVERIFY(bar->text().isEmpty());
+  }
+
   void one_choice_turns_camera_and_sky() {
     const OwnScene own(true);
     QVERIFY(own.ready());

@@ -34,7 +34,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
     bars_->add(bar);
   }
   for (Banner* bar :
-       {light_bar_, orientation_bar_, solids_bar_, division_bar_, vertical_bar_, reading_bar_}) {
+       {light_bar_, orientation_bar_, solids_bar_, division_bar_, reading_bar_, vertical_bar_}) {
     bars_->add(bar, true);
   }
   color_controls_ = new ColorControls(colors);

@@ -23,9 +23,9 @@ VerticalControl::VerticalControl(const WindowFrame& frame, SettingsPanel& settin
     : QObject(&frame.window), frame_(frame), settings_(settings) {
   make_menu();
   Vertical& vertical = frame_.state.vertical;
-  QPushButton* turn = frame_.page.vertical_bar()->add_button("turn_upright", tr("Take +y instead"));
-  turn->setToolTip(tr("Take +y for the vertical, as in most files"));
-  connect(turn, &QPushButton::clicked, &vertical, [&vertical] { vertical.choose({0, 1, 0}); });
+  turn_ = frame_.page.vertical_bar()->add_button("turn_upright", tr("Turn upright"));
+  connect(turn_, &QPushButton::clicked, &vertical,
+          [&vertical] { vertical.choose(vertical.other()); });
   connect(&settings_, &SettingsPanel::zenith_chosen, &vertical, &Vertical::choose);
   connect(&vertical, &Vertical::changed, this, &VerticalControl::follow);
 }
@@ -77,8 +77,13 @@ void VerticalControl::follow() {
   settings_.set_scene_up(vertical.up());
   frame_.page.scene_view()->set_vertical(vertical.up());
   if (vertical.is_guess()) {
+    const bool along_y = vertical.up() == Vec3{0, 1, 0};
+    turn_->setToolTip(tr("Take %1 for the vertical; Camera, Vertical has all directions")
+                          .arg(along_y ? QStringLiteral("+z") : QStringLiteral("+y")));
     frame_.page.vertical_bar()->show_message(
-        Banner::Kind::offer, tr("Shown with +z up, since most level surfaces face it."));
+        Banner::Kind::offer, vertical.is_clear()
+                                 ? tr("Shown with +z up, since most level surfaces face it.")
+                                 : tr("Shown with +y up; the file does not say what is up."));
   } else {
     frame_.page.vertical_bar()->dismiss();
   }

@@ -9,6 +9,7 @@
 #include "window/base/window_views.h"
 
 class QActionGroup;
+class QPushButton;
 
 namespace transillum::viewer {
 
@@ -38,6 +39,7 @@ class VerticalControl : public QObject {
   WindowFrame frame_;
   SettingsPanel& settings_;
   QActionGroup* choices_;
+  QPushButton* turn_;
   std::optional<Vec3> preferred_;
   std::string spec_;  ///< the scene whose vertical is shown
 };
