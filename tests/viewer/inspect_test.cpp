@@ -48,8 +48,35 @@ class InspectTest : public QObject {
     shown.window->selection.select(4);
     QVERIFY(shown.has_form_factors());
     QVERIFY(wait_for([&] { return shown.window->colors.missing().isEmpty(); }));
-    QVERIFY(!shown.part<QWidget>("color_note")->isVisible());
+    QVERIFY(shown.text("color_note").startsWith("Patch 4 is selected"));
     QTRY_VERIFY(shown.fraction_in_own_color() > most);
+    shown.window->colors.set_quantity(Quantity::radiosity);
+    QVERIFY(!shown.part<QWidget>("color_note")->isVisible());
+  }
+
+  // Also in a narrow window, where the notes do not fit into their line.
+  void selecting_does_not_move_the_picture() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    for (const int width : {1600, 1000}) {
+      shown.window->resize(width, 900);
+      for (const Quantity quantity :
+           {Quantity::form_factor_from, Quantity::form_factor_to, Quantity::origin,
+            Quantity::response, Quantity::exact_queries}) {
+        shown.window->selection.select(no_patch);
+        shown.window->colors.set_quantity(quantity);
+        handle_posted();
+        QWidget* canvas = shown.scene_view->canvas();
+        const QRect before(canvas->mapTo(shown.window.get(), QPoint()), canvas->size());
+        for (const PatchId patch : {4, 7, no_patch}) {
+          shown.window->selection.select(patch);
+          QVERIFY(
+              wait_for([&] { return shown.window->settled() && !shown.window->colors.busy(); }));
+          handle_posted();
+          QCOMPARE(QRect(canvas->mapTo(shown.window.get(), QPoint()), canvas->size()), before);
+        }
+      }
+    }
   }
 
   void the_pointer_tells_patch_value_and_form_factor_data() {

@@ -2,12 +2,12 @@
 #include "colors/color_note.h"
 
 #include <QFileInfo>
-#include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
 
 #include "transillum/at.h"
 #include "widgets/build.h"
+#include "widgets/elided.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -29,10 +29,14 @@ QString text_on_file(const LoadedScene& loaded) {
                    .arg(name);
 }
 
+bool follows_selection(const QuantityTraits& traits) {
+  return traits.of_selection || traits.by_costs;
+}
+
 }  // namespace
 
 ColorNote::ColorNote(const ColorChoice& colors, QWidget* parent) : QFrame(parent), colors_(colors) {
-  text_ = named("color_note", new QLabel);
+  text_ = named("color_note", new ElidedLabel);
   text_->setAlignment(Qt::AlignCenter);
   text_->setWordWrap(true);
   replicas_ = named("solve_with_replicas", new QPushButton(tr("Solve again with replicas")),
@@ -62,8 +66,20 @@ QString ColorNote::text() const {
   return colors_.missing().isEmpty() ? colors_.note() : colors_.missing();
 }
 
+QString ColorNote::text_on_selection() const {
+  const PatchId patch = colors_.selection().patch();
+  return patch == no_patch
+             ? tr("Click a patch to see its numbers.")
+             : tr("Patch %1 is selected; click another one to see its values.").arg(patch);
+}
+
 void ColorNote::show_note() {
-  const QString note = text();
+  const bool held = colors_.snapshot() && follows_selection(traits_of(colors_.quantity()));
+  QString note = text();
+  if (held && note.isEmpty()) {
+    note = text_on_selection();
+  }
+  text_->setWordWrap(!held);
   text_->setText(note);
   replicas_->setVisible(colors_.quantity() == Quantity::error && !colors_.missing().isEmpty() &&
                         colors_.snapshot() && colors_.snapshot()->options.replicas < 2);

@@ -8,13 +8,15 @@
 #include "colors/color_choice.h"
 #include "widgets/plate.h"
 
-class QLabel;
 class QPushButton;
 
 namespace transillum::viewer {
 
+class ElidedLabel;
+
 /// A line above the scene. It says why there are no values and how to get them, what they
-/// omit, or that they are from a result file. Hidden without a message.
+/// omit, or that they are from a result file. Hidden without a message, except for quantities that
+/// depend on the selection: it then is one line all the time, so that selecting moves no picture.
 class ColorNote : public QFrame {
   Q_OBJECT
 
@@ -27,9 +29,10 @@ class ColorNote : public QFrame {
  private:
   void show_note();
   QString text() const;
+  QString text_on_selection() const;
 
   const ColorChoice& colors_;
-  QLabel* text_;
+  ElidedLabel* text_;
   QPushButton* replicas_;  ///< shown if the error estimate needs replicas
 };
 

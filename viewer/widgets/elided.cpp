@@ -24,20 +24,28 @@ void ElidedComboBox::paintEvent(QPaintEvent*) {
   }
   const QRect text_field =
       style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
-  option.currentText =
-      fontMetrics().elidedText(option.currentText, Qt::ElideRight, text_field.width() - 4);
+  const int room = text_field.width() - 4;
+  const QString shorter = currentData(short_text).toString();
+  if (!shorter.isEmpty() && fontMetrics().horizontalAdvance(option.currentText) > room) {
+    option.currentText = shorter;
+  }
+  option.currentText = fontMetrics().elidedText(option.currentText, Qt::ElideRight, room);
   QStylePainter painter(this);
   painter.drawComplexControl(QStyle::CC_ComboBox, option);
   painter.drawControl(QStyle::CE_ComboBoxLabel, option);
 }
 
 QSize ElidedLabel::minimumSizeHint() const {
+  if (wordWrap()) {
+    return QLabel::minimumSizeHint();
+  }
   constexpr int least_characters = 16;
   return {least_characters * fontMetrics().averageCharWidth(), QLabel::minimumSizeHint().height()};
 }
 
 QString ElidedLabel::shown_text() const {
-  return fontMetrics().elidedText(text(), Qt::ElideMiddle, contentsRect().width());
+  return wordWrap() ? text()
+                    : fontMetrics().elidedText(text(), Qt::ElideMiddle, contentsRect().width());
 }
 
 bool ElidedLabel::event(QEvent* event) {
@@ -48,9 +56,13 @@ bool ElidedLabel::event(QEvent* event) {
   return QLabel::event(event);
 }
 
-void ElidedLabel::paintEvent(QPaintEvent*) {
+void ElidedLabel::paintEvent(QPaintEvent* event) {
+  if (wordWrap()) {
+    QLabel::paintEvent(event);
+    return;
+  }
   QStylePainter painter(this);
-  painter.drawItemText(contentsRect(), Qt::AlignLeft | Qt::AlignVCenter, palette(), isEnabled(),
+  painter.drawItemText(contentsRect(), static_cast<int>(alignment()), palette(), isEnabled(),
                        shown_text(), foregroundRole());
 }
 

@@ -10,9 +10,13 @@ namespace transillum::viewer {
 /// A name of at most `longest` characters; the middle of a longer one is replaced by "…".
 QString elided_name(const QString& name, int longest);
 
-/// A combo box that elides the selected text ("…") if it does not fit.
+/// A combo box that shows the short text of the selected item, or elides it ("…"), if it does not
+/// fit.
 class ElidedComboBox : public QComboBox {
  public:
+  /// The role of an item's short text; without one, the text is elided.
+  static constexpr int short_text = Qt::UserRole + 1;
+
   using QComboBox::QComboBox;
 
  protected:
@@ -20,6 +24,7 @@ class ElidedComboBox : public QComboBox {
 };
 
 /// One line that is elided in its middle where it does not fit; the tool tip then has all of it.
+/// With word wrap, a plain label.
 class ElidedLabel : public QLabel {
  public:
   using QLabel::QLabel;
