@@ -6,6 +6,7 @@
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QLineEdit>
+#include <QMenu>
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QTabBar>
@@ -13,6 +14,7 @@
 #include <QTextBrowser>
 #include <QTextDocument>
 
+#include "lessons/lesson_panel.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "screen_checks.h"
@@ -35,6 +37,19 @@ QAction* action_with_text(const QWidget& window, const QString& text) {
     }
   }
   return nullptr;
+}
+
+/// The disabled actions of a window that do not say why.
+QStringList silent_actions(const QWidget& window) {
+  QStringList silent;
+  for (const auto* action : window.findChildren<QAction*>()) {
+    const QString why = action->property("why_disabled").toString();
+    const bool asks = !action->isEnabled() && action->isVisible() && !action->text().isEmpty();
+    if (asks && !action->isSeparator() && (why.isEmpty() || !action->toolTip().endsWith(why))) {
+      silent << action->objectName() + ' ' + action->text();
+    }
+  }
+  return silent;
 }
 
 /// Opens a dialog, which may have an event loop of its own, examines and closes it.
@@ -120,6 +135,25 @@ class DialogsTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void disabled_actions_say_why() {
+    const auto window = make_window(8);
+    const auto silent = [&window] { return silent_actions(*window).join('\n'); };
+    QCOMPARE(silent(), QString());
+    for (const auto* menu : window->findChildren<QMenu*>()) {
+      QVERIFY2(menu->toolTipsVisible(), qPrintable(menu->title()));
+    }
+    window->open("cornell-box", {Goal::Kind::finished});
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    QCOMPARE(silent(), QString());
+    window->focus.go_to({0, 1, 3});
+    window->selection.select(4);
+    QVERIFY(wait_for([&] { return window->settled(); }));
+    QCOMPARE(silent(), QString());
+    window->views().lessons.show_page(0, 0);
+    QVERIFY(wait_for([&] { return window->settled(); }));
+    QCOMPARE(silent(), QString());
+  }
+
   void every_dialog_fits_a_small_screen_data() {
     QTest::addColumn<QString>("opening");
     QTest::addColumn<bool>("is_resizable");

@@ -82,7 +82,8 @@ void ScalePanel::show_choice() {
   const ColorScale& scale = colors_.scale();
   const QSignalBlocker quiet(map_);
   map_->setCurrentIndex(static_cast<int>(colors_.map()));
-  map_->setEnabled(!traits_of(colors_.quantity()).is_signed);
+  enable_if(*map_, !traits_of(colors_.quantity()).is_signed,
+            tr("Differences have a map of their own, with 0 in its middle"));
   rules_->button(static_cast<int>(colors_.range_rule()))->setChecked(true);
   if (!low_->hasFocus()) {
     low_->setText(end_text(scale.low));

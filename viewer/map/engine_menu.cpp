@@ -6,6 +6,7 @@
 #include <QActionGroup>
 #include <QMenu>
 
+#include "widgets/build.h"
 #include "widgets/engine_text.h"
 
 namespace transillum::viewer {
@@ -97,8 +98,10 @@ void EngineMenu::add_resolutions(QMenu& menu) {
 void EngineMenu::change(const MapEngineChoice& choice) {
   choice_ = choice;
   const bool pixels = choice_.engine && traits_of(*choice_.engine).takes_resolution;
-  resolutions_->setEnabled(pixels);
-  differences_->setEnabled(choice_.engine.has_value());
+  for (QAction* action : resolutions_->actions()) {
+    enable_if(*action, pixels, tr("The picture has no pixels"));
+  }
+  enable_if(*differences_, choice_.engine.has_value(), tr("The exact map has no errors"));
   QString label = label_of(choice_);
   if (choice_.engine && traits_of(*choice_.engine).takes_order) {  // short: there is little room
     label = choice_.order == PaintersOrder::newell ? tr("Painter (Newell)") : tr("Painter (BSP)");

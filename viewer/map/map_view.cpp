@@ -142,8 +142,9 @@ void MapView::show_context_menu(const MapCanvas& canvas, const QPoint& position)
     RunPosition target = focus_.position();
     const bool begins = !focus_.at_step() && order == StepOrder::forward;
     target.step = find_changes_at(*point)(focus_.map()->history, begins ? -1 : target.step, order);
-    menu->addAction(text, this, [this, target] { focus_.go_to(target, StepReason::found); })
-        ->setEnabled(target.step != MapHistory::none);
+    QAction* run =
+        menu->addAction(text, this, [this, target] { focus_.go_to(target, StepReason::found); });
+    enable_if(*run, target.step != MapHistory::none, tr("No such fragment covers it"));
   };
   add_run(tr("Run to the next fragment that covers this point"), StepOrder::forward);
   add_run(tr("Run back to the previous fragment that covers this point"), StepOrder::backward);

@@ -6,6 +6,7 @@
 #include <QMenu>
 
 #include "scene/scene_view.h"
+#include "widgets/build.h"
 
 namespace transillum::viewer {
 
@@ -65,7 +66,7 @@ CameraMenu::CameraMenu(SceneView& scene_view, CameraBookmarks& bookmarks, QWidge
 
 void CameraMenu::fill_bookmarks() {
   saved_->clear();
-  saved_->setEnabled(!bookmarks_.all().empty());
+  enable_if(*saved_->menuAction(), !bookmarks_.all().empty(), tr("No view is saved"));
   int number = 0;
   for (const CameraBookmarks::Bookmark& bookmark : bookmarks_.all()) {
     QAction* action = saved_->addAction(

@@ -36,10 +36,11 @@ constexpr int spacing = 8;
 constexpr int min_quantity_letters = 4;  // in a narrow scene
 constexpr int max_quantity_width = 260;
 
-/// Enables or disables an item of the list.
-void set_item_enabled(QComboBox& list, int item, bool enabled) {
+/// Enables an item of the list, or disables it and says why in its tool tip.
+void enable_item(QComboBox& list, int item, bool enabled, const QString& why) {
   auto* model = qobject_cast<QStandardItemModel*>(list.model());
   model->item(item)->setEnabled(enabled);
+  model->item(item)->setToolTip(enabled ? QString() : why);
 }
 
 QString tr_quantity(const char* text) { return QCoreApplication::translate("Quantity", text); }
@@ -127,6 +128,8 @@ void ColorControls::fill_quantities() {
     }
     quantity_->addItem(tr_quantity(traits.name), static_cast<int>(traits.quantity));
     quantity_->setItemData(quantity_->count() - 1, tip_of(traits.quantity), Qt::ToolTipRole);
+    quantity_->setItemData(quantity_->count() - 1, QString::fromUtf8(traits.symbol),
+                           ElidedComboBox::short_text);
   }
 }
 
@@ -206,7 +209,7 @@ void ColorControls::show_choice() {
   quantity_->setToolTip(tip_of(traits.quantity));
   mode_->setCurrentIndex(static_cast<int>(scale.mode));
   mode_->setVisible(traits.has_channels);
-  set_item_enabled(*mode_, 0, traits.is_light);
+  enable_item(*mode_, 0, traits.is_light, tr("The quantity is no light"));
   scale_->setText((traits.has_channels ? mode_->currentText() : tr("Colors")) + QLatin1Char(' '));
   const int page = scale.mode == ColorMode::true_color ? 0 : 1;
   pages_->setCurrentIndex(page);
@@ -214,7 +217,7 @@ void ColorControls::show_choice() {
   exposure_->setValue(scale.exposure);
   automatic_->setChecked(colors_.exposure_is_automatic());
   gamma_->setValue(scale.gamma);
-  logarithmic_->setEnabled(!traits.is_signed);
+  enable_if(*logarithmic_, !traits.is_signed, tr("The quantity has values below 0"));
   logarithmic_->setChecked(scale.logarithmic);
   show_->set_linear(colors_.linear() && !colors_.is_fitted());
 }

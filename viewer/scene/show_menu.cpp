@@ -38,8 +38,9 @@ ClipControls::ClipControls(QWidget* parent) : QWidget(parent) {
     row->addWidget(widget);
   }
   const auto show_state = [this] {
-    place_->setEnabled(axis_->currentIndex() > 0);
-    other_side_->setEnabled(axis_->currentIndex() > 0);
+    for (QWidget* widget : {static_cast<QWidget*>(place_), static_cast<QWidget*>(other_side_)}) {
+      enable_if(*widget, axis_->currentIndex() > 0, tr("Choose an axis first"));
+    }
   };
   show_state();
   connect(axis_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this, show_state] {
@@ -113,7 +114,8 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   connect(add_overlay(Overlay::wireframe, "show_wireframe", tr("Wireframe"),
                       tr("Draw edges instead of surfaces")),
           &QAction::toggled, this, &ShowMenu::wireframe_toggled);
-  connect(add_overlay(Overlay::smooth, "show_smooth", tr("Smooth shading"), QString()),
+  connect(add_overlay(Overlay::smooth, "show_smooth", tr("Smooth shading"),
+                      tr("Interpolate colors across patches; the solution is constant on each")),
           &QAction::toggled, this, &ShowMenu::smooth_toggled);
   set_linear(false);
   menu->addSeparator();
@@ -129,10 +131,8 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
 
 void ShowMenu::set_linear(bool linear) {
   QAction* smooth = at(overlays_, Overlay::smooth);
-  smooth->setEnabled(!linear);
-  smooth->setToolTip(
-      linear ? tr("The quantity shown is linear on each patch: it is already interpolated")
-             : tr("Interpolate colors across patches; the solution is constant on each"));
+  enable_if(*smooth, !linear,
+            tr("The quantity shown is linear on each patch: it is already interpolated"));
 }
 
 }  // namespace transillum::viewer

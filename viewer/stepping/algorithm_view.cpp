@@ -267,12 +267,12 @@ void AlgorithmView::show_position() {
   if (kind() == MapKind::local) {
     const auto state =
         snapshot_ ? algorithm_state(focus_, *snapshot_, selection_.patch()) : std::nullopt;
-    values_->setEnabled(state.has_value());
+    enable_if(*values_, state.has_value(), tr("No step is shown"));
     show_values(state.value_or(AlgorithmState()));
     emit region_shown({});
   } else {
     const auto state = snapshot_ ? region_state(focus_, *snapshot_) : std::nullopt;
-    region_values_->setEnabled(state.has_value());
+    enable_if(*region_values_, state.has_value(), tr("No step is shown"));
     region_hint_->setVisible(!state.has_value());
     show_region(state.value_or(RegionState()));
     emit region_shown(state ? state->region : std::nullopt);

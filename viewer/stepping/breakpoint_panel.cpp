@@ -210,9 +210,9 @@ void BreakpointPanel::show_run_menu(const QPoint& position) {
       tr("Run forward to the next step where the breakpoint holds"), this,
       [this, finder] { focus_.seek(finder, StepOrder::forward, StepReason::breakpoint); });
   const auto k = static_cast<std::size_t>(row);
-  menu->addAction(tr("Remove its last condition"), this,
-                  [this, k] { breakpoints_.remove_last_condition(k); })
-      ->setEnabled(!breakpoints_.list()[k].further.empty());
+  QAction* remove = menu->addAction(tr("Remove its last condition"), this,
+                                    [this, k] { breakpoints_.remove_last_condition(k); });
+  enable_if(*remove, !breakpoints_.list()[k].further.empty(), tr("The breakpoint has only one"));
   menu->popup(list_->viewport()->mapToGlobal(position));
 }
 

@@ -79,9 +79,11 @@ void WatchChart::make_menu() {
   const auto show_state = [this] {
     const bool room = watches_.list().size() < Watches::most;
     for (QAction* choice : choices_) {
-      choice->setEnabled(room);
+      enable_if(*choice, room, tr("There is no room for another"));
     }
-    choices_.front()->setEnabled(room && selection_.patch() != no_patch);
+    if (room) {
+      enable_if(*choices_.front(), selection_.patch() != no_patch, tr("No patch is selected"));
+    }
   };
   connect(&selection_, &Selection::changed, this, show_state);
   connect(&watches_, &Watches::changed, this, show_state);

@@ -36,6 +36,9 @@ inline QAction* make_key_action(QObject* parent, const QString& name, const QStr
   return make_action(parent, name, text, QStringLiteral("%1 (%2)").arg(tip, key_text), key);
 }
 
+/// The property of a widget or an action that says why it is disabled.
+inline constexpr const char* why_disabled = "why_disabled";
+
 /// Enables a widget or an action, or disables it and says why in its tool tip.
 template <class Control>
 void enable_if(Control& control, bool enabled, const QString& why) {
@@ -46,7 +49,7 @@ void enable_if(Control& control, bool enabled, const QString& why) {
   const QString tip = control.property(usual_tip).toString();
   control.setEnabled(enabled);
   control.setToolTip(enabled ? tip : tip.isEmpty() ? why : QStringLiteral("%1\n%2").arg(tip, why));
-  control.setProperty("why_disabled", enabled ? QString() : why);
+  control.setProperty(why_disabled, enabled ? QString() : why);
 }
 
 /// A label of dim text in as many lines as it needs.

@@ -137,14 +137,16 @@ void CommandPalette::fill() {
     item->setForeground(keys_column, theme::ink_dim);
     if (!entry.enabled) {
       item->setForeground(what_column, theme::ink_dim);
-      item->setToolTip(what_column, tr("Not possible now"));
+      item->setToolTip(what_column, entry.why.isEmpty() ? tr("Not possible now") : entry.why);
     }
     shown_.push_back(std::move(entry));
   }
   if (shown_.empty()) {
     auto* nothing = new QTreeWidgetItem(list_, {tr("Nothing has these words")});
     nothing->setForeground(what_column, theme::ink_dim);
-    shown_.push_back({{}, {}, {}, false, {}});
+    PaletteEntry impossible;
+    impossible.enabled = false;
+    shown_.push_back(std::move(impossible));
   }
   list_->setCurrentItem(list_->topLevelItem(0));
 }

@@ -19,6 +19,7 @@ struct PaletteEntry {
   QString keys;
   bool enabled = true;
   std::function<void()> run;
+  QString why = {};  ///< why it is not enabled; may be empty
 };
 
 /// How well a text fits a query: the sum over the words of the query, which all have to be in the

@@ -110,7 +110,7 @@ void ContextMenus::add_showing(QMenu& menu, PatchId patch) {
     frame_.state.focus.go_to_first(position.iteration, position.direction, find_processing(patch));
   });
   step->setObjectName("step_query");
-  step->setEnabled(frame_.state.focus.map() != nullptr);
+  enable_if(*step, frame_.state.focus.map() != nullptr, tr("No direction is shown yet"));
   menu.addAction(tr("Copy the number"), this,
                  [patch] { QGuiApplication::clipboard()->setText(QString::number(patch)); })
       ->setObjectName("copy_number");

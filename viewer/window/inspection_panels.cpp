@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <QMenu>
 #include <QMenuBar>
+#include <QUndoStack>
 #include <utility>
 
 #include "model/solver/solve_runner.h"
@@ -106,6 +107,12 @@ void InspectionPanels::add_to(QMenuBar& bar) {
   redo->setObjectName("redo");
   redo->setShortcuts(
       {QKeySequence(QStringLiteral("Ctrl+Y")), QKeySequence(QStringLiteral("Ctrl+Shift+Z"))});
+  const auto enable_undo = [undo](bool can) { enable_if(*undo, can, tr("Nothing to undo")); };
+  const auto enable_redo = [redo](bool can) { enable_if(*redo, can, tr("Nothing to redo")); };
+  connect(&undo_, &QUndoStack::canUndoChanged, this, enable_undo);
+  connect(&undo_, &QUndoStack::canRedoChanged, this, enable_redo);
+  enable_undo(undo_.canUndo());
+  enable_redo(undo_.canRedo());
   edit->addAction(undo);
   edit->addAction(redo);
   edit->addSeparator();

@@ -394,7 +394,7 @@ void DockLayouts::cover(bool covered) {
       dock.widget->hide();
     }
   }
-  panel_menu_->setEnabled(false);
+  enable_if(*panel_menu_->menuAction(), false, tr("The first page covers the panels"));
   show_state();
   emit switched();
 }
@@ -403,7 +403,7 @@ void DockLayouts::uncover() {
   if (!std::exchange(covered_, false)) {
     return;
   }
-  panel_menu_->setEnabled(true);
+  enable_if(*panel_menu_->menuAction(), true, {});
   if (held_) {
     uncovers_later_ = true;
   } else {

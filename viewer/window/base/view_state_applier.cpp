@@ -15,6 +15,7 @@
 #include "solve/settings_panel.h"
 #include "state/step_events.h"
 #include "stepping/algorithm_view.h"
+#include "widgets/build.h"
 #include "window/base/dock_layouts.h"
 #include "window/base/notifier.h"
 
@@ -64,7 +65,7 @@ ViewStateApplier::ViewStateApplier(const WindowFrame& frame, DockLayouts& docks,
 void ViewStateApplier::show(const ViewState& state) {
   before_lesson_.reset();
   follow_layout();
-  frame_.page.sharp()->action()->setEnabled(true);
+  enable_sharp(true);
   apply(state);
   for (const std::string& panel : state.panels) {
     docks_.bring_to_front(panel);
@@ -85,9 +86,13 @@ void ViewStateApplier::enter_lesson() {
     before_lesson_->options = settings_.options();
     before_lesson_->layout = docks_.current();
     // Lessons are about patches, and what few directions do to them.
-    frame_.page.sharp()->action()->setEnabled(false);
+    enable_sharp(false);
     follow_layout();
   }
+}
+
+void ViewStateApplier::enable_sharp(bool enabled) {
+  enable_if(*frame_.page.sharp()->action(), enabled, tr("Lessons show patches"));
 }
 
 void ViewStateApplier::follow_layout() {
@@ -249,7 +254,7 @@ void ViewStateApplier::restore_appearance() {
   if (before_lesson_) {
     apply_appearance(*before_lesson_);
     frame_.page.color_controls()->set_direction(before_lesson_->direction_shown);
-    frame_.page.sharp()->action()->setEnabled(true);
+    enable_sharp(true);
     frame_.state.focus.set_phase(Phase::after);
     if (docks_.current() == Layout::teach) {
       // The page of the lesson is about another scene.

@@ -37,6 +37,7 @@ class ViewStateApplier : public QObject {
   bool in_lesson() const { return before_lesson_ && !leaving_; }
   /// Shows the newest direction in lessons and in layouts that are about directions.
   void follow_layout();
+  void enable_sharp(bool enabled);
   /// Reads the file of the open scene again, and shows it in the same state.
   void reload();
   /// Reads the open scene again with other options and solves it. Camera, colors and changed

@@ -160,8 +160,8 @@ void MovePanel::show_state() {
   const bool any = edits_.has_target();
   numbers_->setVisible(any && why.isEmpty());
   reach_->setCurrentIndex(static_cast<int>(edits_.reach()));
-  reach_->setEnabled(why.isEmpty());
-  add_->menuAction()->setEnabled(why.isEmpty());
+  enable_if(*reach_, why.isEmpty(), why);
+  enable_if(*add_->menuAction(), why.isEmpty(), why);
   enable_if(*copy_, any, tr("Nothing is selected"));
   enable_if(*remove_, any, tr("Nothing is selected"));
   if (!why.isEmpty()) {

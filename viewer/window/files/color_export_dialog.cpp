@@ -136,9 +136,9 @@ double ColorExportDialog::exposure() const {
 
 void ColorExportDialog::show_state() {
   for (QWidget* of_gltf : std::initializer_list<QWidget*>{up_, light_map_}) {
-    of_gltf->setEnabled(formats[format_->currentIndex()].is_gltf);
+    enable_if(*of_gltf, formats[format_->currentIndex()].is_gltf, tr("This format has none"));
   }
-  exposure_->setEnabled(!automatic_->isChecked());
+  enable_if(*exposure_, !automatic_->isChecked(), tr("The exposure is chosen automatically"));
   if (!view_) {
     return;
   }

@@ -133,11 +133,9 @@ ExportActions::ExportActions(const WindowFrame& frame, MapView& map, Convergence
                                tr("Write the measured errors as a page (HTML) or JSON"));
   connect(export_errors_, &QAction::triggered, this, &ExportActions::choose_errors);
   const auto enable = [this] {
-    export_colors_->setEnabled(frame_.state.scene.snapshot() != nullptr);
-    save_figure_->setEnabled(frame_.state.scene.snapshot() != nullptr);
-    save_scene_->setEnabled(frame_.state.scene.snapshot() != nullptr);
-    for (QAction* action : actions_) {
-      action->setEnabled(frame_.state.scene.snapshot() != nullptr);
+    const QList<QAction*> others{export_colors_, save_figure_, save_scene_};
+    for (QAction* action : others + actions_) {
+      enable_if(*action, frame_.state.scene.snapshot() != nullptr, tr("No scene is solved yet"));
     }
   };
   connect(&frame_.state.scene, &OpenScene::snapshot_shown, this, enable);

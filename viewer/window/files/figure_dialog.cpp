@@ -119,7 +119,7 @@ void FigureDialog::show_state() {
     problem = QString::fromStdString(error.what());
   }
   const QSize size = plan().pixels();
-  save_->setEnabled(problem.isEmpty());
+  enable_if(*save_, problem.isEmpty(), problem);
   note_->setText(problem.isEmpty()
                      ? tr("%1 × %2 pixels; .svg and .pdf keep text, map and charts as vectors")
                            .arg(size.width())

@@ -78,8 +78,7 @@ FileActions::FileActions(const WindowFrame& frame, DockLayouts& docks, SettingsP
   });
   connect(&settle_, &QTimer::timeout, this, &FileActions::reload_if_written);
   connect(&frame_.state.scene, &OpenScene::scene_shown, this, &FileActions::on_scene_shown);
-  save_session_->setEnabled(false);
-  reload_->setEnabled(false);
+  enable_for_scene(false);
 }
 
 void FileActions::make_actions() {
@@ -101,7 +100,7 @@ void FileActions::make_actions() {
   reading_ = make_action(this, "reading", tr("Units and orientation…"),
                          tr("Read the scene's file in another unit, or with its faces turned or "
                             "joined; the choice is remembered for the file"));
-  reading_->setEnabled(false);
+  enable_if(*reading_, false, tr("No scene is open"));
   connect(reading_, &QAction::triggered, this, &FileActions::choose_reading);
 }
 
@@ -150,7 +149,7 @@ void FileActions::show_reading() {
       QFileInfo(QString::fromStdString(frame_.state.scene.spec())).absoluteFilePath();
   const auto loaded = frame_.state.scene.loaded();
   const bool from_file = loaded->description && !loaded->description->files.empty();
-  reading_->setEnabled(from_file);
+  enable_if(*reading_, from_file, tr("The scene was not read from a scene file"));
   const QString text = ReadingMemory::text_of(frame_.state.scene.input());
   if (from_file && recalled_ == path && !text.isEmpty()) {
     frame_.page.reading_bar()->show_message(
@@ -173,8 +172,13 @@ void FileActions::on_scene_shown() {
   show_reading();
   show_first_look();
   watch_scene();
-  save_session_->setEnabled(true);
-  reload_->setEnabled(true);
+  enable_for_scene(true);
+}
+
+void FileActions::enable_for_scene(bool any) {
+  for (QAction* action : {save_session_, reload_}) {
+    enable_if(*action, any, tr("No scene is open"));
+  }
 }
 
 void FileActions::add_to(QMenu& menu) {
@@ -434,7 +438,7 @@ void FileActions::fill_recent() {
     QAction* action =
         recent_menu_->addAction(QFileInfo(path).fileName(), this, [this, path] { try_open(path); });
     action->setToolTip(path);
-    action->setEnabled(QFileInfo::exists(path));
+    enable_if(*action, QFileInfo::exists(path), tr("The file does not exist any more"));
   }
   if (recent_.isEmpty()) {
     recent_menu_->addAction(tr("No recent files"))->setEnabled(false);

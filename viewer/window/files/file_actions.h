@@ -102,6 +102,7 @@ class FileActions : public QObject {
   void remember(const QString& path);
   void fill_recent();
   void on_scene_shown();
+  void enable_for_scene(bool any);
   void watch_scene();
   void reload_if_written();
 

@@ -18,7 +18,10 @@ QStandardItem& item_of(const QComboBox& box, int row) {
   return *static_cast<QStandardItemModel*>(box.model())->item(row);
 }
 
-void disable(const QComboBox& box, int row) { item_of(box, row).setEnabled(false); }
+void disable(const QComboBox& box, int row, const QString& why) {
+  item_of(box, row).setEnabled(false);
+  item_of(box, row).setToolTip(why);
+}
 
 }  // namespace
 
@@ -44,15 +47,18 @@ FilmDialog::FilmDialog(const FilmPlan& plan, bool has_map,
   speed_->setDecimals(1);
   speed_->setValue(plan.per_second);
   if (!has_map) {
+    const QString why = tr("No direction is shown yet");
     for (const auto over :
          {FilmPlan::Over::polygons, FilmPlan::Over::directions, FilmPlan::Over::iterations}) {
-      disable(*over_, static_cast<int>(over));
+      disable(*over_, static_cast<int>(over), why);
     }
-    disable(*show_, static_cast<int>(FilmPlan::Show::map));
-    disable(*show_, static_cast<int>(FilmPlan::Show::both));
+    disable(*show_, static_cast<int>(FilmPlan::Show::map), why);
+    disable(*show_, static_cast<int>(FilmPlan::Show::both), why);
   }
   for (const FilmPlan::Over over : missing) {
-    disable(*over_, static_cast<int>(over));
+    disable(*over_, static_cast<int>(over),
+            over == FilmPlan::Over::move ? tr("Nothing has been moved")
+                                         : tr("The scene has no sun by place and day"));
   }
   show_->setCurrentIndex(has_map ? static_cast<int>(plan.show) : 0);
   const int over = static_cast<int>(plan.over);

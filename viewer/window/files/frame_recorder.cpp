@@ -395,8 +395,9 @@ void FrameRecorder::report(const FilmRequest& film, const QString& failure) {
 
 void FrameRecorder::show_state() {
   const bool any = frame_.state.scene.snapshot() != nullptr;
-  frames_action_->setEnabled(any);
-  film_action_->setEnabled(any);
+  for (QAction* action : {frames_action_, film_action_}) {
+    enable_if(*action, any, tr("No scene is solved yet"));
+  }
   frames_action_->setChecked(!folder_.isEmpty());
   film_action_->setChecked(film_ && !ended_);
   mark_->setVisible(film_ != nullptr);
@@ -408,7 +409,7 @@ void FrameRecorder::show_state() {
     const std::lock_guard lock(film_->mutex);
     waiting = film_->waiting.size();
   }
-  finish_->setEnabled(!ended_);
+  enable_if(*finish_, !ended_, tr("The film is being written"));
   const QString text =
       ended_
           ? tr("Writing: %1 of %2 pictures").arg(frames_ - static_cast<int>(waiting)).arg(frames_)

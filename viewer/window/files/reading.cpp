@@ -55,9 +55,9 @@ ReadingDialog::ReadingDialog(const QString& file, const SceneInput& input, QWidg
   photometric_ =
       named("reading_photometric", new QCheckBox(tr("Emissive colors are luminances, cd/m²")));
   const QString ending = QFileInfo(file).suffix().toLower();
-  photometric_->setEnabled(ending == "gltf" || ending == "glb");
   photometric_->setToolTip(
       tr("Only for glTF: divide by 683 lm/W instead of reading the values as radiances"));
+  enable_if(*photometric_, ending == "gltf" || ending == "glb", tr("This file is not glTF"));
   fill_units();
 
   auto* form = new QFormLayout;
@@ -98,12 +98,12 @@ void ReadingDialog::fill_units() {
   unit_->addItem(tr("other units"));
   scale_->setValue(scale);
   unit_->setCurrentIndex(chosen >= 0 ? chosen : unit_->count() - 1);
-  scale_->setEnabled(chosen < 0);
+  show_scale();
 }
 
 void ReadingDialog::show_scale() {
   const QVariant meters = unit_->currentData();
-  scale_->setEnabled(!meters.isValid());
+  enable_if(*scale_, !meters.isValid(), tr("The unit says it"));
   if (meters.isValid()) {
     scale_->setValue(meters.toDouble());
   }

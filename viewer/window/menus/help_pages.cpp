@@ -196,6 +196,12 @@ void show_keys(QMainWindow& window) {
 
 }  // namespace
 
+void show_tips_of_menus(const QMainWindow& window) {
+  for (QMenu* menu : window.findChildren<QMenu*>()) {
+    menu->setToolTipsVisible(true);
+  }
+}
+
 void add_help_pages(QMenu& menu, QMainWindow& window) {
   const auto add = [&](const QString& text, auto show) {
     return menu.addAction(text, &window, [&window, show] { show(window); });

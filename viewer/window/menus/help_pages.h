@@ -29,6 +29,8 @@ struct KeySection {
 std::vector<KeySection> keys_of(const QMainWindow& window);
 /// All keys as a page of HTML in two columns, with the functions of the pointer.
 QString key_page(const QMainWindow& window);
+/// Lets the menus of a window show the tool tips of their actions, which say why one is disabled.
+void show_tips_of_menus(const QMainWindow& window);
 /// Adds the guide, the keys, the settings and what the program is, each in a dialog.
 void add_help_pages(QMenu& menu, QMainWindow& window);
 
