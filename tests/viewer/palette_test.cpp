@@ -4,7 +4,9 @@
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QMenu>
+#include <QSet>
 #include <QTableView>
+#include <QToolButton>
 #include <QTreeWidget>
 
 #include "patches/patch_table.h"
@@ -119,6 +121,49 @@ class PaletteTest : public QObject {
       QVERIFY(palette.closes_on_return());
     }
     QVERIFY(wait_for([&] { return shown.window->windowTitle().startsWith("furnace"); }));
+  }
+
+  void offers_the_buttons_of_panels() {
+    const SolvedWindow shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.window->focus.show_whole();
+    QVERIFY(wait_for([&] { return shown.window->focus.map() && shown.window->settled(); }));
+    auto* receivers = shown.window->findChild<QToolButton*>("map_receivers");
+    auto* map = shown.window->findChild<QDockWidget*>("map_dock");
+    QVERIFY(receivers && map && receivers->isEnabled() && !receivers->isChecked());
+    map->hide();
+    {
+      const OpenPalette palette(*shown.window);
+      QCOMPARE(palette.first("receivers only"), QString("Receivers only"));
+      QCOMPARE(palette.list->topLevelItem(0)->text(1), map->windowTitle());
+      QVERIFY(palette.closes_on_return());
+    }
+    QVERIFY(wait_for([&] { return receivers->isChecked() && map->isVisible(); }));
+    const OpenPalette palette(*shown.window);
+    QSet<QString> offered;
+    for (const auto* button : map->widget()->findChildren<QToolButton*>()) {
+      if (button->isVisible() && !button->text().isEmpty() && !button->menu()) {
+        const QString text = button->text().remove('&').trimmed();
+        palette.first(text + ' ' + map->windowTitle());
+        QVERIFY2(!palette.list->findItems(text, Qt::MatchExactly).isEmpty(), qPrintable(text));
+        offered << text;
+      }
+    }
+    QVERIFY(offered.contains("Complete") && offered.contains("Zoom"));
+    // An icon is named by its tool tip, an entry of a menu by itself.
+    QCOMPARE(palette.first("show the whole map"), QString("Show the whole map"));
+    QCOMPARE(palette.first("mark errors map"), QString("Mark errors"));
+    // Every action of the window, whether a menu has it or not.
+    for (const auto* action : shown.window->findChildren<QAction*>()) {
+      const auto* dock = qobject_cast<QDockWidget*>(action->parent());
+      if (action->objectName().isEmpty() || action->text().isEmpty() || action->menu() || dock ||
+          action->isSeparator() || action->objectName() == "command_palette_action") {
+        continue;
+      }
+      const QString text = QString(action->text()).remove('&');
+      palette.first(text.simplified());
+      QVERIFY2(!palette.list->findItems(text, Qt::MatchExactly).isEmpty(), qPrintable(text));
+    }
   }
 
   void shows_keys_and_fits_a_small_window() {

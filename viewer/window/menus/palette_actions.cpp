@@ -1,12 +1,20 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "window/menus/palette_actions.h"
 
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
+#include <QCheckBox>
+#include <QComboBox>
 #include <QCoreApplication>
 #include <QDockWidget>
+#include <QLineEdit>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QPointer>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QTabBar>
 #include <QToolButton>
 #include <set>
 #include <string>
@@ -14,6 +22,7 @@
 #include "colors/quantity.h"
 #include "scene/camera_menu.h"
 #include "scene/scene_page.h"
+#include "scene/scene_view.h"
 #include "transillum/at.h"
 #include "widgets/build.h"
 #include "window/base/dock_layouts.h"
@@ -33,27 +42,60 @@ QString keys_of(const QAction& action) {
   return keys.join(QLatin1Char(' '));
 }
 
-/// Adds the actions of a menu and of the menus in it.
 /// @param taken  actions that the palette has already, or in another form
+void add_action(QAction& action, const QString& place, std::set<const QAction*>& taken,
+                std::vector<PaletteEntry>& entries) {
+  if (action.isSeparator() || action.text().isEmpty() || !taken.insert(&action).second) {
+    return;
+  }
+  entries.push_back({without_marks(action.text()), place, keys_of(action), action.isEnabled(),
+                     [action = QPointer<QAction>(&action)] {
+                       if (action) {
+                         action->trigger();
+                       }
+                     },
+                     action.property(why_disabled).toString()});
+}
+
+/// Adds the actions of a menu and of the menus in it.
 void add_menu(QMenu& menu, const QString& place, std::set<const QAction*>& taken,
               std::vector<PaletteEntry>& entries) {
   emit menu.aboutToShow();  // some menus are filled then
   for (QAction* action : menu.actions()) {
-    if (action->isSeparator() || action->text().isEmpty() || !taken.insert(action).second) {
-      continue;
-    }
-    if (action->menu()) {
+    if (!action->menu()) {
+      add_action(*action, place, taken, entries);
+    } else if (taken.insert(action).second) {
       add_menu(*action->menu(), place + QStringLiteral(" › ") + without_marks(action->text()),
                taken, entries);
-      continue;
     }
-    entries.push_back({without_marks(action->text()), place, keys_of(*action), action->isEnabled(),
-                       [action = QPointer<QAction>(action)] {
-                         if (action) {
-                           action->trigger();
-                         }
-                       }});
   }
+}
+
+/// The text of a button, or where it has an icon alone the first line of its tool tip.
+QString text_of(const QAbstractButton& button) {
+  const QString text = without_marks(button.text()).trimmed();
+  static const QRegularExpression rest(QStringLiteral("( \\(|\n|: ).*"),
+                                       QRegularExpression::DotMatchesEverythingOption);
+  return text.size() > 1 ? text : without_marks(button.toolTip()).remove(rest);
+}
+
+/// Whether a button does something by itself, rather than being a part of a field, list or tab.
+bool is_command(const QAbstractButton& button, const QWidget& place) {
+  const bool is_known = qobject_cast<const QToolButton*>(&button) ||
+                        qobject_cast<const QPushButton*>(&button) ||
+                        qobject_cast<const QCheckBox*>(&button);
+  if (!is_known || !button.isVisibleTo(&place) || text_of(button).isEmpty()) {
+    return false;
+  }
+  for (const QWidget* over = button.parentWidget(); over && over != &place;
+       over = over->parentWidget()) {
+    if (qobject_cast<const QTabBar*>(over) || qobject_cast<const QLineEdit*>(over) ||
+        qobject_cast<const QAbstractSpinBox*>(over) || qobject_cast<const QComboBox*>(over) ||
+        qobject_cast<const QAbstractItemView*>(over)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -91,15 +133,61 @@ std::vector<PaletteEntry> PaletteActions::entries() {
   }
   add_panels(entries);
   add_quantities(entries);
+  add_buttons(*frame_.page.scene_view()->parentWidget(), tr("Scene"), {}, taken, entries);
+  for (const std::string& panel : docks_.panels()) {
+    const QDockWidget* dock = dock_of(panel);
+    add_buttons(*dock->widget(), dock->windowTitle(), panel, taken, entries);
+  }
+  add_other_actions(taken, entries);
   add_surfaces(entries);
   return entries;
 }
 
+const QDockWidget* PaletteActions::dock_of(const std::string& panel) const {
+  return frame_.window.findChild<QDockWidget*>(QString::fromStdString(panel) +
+                                               QStringLiteral("_dock"));
+}
+
+void PaletteActions::add_buttons(const QWidget& widget, const QString& place,
+                                 const std::string& panel, std::set<const QAction*>& taken,
+                                 std::vector<PaletteEntry>& entries) {
+  for (QAbstractButton* button : widget.findChildren<QAbstractButton*>()) {
+    const auto* tool = qobject_cast<const QToolButton*>(button);
+    if (!is_command(*button, widget) ||
+        (tool && tool->defaultAction() && !taken.insert(tool->defaultAction()).second)) {
+      continue;
+    }
+    if (tool && tool->menu()) {
+      if (taken.insert(tool->menu()->menuAction()).second) {
+        add_menu(*tool->menu(), place + QStringLiteral(" › ") + text_of(*button), taken, entries);
+      }
+      continue;
+    }
+    entries.push_back({text_of(*button), place, button->shortcut().toString(), button->isEnabled(),
+                       [this, panel, pressed = QPointer<QAbstractButton>(button)] {
+                         if (pressed && !panel.empty()) {
+                           docks_.bring_to_front(panel);
+                         }
+                         if (pressed) {
+                           pressed->click();
+                         }
+                       },
+                       button->property(why_disabled).toString()});
+  }
+}
+
+void PaletteActions::add_other_actions(std::set<const QAction*>& taken,
+                                       std::vector<PaletteEntry>& entries) {
+  for (QAction* action : frame_.window.findChildren<QAction*>()) {
+    if (!action->objectName().isEmpty() && !action->menu()) {
+      add_action(*action, tr("Window"), taken, entries);
+    }
+  }
+}
+
 void PaletteActions::add_panels(std::vector<PaletteEntry>& entries) {
   for (const std::string& panel : docks_.panels()) {
-    const auto* dock = frame_.window.findChild<QDockWidget*>(QString::fromStdString(panel) +
-                                                             QStringLiteral("_dock"));
-    entries.push_back({dock->windowTitle(), tr("Panel"), {}, true, [this, panel] {
+    entries.push_back({dock_of(panel)->windowTitle(), tr("Panel"), {}, true, [this, panel] {
                          docks_.bring_to_front(panel);
                        }});
   }
