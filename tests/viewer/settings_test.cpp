@@ -3,10 +3,12 @@
 #include <QComboBox>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSpinBox>
 #include <limits>
 
 #include "scene/build/patch_count.h"
+#include "solve/quality_controls.h"
 #include "solve/settings_panel.h"
 #include "solve/solve_cost.h"
 #include "solved_window.h"
@@ -70,6 +72,30 @@ class SettingsTest : public QObject {
     panel.findChild<QLineEdit*>("accuracy")->clear();
     QVERIFY(!panel.solve_options().goal.is_set());
     QVERIFY(directions->isVisibleTo(&panel));
+  }
+
+  void only_what_applies_to_an_engine_is_shown() {
+    SettingsPanel panel;
+    const auto shown = [&] {
+      QStringList names;
+      for (const char* name : {"draft", "normal", "fine", "by_number", "draft_cost", "accuracy"}) {
+        names << (panel.findChild<QWidget*>(name)->isVisibleTo(&panel) ? QStringList{name}
+                                                                       : QStringList{});
+      }
+      return names.join(' ');
+    };
+    const QString all = "draft normal fine by_number draft_cost accuracy";
+    QCOMPARE(shown(), all);
+    auto* accuracy = panel.findChild<QLineEdit*>("accuracy");
+    accuracy->setText("1");
+    auto* engine = panel.findChild<QComboBox*>("engine");
+    choose_engine(*engine, Engine::hemicube);
+    QCOMPARE(shown(), QString("accuracy"));  // to take it back
+    accuracy->clear();
+    QCOMPARE(shown(), QString());
+    QVERIFY(panel.findChild<QLabel*>("quality_note")->isVisibleTo(&panel));
+    choose_engine(*engine, Engine::fast);
+    QCOMPARE(shown(), all);
   }
 
   void quality_is_one_of_few_or_an_own_one() {
@@ -219,6 +245,46 @@ class SettingsTest : public QObject {
     QVERIFY(wanted.seconds >= directions * spent.seconds_transfers / 8);
     QVERIFY(wanted.seconds < directions * spent.seconds_transfers / 8 + 60);
     QCOMPARE(cost->text(), cost_text(wanted));
+  }
+
+  // A draft has no error that would tell how many passes an accuracy needs: a range is shown.
+  void the_choices_of_quality_tell_their_time() {
+    const SolvedWindow solved("cornell-box", {.directions = 64});
+    QVERIFY(solved.ready);
+    const auto text = [&](const char* choice) {
+      return solved.window->findChild<QLabel*>(QString(choice) + "_cost")->text();
+    };
+    for (const char* choice : {"draft", "normal", "fine"}) {
+      QVERIFY2(QRegularExpression("[0-9] (s|min)$").match(text(choice)).hasMatch(),
+               qPrintable(text(choice)));
+    }
+    const SolverSnapshot& done = *solved.window->snapshot();
+    const std::int64_t patches = done.loaded->scene->patch_count();
+    const auto* quality = solved.window->findChild<QualityControls*>();
+    double before = 0;
+    for (const auto choice : {QualityControls::Choice::draft, QualityControls::Choice::normal,
+                              QualityControls::Choice::fine}) {
+      const SolveCost cost = cost_of(&done, quality->with(done.options, choice), patches);
+      QVERIFY(cost.seconds && *cost.seconds > before && *cost.most_seconds >= *cost.seconds);
+      QCOMPARE(*cost.most_seconds > *cost.seconds, choice != QualityControls::Choice::draft);
+      before = *cost.most_seconds;
+    }
+    // With an estimate of the error, the time is one number, and grows with the accuracy.
+    const SolvedWindow estimated("cornell-box", {.directions = 64, .replicas = 8});
+    QVERIFY(estimated.ready);
+    const SolverSnapshot& known = *estimated.window->snapshot();
+    SolveOptions wanted = known.options;
+    wanted.replicas = 1;
+    wanted.goal.accuracy = 0.01;
+    const SolveCost normal = cost_of(&known, wanted, patches);
+    wanted.goal.accuracy = 0.003;
+    const SolveCost fine = cost_of(&known, wanted, patches);
+    QVERIFY(normal.seconds && fine.seconds && *fine.seconds > *normal.seconds);
+    QVERIFY(*normal.most_seconds == *normal.seconds);
+    QCOMPARE(short_time_text({patches, 2.2, 8.5, 0}), QString("3–9 s"));
+    QCOMPARE(short_time_text({patches, 8.1, 8.5, 0}), QString("9 s"));
+    QCOMPARE(short_time_text({patches, 40, 240, 0}), QString("≤ 4 min"));
+    QCOMPARE(short_time_text({patches, {}, {}, 0}), QString());
   }
 
   // At the size of a projector, with all sections open, in both themes.

@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QDoubleValidator>
+#include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QLocale>
@@ -14,6 +15,7 @@
 
 #include "solve/setting_tips.h"
 #include "support/number_text.h"
+#include "transillum/at.h"
 #include "widgets/build.h"
 
 namespace transillum::viewer {
@@ -53,20 +55,58 @@ QualityControls::QualityControls(QWidget* parent) : QWidget(parent) {
   passes->addWidget(directions_, 1);
   note_ = named("quality_note", note_label());
   note_->hide();
-  auto* row = make_row({}, 3);
-  for (QPushButton* button : {draft_, normal_, fine_}) {
-    row->addWidget(button, 3);
-  }
-  row->addWidget(accuracy_, 2);
-  row->addWidget(new QLabel(QStringLiteral("%")));
   auto* column = make_column(this, {}, 6);
-  column->addLayout(row);
+  column->addLayout(make_choices());
   column->addWidget(passes_);
   column->addWidget(note_);
   connect(directions_, qOverload<int>(&QSpinBox::valueChanged), this, &QualityControls::changed);
   connect(accuracy_, &QLineEdit::textChanged, this, &QualityControls::changed);
   connect(accuracy_of_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           &QualityControls::changed);
+}
+
+QGridLayout* QualityControls::make_choices() {
+  auto* grid = new QGridLayout;
+  grid->setHorizontalSpacing(3);
+  grid->setVerticalSpacing(0);
+  int place = 0;
+  for (QPushButton* button : {draft_, normal_, fine_}) {
+    QLabel*& cost = at(costs_, place);
+    cost = named(button->objectName() + QStringLiteral("_cost"), new QLabel,
+                 tr("Time of such a solve, by the passes of the last one; a range where its error "
+                    "is not known"));
+    cost->setAlignment(Qt::AlignHCenter);
+    cost->setForegroundRole(QPalette::PlaceholderText);
+    cost->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    QFont small = cost->font();
+    small.setPixelSize(QFontInfo(small).pixelSize() * 6 / 7);
+    cost->setFont(small);
+    grid->addWidget(button, 0, place);
+    grid->addWidget(cost, 1, place);
+    grid->setColumnStretch(place++, 3);
+  }
+  grid->addWidget(accuracy_, 0, place);
+  grid->setColumnStretch(place, 2);
+  percent_ = new QLabel(QStringLiteral("%"));
+  grid->addWidget(percent_, 0, place + 1);
+  return grid;
+}
+
+void QualityControls::show_cost(Choice choice, const QString& text) {
+  at(costs_, choice)->setText(text);
+}
+
+SolveOptions QualityControls::with(SolveOptions solve, Choice choice) const {
+  const AccuracyOf of = goal().of;
+  if (choice == Choice::draft) {
+    solve.goal = {};
+    solve.directions = draft_passes;
+  } else {
+    solve.goal.accuracy = 0.01 * (choice == Choice::normal ? normal_percent : fine_percent);
+    solve.goal.of = of;
+  }
+  solve.replicas = 1;
+  return solve;
 }
 
 void QualityControls::add_buttons() {
@@ -183,11 +223,16 @@ void QualityControls::write_to(SolveOptions& solve) const {
 void QualityControls::show_state(bool takes_directions, const QString& conflict) {
   const bool chosen = goal().is_set();
   passes_->setVisible(takes_directions);
+  for (QLabel* cost : costs_) {
+    cost->setVisible(takes_directions);
+  }
   directions_->setVisible(!chosen);
-  for (QWidget* widget : {static_cast<QWidget*>(draft_), static_cast<QWidget*>(normal_),
-                          static_cast<QWidget*>(fine_), static_cast<QWidget*>(accuracy_)}) {
-    enable_if(*widget, takes_directions || (chosen && widget == accuracy_),
-              tr("This engine has no directions to choose"));
+  for (QPushButton* button : {draft_, normal_, fine_}) {
+    button->setVisible(takes_directions);
+  }
+  // An accuracy that is asked for can be taken back.
+  for (QWidget* widget : {static_cast<QWidget*>(accuracy_), static_cast<QWidget*>(percent_)}) {
+    widget->setVisible(takes_directions || goal().accuracy > 0);
   }
   note_->setText(!conflict.isEmpty() ? capitalized(conflict)
                  : !takes_directions ? tr("This engine has no directions to choose")

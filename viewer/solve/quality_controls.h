@@ -2,10 +2,12 @@
 #pragma once
 
 #include <QWidget>
+#include <array>
 
 #include "transillum/solve_options.h"
 
 class QComboBox;
+class QGridLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -33,6 +35,13 @@ class QualityControls : public QWidget {
   int directions() const;
   /// The choice of the error that the accuracy limits, to be placed elsewhere.
   QComboBox* accuracy_of() const { return accuracy_of_; }
+  /// The choices of one button each.
+  enum class Choice { draft, normal, fine };
+  static constexpr int choice_count = 3;
+  /// These options with another choice.
+  SolveOptions with(SolveOptions solve, Choice choice) const;
+  /// Shows a text below the button of a choice: the time of such a solve. Empty for none.
+  void show_cost(Choice choice, const QString& text);
   /// Shows what has an effect.
   /// @param takes_directions  whether the engine has directions
   /// @param conflict  why the accuracy cannot be combined with other settings; empty if it can
@@ -45,6 +54,7 @@ class QualityControls : public QWidget {
 
  private:
   void add_buttons();
+  QGridLayout* make_choices();
   void add_accuracy_of();
   void choose(double percent);
   void choose_draft();
@@ -54,8 +64,10 @@ class QualityControls : public QWidget {
 
   AccuracyGoal base_;  ///< with all digits of what the controls show
   QPushButton *draft_, *normal_, *fine_;
+  std::array<QLabel*, choice_count> costs_;  ///< below these, in this order
   QPushButton* by_number_;  ///< pressed where neither a draft nor an accuracy is asked for
   QLineEdit* accuracy_;     ///< percent; empty if not asked for
+  QLabel* percent_;         ///< its unit
   QComboBox* accuracy_of_;
   QSpinBox* directions_;
   QLabel* note_;

@@ -122,11 +122,8 @@ void SettingsPanel::show_sky_state() {
   const bool any = may_have_sky() && sky_value_->value() > 0;
   const Sun sun = sun_->sun(zenith());
   FoldHeader& header = *sky_section_->header();
-  header.setEnabled(!closed_);
-  if (closed_) {
-    sky_section_->set_open(false);
-    header.set_state(tr("none: the scene is closed"));
-  } else {
+  sky_section_->setVisible(!closed_);
+  if (!closed_) {
     QStringList parts;
     if (any) {
       parts << tr("%1 W/m²").arg(number_text(sky_value_->value())) << sky_model_->currentText();
@@ -220,6 +217,15 @@ void SettingsPanel::show_cost() {
   cost_->setText(patches_wanted_ > 0 || !patches ? tr("Counting patches…")
                  : *patches == 0                 ? QString()
                                  : cost_text(cost_of(in_effect_.get(), solve_options(), *patches)));
+  using Choice = QualityControls::Choice;
+  for (const Choice choice : {Choice::draft, Choice::normal, Choice::fine}) {
+    // The stages of a solve to a total error are not known before.
+    const bool known = patches && patches_wanted_ == 0 && (choice == Choice::draft || !total());
+    quality_->show_cost(
+        choice, known ? short_time_text(cost_of(in_effect_.get(),
+                                                quality_->with(solve_options(), choice), *patches))
+                      : QString());
+  }
 }
 
 void SettingsPanel::show_button() {

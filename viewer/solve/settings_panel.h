@@ -62,7 +62,7 @@ class SettingsPanel : public QWidget {
   std::vector<SunOfDay> sun_through_day(int count) const;
   void set_restart_enabled(bool enabled);
   /// Sets the fraction of the light of all patches that escapes from the open scene; not set while
-  /// it is unknown. If no light escapes, no sky is seen, and its controls are disabled.
+  /// it is unknown. If no light escapes, no sky is seen, and its section is hidden.
   void show_escape(std::optional<double> fraction);
   /// Whether a sky would light the open scene, as far as is known.
   bool may_have_sky() const;
