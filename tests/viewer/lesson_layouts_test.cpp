@@ -47,7 +47,7 @@ struct Room {
            view->window()->rect().contains({view->mapTo(view->window(), {}), view->size()});
   }
 
-  /// On a projector, a view that is large has no others beside it.
+  /// On a projector, a view that is large has only the scene beside it.
   void check_panels(bool projects) {
     const std::string& large = page().large;
     std::vector<std::string> panels{"lesson"};
@@ -57,6 +57,7 @@ struct Room {
     if (large.empty() || !projects) {
       panels.insert(panels.end(), page().state.panels.begin(), page().state.panels.end());
     }
+    require(!projects || shows(window->findChild<SceneView*>()), "the scene is hidden");
     for (const std::string& name : panels) {
       const auto* dock =
           window->findChild<QDockWidget*>(QString::fromStdString(name) + QStringLiteral("_dock"));
@@ -120,13 +121,19 @@ struct Room {
       require(!reveals || usable(button), "the answer cannot be revealed");
     }
   }
-  /// A projected page is not scrolled, and on a large screen its type is 28 px of 1080 lines.
+  /// A projected page is not scrolled, and on a large screen its type is 28 px of 1080 lines; so is
+  /// the question's.
   void check_projected(const QSize& screen) {
     require(text->verticalScrollBar()->maximum() == 0, "text has to be scrolled");
     const double lines = std::min(QGuiApplication::primaryScreen()->size().height(), 1080);
     const int type = QFontInfo(text->font()).pixelSize();
     require(screen.height() < lines || type >= 0.9 * 28 * lines / 1080,
             QString("type of %1 px").arg(type));
+    for (const auto* label : question->findChildren<QLabel*>()) {
+      const bool is_text = label->wordWrap() && label->objectName() != "question_counts";
+      require(screen.height() < lines || !is_text || QFontInfo(label->font()).pixelSize() >= type,
+              QString("question of %1 px").arg(QFontInfo(label->font()).pixelSize()));
+    }
   }
   QStringList faults_of(const QSize& screen, bool projects) {
     faults.clear();

@@ -11,6 +11,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
+#include <QScopedValueRollback>
 #include <QScrollBar>
 #include <QSettings>
 #include <QTimer>
@@ -321,7 +322,8 @@ int LessonPanel::pages_of(int lesson) const {
 }
 
 bool LessonPanel::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == text_ && event->type() == QEvent::Resize && theme::appearance().projector) {
+  if (watched == text_ && event->type() == QEvent::Resize && theme::appearance().projector &&
+      !fits_text_) {
     QTimer::singleShot(0, this, &LessonPanel::fit_text);
   }
   // The keys of a presenter turn pages, wherever the keyboard focus is, and do nothing else.
@@ -372,6 +374,8 @@ void LessonPanel::show_snapshot(const SolverSnapshot& snapshot) {
 }
 
 void LessonPanel::set_text_scale(double scale) {
+  question_->set_text_font(text_font(scale));
+  layout()->activate();  // the question may leave less room to the text
   text_->setFont(text_font(scale));
   spread_paragraphs(*text_->document());
   text_->place_insets();
@@ -380,6 +384,7 @@ void LessonPanel::set_text_scale(double scale) {
 // Pages are not scrolled on a projector: the type is as large as the page has room for.
 void LessonPanel::fit_text() {
   constexpr double smallest = 0.95, largest = 1.6, step = 0.05;
+  const QScopedValueRollback fitting(fits_text_, true);
   double scale = theme::appearance().projector ? largest : text_scale;
   set_text_scale(scale);
   while (theme::appearance().projector && is_cut_off() && scale > smallest) {
@@ -457,7 +462,6 @@ void LessonPanel::show_state() {
     show_text(page);
     page_number_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages_of(lesson_)));
   }
-  question_->set_text_font(text_font(text_scale));
   typeset_symbols(*text_->document());
   fit_text();
   QFont bold = text_font(title_scale);

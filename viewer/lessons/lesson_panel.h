@@ -130,6 +130,7 @@ class LessonPanel : public QWidget {
   QString tally_failure_;                                  ///< to be reported
   std::map<std::string, std::shared_ptr<Tally>> tallies_;  ///< by the lesson's file
   int lesson_ = -1, page_ = 0;
+  bool fits_text_ = false;                 ///< within fit_text()
   std::map<std::string, int> pages_seen_;  ///< by the lesson's file
   std::function<bool()> guard_ = [] { return true; };
   QComboBox* list_;

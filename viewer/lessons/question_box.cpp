@@ -173,6 +173,10 @@ void QuestionBox::set_text_font(const QFont& font) {
     widget->setFont(font);
   }
   show_state();  // colors of the theme may have changed too
+  if (answers_) {
+    answers_->layout()->activate();
+  }
+  layout_->activate();
 }
 
 void QuestionBox::fill_answers() {

@@ -66,6 +66,12 @@ QDockWidget* ProjectorMode::dock(const std::string& panel) const {
   return frame_.window.findChild<QDockWidget*>(QString::fromStdString(panel + "_dock"));
 }
 
+QDockWidget* ProjectorMode::large() const {
+  return lessons_.lesson() < 0
+             ? nullptr
+             : dock(at(at(lessons_.lessons(), lessons_.lesson()).pages, lessons_.page()).large);
+}
+
 QList<QWidget*> ProjectorMode::views() const {
   QList<QWidget*> views{dock("timeline")};
   QWidget* scene = frame_.window.centralWidget();
@@ -74,10 +80,10 @@ QList<QWidget*> ProjectorMode::views() const {
   }
   views << dock("lesson");
   const Lesson::Page& page = at(at(lessons_.lessons(), lessons_.lesson()).pages, lessons_.page());
-  if (QWidget* large = dock(page.large)) {
+  views << scene;
+  if (QWidget* large = this->large()) {
     return views << large;
   }
-  views << scene;
   for (const std::string& panel : page.state.panels) {
     if (page.large.empty() && panel != "timeline" && panel != "lesson") {
       views << dock(panel);
@@ -110,15 +116,14 @@ void ProjectorMode::arrange() {
   if (!projecting_) {
     return;
   }
-  // Beside the page there is one view, or the scene and a column of panels.
-  constexpr double page_fraction = 0.46, panel_fraction = 0.265;
+  // Beside the page are the scene and a column of panels, or one panel that is larger.
+  constexpr double page_fraction = 0.46, panel_fraction = 0.265, large_fraction = 0.36;
   const int width = frame_.window.width();
-  const bool scene_and_panels = shows_scene_and_panels();
   QList<QDockWidget*> docks{dock("lesson")};
   QList<int> widths{static_cast<int>(page_fraction * width)};
-  if (auto* beside = qobject_cast<QDockWidget*>(projected_.value(scene_and_panels ? 3 : 2))) {
+  if (auto* beside = qobject_cast<QDockWidget*>(projected_.value(3))) {
     docks << beside;
-    widths << static_cast<int>((scene_and_panels ? panel_fraction : 1 - page_fraction) * width);
+    widths << static_cast<int>((beside == large() ? large_fraction : panel_fraction) * width);
   }
   frame_.window.resizeDocks(docks, widths, Qt::Horizontal);
   QList<QDockWidget*> column;

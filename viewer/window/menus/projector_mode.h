@@ -39,8 +39,10 @@ class ProjectorMode : public QObject {
   void follow_page();
   void arrange();
   QDockWidget* dock(const std::string& panel) const;
-  /// The timeline, the page, and beside it the view that the page wants to be large, or the scene
-  /// and the panels that the page needs.
+  /// The panel that the page shows large; null without one.
+  QDockWidget* large() const;
+  /// The timeline, the page, and beside it the scene and the panel that the page wants to be large,
+  /// or those that it needs.
   QList<QWidget*> views() const;
   bool shows_scene_and_panels() const;
 
