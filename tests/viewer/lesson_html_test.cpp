@@ -3,13 +3,16 @@
 // Lessons exported as HTML: the file needs no other file, and has the pages, the maps and the
 // answers.
 #include <QAction>
+#include <QDockWidget>
 #include <QFile>
 #include <QProcess>
 #include <QProgressDialog>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QSet>
 #include <QStandardPaths>
 #include <QTemporaryDir>
+#include <QTextDocument>
 
 #include "lessons/lesson_html.h"
 #include "lessons/lesson_panel.h"
@@ -23,6 +26,18 @@ namespace transillum::viewer::lesson_html_test {
 using namespace test;
 
 namespace {
+
+// Pages of panels that are no maps.
+const char* const panel_lesson_text = R"({"title": "Panels", "pages": [
+  {"title": "Charts", "text": "A sphere and a chart.",
+   "show": {"scene": "cornell-box", "layout": "teach", "options": {"directions": 16},
+            "solve": "finished", "select": 4, "panels": ["direction", "convergence"]}},
+  {"title": "Algorithm", "text": "The algorithm.", "large": "algorithm",
+   "show": {"focus": {"direction": 3, "step": 4}, "panels": ["map", "algorithm"]}},
+  {"title": "Errors", "text": "Two sets.", "large": "error",
+   "errors": [{"label": "Random", "with": {"sampling": "random", "one-way": true}},
+              {"label": "Default"}],
+   "show": {"focus": null, "panels": ["error"]}}]})";
 
 const char* const lesson_text = R"({"title": "Two <pages>", "pages": [
   {"title": "One", "text": "With *A*(i, j, ω) and {M} directions, *B*ᵢ: press `,`.[[ See the panel below.]]",
@@ -45,15 +60,32 @@ int count(const QByteArray& text, const char* pattern) {
   return found;
 }
 
-/// A window with the lesson above.
+/// The parts of a file that are pages.
+QStringList sections_of(const QByteArray& html) {
+  QStringList sections = QString::fromUtf8(html).split(QStringLiteral("<section>"));
+  sections.removeFirst();
+  return sections;
+}
+
+/// The words of four and more letters, without markup.
+QSet<QString> words_of(const QString& text) {
+  static const QRegularExpression word(QStringLiteral("[A-Za-z]{4,}"));
+  QSet<QString> words;
+  for (auto all = word.globalMatch(text); all.hasNext();) {
+    words << all.next().captured().toLower();
+  }
+  return words;
+}
+
+/// A window with a lesson.
 struct Exported {
   QTemporaryDir folder;
   std::unique_ptr<TestWindow> window = make_window();
   LessonExport* exporter = window->findChild<LessonExport*>();
   QString path = folder.filePath("lesson.html");
 
-  Exported() {
-    const QString file = write_file(folder.filePath("mine.json"), lesson_text);
+  explicit Exported(const char* text = lesson_text) {
+    const QString file = write_file(folder.filePath("mine.json"), text);
     window->files().try_open(file);
     QVERIFY(wait_for([this] { return window->settled(); }));
   }
@@ -191,6 +223,90 @@ class LessonHtmlTest : public QObject {
         QVERIFY(!window_text(page.text).contains("[["));
       }
     }
+  }
+
+  // Each page has its title, its words and its picture.
+  void no_page_of_a_built_in_lesson_is_omitted() {
+    for (const Lesson& lesson : built_in_lessons()) {
+      std::vector<ShownPage> pages;
+      for (const Lesson::Page& page : lesson.pages) {
+        ShownPage shown;
+        shown.page = page;
+        shown.picture = "picture";
+        shown.panels = {{"A <panel>", "its picture"}};
+        pages.push_back(std::move(shown));
+      }
+      const QStringList sections =
+          sections_of(lesson_html(QString::fromStdString(lesson.title), pages));
+      QCOMPARE(sections.size(), int(lesson.pages.size()));
+      for (int k = 0; k < sections.size(); ++k) {
+        const Lesson::Page& page = at(lesson.pages, k);
+        const QString title = QString::fromStdString(page.title);
+        QVERIFY2(sections[k].startsWith("<h2>" + title.toHtmlEscaped()), qPrintable(title));
+        QCOMPARE(count(sections[k].toUtf8(), "<img "), 2);
+        QVERIFY(sections[k].contains("<figcaption>A &lt;panel&gt;</figcaption>"));
+        QString text = web_text(page.text + (page.question ? page.question->ask : ""));
+        text.remove(QRegularExpression("\\{[^}]*\\}|\\]\\([^)]*\\)"));
+        const QSet<QString> words = words_of(text);
+        QVERIFY2(words.size() > 5, qPrintable(title));
+        QTextDocument shown;
+        shown.setHtml(sections[k]);
+        const QSet<QString> missing = words - words_of(shown.toPlainText());
+        QVERIFY2(missing.isEmpty(), qPrintable(title + ": " + missing.values().join(' ')));
+      }
+    }
+  }
+
+  void exported_pages_have_what_the_window_shows() {
+    const auto window = make_window();
+    auto& lessons = *window->findChild<LessonPanel*>();
+    constexpr int of_one_map = 3;  // "Building a visibility map"
+    lessons.show_page(of_one_map, 0);
+    auto* exporter = window->findChild<LessonExport*>();
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("lesson.html");
+    exporter->export_to(path);
+    QVERIFY(wait_for([&] { return !exporter->busy(); }, 120000));
+    const auto& pages = at(lessons.lessons(), of_one_map).pages;
+    const QStringList sections = sections_of(contents_of(path));
+    QCOMPARE(sections.size(), int(pages.size()));
+    for (int k = 0; k < sections.size(); ++k) {
+      const Lesson::Page& page = at(pages, k);
+      const QByteArray section = sections[k].toUtf8();
+      QVERIFY(section.contains(QByteArray::fromStdString(page.title)));
+      QCOMPARE(count(section, "<img "), 1);
+      QCOMPARE(count(section, "<svg class=\"map\"") > 0, page.state.focus.has_value());
+      QCOMPARE(count(section, "<details>"), page.question ? 1 : 0);
+    }
+  }
+
+  void panels_without_a_map_are_exported_as_pictures() {
+    Exported exported(panel_lesson_text);
+    exported.finish();
+    const QByteArray html = contents_of(exported.path);
+    const QString kept = qEnvironmentVariable("TRANSILLUM_PICTURES");
+    if (!kept.isEmpty()) {
+      QFile::copy(exported.path, kept + "/lesson-panels.html");
+    }
+    const QStringList sections = sections_of(html);
+    QCOMPARE(sections.size(), 3);
+    const std::vector<std::vector<const char*>> panels{
+        {"direction", "convergence"}, {"algorithm"}, {"error"}};
+    static const QRegularExpression figure(
+        "<figure><img [^>]*base64,([^\"]*)\"><figcaption>([^<]*)</figcaption>");
+    for (int k = 0; k < sections.size(); ++k) {
+      auto figures = figure.globalMatch(sections[k]);
+      for (const char* panel : at(panels, k)) {
+        QVERIFY2(figures.hasNext(), panel);
+        const auto one = figures.next();
+        const auto* dock = exported.window->findChild<QDockWidget*>(QString(panel) + "_dock");
+        QCOMPARE(one.captured(2), dock->windowTitle().toHtmlEscaped());
+        const QImage image = QImage::fromData(QByteArray::fromBase64(one.captured(1).toLatin1()));
+        QVERIFY2(image.width() > 150 && color_count(image) > 10, panel);
+      }
+      QVERIFY(!figures.hasNext());
+    }
+    QCOMPARE(count(sections[1].toUtf8(), "<svg class=\"map\""), 1);
   }
 
   void canceling_writes_nothing() {

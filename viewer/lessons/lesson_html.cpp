@@ -32,6 +32,7 @@ body { font: 17px/1.5 system-ui, sans-serif; max-width: 76rem; margin: 0 auto; p
 p, ul, .question { max-width: 44rem; }
 .views { display: flex; flex-wrap: wrap; gap: 1rem; align-items: flex-start; margin: .5rem 0; }
 .views > * { flex: 1 1 24rem; min-width: 0; }
+figure { margin: 0; }
 section { border-top: 1px solid #8888; margin-top: 2rem; padding-top: .5rem; }
 img, svg.map { width: 100%; height: auto; display: block; }
 svg.map { background: #1d2127; }
@@ -487,6 +488,12 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
     }
     if (shown.map) {
       html += map_html(shown);
+    }
+    for (const PanelPicture& panel : shown.panels) {
+      html += QStringLiteral(
+                  "<figure><img alt=\"%1\" src=\"data:image/png;base64,%2\">"
+                  "<figcaption>%1</figcaption></figure>\n")
+                  .arg(panel.title.toHtmlEscaped(), QString::fromLatin1(panel.picture.toBase64()));
     }
     html += QStringLiteral("</div>\n");
     if (shown.page.question) {

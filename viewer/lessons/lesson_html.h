@@ -24,6 +24,12 @@ struct ShownStep {
   std::int32_t last() const { return phase == Phase::after ? step : step - 1; }
 };
 
+/// A panel that a page needs, as the window shows it.
+struct PanelPicture {
+  QString title;
+  QByteArray picture;  ///< PNG
+};
+
 /// A page of a lesson as the window shows it.
 struct ShownPage {
   Lesson::Page page;
@@ -33,6 +39,7 @@ struct ShownPage {
   bool whole = false;                      ///< shows both sides of the direction instead of a step
   std::vector<Color8> patch_colors;        ///< colors of the map, one per patch
   std::optional<Solved> solved;            ///< answer to the page's question
+  std::vector<PanelPicture> panels;        ///< panels of the page besides scene and map
 };
 
 /// A lesson as one HTML file that refers to no other: text, pictures, and maps as SVG with a slider

@@ -43,6 +43,7 @@ class ErrorView : public QWidget {
   /// Measures these runs whenever the panel is visible and a scene is open. Without runs, it
   /// measures random, Hammersley and default directions when the user asks.
   void set_runs(const ErrorRuns& runs);
+  bool busy() const { return busy_; }
   /// Null until the newest runs have been measured.
   const Result* result() const { return result_.get(); }
 

@@ -208,7 +208,8 @@ void MainWindow::make_whole_window_actions() {
   timeline_->play()->menu()->addSeparator();
   timeline_->play()->menu()->addAction(recorder_->film_action());
   new LoadingNotice(frame);
-  lesson_export_ = new LessonExport(frame, *lesson_panel_, [this] { return settled(); });
+  lesson_export_ =
+      new LessonExport(frame, *lesson_panel_, [this] { return settled() && !error_view_->busy(); });
   auto* light = new LightOffer(frame, docks_, *settings_, inspection_->materials(), *applier_);
   ErrorPage& errors = inspection_->errors();
   connect(&errors, &ErrorPage::solve_wanted, control, &SolveControl::finish);
@@ -483,6 +484,7 @@ void MainWindow::make_menus() {
   addToolBar(
       new WorkspaceBar(docks_, *page_->start_action(), *files_->open_action(), *solve_actions_));
   new ContextMenus(frame(), docks_);
+  show_tips_of_menus(*this);
 }
 
 void MainWindow::make_file_menu() {

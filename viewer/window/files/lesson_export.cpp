@@ -6,9 +6,13 @@
 
 #include <QAction>
 #include <QBuffer>
+#include <QDockWidget>
 #include <QMainWindow>
 #include <QProgressDialog>
+#include <QPushButton>
 #include <QSaveFile>
+#include <QScrollArea>
+#include <set>
 #include <utility>
 
 #include "lessons/lesson_panel.h"
@@ -27,6 +31,29 @@ namespace {
 constexpr int poll_ms = 40;
 constexpr int quiet_polls = 3;  // the window may be between two requests
 constexpr int widest_picture = 900;
+
+/// What a widget shows, without the buttons over its picture.
+QByteArray png_of(QWidget& widget) {
+  QList<QPushButton*> over;
+  for (QPushButton* button : widget.findChildren<QPushButton*>({}, Qt::FindDirectChildrenOnly)) {
+    if (!widget.layout() && button->isVisible()) {
+      button->hide();
+      over << button;
+    }
+  }
+  QImage picture = widget.grab().toImage();
+  for (QPushButton* button : over) {
+    button->show();
+  }
+  if (picture.width() > widest_picture) {
+    picture = picture.scaledToWidth(widest_picture, Qt::SmoothTransformation);
+  }
+  QByteArray png;
+  QBuffer buffer(&png);
+  buffer.open(QIODevice::WriteOnly);
+  picture.save(&buffer, "PNG");
+  return png;
+}
 
 }  // namespace
 
@@ -110,16 +137,30 @@ void LessonExport::take_when_settled() {
   }
 }
 
+std::vector<PanelPicture> LessonExport::panels_of(const Lesson::Page& page) const {
+  // The page has maps as vectors, and the others are about the window.
+  const std::set<std::string> omitted{"map", "section", "timeline", "lesson", "move", "event"};
+  std::vector<PanelPicture> pictures;
+  for (const std::string& panel : page.state.panels) {
+    const auto* dock =
+        frame_.window.findChild<QDockWidget*>(QString::fromStdString(panel + "_dock"));
+    if (!dock || omitted.contains(panel)) {
+      continue;
+    }
+    QWidget* shown = dock->widget();
+    if (const auto* scrolling = qobject_cast<QScrollArea*>(shown)) {
+      shown = scrolling->widget();  // all of it
+    }
+    pictures.push_back({dock->windowTitle(), png_of(*shown)});
+  }
+  return pictures;
+}
+
 void LessonExport::take_page() {
   ShownPage shown;
   shown.page = at(lessons_.lessons(), lesson_).pages[pages_.size()];
-  QImage picture = frame_.page.scene_view()->grab().toImage();
-  if (picture.width() > widest_picture) {
-    picture = picture.scaledToWidth(widest_picture, Qt::SmoothTransformation);
-  }
-  QBuffer buffer(&shown.picture);
-  buffer.open(QIODevice::WriteOnly);
-  picture.save(&buffer, "PNG");
+  shown.picture = png_of(*frame_.page.scene_view());
+  shown.panels = panels_of(shown.page);
   if (shown.page.state.focus && frame_.state.focus.map()) {
     shown.map = frame_.state.focus.map();
     const Focus& focus = frame_.state.focus;

@@ -39,6 +39,7 @@ class LessonExport : public QObject {
   void show_next();
   void take_when_settled();
   void take_page();
+  std::vector<PanelPicture> panels_of(const Lesson::Page& page) const;
   void finish();
   void fail(const QString& message);
   void end();
