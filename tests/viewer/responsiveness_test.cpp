@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,29 @@ class Gaps {
   ProcessorWaits waits_;
 };
 
+/// Runs the event loop until a condition holds, with an action now and then.
+/// @returns the longest gap without waiting for a processor, ms; infinity if it never holds
+double longest_gap(const std::function<bool()>& until, const std::function<void(int)>& act = {},
+                   int interval_ms = 40) {
+  const Gaps measured;
+  QEventLoop loop;
+  QTimer limit;
+  limit.start(long_enough);
+  QObject::connect(&limit, &QTimer::timeout, &loop, &QEventLoop::quit);
+  int count = 0;
+  QObject::connect(&measured.tick(), &QTimer::timeout, &loop, [&] {
+    if (act && measured.elapsed() > interval_ms * count) {
+      act(count++);
+    }
+    if (until()) {
+      loop.quit();
+    }
+  });
+  loop.exec();
+  return limit.isActive() ? measured.longest_without_waiting
+                          : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 class ResponsivenessTest : public QObject {
@@ -162,6 +186,57 @@ class ResponsivenessTest : public QObject {
     closing.start();
     window->close();
     QVERIFY(closing.elapsed() < 1000);
+  }
+
+  void the_window_responds_while_one_works_with_it_data() {
+    QTest::addColumn<bool>("linear");
+    QTest::newRow("constant") << false;
+    QTest::newRow("linear") << true;
+  }
+  void the_window_responds_while_one_works_with_it() {
+    QFETCH(const bool, linear);
+    const auto window = make_window(16);
+    window->open("furnace");  // shaders are compiled
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }, long_enough) &&
+            comes_to_rest(*window));
+    SolveOptions options{.directions = 100000, .first_shot = {}};
+    options.basis = linear ? Basis::linear : Basis::constant;
+    window->set_options(options, {.max_patch_area = 1.3e-4});
+    const double loading = longest_gap(
+        [&] {
+          const auto snapshot = window->snapshot();
+          return snapshot && snapshot->loaded->scene->patch_count() > 10'000 &&
+                 snapshot->progress.direction > 2;
+        },
+        [&](int count) {
+          if (count == 0) {
+            window->open("cornell-box", {Goal::Kind::finished});
+          }
+        });
+    SceneView& view = *window->views().page.scene_view();
+    int done = 0;
+    const auto count_to = [&done](int count) { return [&done, count] { return done >= count; }; };
+    const double turning = longest_gap(count_to(60), [&](int count) {
+      view.turn(2, 1);
+      done = count;
+    });
+    DockLayouts& docks = window->views().docks;
+    done = 0;
+    const double arranging = longest_gap(
+        count_to(9),
+        [&](int count) {
+          const Layout layouts[] = {Layout::teach, Layout::inspect, Layout::debug};
+          docks.arrange(layouts[count % 3]);
+          done = count;
+        },
+        400);
+    qInfo(
+        "%d patches: longest gap without waiting for a processor, ms: loading %.0f, turning the "
+        "camera %.0f, changing the layout %.0f",
+        window->snapshot()->loaded->scene->patch_count(), loading, turning, arranging);
+    QVERIFY(loading < 250);
+    QVERIFY(turning < 250);
+    QVERIFY(arranging < 250);
   }
 
   // The goals are 500 ms, and 1.15 times the library's time and the draft's, on an idle machine.
