@@ -140,7 +140,11 @@ class DialogsTest : public QObject {
     const auto silent = [&window] { return silent_actions(*window).join('\n'); };
     QCOMPARE(silent(), QString());
     for (const auto* menu : window->findChildren<QMenu*>()) {
-      QVERIFY2(menu->toolTipsVisible(), qPrintable(menu->title()));
+      const auto actions = menu->actions();
+      const bool says = menu->toolTipsVisible() ||
+                        std::all_of(actions.begin(), actions.end(),
+                                    [](const QAction* action) { return action->isEnabled(); });
+      QVERIFY2(says, qPrintable(menu->title()));
     }
     window->open("cornell-box", {Goal::Kind::finished});
     QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));

@@ -144,7 +144,7 @@ class PaletteTest : public QObject {
     for (const auto* button : map->widget()->findChildren<QToolButton*>()) {
       if (button->isVisible() && !button->text().isEmpty() && !button->menu()) {
         const QString text = button->text().remove('&').trimmed();
-        palette.first(text + ' ' + map->windowTitle());
+        palette.query->setText(text + ' ' + map->windowTitle());
         QVERIFY2(!palette.list->findItems(text, Qt::MatchExactly).isEmpty(), qPrintable(text));
         offered << text;
       }
@@ -161,7 +161,7 @@ class PaletteTest : public QObject {
         continue;
       }
       const QString text = QString(action->text()).remove('&');
-      palette.first(text.simplified());
+      palette.query->setText(text.simplified());
       QVERIFY2(!palette.list->findItems(text, Qt::MatchExactly).isEmpty(), qPrintable(text));
     }
   }

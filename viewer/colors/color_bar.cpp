@@ -70,7 +70,10 @@ ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent)
         tip_of(colors_.quantity()) + QLatin1Char('\n') +
         tr("Left of the bar: area per value, square-root scale. Drag over a range to select the\n"
            "patches with such values"));
-    setVisible(ColorBarSheet::applies(colors_));
+    const bool applies = ColorBarSheet::applies(colors_);
+    // Selecting moves no picture, though there are no values without a patch.
+    setVisible(applies || (colors_.snapshot() && follows_selection(colors_.quantity())));
+    setEnabled(applies);  // a range of values can be dragged over
     update();
   };
   connect(&colors, &ColorChoice::changed, this, show);
@@ -113,7 +116,9 @@ void ColorBar::paintEvent(QPaintEvent*) {
     painter.fillRect(QRectF(QPointF(0, *drag_begin_), QPointF(width(), drag_end_)).normalized(),
                      band);
   }
-  sheet().draw(painter);
+  if (ColorBarSheet::applies(colors_)) {
+    sheet().draw(painter);
+  }
 }
 
 void ColorBar::mousePressEvent(QMouseEvent* event) {

@@ -29,10 +29,6 @@ QString text_on_file(const LoadedScene& loaded) {
                    .arg(name);
 }
 
-bool follows_selection(const QuantityTraits& traits) {
-  return traits.of_selection || traits.by_costs;
-}
-
 }  // namespace
 
 ColorNote::ColorNote(const ColorChoice& colors, QWidget* parent) : QFrame(parent), colors_(colors) {
@@ -74,7 +70,7 @@ QString ColorNote::text_on_selection() const {
 }
 
 void ColorNote::show_note() {
-  const bool held = colors_.snapshot() && follows_selection(traits_of(colors_.quantity()));
+  const bool held = colors_.snapshot() && follows_selection(colors_.quantity());
   QString note = text();
   if (held && note.isEmpty()) {
     note = text_on_selection();

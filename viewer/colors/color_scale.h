@@ -32,7 +32,8 @@ class ColorScale {
   /// The colors of many patches at once.
   void color(std::span<const Rgb> radiosity, std::vector<Color8>& colors) const;
 
-  /// Light in true color before its gamma, each channel in [0, 1]; what is too bright keeps its hue.
+  /// Light in true color before its gamma, each channel in [0, 1]; what is too bright keeps its
+  /// hue.
   Rgb exposed(const Rgb& radiosity) const;
   /// The color of such light, or of a mean of it.
   Color8 shown(const Rgb& exposed) const;

@@ -325,6 +325,10 @@ const std::vector<QuantityTraits>& quantity_traits() {
 
 const QuantityTraits& traits_of(Quantity quantity) { return at(quantity_traits(), quantity); }
 
+bool follows_selection(Quantity quantity) {
+  return traits_of(quantity).of_selection || traits_of(quantity).by_costs;
+}
+
 QString tip_of(Quantity quantity) {
   const QuantityTraits& traits = traits_of(quantity);
   return symbol_tip(tr(traits.meaning), traits.section);

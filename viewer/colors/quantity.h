@@ -58,6 +58,8 @@ struct QuantityTraits {
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();
 const QuantityTraits& traits_of(Quantity quantity);
+/// Whether there may be values, or a note, only while a patch is selected.
+bool follows_selection(Quantity quantity);
 /// The meaning of the quantity and its section, for tool tips.
 QString tip_of(Quantity quantity);
 

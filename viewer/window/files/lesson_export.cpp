@@ -32,10 +32,11 @@ constexpr int poll_ms = 40;
 constexpr int quiet_polls = 3;  // the window may be between two requests
 constexpr int widest_picture = 900;
 
-/// What a widget shows, without the buttons over its picture.
+/// The picture of a widget as PNG, without the buttons over it.
 QByteArray png_of(QWidget& widget) {
   QList<QPushButton*> over;
-  for (QPushButton* button : widget.findChildren<QPushButton*>({}, Qt::FindDirectChildrenOnly)) {
+  for (QPushButton* button :
+       widget.findChildren<QPushButton*>(QString(), Qt::FindDirectChildrenOnly)) {
     if (!widget.layout() && button->isVisible()) {
       button->hide();
       over << button;
