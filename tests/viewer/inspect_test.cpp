@@ -65,7 +65,7 @@ class InspectTest : public QObject {
             Quantity::response, Quantity::exact_queries}) {
         shown.window->selection.select(no_patch);
         shown.window->colors.set_quantity(quantity);
-        handle_posted();
+        QVERIFY(comes_to_rest(*shown.window));
         QWidget* canvas = shown.scene_view->canvas();
         const QRect before(canvas->mapTo(shown.window.get(), QPoint()), canvas->size());
         for (const PatchId patch : {4, 7, no_patch}) {
