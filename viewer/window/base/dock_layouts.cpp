@@ -293,17 +293,17 @@ void DockLayouts::follow_type() {
   if (scene_large_) {
     widths.left = window_.width() - widths.left;
   }
+  QList<QDockWidget*> columns;
+  QList<int> across;
   for (const Dock& dock : docks_) {
-    if (dock.widget->isHidden() || dock.widget->isFloating()) {
-      continue;
-    }
     const Qt::DockWidgetArea area = window_.dockWidgetArea(dock.widget);
-    if (area == Qt::LeftDockWidgetArea) {
-      window_.resizeDocks({dock.widget}, {widths.left}, Qt::Horizontal);
-    } else if (area == Qt::RightDockWidgetArea) {
-      window_.resizeDocks({dock.widget}, {widths.right}, Qt::Horizontal);
+    const bool beside = area == Qt::LeftDockWidgetArea || area == Qt::RightDockWidgetArea;
+    if (beside && !dock.widget->isHidden() && !dock.widget->isFloating()) {
+      columns << dock.widget;
+      across << (area == Qt::LeftDockWidgetArea ? widths.left : widths.right);
     }
   }
+  window_.resizeDocks(columns, across, Qt::Horizontal);  // at once: each call arranges the window
   fit_bottom();
 }
 

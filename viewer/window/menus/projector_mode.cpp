@@ -117,10 +117,11 @@ void ProjectorMode::arrange() {
     return;
   }
   // Beside the page are the scene and a column of panels, or one panel that is larger.
-  constexpr double page_fraction = 0.46, panel_fraction = 0.265, large_fraction = 0.36;
+  constexpr double page_fraction = 0.46, panel_fraction = 0.265;
+  constexpr double page_beside_large = 0.39, large_fraction = 0.42;
   const int width = frame_.window.width();
   QList<QDockWidget*> docks{dock("lesson")};
-  QList<int> widths{static_cast<int>(page_fraction * width)};
+  QList<int> widths{static_cast<int>((large() ? page_beside_large : page_fraction) * width)};
   if (auto* beside = qobject_cast<QDockWidget*>(projected_.value(3))) {
     docks << beside;
     widths << static_cast<int>((beside == large() ? large_fraction : panel_fraction) * width);
