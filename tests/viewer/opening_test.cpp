@@ -151,6 +151,38 @@ class OpeningTest : public QObject {
   }
 
   // A page as wide as a long name would have to be scrolled sideways.
+  // The lowest rows of letters such as g are drawn, too.
+  void cards_of_the_start_page_cut_no_letters() {
+    const QString note = "gypq, back";
+    QAction action("Teach", nullptr);
+    action.setObjectName("teach");
+    action.setToolTip(note);
+    StartPage page;
+    page.set_choices({&action});
+    page.resize(1200, 700);
+    page.show();
+    handle_posted();
+    auto* card = page.findChild<QAbstractButton*>("choose_teach");
+    const QImage image = card->grab().toImage().convertToFormat(QImage::Format_Grayscale8);
+    constexpr int edge = 5, faint = 225;
+    std::vector<int> rows;  // that have ink
+    for (int y = edge; y < image.height() - edge; ++y) {
+      const uchar* row = image.constScanLine(y);
+      if (std::any_of(row + edge, row + image.width() - edge, [](uchar v) { return v < faint; })) {
+        rows.push_back(y);
+      }
+    }
+    QVERIFY(!rows.empty());
+    std::size_t first = rows.size() - 1;  // of the note, the last block of rows
+    while (first > 0 && rows[first - 1] == rows[first] - 1) {
+      --first;
+    }
+    const int drawn = rows.back() - rows[first] + 1;
+    const int whole = QFontMetrics(card->font()).tightBoundingRect(note).height();
+    QVERIFY2(first > 0 && drawn >= whole - 1,
+             qPrintable(QString("%1 of %2").arg(drawn).arg(whole)));
+  }
+
   void the_name_of_what_is_loaded_fits_the_start_page() {
     const auto window = make_window(8);
     window->resize(1280 - 16, 720 - 48);

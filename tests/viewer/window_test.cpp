@@ -142,16 +142,21 @@ class WindowTest : public QObject {
     QVERIFY(solved.window->colors.quantity() == Quantity::eye_radiance);
   }
 
-  void an_empty_color_bar_takes_no_space() {
+  // For a quantity of the selection, the bar keeps its place, so that selecting moves no picture.
+  void a_color_bar_that_does_not_apply_takes_no_space() {
     const SolvedScene solved("furnace");
     QVERIFY(solved.ready);
     solved.window->selection.select(no_patch);
     const int whole = solved.scene_view->width();
     solved.window->colors.set_quantity(Quantity::form_factor_from);
     QVERIFY(comes_to_rest(*solved.window));
-    QCOMPARE(solved.scene_view->width(), whole);
+    const int beside_bar = solved.scene_view->width();
+    QVERIFY(beside_bar < whole);
     solved.window->selection.select(0);
-    QVERIFY(wait_for([&] { return solved.scene_view->width() < whole; }));
+    QVERIFY(comes_to_rest(*solved.window));
+    QCOMPARE(solved.scene_view->width(), beside_bar);
+    solved.window->colors.set_quantity(Quantity::radiosity);
+    QVERIFY(wait_for([&] { return solved.scene_view->width() == whole; }));
   }
 
   void exporting_a_picture_does_not_change_the_screen() {

@@ -258,10 +258,13 @@ class WorkspacesTest : public QObject {
              qPrintable(QString("%1 %2").arg(map->width()).arg(scene->width())));
     save_picture(*window, "projector-panel");
     QTest::keyClick(window.get(), Qt::Key_PageDown);  // this page wants a large map
-    QVERIFY(wait_for([&] {
+    const auto is_large = [&] {
       return scene->isVisible() && map->width() > page->width() &&
              map->width() > 1.5 * scene->width();
-    }));
+    };
+    QVERIFY2(wait_for(is_large, 20000),
+             qPrintable(QString("%1 %2").arg(map->width()).arg(scene->width())));
+    save_picture(*window, "projector-large");
     QTest::keyClick(window.get(), Qt::Key_Escape);
     QVERIFY(wait_for([&] { return !window->isFullScreen(); }));
     auto* leave = window->findChild<QToolButton*>("leave_full_screen");

@@ -375,7 +375,10 @@ void LessonPanel::show_snapshot(const SolverSnapshot& snapshot) {
 
 void LessonPanel::set_text_scale(double scale) {
   question_->set_text_font(text_font(scale));
-  layout()->activate();  // the question may leave less room to the text
+  if (theme::appearance().projector) {
+    question_->lay_out();
+    layout()->activate();  // the question may leave less room to the text
+  }
   text_->setFont(text_font(scale));
   spread_paragraphs(*text_->document());
   text_->place_insets();

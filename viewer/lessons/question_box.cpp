@@ -173,6 +173,9 @@ void QuestionBox::set_text_font(const QFont& font) {
     widget->setFont(font);
   }
   show_state();  // colors of the theme may have changed too
+}
+
+void QuestionBox::lay_out() {
   if (answers_) {
     answers_->layout()->activate();
   }

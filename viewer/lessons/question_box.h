@@ -62,6 +62,8 @@ class QuestionBox : public QFrame {
   /// The font of the question and its answers; buttons keep theirs. To be called after a change of
   /// the appearance.
   void set_text_font(const QFont& font);
+  /// Gives its parts their places now.
+  void lay_out();
 
   /// Where a corner in the scene is asked for, takes the point in which a line of sight meets the
   /// plane of the patch asked about, whatever is in front of it. Far from the patch, says so.

@@ -167,15 +167,17 @@ class StartCard : public QAbstractButton {
     const int used = height_of(name, painter.fontMetrics(), room.width());
     const QFont note_font = scaled_font(font(), look_ == Look::choice ? 1 : small_type, false);
     const int note_lines = look_ == Look::picture_above ? 2 : 1;
-    const int note_height = note_lines * fontMetrics().lineSpacing();
+    const QFontMetrics note_metrics(note_font);
+    const int note_height = (note_lines - 1) * note_metrics.lineSpacing() + note_metrics.height();
     const QRect title(room.left(), room.center().y() - (used + note_height) / 2 + 1, room.width(),
                       used);
-    painter.drawText(title, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, name);
+    // Lines that are rounded up would lose the lowest pixels of their letters.
+    constexpr int flags = Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap | Qt::TextDontClip;
+    painter.drawText(title, flags, name);
     painter.setFont(note_font);
     painter.setPen(first_hour_ ? theme::accent : theme::ink_dim);
     const QRect note(room.left(), title.bottom() + 1, room.width(), note_height);
-    painter.drawText(note, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap,
-                     fitting(note_, note_lines));
+    painter.drawText(note, flags, fitting(note_, note_lines));
   }
 
   Look look_;

@@ -53,6 +53,8 @@ void ProjectorMode::follow_appearance() {
 void ProjectorMode::follow_page() {
   if (projecting_ && views() != projected_) {
     project(true);
+  } else if (projecting_) {
+    arrange();  // another panel may be the large one
   }
 }
 
