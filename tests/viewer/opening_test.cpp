@@ -173,7 +173,7 @@ class OpeningTest : public QObject {
       }
     }
     QVERIFY(!rows.empty());
-    std::size_t first = rows.size() - 1;  // of the note, the last block of rows
+    std::size_t first = rows.size() - 1;  // row of the note, which is the last block of rows
     while (first > 0 && rows[first - 1] == rows[first] - 1) {
       --first;
     }
