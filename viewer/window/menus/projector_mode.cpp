@@ -120,7 +120,7 @@ void ProjectorMode::arrange() {
   }
   // Beside the page are the scene and a column of panels, or one panel that is larger.
   constexpr double page_fraction = 0.46, panel_fraction = 0.265;
-  constexpr double page_beside_large = 0.39, large_fraction = 0.42;
+  constexpr double page_beside_large = 0.42, large_fraction = 0.43;
   const int width = frame_.window.width();
   QList<QDockWidget*> docks{dock("lesson")};
   QList<int> widths{static_cast<int>((large() ? page_beside_large : page_fraction) * width)};
