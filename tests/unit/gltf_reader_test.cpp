@@ -287,7 +287,8 @@ TEST(Gltf, AveragesATextureOverEachFace) {
   EXPECT_NEAR(material_of(missing, 1).reflectance.g, 0.5 * 0.5, 1e-12);
   EXPECT_THAT(
       missing.notes,
-      Contains(HasSubstr("image 0, `half.png`, has no data; reflectance 0.5 is assumed for it")));
+      Contains(HasSubstr(
+          "image 0, `half.png`, has no data; reflectance 0.5 is assumed for it, and no light")));
 }
 
 TEST(Gltf, ColorsOfVerticesFilterTheBaseColor) {
@@ -339,7 +340,8 @@ TEST(Gltf, NamesATextureThatIsMissing) {
       read(textured_square({{"source", 0}}, {{"uri", "wood.png"}}, poster_of({1, 0.5, 1, 1})));
   EXPECT_THAT(
       d.notes,
-      Contains(HasSubstr("image 0, `wood.png`, has no data; reflectance 0.5 is assumed for it")));
+      Contains(HasSubstr(
+          "image 0, `wood.png`, has no data; reflectance 0.5 is assumed for it, and no light")));
   EXPECT_EQ(material_of(d, 0).reflectance, (Rgb{0.5, 0.25, 0.5}));
 }
 

@@ -150,7 +150,6 @@ class OpeningTest : public QObject {
     }
   }
 
-  // A page as wide as a long name would have to be scrolled sideways.
   // The lowest rows of letters such as g are drawn, too.
   void cards_of_the_start_page_cut_no_letters() {
     const QString note = "gypq, back";
@@ -182,6 +181,7 @@ class OpeningTest : public QObject {
     QVERIFY2(first > 0 && drawn >= whole, qPrintable(QString("%1 of %2").arg(drawn).arg(whole)));
   }
 
+  // A page as wide as a long name would have to be scrolled sideways.
   void the_name_of_what_is_loaded_fits_the_start_page() {
     const auto window = make_window(8);
     window->resize(1280 - 16, 720 - 48);

@@ -82,8 +82,8 @@ std::optional<Passes> passes_of(const SolverSnapshot& done, const SolveOptions& 
 
 /// Linear systems that are solved: one for each replica, and one for all.
 int systems_of(const SolveOptions& options) {
-  constexpr int replicas_of_goal = 4;
-  const int replicas = options.goal.is_set() ? replicas_of_goal : options.replicas;
+  const int usual = options.goal.of == AccuracyOf::max ? 8 : 4;
+  const int replicas = options.goal.is_set() && options.replicas < 2 ? usual : options.replicas;
   return replicas > 1 ? replicas + 1 : 1;
 }
 

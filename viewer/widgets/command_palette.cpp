@@ -82,7 +82,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, OfQuery of_que
   setObjectName("command_palette");
   setAttribute(Qt::WA_DeleteOnClose);
   query_->setPlaceholderText(
-      tr("An action, panel, quantity, scene, lesson, material, or the number of a patch"));
+      tr("An action, button, panel, quantity, scene, lesson, material, or the number of a patch"));
   query_->setClearButtonEnabled(true);
   query_->installEventFilter(this);
   list_->setColumnCount(palette_columns);

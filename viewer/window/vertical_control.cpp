@@ -78,6 +78,7 @@ void VerticalControl::follow() {
   frame_.page.scene_view()->set_vertical(vertical.up());
   if (vertical.is_guess()) {
     const bool along_y = vertical.up() == Vec3{0, 1, 0};
+    turn_->setText(vertical.is_clear() ? tr("Turn to +y up") : tr("Turn upright"));
     turn_->setToolTip(tr("Take %1 for the vertical; Camera, Vertical has all directions")
                           .arg(along_y ? QStringLiteral("+z") : QStringLiteral("+y")));
     frame_.page.vertical_bar()->show_message(

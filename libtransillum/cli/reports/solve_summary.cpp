@@ -269,7 +269,7 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
   }
   if (is_sky_lost(solution)) {
     warnings.push_back(
-        "the sky lights no face: backs of faces absorb all its light, and the sun's (try "
+        "the sky lights no face: backs of faces absorb all light of sky and sun (try "
         "--two-sided, or --orient auto or keep)");
   }
   // Halfway between rho_max (the limit for exact form factors of a closed scene) and 1.

@@ -43,6 +43,7 @@ struct IterationRecord {
   double remainder_dimmest = 0;
   double unlit_area = 0;   ///< fraction of the area of reflecting patches that is not lit
   double change_of_b = 0;  ///< eq. 25 of the paper: largest change of B over the largest B, with E
+  Rgb changes = {};        ///< largest change of B of each channel, W/m²; 0 if read from a file
 };
 
 /// A solve of an adaptive refinement (refinement.h), after which patches are divided.
@@ -67,7 +68,8 @@ struct SurfaceError {
   Rgb unit;
   bool is_dark = false;  ///< all channels are below 1/1000 of the brightest surface's
   // The errors are given for the channel that is off the most, over its unit.
-  double spread = 0;  ///< RMS error by the spread of replicas, relative
+  Rgb spreads = {};   ///< RMS error by the spread of replicas, of each channel, relative
+  double spread = 0;  ///< the same of the channel with the largest limit
   double bias = 0;    ///< RMS of what iterations and the first shot may leave, relative
   double rms = 0;     ///< root of the sum of the squares of both
   double limit = 0;   ///< relative RMS error that this surface does not exceed in 95 % of all runs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "radiosity/ratio.h"
 #include "transillum/vec3.h"
@@ -16,9 +17,10 @@ inline double sum_of_squares(const Rgb& c) { return c.r * c.r + c.g * c.g + c.b 
 /// A patch or channel with less than this fraction of the largest reflected light is unlit.
 inline constexpr double least_light = 1e-6;
 
-/// The larger of each channel.
+/// The larger of each channel; not a number where either is not.
 inline Rgb largest_of(const Rgb& a, const Rgb& b) {
-  return {std::max(a.r, b.r), std::max(a.g, b.g), std::max(a.b, b.b)};
+  const auto larger = [](double x, double y) { return x < y || std::isnan(y) ? y : x; };
+  return {larger(a.r, b.r), larger(a.g, b.g), larger(a.b, b.b)};
 }
 
 /// The values that errors are relative to: each channel has its own, as if it were solved alone
@@ -27,10 +29,15 @@ inline Rgb channel_units(const Rgb& values) {
   return largest_of(values, least_light * max_abs(values) * Rgb{1, 1, 1});
 }
 
-/// The largest of the channels' ratios; 0 where `units` is not above 0.
+/// The largest of the channels' ratios, each 0 where `units` is not above 0; not a number where any
+/// is not.
 inline double largest_ratio(const Rgb& values, const Rgb& units) {
-  return std::max({ratio_or_zero(values.r, units.r), ratio_or_zero(values.g, units.g),
-                   ratio_or_zero(values.b, units.b)});
+  const Rgb ratios{ratio_or_zero(values.r, units.r), ratio_or_zero(values.g, units.g),
+                   ratio_or_zero(values.b, units.b)};
+  return std::isnan(sum(ratios)) ? sum(ratios) : std::max({ratios.r, ratios.g, ratios.b});
 }
+
+/// The root of each channel.
+inline Rgb root(const Rgb& c) { return {std::sqrt(c.r), std::sqrt(c.g), std::sqrt(c.b)}; }
 
 }  // namespace transillum

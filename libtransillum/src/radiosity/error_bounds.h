@@ -17,6 +17,12 @@ inline double distance_to_limit(double change, double contraction) {
   return contraction < 1 ? change / (1 - contraction) : HUGE_VAL;
 }
 
+/// The same of each channel.
+inline Rgb distances_to_limit(const Rgb& changes, double contraction) {
+  return {distance_to_limit(changes.r, contraction), distance_to_limit(changes.g, contraction),
+          distance_to_limit(changes.b, contraction)};
+}
+
 /// sqrt(a² + b²), per channel; in range wherever the result is.
 inline Rgb root_of_squares(const Rgb& a, const Rgb& b) {
   return {std::hypot(a.r, b.r), std::hypot(a.g, b.g), std::hypot(a.b, b.b)};

@@ -69,14 +69,14 @@ inline double root_of_squares(const std::vector<Rgb>& values, double unit) {
 /// @param errors of `values`, 0 where these are not measured
 inline double worst_relative_rms(const std::vector<Rgb>& errors, const std::vector<Rgb>& values) {
   const double scale = scale_to_one(max_norm(values));
-  const auto root = [&](const std::vector<Rgb>& list) {
+  const auto norm_of = [&](const std::vector<Rgb>& list) {
     Rgb squares;
     for (const Rgb& value : list) {
       squares += (scale * value) * (scale * value);
     }
-    return Rgb{std::sqrt(squares.r), std::sqrt(squares.g), std::sqrt(squares.b)};
+    return root(squares);
   };
-  return largest_ratio(root(errors), channel_units(root(values)));
+  return largest_ratio(norm_of(errors), channel_units(norm_of(values)));
 }
 
 }  // namespace transillum

@@ -152,6 +152,8 @@ void RemainderBound::describe(IterationRecord& record, const std::vector<Rgb>& b
                               double largest_change) const {
   record.change = relative_change(b, changes);
   record.change_of_b = ratio_or_zero(max_norm(changes), max_norm(b));
+  const double beyond = ratio_or_zero(largest_change, max_norm(changes));
+  record.changes = std::max(1.0, beyond) * largest_magnitudes(changes);
   describe_unknowns(record, b, [&](const Unknowns& unknowns, double Rgb::*channel) {
     double power = 0, largest = largest_change, reflecting = 0;
     for (std::size_t u = 0; u < changes.size(); ++u) {

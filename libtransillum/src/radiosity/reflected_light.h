@@ -59,13 +59,13 @@ class RemainderBound {
   RemainderBound(ReflectedLight light, std::vector<double> area, std::vector<Rgb> reflectance,
                  std::size_t per_patch);
 
-  /// Sets change, change_of_b, remainder, remainder_dimmest and unlit_area of `record`, for an
-  /// iteration of eq. 11.
+  /// Sets change, change_of_b, changes, remainder, remainder_dimmest and unlit_area of `record`,
+  /// for an iteration of eq. 11.
   /// @param b B after the iteration, W/m²
   /// @param changes of B by the iteration, W/m²
   /// @param contraction bound on the factor by which an iteration reduces the changes
   /// @param largest_change of any radiance, times pi, W/m²; where lobes take part, it can exceed
-  /// all `changes`
+  /// all `changes`, in all channels in proportion
   void describe(IterationRecord& record, const std::vector<Rgb>& b, const std::vector<Rgb>& changes,
                 double contraction, double largest_change = 0) const;
   /// Sets remainder, remainder_dimmest and unlit_area of `record`.

@@ -15,7 +15,6 @@
 #include "base/memory_limit.h"
 #include "radiosity/error/error_estimate.h"
 #include "radiosity/norms.h"
-#include "radiosity/ratio.h"
 #include "radiosity/reflected_light.h"
 #include "radiosity/state_archive.h"
 #include "transillum/at.h"
@@ -214,7 +213,7 @@ AccuracyPlan::Next AccuracyPlan::next(const StageResult& result, double seconds)
   // No number of passes replaces iterations, which the goal may ask more of than the tolerance:
   // a patch, where it is dark.
   const double missing_iterations =
-      error_of_bias(goal, surfaces_, result, bias_of_iteration(scene, surfaces_, statistics, b));
+      error_of_bias(goal, surfaces_, result, bias_of_iteration(surfaces_, statistics));
   if (goal.accuracy > 0 && missing_iterations > iteration_fraction * goal.accuracy &&
       std::isfinite(missing_iterations) && solved.directions * per_pass <= time_fraction * left) {
     const IterationRecord& last = statistics.iteration_records.back();

@@ -65,9 +65,9 @@ class Measuring {
   void measure_iterations();
   void measure_method();
   void measure_patches(std::int64_t most_patches);
-  std::vector<double> noise_of_division(const SurfaceErrors& fine) const;
+  std::vector<Rgb> noise_of_division(const SurfaceErrors& fine) const;
   void sum_patches(const PatchErrors& squares, const std::vector<PatchId>& chosen,
-                   const std::vector<double>& noise);
+                   const std::vector<Rgb>& noise);
   void add_up();
 
   void observe(Measurement what, double fraction) const {
@@ -168,8 +168,8 @@ std::vector<double> Measuring::relative(const std::vector<Rgb>& values) const {
 }
 
 void Measuring::measure_iterations() {
-  const std::vector<double> errors = relative(
-      bias_of_iteration(scene_, surfaces_, solve_.solution.statistics, solve_.solution.radiosity));
+  const std::vector<double> errors =
+      relative(bias_of_iteration(surfaces_, solve_.solution.statistics));
   for (std::size_t s = 0; s < errors.size(); ++s) {
     report_.surfaces[s].errors.iterations = errors[s];
   }
@@ -261,24 +261,23 @@ void Measuring::measure_patches(std::int64_t most_patches) {
   sum_patches(squares, chosen, noise_of_division(fine.error.surfaces));
 }
 
-/// Mean square of what the parts of patches differ by because of the directions alone, relative:
-/// their replicas vary more than replicas of the whole patches.
-std::vector<double> Measuring::noise_of_division(const SurfaceErrors& fine) const {
+/// Mean square of what the parts of patches differ by because of the directions alone: their
+/// replicas vary more than replicas of the whole patches.
+std::vector<Rgb> Measuring::noise_of_division(const SurfaceErrors& fine) const {
   const SurfaceErrors& whole = solve_.solution.error.surfaces;
-  std::vector<double> noise(report_.surfaces.size());
+  std::vector<Rgb> noise(report_.surfaces.size());
   const bool known = report_.measurements.divided_fraction == 1 &&
                      fine.surfaces.size() == noise.size() && whole.surfaces.size() == noise.size();
   for (std::size_t s = 0; known && s < noise.size(); ++s) {
-    const double parts = fine.surfaces[s].spread * ratio_or_zero(max_abs(fine.surfaces[s].unit),
-                                                                 max_abs(whole.surfaces[s].unit));
-    const double wholes = whole.surfaces[s].spread;
-    noise[s] = std::max(0.0, parts * parts - wholes * wholes);
+    const Rgb parts = fine.surfaces[s].spreads * fine.surfaces[s].unit;
+    const Rgb wholes = whole.surfaces[s].spreads * whole.surfaces[s].unit;
+    noise[s] = largest_of({}, parts * parts - wholes * wholes);
   }
   return noise;
 }
 
 void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchId>& chosen,
-                            const std::vector<double>& noise) {
+                            const std::vector<Rgb>& noise) {
   struct Sums {
     double area = 0;
     Rgb within, shifted;
@@ -299,18 +298,12 @@ void Measuring::sum_patches(const PatchErrors& squares, const std::vector<PatchI
   }
   for (std::size_t s = 0; s < sums.size(); ++s) {
     SurfaceCauses& surface = report_.surfaces[s];
-    const Rgb unit = sums[s].area * surface.unit * surface.unit;
+    const double per_area = ratio_or_zero(1, sums[s].area);
+    const Rgb within = largest_of({}, per_area * sums[s].within - noise[s]);
+    const Rgb shifted = per_area * sums[s].shifted;
     const auto error = [&](double within_factor, double shift_factor) {
-      double largest = 0;
-      for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
-        const auto relative = [&](const Rgb& of) {
-          return ratio_or_zero(of.*channel, unit.*channel);
-        };
-        const double within = std::max(0.0, relative(sums[s].within) - noise[s]);
-        largest =
-            std::max(largest, within_factor * within + shift_factor * relative(sums[s].shifted));
-      }
-      return std::sqrt(largest);
+      return std::sqrt(largest_ratio(within_factor * within + shift_factor * shifted,
+                                     surface.unit * surface.unit));
     };
     surface.errors.patches = error(within_error, shift_error);
     surface.divided_alone = error(left_within * within_error, shift_error);

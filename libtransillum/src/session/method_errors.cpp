@@ -84,9 +84,7 @@ std::vector<Rgb> rms_by_surface(const DirectionSums& sums, const Scene& scene,
   }
   for (std::size_t s = 0; s < squares.size(); ++s) {
     const auto patches = static_cast<double>(surfaces.surfaces[s].patches);
-    for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
-      squares[s].*channel = std::sqrt(std::max(0.0, squares[s].*channel) / patches);
-    }
+    squares[s] = root(1 / patches * largest_of({}, squares[s]));
   }
   return squares;
 }

@@ -45,7 +45,8 @@ QString keys_of(const QAction& action) {
 /// @param taken  actions that the palette has already, or in another form
 void add_action(QAction& action, const QString& place, std::set<const QAction*>& taken,
                 std::vector<PaletteEntry>& entries) {
-  if (action.isSeparator() || action.text().isEmpty() || !taken.insert(&action).second) {
+  if (action.isSeparator() || !action.isVisible() || action.text().isEmpty() ||
+      !taken.insert(&action).second) {
     return;
   }
   entries.push_back({without_marks(action.text()), place, keys_of(action), action.isEnabled(),

@@ -113,7 +113,6 @@ struct Squares {
     return max_abs(reference) > 0 ? largest_ratio(root(difference), channel_units(root(reference)))
                                   : std::numeric_limits<double>::infinity();
   }
-  static Rgb root(const Rgb& c) { return {std::sqrt(c.r), std::sqrt(c.g), std::sqrt(c.b)}; }
 };
 
 }  // namespace

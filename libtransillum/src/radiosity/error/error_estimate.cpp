@@ -30,9 +30,7 @@ Rgb standard_error_of(std::size_t count, double scale, ValueOf value_of) {
     const Rgb off = scale * (value_of(r) - mean);
     squares += off * off;
   }
-  const double fraction = 1 / (n * (n - 1));
-  return (1 / scale) * Rgb{std::sqrt(fraction * squares.r), std::sqrt(fraction * squares.g),
-                           std::sqrt(fraction * squares.b)};
+  return (1 / scale) * root(1 / (n * (n - 1)) * squares);
 }
 
 /// Unknowns per patch in a list of their values.
@@ -73,7 +71,7 @@ ChannelProducts scalar_products(const std::vector<Rgb>& b, const std::vector<cha
 /// @param values sum of the squares of the reflected light
 void set_rms(ErrorEstimate& error, const Rgb& errors, const Rgb& values,
              const ChannelProducts& products) {
-  const Rgb units = channel_units({std::sqrt(values.r), std::sqrt(values.g), std::sqrt(values.b)});
+  const Rgb units = channel_units(root(values));
   error.rms_limit = -1;
   for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
     const double rms = ratio_or_zero(std::sqrt(errors.*channel), units.*channel);
@@ -193,17 +191,18 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces&
   }
 }
 
-std::vector<Rgb> bias_of_iteration(const Scene& scene, const ErrorSurfaces& surfaces,
-                                   const SolveStatistics& statistics, const std::vector<Rgb>& b) {
+std::vector<Rgb> bias_of_iteration(const ErrorSurfaces& surfaces,
+                                   const SolveStatistics& statistics) {
   if (statistics.iteration_records.empty()) {
     return {};
   }
   const IterationRecord& last = statistics.iteration_records.back();
-  const double change = last.change * max_norm(reflected_light(scene, b));
   const double contraction = std::max(statistics.rho_max, is_rounding(last) ? 0 : last.contraction);
+  const Rgb error = distances_to_limit(last.changes, contraction);
   std::vector<Rgb> left;
   for (const Rgb& rho : surfaces.reflectance) {
-    left.push_back(distance_to_limit(change, contraction) * rho);
+    left.push_back({rho.r > 0 ? rho.r * error.r : 0, rho.g > 0 ? rho.g * error.g : 0,
+                    rho.b > 0 ? rho.b * error.b : 0});
   }
   return left;
 }

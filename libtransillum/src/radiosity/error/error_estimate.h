@@ -40,9 +40,8 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const ErrorSurfaces&
 
 /// Bound of what further iterations would change, W/m², one per patch: its reflectance times the
 /// most that any patch can receive. Empty without iterations.
-/// @param b means of patches, W/m²
-std::vector<Rgb> bias_of_iteration(const Scene& scene, const ErrorSurfaces& surfaces,
-                                   const SolveStatistics& statistics, const std::vector<Rgb>& b);
+std::vector<Rgb> bias_of_iteration(const ErrorSurfaces& surfaces,
+                                   const SolveStatistics& statistics);
 
 /// Estimate of what B is off by because of the error of the first shot, W/m², one per unknown;
 /// empty if there is none or it is unknown.

@@ -13,7 +13,8 @@
 namespace transillum {
 
 /// Counts the directions that bring a patch the light of a source (SolveStatistics::
-/// light_directions). Where there are very many sources, several count as one.
+/// light_directions). Where there are very many sources, several count as one, with the mean of
+/// their colors.
 class LightDirections {
  public:
   /// @param shot its sources do not count

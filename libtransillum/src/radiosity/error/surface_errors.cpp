@@ -41,8 +41,9 @@ void set_spread(const SurfaceErrors& errors, SurfaceError& surface, const Channe
   double largest = -1;
   for (const auto channel : channels) {
     SurfaceError of_channel = surface;
-    of_channel.spread = ratio_or_zero(std::sqrt(products.squares().*channel / entries) / scale,
-                                      surface.unit.*channel);
+    of_channel.spread = surface.spreads.*channel =
+                            ratio_or_zero(std::sqrt(products.squares().*channel / entries) / scale,
+                                          surface.unit.*channel);
     of_channel.independent_errors = independent_errors(products.of(channel));
     const double limit = limit_of(errors, of_channel);
     if (limit > largest || std::isnan(limit)) {
@@ -97,12 +98,13 @@ SurfaceErrors levels(const Surfaces& surfaces, const std::vector<Rgb>& values) {
   SurfaceErrors errors;
   for (std::size_t s = 0; s < rms.size(); ++s) {
     const Surfaces::Surface& of = surfaces.surfaces[s];
-    errors.surfaces.push_back({.name = of.name,
-                               .patches = of.patches,
-                               .area = of.area,
-                               .level = std::sqrt(sum_of_squares(rms[s]) / 3),
-                               .unit = largest_of(rms[s], least),
-                               .is_dark = max_abs(rms[s]) < max_abs(least)});
+    errors.surfaces.push_back(
+        {.name = of.name,
+         .patches = of.patches,
+         .area = of.area,
+         .level = std::sqrt(sum_of_squares(rms[s]) / 3),
+         .unit = largest_of(rms[s], least),
+         .is_dark = rms[s].r < least.r && rms[s].g < least.g && rms[s].b < least.b});
   }
   return errors;
 }
@@ -118,10 +120,8 @@ std::vector<Rgb> rms_by_surface(const Surfaces& surfaces, const std::vector<Rgb>
     }
   }
   for (std::size_t s = 0; s < rms.size(); ++s) {
-    for (const auto channel : channels) {
-      double& value = rms[s].*channel;
-      value = std::sqrt(value / static_cast<double>(surfaces.surfaces[s].patches)) / scale;
-    }
+    const auto patches = static_cast<double>(surfaces.surfaces[s].patches);
+    rms[s] = (1 / scale) * root(1 / patches * rms[s]);
   }
   return rms;
 }

@@ -56,10 +56,10 @@ class ChannelProducts {
   std::vector<Rgb> products_;  ///< replicas r and q <= r, at r (r + 1) / 2 + q
 };
 
-/// (trace C)² / trace C², where C is the covariance of the replicas over patches: the
-/// number of equal independent errors whose sum of squares varies as that sum of all. Both traces
-/// are estimated without bias from differences of disjoint pairs of replicas; 1 for fewer than 4.
-/// The ratio of so few is uncertain, so it is taken rather too small: at most as many as there are
+/// (trace C)² / trace C², where C is the covariance of the replicas over patches: the number of
+/// equal independent errors whose sum of squares varies as that sum of all. Both traces are
+/// estimated without bias from differences of disjoint pairs of replicas; 1 for fewer than 4. The
+/// ratio of so few is uncertain, so it is taken rather too small: at most as many as there are
 /// replicas (decisions/0052-accuracy.md).
 double independent_errors(const DeviationProducts& products);
 

@@ -52,12 +52,12 @@ std::vector<Rgb> IterationHistory::left() const {
     return {};
   }
   // B_i - E_i = rho_i H_i, and H is off by at most the error of B before the last iteration.
-  const double error = distance_to_limit(last_change_, contraction());
+  const Rgb error = distances_to_limit(records_.back().changes, contraction());
   std::vector<Rgb> left(b_.size());
-  for (std::size_t u = 0; u < b_.size() && error > 0; ++u) {
+  for (std::size_t u = 0; u < b_.size() && max_abs(error) > 0; ++u) {
     const Rgb& rho = unknowns_.reflectance[u];
-    const auto fraction = [error](double r) { return r > 0 ? r * error : 0.0; };
-    left[u] = {fraction(rho.r), fraction(rho.g), fraction(rho.b)};
+    const auto fraction = [](double r, double of) { return r > 0 ? r * of : 0.0; };
+    left[u] = {fraction(rho.r, error.r), fraction(rho.g, error.g), fraction(rho.b, error.b)};
   }
   return left;
 }

@@ -75,7 +75,7 @@ class IterationHistory {
     }
     for (auto& record : self.records_) {
       archive(record.change, record.contraction, record.seconds, record.error, record.remainder,
-              record.remainder_dimmest, record.unlit_area, record.change_of_b);
+              record.remainder_dimmest, record.unlit_area, record.change_of_b, record.changes);
     }
     archive(self.last_change_, self.changed_power_, self.left_to_do_, self.reopened_at_,
             self.finished_, self.converged_, self.options_.directions);

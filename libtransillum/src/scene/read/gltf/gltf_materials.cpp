@@ -331,9 +331,9 @@ const TexturePixels* GltfMaterials::pixels_of(const Texture& texture) {
     }
     if (!problem.empty()) {
       notes_.add("images that cannot be read",
-                 fmt::format("{}: {} {}; reflectance {} is assumed for it", file_.files().front(),
-                             named("image", texture.image, texture.image), problem,
-                             options_.default_reflectance));
+                 fmt::format("{}: {} {}; reflectance {} is assumed for it, and no light",
+                             file_.files().front(), named("image", texture.image, texture.image),
+                             problem, options_.default_reflectance));
     }
   }
   return pixels->problem().empty() ? pixels.get() : nullptr;
