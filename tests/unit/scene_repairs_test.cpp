@@ -231,6 +231,24 @@ TEST_F(SceneRepairs, ImpossibleOptionsAreRefused) {
   }
 }
 
+/// Patches that the rounding of a file had bent were refused in the result of their own solve.
+TEST(PatchesOfResults, AreKeptThoughRoundingHasBentThem) {
+  SceneDescription description;
+  description.name = "bent";
+  description.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 7.25342e-4}, {0, 1, 0}};
+  description.corners = {0, 1, 2, 3};
+  description.face_begin = {0};
+  description.materials.resize(1);
+  description.materials[0].reflectance = {0.5, 0.5, 0.5};
+  description.face_material = {0};
+  EXPECT_EQ(Scene(description).patch_count(), 2);
+  description.faces_are_patches = true;
+  const Scene scene(description);
+  ASSERT_EQ(scene.patch_count(), 1);
+  EXPECT_EQ(scene.point(scene.outline(0)[2]), description.points[2]);
+  EXPECT_THAT(scene.report().warnings, IsEmpty());
+}
+
 TEST(CorpusMaterials, AllRepairsInOneFile) {
   const auto scene = load_scene(std::string(TRANSILLUM_DATA_DIR) + "/corpus/materials.obj");
   EXPECT_TRUE(scene->has_light());

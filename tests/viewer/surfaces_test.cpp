@@ -391,10 +391,14 @@ class SurfacesTest : public QObject {
     const Shown shown("furnace");
     QVERIFY(shown.solved.ready);
     const auto* section = shown.window().findChild<FoldHeader*>("sky_section");
-    const auto* panel = shown.window().findChild<SettingsPanel*>();
+    auto* panel = shown.window().findChild<SettingsPanel*>();
     QVERIFY(wait_for([&] { return !section->isVisibleTo(panel); }));
-    shown.window().open("sphere-flake:levels=1");
-    QVERIFY(wait_for([&] { return section->isVisibleTo(panel); }));
+    panel->show_escape(0.3);
+    QVERIFY(section->isVisibleTo(panel));
+    panel->show_escape(0);
+    QVERIFY(!section->isVisibleTo(panel));
+    panel->show_escape({});  // unknown
+    QVERIFY(section->isVisibleTo(panel));
   }
 
   void a_sky_of_a_session_keeps_its_digits_and_color() {

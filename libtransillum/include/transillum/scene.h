@@ -83,6 +83,9 @@ struct SceneDescription {
   /// Half a unit of the last digit of coordinates, m; 0: found from the digits of `points`. A Scene
   /// moves its points by up to 8 of it, so that faces are planar and touch as before rounding.
   double coordinate_rounding = 0;
+  /// Whether the faces are patches that a Scene has made, as in a result: no point is moved, and
+  /// corners may be off the plane by up to 2 % of the width.
+  bool faces_are_patches = false;
   std::vector<std::string> notes;  ///< the reader's warnings, for Scene::report()
   std::vector<std::string> files;  ///< read for it: the OBJ, then its MTL files
 

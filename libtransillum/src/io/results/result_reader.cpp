@@ -263,6 +263,7 @@ class ResultReader {
   /// One patch per polygon; in a two-sided scene, two polygons are the sides of one face.
   std::shared_ptr<const Scene> make_scene() const {
     SceneDescription description;
+    description.faces_are_patches = true;
     const std::vector<std::string> names = strings("scene");
     description.name = names.size() == 1 && !names.front().empty() ? names.front() : file_.name();
     add_points(description);

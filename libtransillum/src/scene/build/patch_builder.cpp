@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -85,8 +86,13 @@ void PatchBuilder::build() {
                               ? description_.coordinate_rounding
                               : coordinate_rounding(description_.points);
   file_flatness_ = std::max(flatness_, bend_by_rounding * rounding);
-  points_ = without_rounding(description_, rounding, cancellation_);
-  note_moves(rounding);
+  if (description_.faces_are_patches) {
+    file_flatness_ = std::numeric_limits<double>::infinity();
+    points_ = description_.points;
+  } else {
+    points_ = without_rounding(description_, rounding, cancellation_);
+    note_moves(rounding);
+  }
   report.faces = static_cast<std::int64_t>(description_.face_count());
   report.warnings = description_.notes;
   for (std::size_t f = 0; f < description_.face_count(); ++f) {
