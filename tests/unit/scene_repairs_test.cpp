@@ -238,6 +238,7 @@ TEST(PatchesOfResults, AreKeptThoughRoundingHasBentThem) {
   description.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 7.25342e-4}, {0, 1, 0}};
   description.corners = {0, 1, 2, 3};
   description.face_begin = {0};
+  description.face_line = {1};
   description.materials.resize(1);
   description.materials[0].reflectance = {0.5, 0.5, 0.5};
   description.face_material = {0};
