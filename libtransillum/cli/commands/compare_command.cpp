@@ -182,6 +182,7 @@ Command add_compare_command(CLI::App& program) {
       "first. They are relative to the surface's own level, the RMS of its B - E in A, or to a\n"
       "thousandth of the brightest surface's level where that is larger (dark). Patches that emit\n"
       "or reflect nothing are omitted, unless all do. The RMS over all patches comes last.\n"
+      "The color channel that differs the most gives each number.\n"
       "With --basis linear, B of a patch is its mean, and L2 is the norm of the functions.\n"
       "Results of different scenes are refused.\n"
       "Example: transillum compare coarse.vtp fine.vtp --tolerance 0.01");

@@ -67,7 +67,7 @@ struct SurfaceError {
   /// larger; each channel by itself, unless it is unlit (below 1e-6 of the brightest one). W/m²
   Rgb unit;
   bool is_dark = false;  ///< all channels are below 1/1000 of the brightest surface's
-  // The errors are given for the channel that is off the most, over its unit.
+  // Each error below is the largest over the channels, relative to the unit of its channel.
   Rgb spreads = {};   ///< RMS error by the spread of replicas, of each channel, relative
   double spread = 0;  ///< the same of the channel with the largest limit
   double bias = 0;    ///< RMS of what iterations and the first shot may leave, relative
@@ -96,8 +96,9 @@ struct ErrorEstimate {
   int replicas = 0;                 ///< 0 means no estimate: all other members are empty
   std::vector<Rgb> standard_error;  ///< standard error of B, W/m², one per patch
   double quantile = 0;  ///< Student's t, two-sided 95 %, replicas - 1 degrees of freedom
-  /// RMS over patches of the errors over that of the reflected light (reflected_light()), of the
-  /// channel that is off the most. A channel below 1e-6 of the brightest one is relative to this.
+  /// RMS error of the channel that is off the most: RMS of its errors over RMS of its reflected
+  /// light (reflected_light()), both over patches. The errors of a channel with less than 1e-6 of
+  /// the brightest channel's light are relative to 1e-6 of the brightest channel's light.
   double rms = 0;
   /// Limit that the relative RMS error stays below in 95 % of all runs. Larger than `rms` by the
   /// uncertainty of an estimate from few replicas: a quantile of the F distribution, less so the

@@ -65,14 +65,15 @@ class Solution:
 
     @property
     def rms_error(self) -> Union[float, None]:
-        """The limit of the relative RMS error of B in 95 % of all runs; None without
-        replicas."""
+        """The limit of the relative RMS error of B in 95 % of all runs, of the color channel
+        that is off the most; None without replicas."""
         return self._core.rms_error
 
     @property
     def surface_errors(self) -> Union[dict[str, float], None]:
         """The limit of the relative RMS error of B - E on each surface (group, material or
-        connected component) in 95 % of all runs, by its name; None without replicas."""
+        connected component) in 95 % of all runs, of the color channel that is off the most,
+        by the surface's name; None without replicas."""
         return self._core.surface_errors
 
     @property

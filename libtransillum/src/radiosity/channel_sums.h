@@ -24,7 +24,7 @@ inline Rgb largest_of(const Rgb& a, const Rgb& b) {
 }
 
 /// The values that errors are relative to: each channel has its own, as if it were solved alone
-/// (decision 79). An unlit channel is relative to the least light that is not.
+/// (decision 79). The errors of an unlit channel are relative to the least light that is lit.
 inline Rgb channel_units(const Rgb& values) {
   return largest_of(values, least_light * max_abs(values) * Rgb{1, 1, 1});
 }

@@ -390,7 +390,7 @@ class IncidenceSearch {
     drop_chance_touches();
   }
 
-  /// The faces with a plane, so that those of one plane follow one another.
+  /// All faces that have a plane, sorted by plane.
   std::vector<std::size_t> faces_by_plane() const {
     std::vector<std::size_t> faces;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
