@@ -10,7 +10,9 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "visibility/queries/boundary_view.h"
+#include "visibility/queries/convex_overlap.h"
 #include "visibility/queries/exact_view.h"
+#include "visibility/queries/needle_lines.h"
 
 namespace transillum::needle_view_test {
 namespace {
@@ -172,6 +174,60 @@ TEST(NeedleFrame, KeepsOrientationAndMapsBack) {
         std::abs(line.dx * mapped.y) + std::abs(line.dy * mapped.x) + std::abs(line.c);
     EXPECT_NEAR(side, frame.determinant * turn, 1e-14 * size);
   }
+}
+
+/// A fan of needles, which share a corner, on a floor of usual triangles.
+std::shared_ptr<const Scene> fan_of_needles(int count) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 1);
+  const auto on_rim = [&](int k) {
+    const double angle = 1e-4 * k + 0.4;
+    return Vec3{std::cos(angle), std::sin(angle), 0.1 * (k % 2)};
+  };
+  for (int k = 0; k < count; ++k) {
+    sketch.face({{0, 0, 0}, on_rim(k), on_rim(k + 1)}, gray);
+  }
+  sketch.face({{-1, -1, -0.1}, {1, -1, -0.1}, {1, 1, -0.1}}, gray);
+  return sketch.scene();
+}
+
+/// No fragments that overlap are apart, and most others are.
+TEST(NeedleLines, AreBetweenFragmentsWithoutCommonArea) {
+  std::int64_t apart = 0, near_but_apart = 0, missed = 0;
+  const auto count = [&](const std::shared_ptr<const Scene>& scene, const Vec3& omega) {
+    const Projected projected(scene, omega);
+    NeedleLines lines(*scene, projected.fragments);
+    lines.fill();
+    ASSERT_TRUE(lines.exist());
+    ConvexOverlap overlap(projected.fragments);
+    const auto size = static_cast<std::int32_t>(projected.fragments.fragments.size());
+    for (std::int32_t i = 0; i < size; ++i) {
+      overlap.set_subject(at(projected.fragments.fragments, i));
+      lines.begin(i);
+      for (std::int32_t j = 0; j < size; ++j) {
+        const auto &one = at(projected.fragments.fragments, i),
+                   &other = at(projected.fragments.fragments, j);
+        const double area = overlap.area_with(other), least = std::min(one.area, other.area);
+        const bool are_apart = i != j && lines.are_apart(j);
+        EXPECT_FALSE(are_apart && area > 1e-6 * least) << i << ' ' << j << ' ' << area / least;
+        apart += are_apart ? 1 : 0;
+        const bool near =
+            window_of(at(projected.fragments.boxes, i)).overlaps(at(projected.fragments.boxes, j));
+        near_but_apart += are_apart && near ? 1 : 0;
+        missed += i != j && near && !are_apart && area <= 1e-6 * least ? 1 : 0;
+      }
+    }
+  };
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Vec3 omega = normalized(Vec3{normal(random), normal(random), normal(random)});
+    count(random_needles(seed), omega);
+    count(fan_of_needles(60), omega);
+  }
+  EXPECT_GT(apart, 20000);
+  EXPECT_GT(near_but_apart, 5000);
+  EXPECT_LT(missed, near_but_apart / 4);
 }
 
 }  // namespace

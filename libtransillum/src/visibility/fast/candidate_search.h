@@ -7,6 +7,7 @@
 
 #include "transillum/at.h"
 #include "visibility/queries/fragment_bins.h"
+#include "visibility/queries/needle_lines.h"
 #include "visibility/queries/projected_fragments.h"
 
 namespace transillum {
@@ -26,8 +27,11 @@ class CandidateSearch {
     std::int32_t fragment;
   };
 
-  CandidateSearch(const FragmentBins& bins, const ProjectedFragments& projected)
-      : bins_(bins), projected_(projected) {}
+  CandidateSearch(const Scene& scene, const FragmentBins& bins, const ProjectedFragments& projected)
+      : bins_(bins), projected_(projected), needle_lines_(scene, projected) {}
+
+  /// To be called when the bins are filled.
+  void fill() { needle_lines_.fill(); }
 
   /// Begins a search from `fragment`: in the bin of `entry` only, or in all its bins. `window`:
   /// here and in next(), the bounds within which candidates are sought.
@@ -35,6 +39,9 @@ class CandidateSearch {
   void begin(std::int32_t fragment, bool in_one_bin, FragmentBins::Entry entry,
              const FragmentWindow& window) {
     cursors_.clear();
+    if (needle_lines_.exist()) {
+      needle_lines_.begin(fragment);
+    }
     if (in_one_bin) {
       cursors_.push_back({entry, 0});
     } else {
@@ -55,6 +62,16 @@ class CandidateSearch {
   /// The next candidate, or -1.
   template <Toward toward>
   std::int32_t next(const FragmentWindow& window) {
+    std::int32_t fragment = next_in_window<toward>(window);
+    while (needle_lines_.exist() && fragment >= 0 && needle_lines_.are_apart(fragment)) {
+      fragment = next_in_window<toward>(window);
+    }
+    return fragment;
+  }
+
+ private:
+  template <Toward toward>
+  std::int32_t next_in_window(const FragmentWindow& window) {
     if (cursors_.size() == 1) {
       const std::int32_t fragment = cursors_[0].fragment;
       if (fragment >= 0) {
@@ -83,7 +100,6 @@ class CandidateSearch {
     return nearest;
   }
 
- private:
   template <Toward toward>
   void advance(Cursor& cursor, const FragmentWindow& window) const {
     if constexpr (toward == Toward::source) {
@@ -101,6 +117,7 @@ class CandidateSearch {
 
   const FragmentBins& bins_;
   const ProjectedFragments& projected_;
+  NeedleLines needle_lines_;
   std::vector<Cursor> cursors_;
 };
 

@@ -59,7 +59,7 @@ class FastPass {
       : shared_(shared),
         costs_(costs),
         bins_(projected_, shared.backs_hidden),
-        search_(bins_, projected_),
+        search_(*shared.scene, bins_, projected_),
         cut_corners_(shared.outlines, projected_),
         exact_view_(shared.outlines, projected_, transfers_.counts, shared.bases != nullptr),
         boundary_view_(projected_, cut_corners_, transfers_.counts, shared.backs_hidden,
@@ -77,6 +77,7 @@ class FastPass {
                        shared_.shaft ? &*shared_.shaft : nullptr);
     const Clock::time_point ordered = Clock::now();
     bins_.fill(cancellation);
+    search_.fill();
     const Clock::time_point binned = Clock::now();
     begin(omega);
     run_queries<Toward::source>(cancellation);
