@@ -188,6 +188,24 @@ TEST(Checkpoint, AnAccuracyIsReachedByTheSameStages) {
   }
 }
 
+/// The first shot is refined where it is not accurate enough: a stage is made again.
+TEST(Checkpoint, AnAccuracyThatRefinesTheFirstShotIsReachedByTheSameStages) {
+  SolveOptions options{.first_shot = 0};
+  options.goal.accuracy = 0.0005;
+  const Solution whole = solve(box(), options);
+  const auto& stages = whole.accuracy->stages;
+  ASSERT_GE(stages.size(), 2U);
+  ASSERT_EQ(stages[0].directions, stages[1].directions) << "the shot is to be refined";
+  const TemporaryFolder folder;
+  for (const int events : {2, 30, 60, 150}) {
+    SCOPED_TRACE(events);
+    const Solution resumed = interrupted_solve(options, events, folder.path() / "a.tck");
+    EXPECT_TRUE(whole.radiosity == resumed.radiosity);
+    EXPECT_EQ(whole.accuracy->error, resumed.accuracy->error);
+    EXPECT_EQ(whole.accuracy->passes_made, resumed.accuracy->passes_made);
+  }
+}
+
 /// A solve to a total error; where it is interrupted, it is continued from its file.
 /// @param events of each stage after which it is interrupted; 0 disables that
 TotalSolve total_solve(int events, const std::string& file) {

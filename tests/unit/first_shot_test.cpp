@@ -5,6 +5,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "visibility/pairs/patch_exchange.h"
@@ -110,6 +113,57 @@ TEST(Shoot, EstimatesTheErrorWhereNoPointSeesLight) {
     }
   }
   EXPECT_GT(unseen, 0);
+}
+
+/// Every third patch by more points, which gives it the bits of a shot by as many.
+TEST(Shoot, AgainReplacesTheLightOfThesePatchesAlone) {
+  const auto scene = load_scene("cornell-box", {.max_patch_area = 0.05});
+  const std::vector<PatchId> sources = find_small_sources(*scene, 0);
+  const ShotOptions usual{.basis = Basis::linear}, more{.basis = Basis::linear, .points = 32};
+  std::vector<PatchId> third, all;
+  for (PatchId i = 0; i < scene->patch_count(); ++i) {
+    all.push_back(i);
+    if (i % 3 == 0) {
+      third.push_back(i);
+    }
+  }
+  const auto shot_at_all = [&](const ShotOptions& options) {
+    DirectLight light = shoot(*scene, sources, options);
+    light.paired = all;
+    light.pairs = shoot_pairs(*scene, sources, all, options);
+    return light;
+  };
+  const DirectLight coarse = shot_at_all(usual), fine = shot_at_all(more);
+  DirectLight again = coarse;
+  shoot_again(*scene, third, more, again);
+  int changed = 0;
+  for (const PatchId i : all) {
+    const DirectLight& expected = i % 3 == 0 ? fine : coarse;
+    EXPECT_EQ(at(again.irradiance, i), at(expected.irradiance, i)) << i;
+    EXPECT_EQ(at(again.irradiance_error, i), at(expected.irradiance_error, i)) << i;
+    EXPECT_EQ(at(again.linear_terms, i).first, at(expected.linear_terms, i).first) << i;
+    EXPECT_EQ(at(again.linear_term_errors, i).second, at(expected.linear_term_errors, i).second);
+    ASSERT_FALSE(again.contributions.empty());
+    EXPECT_EQ(at(again.contributions[0].irradiance, i), at(expected.contributions[0].irradiance, i))
+        << i;
+    changed += at(coarse.irradiance, i) == at(fine.irradiance, i) ? 0 : 1;
+  }
+  EXPECT_GT(changed, 10);
+  EXPECT_EQ(again.integrated_pairs, coarse.integrated_pairs);
+  ASSERT_TRUE(std::is_sorted(again.pairs.begin(), again.pairs.end(),
+                             [](const auto& a, const auto& b) { return a.receiver < b.receiver; }));
+  std::vector<DirectLight::Pair> expected;
+  for (const DirectLight* light : {&coarse, &fine}) {
+    std::copy_if(light->pairs.begin(), light->pairs.end(), std::back_inserter(expected),
+                 [&](const auto& pair) { return (pair.receiver % 3 == 0) == (light == &fine); });
+  }
+  ASSERT_EQ(again.pairs.size(), expected.size());
+  for (const DirectLight::Pair& pair : expected) {
+    EXPECT_TRUE(std::any_of(again.pairs.begin(), again.pairs.end(), [&](const auto& found) {
+      return found.receiver == pair.receiver && found.source == pair.source &&
+             found.irradiance == pair.irradiance;
+    }));
+  }
 }
 
 TEST(Shoot, MatchesTheFormulaForIrradiance) {

@@ -118,14 +118,32 @@ std::string error_name(const AccuracyReport& report) {
                            report.goal.of == AccuracyOf::irradiance ? " of H" : "", report.surface);
 }
 
+std::string obstacle_text(const AccuracyReport& report) {
+  switch (report.obstacle) {
+    case AccuracyObstacle::none:
+      return "";
+    case AccuracyObstacle::seconds:
+      return " in the time given";
+    case AccuracyObstacle::passes:
+      return fmt::format(" with at most {} passes", report.goal.passes);
+    case AccuracyObstacle::directions:
+      return " with as many directions as are possible";
+    case AccuracyObstacle::first_shot:
+      return " because the first shot is not as accurate past what stands before the lamps";
+    case AccuracyObstacle::stalled:
+      return " because more directions do not decrease the error";
+    case AccuracyObstacle::no_light:
+      return " because no direction has brought light to what reflects";
+  }
+  return "";
+}
+
 std::string accuracy_text(const AccuracyReport& report) {
   const AccuracyGoal& goal = report.goal;
   const std::string asked = goal.accuracy > 0 ? fmt::format("{:.3g} % asked", 100 * goal.accuracy)
                                               : "within the time given";
-  const std::string reached = report.reached ? "reached"
-                              : report.out_of_passes
-                                  ? fmt::format("not reached with at most {} passes", goal.passes)
-                              : goal.accuracy > 0 ? "not reached"
+  const std::string reached = report.reached      ? "reached"
+                              : goal.accuracy > 0 ? "not reached" + obstacle_text(report)
                                                   : "time is up";
   if (report.passes_made == 0) {  // engine pairs
     return report_row("accuracy",

@@ -66,6 +66,21 @@ struct AccuracyStage {
   double error = 0;    ///< relative: the limit of AccuracyGoal::of
 };
 
+/// Why a solve with a goal ended before it was reached.
+enum class AccuracyObstacle {
+  none,        ///< reached, or not finished
+  seconds,     ///< AccuracyGoal::seconds are over
+  passes,      ///< AccuracyGoal::passes allows no further stage
+  directions,  ///< a stage has as many directions as are possible, or as memory holds
+  first_shot,  ///< past blockers, the first shot is less accurate than the goal
+  stalled,     ///< more directions have not decreased the error
+  no_light,    ///< no direction has brought light to a patch that reflects
+};
+
+/// The names of the obstacles (choice.h).
+template <>
+const Choices& choices_of<AccuracyObstacle>();
+
 /// The outcome of a solve with a goal.
 struct AccuracyReport {
   AccuracyGoal goal;                  ///< the goal given
@@ -74,8 +89,7 @@ struct AccuracyReport {
   std::string surface;                ///< the worst surface, where the goal is about surfaces
   bool is_dark = false;               ///< SurfaceError::is_dark of that surface
   bool reached = false;               ///< error <= goal.accuracy, and `trusted`
-  /// Whether the solve ended because AccuracyGoal::passes allows no further stage.
-  bool out_of_passes = false;
+  AccuracyObstacle obstacle = AccuracyObstacle::none;  ///< why it is not reached
   bool trusted = false;  ///< light sources were met by at least least_light_directions per replica
   std::int64_t passes_made = 0;  ///< in all stages
 };

@@ -116,6 +116,19 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
                   const ShotOptions& options = {}, const Cancellation& cancellation = {},
                   const std::function<void(double)>& progress = {});
 
+/// Shoots the sources of `light` at some patches again, by other options: of its sums,
+/// contributions, errors and pairs, theirs are replaced.
+/// @param scene the scene of `light`.
+/// @param receivers patches, ascending.
+/// @param options as for shoot(), with the same basis.
+/// @param light with contributions and errors as shoot() and shoot_pairs() have made them.
+/// @param cancellation as for shoot(), as well as `progress`. `light` is then incomplete.
+/// @throws Canceled
+void shoot_again(const Scene& scene, const std::vector<PatchId>& receivers,
+                 const ShotOptions& options, DirectLight& light,
+                 const Cancellation& cancellation = {},
+                 const std::function<void(double)>& progress = {});
+
 /// The single contributions of sources to some patches, of which shoot() adds up all.
 /// @param scene the scene.
 /// @param sources as for shoot().

@@ -303,6 +303,7 @@ std::optional<py::dict> accuracy_of(const Solution& solution) {
   dict["reached"] = report.reached;
   dict["error"] = report.error;
   dict["surface"] = report.surface;
+  dict["obstacle"] = name_of(report.obstacle);
   dict["passes"] = report.passes_made;
   return dict;
 }

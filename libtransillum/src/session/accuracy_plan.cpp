@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -19,6 +20,7 @@
 #include "radiosity/state_archive.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/first_shot.h"
 #include "transillum/glossy.h"
 
 namespace transillum {
@@ -48,7 +50,6 @@ constexpr double time_fraction = 0.85;
 constexpr double iteration_fraction = 0.25;
 /// The same for the error of the first shot, which more points decrease.
 constexpr double shot_fraction = 0.5;
-constexpr int more_points = 4;
 
 /// The same levels and names, and errors of 0.
 ErrorEstimate without_errors(const ErrorEstimate& error) {
@@ -92,17 +93,6 @@ double largest_error(const Scene& scene, const std::vector<Rgb>& b, const ErrorE
   }
   return error.quantile *
          largest_ratio(largest, channel_units(largest_magnitudes(reflected_light(scene, b))));
-}
-
-/// The part of error_for() that a bias of B makes; 0 without an estimate.
-double error_of_bias(const AccuracyGoal& goal, const ErrorSurfaces& surfaces,
-                     const StageResult& result, const std::vector<Rgb>& bias) {
-  if (result.error.replicas == 0) {
-    return 0;
-  }
-  ErrorEstimate missing = without_errors(result.error);
-  include_bias(missing, result.scene, surfaces, result.radiosity, bias);
-  return error_for(goal, result.scene, result.radiosity, missing);
 }
 
 }  // namespace
@@ -163,7 +153,9 @@ void name_worst_surface(const AccuracyGoal& goal, const ErrorEstimate& error,
 }
 
 AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene)
-    : surfaces_(scene, options.goal.surfaces, options.glossy), stage_(options) {
+    : surfaces_(scene, options.goal.surfaces, options.glossy),
+      stage_(options),
+      shot_points_(shot_options(options), scene.patches().size()) {
   options.validate();
   report_.goal = options.goal;
   error_for(options.goal, scene, {}, {});  // checks the patch
@@ -207,32 +199,25 @@ AccuracyPlan::Next AccuracyPlan::next(const StageResult& result, double seconds)
   seconds_ = seconds;
   const double left =
       goal.seconds > 0 ? goal.seconds - seconds : std::numeric_limits<double>::infinity();
-  if (report_.reached || report_.error == 0 || left <= 0 || is_stalled()) {
-    return Next::done;
+  if (report_.reached || (report_.error == 0 && !is_missed)) {
+    return end(AccuracyObstacle::none);
   }
-  // No number of passes replaces iterations, which the goal may ask more of than the tolerance:
-  // a patch, where it is dark.
-  const double missing_iterations =
-      error_of_bias(goal, surfaces_, result, bias_of_iteration(surfaces_, statistics));
-  if (goal.accuracy > 0 && missing_iterations > iteration_fraction * goal.accuracy &&
-      std::isfinite(missing_iterations) && solved.directions * per_pass <= time_fraction * left) {
-    const IterationRecord& last = statistics.iteration_records.back();
-    const double reached = std::max(last.remainder, last.remainder_dimmest);
-    if (!is_rounding(last) && reached > 0) {
-      stage_.tolerance = 0.5 * iteration_fraction * goal.accuracy / missing_iterations *
-                         std::min(stage_.tolerance, reached);
-      passes_before_ = 0;
-      return Next::stage;
+  if (is_missed && report_.error == 0) {
+    return end(AccuracyObstacle::no_light);
+  }
+  if (left <= 0) {
+    return end(AccuracyObstacle::seconds);
+  }
+  if (is_stalled()) {
+    return end(AccuracyObstacle::stalled);
+  }
+  if (goal.accuracy > 0) {
+    if (solved.directions * per_pass <= time_fraction * left && asks_for_iterations(result)) {
+      return again();
     }
-  }
-  // No number of passes makes the first shot more accurate.
-  int& points = stage_.engine_options.points;
-  const int used_points = points > 0 ? points : ShotOptions::default_points;
-  if (goal.accuracy > 0 && shot != nullptr && used_points < EngineOptions::largest_points &&
-      error_of_bias(goal, surfaces_, result, bias_of_shot(scene, surfaces_, *shot)) >
-          shot_fraction * goal.accuracy) {
-    points = std::min(more_points * used_points, EngineOptions::largest_points);
-    return Next::stage;
+    if (const auto end_or_stage = refine_shot(result)) {
+      return *end_or_stage;
+    }
   }
   // Error ~ 1/sqrt(number of replicas); a new stage makes all its passes, but gains more.
   const double missing = report_.error / goal.accuracy;
@@ -243,7 +228,130 @@ AccuracyPlan::Next AccuracyPlan::next(const StageResult& result, double seconds)
   if (replica_suffices && per_replica * per_pass <= left && per_replica <= passes_left()) {
     return Next::replica;
   }
-  return grow(growth(), std::min(time_fraction * left / per_pass, fitting_directions(result)));
+  return grow(growth(), time_fraction * left / per_pass, fitting_directions(result));
+}
+
+/// The same stage again, with what has changed.
+AccuracyPlan::Next AccuracyPlan::again() {
+  if (stage_.directions > passes_left()) {
+    return end(AccuracyObstacle::passes);
+  }
+  passes_before_ = 0;
+  return Next::stage;
+}
+
+/// No number of passes replaces iterations, which the goal may ask more of than the tolerance: a
+/// patch, where it is dark.
+/// @returns whether the stage's tolerance is smaller now
+bool AccuracyPlan::asks_for_iterations(const StageResult& result) {
+  const double missing = error_of_bias(result, bias_of_iteration(surfaces_, result.statistics));
+  const double allowed = iteration_fraction * report_.goal.accuracy;
+  if (!(missing > allowed) || !std::isfinite(missing)) {
+    return false;
+  }
+  const IterationRecord& last = result.statistics.iteration_records.back();
+  const double reached = std::max(last.remainder, last.remainder_dimmest);
+  if (is_rounding(last) || !(reached > 0)) {
+    return false;
+  }
+  stage_.tolerance = 0.5 * allowed / missing * std::min(stage_.tolerance, reached);
+  return true;
+}
+
+/// No number of passes makes the first shot more accurate.
+/// @returns nothing where it is accurate enough
+std::optional<AccuracyPlan::Next> AccuracyPlan::refine_shot(const StageResult& result) {
+  if (result.shot == nullptr) {
+    return {};
+  }
+  const double goal = report_.goal.accuracy;
+  const double error = error_of_bias(result, bias_of_shot(result.scene, surfaces_, *result.shot));
+  if (error > shot_fraction * goal && shot_points_.refine(patches_to_refine(result))) {
+    return again();
+  }
+  return error > goal ? std::optional(end(AccuracyObstacle::first_shot)) : std::nullopt;
+}
+
+AccuracyPlan::Next AccuracyPlan::end(AccuracyObstacle obstacle) {
+  report_.obstacle = obstacle;
+  return Next::done;
+}
+
+double AccuracyPlan::error_of_bias(const StageResult& result, const std::vector<Rgb>& bias) const {
+  if (result.error.replicas == 0) {
+    return 0;
+  }
+  ErrorEstimate missing = without_errors(result.error);
+  include_bias(missing, result.scene, surfaces_, result.radiosity, bias);
+  return error_for(report_.goal, result.scene, result.radiosity, missing);
+}
+
+/// How much of the error of a result the direct light of each patch makes, up to a common factor:
+/// on its own surface, or by what it reflects to the surface with the least light.
+std::vector<double> AccuracyPlan::shares_of_shot(const StageResult& result) const {
+  const Scene& scene = result.scene;
+  const std::vector<SurfaceError>& surfaces = result.error.surfaces.surfaces;
+  const Rgb mean = channel_units(result.error.mean_reflected);
+  Rgb least = mean;
+  for (const SurfaceError& surface : surfaces) {
+    least = {std::min(least.r, surface.unit.r), std::min(least.g, surface.unit.g),
+             std::min(least.b, surface.unit.b)};
+  }
+  double area = 0;
+  for (const Patch& patch : scene.patches()) {
+    area += patch.area;
+  }
+  std::vector<double> shares;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const std::int32_t s = surfaces_.reflecting.of(i);
+    const Rgb rho =
+        report_.goal.of == AccuracyOf::irradiance ? Rgb{1, 1, 1} : at(surfaces_.reflectance, i);
+    const auto share = [&](const Rgb& error) {
+      return std::max(largest_ratio(rho * error, s == Surfaces::none ? mean : at(surfaces, s).unit),
+                      scene.patch(i).area / area * largest_ratio(rho * error, least));
+    };
+    double most = share(at(result.shot->irradiance_error, i));
+    if (!result.shot->linear_term_errors.empty()) {
+      const LinearTerm& terms = at(result.shot->linear_term_errors, i);
+      most = std::max({most, share(terms.first), share(terms.second)});
+    }
+    shares.push_back(most);
+  }
+  return shares;
+}
+
+/// The fewest patches whose direct light has to be more accurate: without their errors, that of the
+/// first shot is half of what the goal leaves to it.
+std::vector<PatchId> AccuracyPlan::patches_to_refine(const StageResult& result) const {
+  const std::vector<double> shares = shares_of_shot(result);
+  std::vector<PatchId> order(shares.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](PatchId i, PatchId j) { return at(shares, i) > at(shares, j); });
+  const auto suffices = [&](std::size_t count) {
+    DirectLight rest;
+    rest.irradiance_error = result.shot->irradiance_error;
+    rest.linear_term_errors = result.shot->linear_term_errors;
+    for (std::size_t k = 0; k < count; ++k) {
+      at(rest.irradiance_error, order[k]) = {};
+      if (!rest.linear_term_errors.empty()) {
+        at(rest.linear_term_errors, order[k]) = {};
+      }
+    }
+    return error_of_bias(result, bias_of_shot(result.scene, surfaces_, rest)) <=
+           0.5 * shot_fraction * report_.goal.accuracy;
+  };
+  std::size_t low = 0, high = order.size();
+  while (low < high) {
+    const std::size_t middle = low + (high - low) / 2;
+    if (suffices(middle)) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  order.resize(high);
+  return order;
 }
 
 /// By how much M should grow for the goal. Of errors of different numbers of replicas, those are
@@ -280,13 +388,15 @@ double AccuracyPlan::growth() const {
   return std::max(factor, 1.1);
 }
 
-AccuracyPlan::Next AccuracyPlan::grow(double factor, double most) {
+AccuracyPlan::Next AccuracyPlan::grow(double factor, double by_time, double by_memory) {
   const double before = stage_.directions, per_replica = before / stage_.replicas;
   const double allowed = passes_left();
-  const double wanted = std::min({factor * before, most, double(max_directions), allowed});
-  if (wanted < 1.1 * before) {
-    report_.out_of_passes = allowed < 1.1 * before;
-    return Next::done;
+  const double possible = std::min(by_memory, double(max_directions));
+  const double wanted = std::min({factor * before, by_time, possible, allowed});
+  if (const double least = 1.1 * before; wanted < least) {
+    return end(allowed < least   ? AccuracyObstacle::passes
+               : by_time < least ? AccuracyObstacle::seconds
+                                 : AccuracyObstacle::directions);
   }
   // A stage has at most as many passes as are left.
   const double count =
@@ -302,15 +412,16 @@ double AccuracyPlan::passes_left() const {
                   : std::numeric_limits<double>::infinity();
 }
 
-/// Whether something else than the number of directions bounds the error, as that of the first
-/// shot.
+/// Whether something else than the number of directions bounds the error. Where light is rare, the
+/// errors of few directions are too uncertain to tell.
 bool AccuracyPlan::is_stalled() const {
+  constexpr int more_directions = 16;
   const auto& stages = report_.stages;
-  if (stages.size() < 3) {
-    return false;
-  }
-  const AccuracyStage &last = stages.back(), &before = stages[stages.size() - 3];
-  return last.directions >= 4 * before.directions && last.error > 0.9 * before.error;
+  const AccuracyStage& last = stages.back();
+  const auto before = std::find_if(stages.rbegin(), stages.rend(), [&](const AccuracyStage& stage) {
+    return more_directions * stage.directions <= last.directions;
+  });
+  return before != stages.rend() && last.error > 0.9 * before->error;
 }
 
 bool AccuracyPlan::enlarge() {
@@ -337,13 +448,17 @@ void AccuracyPlan::visit_state(Archive& archive, Self& self) {
     archive(stage.directions, stage.replicas, stage.error);
   }
   std::vector<char> surface(report.surface.begin(), report.surface.end());
-  archive(surface, report.is_dark, report.out_of_passes);
+  auto obstacle = static_cast<int>(report.obstacle);
+  archive(surface, report.is_dark, obstacle, self.shot_points_);
+  archive.require(obstacle >= 0 &&
+                  obstacle < static_cast<int>(choices_of<AccuracyObstacle>().names.size()));
   if constexpr (Archive::reading) {
     report.surface.assign(surface.begin(), surface.end());
+    report.obstacle = static_cast<AccuracyObstacle>(obstacle);
   }
   archive(report.error, report.reached, report.trusted, report.passes_made, self.stage_.directions,
-          self.stage_.replicas, self.stage_.tolerance, self.stage_.engine_options.points,
-          self.light_directions_, self.seconds_, self.passes_before_);
+          self.stage_.replicas, self.stage_.tolerance, self.light_directions_, self.seconds_,
+          self.passes_before_);
 }
 
 void AccuracyPlan::save(std::ostream& out) const {

@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <vector>
 
 #include "radiosity/error/error_estimate.h"
+#include "session/shot_points.h"
 #include "transillum/solution.h"
 #include "transillum/solve_options.h"
 
@@ -54,6 +56,8 @@ class AccuracyPlan {
 
   /// Options of the stage to be solved.
   const SolveOptions& stage() const { return stage_; }
+  /// Number of points of the first shot, by patch; empty: those of the options.
+  const std::vector<int>& shot_points() const { return shot_points_.of_patches(); }
   /// The next work after a stage.
   enum class Next {
     done,     ///< the goal is reached, or cannot be
@@ -68,6 +72,8 @@ class AccuracyPlan {
   /// the scene's reflectance.
   /// @returns whether stage() now has more; false where so many should converge.
   bool enlarge();
+  /// To be called where the time ends within a stage, which is discarded.
+  void end_late() { report_.obstacle = AccuracyObstacle::seconds; }
   /// The stages so far and whether the last reached the goal.
   const AccuracyReport& report() const { return report_; }
 
@@ -85,8 +91,15 @@ class AccuracyPlan {
   template <class Archive, class Self>
   static void visit_state(Archive& archive, Self& self);
 
-  /// @param most directions that time and memory allow
-  Next grow(double factor, double most);
+  Next end(AccuracyObstacle obstacle);
+  Next again();
+  bool asks_for_iterations(const StageResult& result);
+  std::optional<Next> refine_shot(const StageResult& result);
+  std::vector<double> shares_of_shot(const StageResult& result) const;
+  std::vector<PatchId> patches_to_refine(const StageResult& result) const;
+  Next grow(double factor, double by_time, double by_memory);
+  /// The part of error_for() that a bias of B makes; 0 without an estimate.
+  double error_of_bias(const StageResult& result, const std::vector<Rgb>& bias) const;
   double growth() const;
   bool is_stalled() const;
   /// Passes that the goal still allows.
@@ -95,6 +108,7 @@ class AccuracyPlan {
   ErrorSurfaces surfaces_;
   AccuracyReport report_;
   SolveOptions stage_;
+  ShotPoints shot_points_;
   double light_directions_ = 0;     ///< per replica, in the last stage
   double seconds_ = 0;              ///< at the end of the last stage
   std::int64_t passes_before_ = 0;  ///< made by the solver of the stage, before its last passes

@@ -53,7 +53,7 @@ void SolveSession::Impl::begin(const std::shared_ptr<const Scene>& solved) {
   scene = solved;
   tree = scene == request.scene ? request.tree : nullptr;
   shot = scene == request.scene ? request.shot : nullptr;
-  shot_points = request.options.engine_options.points;
+  shot_points.clear();
   seconds_bsp = seconds_first_shot = seconds_before = 0;
   if (called) {
     called = Clock::now();
@@ -79,7 +79,7 @@ void SolveSession::Impl::build_tree(const Cancellation& interruption) {
 
 void SolveSession::Impl::shoot_first(const Cancellation& interruption) {
   const SolveOptions& options = plan ? plan->stage() : request.options;
-  const int points = options.engine_options.points;
+  const std::vector<int> points = plan ? plan->shot_points() : std::vector<int>();
   if (!options.used_first_shot() || (shot && shot_points == points)) {
     return;
   }
@@ -89,9 +89,16 @@ void SolveSession::Impl::shoot_first(const Cancellation& interruption) {
     report = [this](double fraction) { request.preparing(Preparation::first_shot, fraction); };
     report(0);
   }
-  shot = std::make_shared<const DirectLight>(first_shot(*scene, options, interruption, report));
-  shot_points = points;
-  seconds_first_shot = seconds_since(start);
+  if (!shot || points.empty()) {
+    shot = std::make_shared<const DirectLight>(first_shot(*scene, options, interruption, report));
+    shot_points.clear();
+  }
+  if (!points.empty()) {
+    shot = std::make_shared<const DirectLight>(
+        refined_shot(*scene, options, *shot, shot_points, points, interruption, report));
+    shot_points = points;
+  }
+  seconds_first_shot += seconds_since(start);
 }
 
 void SolveSession::Impl::make_solver() {
@@ -142,6 +149,7 @@ bool SolveSession::Impl::advance_stage(SolverUntil until, const std::function<bo
     return false;
   }
   if (unfinished && most_seconds > 0 && request.sums->any(late)) {
+    plan->end_late();
     next = AccuracyPlan::Next::done;
     return false;
   }

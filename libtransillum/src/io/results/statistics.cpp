@@ -79,6 +79,9 @@ Json accuracy_json(const std::optional<AccuracyReport>& report) {
           {"confidence", 0.95},
           {"reached", report->reached},
           {"trusted", report->trusted},
+          {"obstacle", report->obstacle == AccuracyObstacle::none
+                           ? Json()
+                           : Json(name_of(report->obstacle))},
           {"passes_made", report->passes_made},
           {"stages", stages}};
 }

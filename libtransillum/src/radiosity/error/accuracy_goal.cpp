@@ -26,6 +26,16 @@ constexpr std::array accuracies{
     Choice{AccuracyOf::mean, "mean"},
 };
 
+constexpr std::array obstacles{
+    Choice{AccuracyObstacle::none, "none"},
+    Choice{AccuracyObstacle::seconds, "seconds"},
+    Choice{AccuracyObstacle::passes, "passes"},
+    Choice{AccuracyObstacle::directions, "directions"},
+    Choice{AccuracyObstacle::first_shot, "first-shot"},
+    Choice{AccuracyObstacle::stalled, "stalled"},
+    Choice{AccuracyObstacle::no_light, "no-light"},
+};
+
 /// Reads all of `text`; nothing else may follow.
 template <class Number>
 bool read_number(const std::string& text, Number& value) {
@@ -39,6 +49,12 @@ bool read_number(const std::string& text, Number& value) {
 template <>
 const Choices& choices_of<AccuracyOf>() {
   static const Choices choices = texts_of<accuracies>("accuracy");
+  return choices;
+}
+
+template <>
+const Choices& choices_of<AccuracyObstacle>() {
+  static const Choices choices = texts_of<obstacles>("obstacle of an accuracy");
   return choices;
 }
 

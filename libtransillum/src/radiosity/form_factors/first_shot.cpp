@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <thread>
 
@@ -118,11 +119,21 @@ class LinearTermSum {
   std::array<ErrorSum, 2> errors_;
 };
 
+double density_of(const ShotOptions& options) {
+  return options.points > 0 ? options.points : ShotOptions::default_points;
+}
+
 /// Computes the irradiance of patch i from all sources.
 void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, ShotProgress& progress,
              IntegratedPairs& integrated, DirectLight& light) {
   const auto row = static_cast<std::size_t>(i);
   const double unit = 1 / scene.patch(i).area;
+  for (DirectLight::Contribution& contribution : light.contributions) {
+    contribution.irradiance[row] = 0;
+    if (!contribution.linear_terms.empty()) {
+      contribution.linear_terms[row] = {};
+    }
+  }
   const bool linear = !light.linear_terms.empty();
   const LinearBasis basis = linear ? linear_basis(scene, i) : LinearBasis();
   Rgb power;
@@ -157,6 +168,20 @@ void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, Shot
     light.linear_terms[row] = linear_term.sum();
     light.linear_term_errors[row] = linear_term.error();
   }
+}
+
+/// Computes the irradiance of some patches from all sources.
+void receive(const Scene& scene, const std::vector<PatchId>& receivers, const ShotOptions& options,
+             const Cancellation& cancellation, const std::function<void(double)>& progress,
+             IntegratedPairs& integrated, DirectLight& light) {
+  const ExchangeFinder exchange(scene, cancellation, density_of(options));
+  WorkerThreads workers(thread_count(options.threads));
+  ShotProgress shot(
+      static_cast<double>(receivers.size()) * static_cast<double>(light.sources.size()),
+      cancellation, progress);
+  for_each_index(workers, std::size_t{0}, receivers.size(), [&](std::size_t k) {
+    receive(scene, exchange, receivers[k], shot, integrated, light);
+  });
 }
 
 /// Sets the exitance of the sources and their fraction of all emitted power.
@@ -210,10 +235,6 @@ std::vector<DirectLight::Pair> pairs_of(const Scene& scene, const ExchangeFinder
   return pairs;
 }
 
-double density_of(const ShotOptions& options) {
-  return options.points > 0 ? options.points : ShotOptions::default_points;
-}
-
 }  // namespace
 
 ShotOptions shot_options(const SolveOptions& options) {
@@ -238,13 +259,10 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources,
   if (sources.empty()) {
     return light;
   }
-  const ExchangeFinder exchange(scene, cancellation, density_of(options));
-  WorkerThreads workers(thread_count(options.threads));
-  ShotProgress shot(static_cast<double>(patches) * static_cast<double>(sources.size()),
-                    cancellation, progress);
+  std::vector<PatchId> all(patches);
+  std::iota(all.begin(), all.end(), 0);
   IntegratedPairs integrated{0};
-  for_each_index(workers, PatchId{0}, scene.patch_count(),
-                 [&](PatchId i) { receive(scene, exchange, i, shot, integrated, light); });
+  receive(scene, all, options, cancellation, progress, integrated, light);
   light.integrated_pairs = integrated;
   if (progress) {
     progress(1);
@@ -275,6 +293,27 @@ std::vector<DirectLight::Pair> shoot_pairs(const Scene& scene, const std::vector
     pairs.insert(pairs.end(), of_receiver.begin(), of_receiver.end());
   }
   return pairs;
+}
+
+void shoot_again(const Scene& scene, const std::vector<PatchId>& receivers,
+                 const ShotOptions& options, DirectLight& light, const Cancellation& cancellation,
+                 const std::function<void(double)>& progress) {
+  IntegratedPairs counted{0};  // whole pairs, which `light` has counted
+  receive(scene, receivers, options, cancellation, progress, counted, light);
+  const auto is_received = [&](PatchId i) {
+    return std::binary_search(receivers.begin(), receivers.end(), i);
+  };
+  std::vector<PatchId> paired;
+  std::copy_if(light.paired.begin(), light.paired.end(), std::back_inserter(paired), is_received);
+  std::vector<DirectLight::Pair> kept, again;
+  std::copy_if(light.pairs.begin(), light.pairs.end(), std::back_inserter(kept),
+               [&](const DirectLight::Pair& pair) { return !is_received(pair.receiver); });
+  again = shoot_pairs(scene, light.sources, paired, options, cancellation, progress);
+  light.pairs.clear();
+  std::merge(kept.begin(), kept.end(), again.begin(), again.end(), std::back_inserter(light.pairs),
+             [](const DirectLight::Pair& a, const DirectLight::Pair& b) {
+               return a.receiver < b.receiver;
+             });
 }
 
 DirectLight with_materials(const DirectLight& light, const Scene& scene,

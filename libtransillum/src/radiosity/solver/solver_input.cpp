@@ -2,11 +2,13 @@
 #include "radiosity/solver/solver_input.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
+#include "transillum/at.h"
 #include "transillum/glossy.h"
 
 namespace transillum {
@@ -62,6 +64,27 @@ DirectLight first_shot(const Scene& scene, const SolveOptions& options,
                             report_from(first, 1 - first));
   light.paired = paired;
   return light;
+}
+
+DirectLight refined_shot(const Scene& scene, const SolveOptions& options, const DirectLight& light,
+                         const std::vector<int>& before, const std::vector<int>& points,
+                         const Cancellation& cancellation,
+                         const std::function<void(double)>& progress) {
+  const ShotOptions usual = shot_options(options);
+  const int points_before = usual.points > 0 ? usual.points : ShotOptions::default_points;
+  std::map<int, std::vector<PatchId>> receivers;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (at(points, i) != (before.empty() ? points_before : at(before, i))) {
+      receivers[at(points, i)].push_back(i);
+    }
+  }
+  DirectLight refined = light;
+  for (const auto& [count, of_count] : receivers) {
+    ShotOptions with_points = usual;
+    with_points.points = count;
+    shoot_again(scene, of_count, with_points, refined, cancellation, progress);
+  }
+  return refined;
 }
 
 SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
