@@ -390,9 +390,9 @@ class Planner {
       return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
     if (undone_ > 0) {
-      report.sentences.push_back(
-          fmt::format("{} kept as in the file: changed, more of what light meets would be backs",
-                      counted(undone_, "part")));
+      report.sentences.push_back(fmt::format(
+          "{} kept as in the file, since more of what light meets would be backs after a change",
+          counted(undone_, "part")));
     }
     if (!plan_.changes()) {
       report.sentences.emplace_back("no face is turned");
