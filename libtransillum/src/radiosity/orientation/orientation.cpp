@@ -83,7 +83,7 @@ Verdict verdict_on(const ConnectedComponent& component, const ComponentExposure&
   const auto& [front, back] = exposure;
   if (!component.orientable) {
     const Verdict side = larger(exposed(front), exposed(back), alike, Verdict::two_sided);
-    return side == Verdict::kept ? Verdict::unchanged : Verdict::two_sided;
+    return alone || side == Verdict::kept ? Verdict::unchanged : Verdict::two_sided;
   }
   const bool meets = std::max(front.met_other, back.met_other) >= least_meetings;
   if (alone || (!component.closed && !meets)) {
@@ -122,7 +122,8 @@ class Planner {
   Planner(const SceneDescription& description, const Cancellation& cancellation)
       : description_(description),
         scene_(one_sided(description, cancellation)),
-        components_(find_connected_components(scene_, cancellation)) {}
+        components_(find_connected_components(scene_, cancellation)),
+        has_light_(scene_.has_light()) {}
 
   OrientationPlan plan(int threads, const Cancellation& cancellation,
                        const std::function<void(double)>& progress) {
@@ -135,7 +136,7 @@ class Planner {
     const std::vector<double> contained = contained_areas();
     for (std::size_t p = 0; p < exposure.size(); ++p) {
       verdicts_.push_back(verdict_on(components_.components[p], exposure[p], alone, emits_[p],
-                                     contained[p], scene_.has_light()));
+                                     contained[p], has_light_));
     }
     avoid_backs(embree, threads, cancellation);
     set_faces(verdicts_);
@@ -212,10 +213,11 @@ class Planner {
     const std::vector<Verdict> all = verdicts_;
     keep_right_components(before, measure(all));
     for (const Verdict undone : {Verdict::two_sided, Verdict::opposite, Verdict::unchanged}) {
-      if (measure(verdicts_).all.fraction() <= before.all.fraction() + same_backs) {
+      const MetSurfaces now = measure(verdicts_).all;
+      if (now.fraction() <= before.all.fraction() + same_backs) {
         break;
       }
-      undo(undone, before);
+      undo(undone, before, now.backs > before.all.backs);
     }
     for (std::size_t p = 0; p < all.size(); ++p) {
       undone_ += verdicts_[p] != all[p] ? 1 : 0;
@@ -228,8 +230,8 @@ class Planner {
     for (std::size_t p = 0; p < verdicts_.size(); ++p) {
       const ConnectedComponent& component = components_.components[p];
       // Without light, a closed component is a solid, unless its inside sees lit sides of others.
-      const bool is_shown = scene_.has_light() ||
-                            (component.closed && file_is_right && sees_lit_sides(before.others[p]));
+      const bool is_shown =
+          has_light_ || (component.closed && file_is_right && sees_lit_sides(before.others[p]));
       const bool has_more = after.share(p) > before.share(p) + same_backs;
       if (verdicts_[p] == Verdict::opposite && is_shown && has_more) {
         verdicts_[p] = Verdict::kept;
@@ -243,7 +245,7 @@ class Planner {
     for (std::size_t p = 0; p < verdicts_.size(); ++p) {
       if (!components_.components[p].orientable) {
         const MetSurfaces& own = before.own[p];
-        const bool is_shown = scene_.has_light() ? own.met > 0 : sees_lit_sides(before.others[p]);
+        const bool is_shown = has_light_ ? own.met > 0 : sees_lit_sides(before.others[p]);
         const bool is_outside = verdicts_[p] == Verdict::unchanged;
         const auto seen = static_cast<double>(own.met + before.starts[p]);
         const bool is_right = static_cast<double>(own.backs) <= few_backs * seen;
@@ -259,13 +261,14 @@ class Planner {
   /// Takes back verdicts of one kind; `unchanged`: all that are left. Where nothing emits, only of
   /// open components, and where the file shows their lit side: by few backs, or since they see
   /// more lit sides of others than backs.
-  void undo(Verdict kind, const PlannedBacks& before) {
+  /// @param more_backs paths end at more backs than in the file, not only at fewer other surfaces
+  void undo(Verdict kind, const PlannedBacks& before, bool more_backs) {
     for (std::size_t p = 0; p < verdicts_.size(); ++p) {
       const ConnectedComponent& component = components_.components[p];
       const MetSurfaces& others = before.others[p];
-      const bool is_shown = before.all.fraction() <= few_backs ||
+      const bool is_shown = more_backs || before.all.fraction() <= few_backs ||
                             (others.met > 0 && others.backs <= others.met - others.backs);
-      if (scene_.has_light() || (!component.closed && is_shown)) {
+      if (has_light_ || (!component.closed && is_shown)) {
         if (kind == Verdict::unchanged) {
           verdicts_[p] = Verdict::unchanged;
         } else if (verdicts_[p] == kind) {
@@ -426,6 +429,7 @@ class Planner {
   const SceneDescription& description_;
   Scene scene_;
   ConnectedComponents components_;
+  bool has_light_;
   std::vector<bool> emits_;        ///< by component
   std::vector<Verdict> verdicts_;  ///< by component
   std::int64_t undone_ = 0;        ///< number of verdicts that avoid_backs() has taken back

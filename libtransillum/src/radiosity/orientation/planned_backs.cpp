@@ -33,7 +33,8 @@ class PathTracer {
         embree_(embree),
         components_(components),
         of_patch_(lit),
-        there_(lit.size(), {false, false}) {
+        there_(lit.size(), {false, false}),
+        has_light_(scene.has_light()) {
     for (PatchId i = 0; i < scene.patch_count(); ++i) {
       const PatchId first = at(components.first, i);
       const LitSides sides = at(lit, i);
@@ -67,16 +68,14 @@ class PathTracer {
   std::vector<PatchId> start_patches() const {
     std::vector<PatchId> starts;
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      if (scene_.has_light() ? max_abs(scene_.exitance(i)) > 0 : at(components_.first, i) == i) {
+      if (has_light_ ? max_abs(scene_.exitance(i)) > 0 : at(components_.first, i) == i) {
         const LitSides sides = start_sides(i);
         starts.insert(starts.end(), (sides.front ? 1U : 0U) + (sides.back ? 1U : 0U), i);
       }
     }
     return starts;
   }
-  LitSides start_sides(PatchId i) const {
-    return scene_.has_light() ? at(of_patch_, i) : at(there_, i);
-  }
+  LitSides start_sides(PatchId i) const { return has_light_ ? at(of_patch_, i) : at(there_, i); }
 
   PlannedPath path_from(const SurfacePoints::Point& start, RandomNumbers& random) const {
     const LitSides sides = start_sides(start.patch);
@@ -107,6 +106,7 @@ class PathTracer {
   const ConnectedComponents& components_;
   const std::vector<LitSides>& of_patch_;
   std::vector<LitSides> there_;  ///< by the first patch on the same points: of all patches there
+  bool has_light_;
 };
 
 }  // namespace
@@ -115,6 +115,7 @@ PlannedBacks measure_planned_backs(const Scene& scene, const EmbreeScene& embree
                                    const ConnectedComponents& components,
                                    const std::vector<LitSides>& lit, int threads,
                                    const Cancellation& cancellation) {
+  const bool has_light = scene.has_light();
   PlannedBacks found;
   found.own.resize(components.components.size());
   found.others.resize(components.components.size());
@@ -129,8 +130,7 @@ PlannedBacks measure_planned_backs(const Scene& scene, const EmbreeScene& embree
       if (hit.component != ConnectedComponents::none) {
         at(found.own, hit.component).add(hit.back);
       }
-      if (!scene.has_light() && path.start != ConnectedComponents::none &&
-          hit.component != path.start) {
+      if (!has_light && path.start != ConnectedComponents::none && hit.component != path.start) {
         at(found.others, path.start).add(hit.back);
       }
     }
