@@ -2,6 +2,7 @@
 """The Python module: known answers, the same bits as the program, interruption, errors."""
 
 import csv
+import functools
 import os
 import re
 import signal
@@ -385,6 +386,36 @@ class Errors(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, re.escape(message)) as caught:
                     call()
                 self.assertIsInstance(caught.exception, transillum.InputError)
+
+    def test_booleans_are_no_numbers(self):
+        scene = room()
+        solution = transillum.solve(scene, directions=4, iterations=1)
+        eye = (0.5, 0.5, 0.5)
+        picture = functools.partial(transillum.picture, solution, eye)
+        cases = {
+            "patches": lambda: transillum.load("furnace", patches=True),
+            "max_patch_area": lambda: transillum.load("furnace", max_patch_area=np.True_),
+            "scale": lambda: transillum.load("furnace", scale=True),
+            "default_reflectance": lambda: transillum.load("furnace", default_reflectance=False),
+            "points": lambda: transillum.Scene([(0, 0, True)], []),
+            "reflectance": lambda: transillum.Scene(CORNERS, CUBE, reflectance=False),
+            "exitance": lambda: transillum.Scene(CORNERS, CUBE, exitance=np.ones(6, dtype=bool)),
+            "direction": lambda: transillum.transfers(scene, (0, 0, True)),
+            "patch": lambda: transillum.visibility_map(scene, (0, 0, 1), True),
+            "size": lambda: transillum.visibility_map(scene, (0, 0, 1)).svg(True),
+            "eye": lambda: transillum.picture(solution, (True, 0, 0)),
+            "target": lambda: picture((0, True, 0)),
+            "up": lambda: picture(up=(False, 0, 1)),
+            "fov": lambda: picture(fov=True),
+            "samples": lambda: picture(samples=True),
+            "gather": lambda: picture(gather=False),
+        }
+        for name, call in cases.items():
+            with self.subTest(name):
+                with self.assertRaisesRegex(TypeError, f"^{name}: expected a number, not "):
+                    call()
+        with self.assertRaisesRegex(TypeError, "size: expected a number"):
+            picture(size=(True, 4))
 
     def test_every_option_has_a_description(self):
         options = transillum.options()

@@ -131,5 +131,29 @@ TEST(FaceNumbers, OfTheProgramAreThoseOfItsResults) {
                           "face 3 was joined to face 2");
 }
 
+/// A result numbers the faces of its scene, also where a face without area or the division into
+/// patches makes its polygons other numbers.
+TEST(FaceNumbers, OfAResultAreThoseOfItsScene) {
+  const testing::TemporaryFolder folder;
+  const std::string scene = folder / "s.obj", result = folder / "s.vtp";
+  test::write_text(scene,
+                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                   "f 1 2 2\nf 1 2 3 4\nf 8 7 6 5\n");
+  const testing::ProgramResult solved =
+      testing::run_program({"solve", scene, "--emission", "face:2=10", "-m", "8",
+                            "--max-patch-area", "0.3", "--out", result});
+  ASSERT_EQ(solved.status, 0) << solved.err;
+  const SceneDescription read = describe_scene(result);
+  EXPECT_THAT(read.face_number, ElementsAre(1, 1, 1, 1, 2, 2, 2, 2));
+  EXPECT_THAT(lit_faces(read), ElementsAre(2, 2, 2, 2));
+  // An array of that name that is no numbering is not read.
+  const std::string other = folder / "other.vtk";
+  test::write_text(other,
+                   "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
+                   "0 0 0 1 0 0 1 1 0 0 1 0\nPOLYGONS 2 8\n3 0 1 2\n3 0 2 3\nCELL_DATA 2\n"
+                   "SCALARS face int 1\nLOOKUP_TABLE default\n7 3\n");
+  EXPECT_THAT(describe_scene(other).face_number, ::testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace transillum::face_numbers_test

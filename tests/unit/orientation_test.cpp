@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "scene_test_support.h"
 #include "support/canceled.h"
@@ -179,6 +180,120 @@ TEST(OrientationPlan, MakesAMoebiusStripTwoSidedAndSaysSo) {
   EXPECT_EQ(plan.report.not_orientable, 1);
   EXPECT_EQ(plan.report.faces_two_sided, 2 * n);
   EXPECT_THAT(plan.report.sentences, ::testing::Contains(::testing::HasSubstr("Moebius")));
+}
+
+/// Two halves of a long room without a lamp, each open toward the other, with a gap between, and
+/// boxes inside: an interior as modeled, of which light can come from anywhere.
+Sketch interior() {
+  Sketch sketch;
+  const int wall = sketch.material(0.5, 0);
+  for (const double x : {0.0, 10.02}) {
+    const double z = x + 10, end = x == 0.0 ? x : z;
+    const std::vector<std::vector<Vec3>> walls{
+        {{x, 0, 0}, {z, 0, 0}, {z, 4, 0}, {x, 4, 0}},
+        {{x, 0, 0}, {x, 0, 3}, {z, 0, 3}, {z, 0, 0}},
+        {{x, 4, 0}, {z, 4, 0}, {z, 4, 3}, {x, 4, 3}},
+        {{x, 0, 3}, {x, 4, 3}, {z, 4, 3}, {z, 0, 3}},
+        {{end, 0, 0}, {end, 4, 0}, {end, 4, 3}, {end, 0, 3}}};
+    for (std::vector<Vec3> outline : walls) {
+      if (outline[0].x == end && outline[2].x == end && x > 0) {
+        std::reverse(outline.begin(), outline.end());
+      }
+      sketch.face(outline, wall);
+    }
+  }
+  sketch.box({2, 1, 0.5}, {3, 2, 1.5}, false, wall).box({14, 1, 0.5}, {15, 3, 1}, false, wall);
+  return sketch;
+}
+
+double backs_of(const SceneDescription& description) {
+  return back_fraction(Scene(description)).fraction;
+}
+
+TEST(OrientationPlan, KeepsAnInteriorWithoutALamp) {
+  SceneDescription description = interior().description();
+  EXPECT_LT(backs_of(description), 1e-3);
+  EXPECT_FALSE(plan_orientation(description).changes());
+  // Furniture that is inside out is turned alone.
+  for (std::size_t f = 10; f < 16; ++f) {
+    turn(description, f);
+  }
+  EXPECT_GT(backs_of(description), 0.01);
+  EXPECT_EQ(faces_of(plan_orientation(description).turned),
+            (std::vector<std::size_t>{10, 11, 12, 13, 14, 15}));
+}
+
+/// Two tunnels that see each other through their open ends, without anything inside.
+TEST(OrientationPlan, NeverShowsMoreBacksThanTheFile) {
+  const SceneDescription whole = interior().description();
+  Sketch tunnels;
+  const int wall = tunnels.material(0.5, 0);
+  for (std::size_t f = 0; f < 10; ++f) {
+    std::vector<Vec3> outline;
+    for (const PointId p : whole.outline(f)) {
+      outline.push_back(at(whole.points, p));
+    }
+    tunnels.face(outline, wall);
+  }
+  // A ramp from one into the other, seen from below too.
+  tunnels.face({{9, 1, 1}, {11, 1, 1.5}, {11, 3, 1.5}, {9, 3, 1}}, wall);
+  SceneDescription description = tunnels.description();
+  const double before = backs_of(description);
+  const OrientationReport report = orient(description);
+  EXPECT_LE(backs_of(description), before + 0.01);
+  EXPECT_THAT(report.sentences,
+              ::testing::Contains(::testing::HasSubstr("kept as in the file, since more of")));
+}
+
+/// Without light, closed components are solids, also where they overlap and see more backs.
+TEST(OrientationPlan, TurnsOverlappingSolidsInsideOutWithoutALamp) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 0);
+  sketch.box({0, 0, 0}, {1, 1, 1}, true, gray).box({0.8, 0.7, 0.6}, {2, 2, 2}, true, gray);
+  sketch.box({0.4, 0.4, 0.9}, {0.6, 0.6, 1.5}, true, gray);
+  const OrientationPlan plan = plan_orientation(sketch.description());
+  EXPECT_EQ(plan.report.faces_turned, 18);
+  EXPECT_EQ(plan.report.faces_two_sided, 0);
+}
+
+/// A cube of small squares, in which one square is replaced by a twisted band.
+TEST(OrientationPlan, KeepsAScanThatCannotBeOriented) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 0);
+  constexpr int n = 4;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {0.0, 1.0}) {
+      for (int k = 0; k < n * n; ++k) {
+        const double u = k % n, v = k / n;  // NOLINT(bugprone-integer-division)
+        const auto corner = [&](double a, double b) {
+          const double p = a / n, q = b / n;
+          return axis == 0 ? Vec3{side, p, q} : axis == 1 ? Vec3{q, side, p} : Vec3{p, q, side};
+        };
+        std::vector<Vec3> square{corner(u, v), corner(u + 1, v), corner(u + 1, v + 1),
+                                 corner(u, v + 1)};
+        if (side == 0) {
+          std::reverse(square.begin(), square.end());
+        }
+        if (axis == 2 && side == 1 && k == 5) {
+          const Vec3 middle = 0.5 * (square[0] + square[2]) + Vec3{0, 0, 0.05};
+          for (const auto& [i, j] : {std::pair{0, 1}, {1, 3}, {3, 2}, {2, 0}}) {
+            sketch.face({at(square, i), at(square, j), middle}, gray);
+          }
+        } else {
+          sketch.face(square, gray);
+        }
+      }
+    }
+  }
+  const OrientationPlan plan = plan_orientation(sketch.description());
+  EXPECT_EQ(plan.report.not_orientable, 1);
+  EXPECT_FALSE(plan.changes());
+  // Alone, nothing tells that it is inside out, as where it can be oriented.
+  SceneDescription inside_out = sketch.description();
+  for (std::size_t f = 0; f < inside_out.face_count(); ++f) {
+    turn(inside_out, f);
+  }
+  EXPECT_FALSE(plan_orientation(inside_out).changes());
 }
 
 TEST(OrientationPlan, KeepsSurfacesThatHaveBothSidesAndTurnsDuplicatesTogether) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "geometry/convex_partition.h"
 #include "scene_test_support.h"
@@ -160,16 +161,64 @@ TEST(ScenePatches, AcceptOutlinesThatTouchThemselvesAtABridge) {
   expect_sound_pieces(scene);
 }
 
-TEST(ScenePatches, RefuseOutlinesWithLoopsOfOppositeOrientation) {
+TEST(ScenePatches, SplitOutlinesWithLoopsOfOppositeOrientation) {
   // An 8 whose loops meet at a corner; of different sizes, so the total area is not 0.
-  const std::string message = test::refusal([] {
-    const Scene scene(polygons({{0, 0, 0}, {2, 2, 0}, {2, -2, 0}, {-1, 1, 0}, {-1, -1, 0}},
-                               {{0, 2, 1, 0, 3, 4}}));
-    EXPECT_EQ(scene.patch_count(), 1) << "these loops have the same orientation";
-    const Scene eight(polygons({{0, 0, 0}, {2, 2, 0}, {2, -2, 0}, {-1, 1, 0}, {-1, -1, 0}},
-                               {{0, 2, 1, 0, 4, 3}}));
-  });
-  EXPECT_EQ(message, "test: face 0: the outline crosses itself");
+  const std::vector<Vec3> points{{0, 0, 0}, {2, 2, 0}, {2, -2, 0}, {-1, 1, 0}, {-1, -1, 0}};
+  const Scene scene(polygons(points, {{0, 2, 1, 0, 3, 4}}));
+  EXPECT_EQ(scene.patch_count(), 1) << "these loops have the same orientation";
+  EXPECT_THAT(scene.report().warnings, ::testing::IsEmpty());
+  const Scene eight(polygons(points, {{0, 2, 1, 0, 4, 3}}));
+  EXPECT_DOUBLE_EQ(total_area(eight), 5);
+  EXPECT_THAT(eight.report().warnings,
+              ElementsAre("test: face 0: the outline crosses itself; split into triangles"));
+}
+
+/// A face that crosses itself is split where it does; all parts have the face's number and front.
+TEST(ScenePatches, SplitOutlinesThatCrossThemselves) {
+  struct Case {
+    std::vector<Vec3> points;
+    double area;
+    Vec3 normal;
+  };
+  const Case cases[] = {
+      // Bow ties without and with signed area, a pentagram by the even-odd rule, a bent bow tie.
+      {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}}, 2, {0, 0, 1}},
+      {{{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, -1, 0}}, 2.5, {0, 0, 1}},
+      {{{0, 3, 0}, {-2, -3, 0}, {3, 1, 0}, {-3, 1, 0}, {2, -3, 0}}, 0, {0, 0, 1}},
+      {{{0, 0, 0.3}, {3, 0, 0}, {3, 2, 0}, {2, 3, 0}, {0, -1, 0.1}}, 0, {0, 0, 1}},
+  };
+  for (const Case& c : cases) {
+    std::vector<PointId> outline(c.points.size());
+    std::iota(outline.begin(), outline.end(), 0);
+    std::vector<Vec3> points = c.points;
+    points.insert(points.end(), {{9, 0, 0}, {9, 1, 0}, {8, 0, 0}});
+    const auto first = static_cast<PointId>(c.points.size());
+    const Scene scene(polygons(points, {{first, first + 1, first + 2}, outline}));
+    EXPECT_THAT(scene.report().warnings,
+                ElementsAre("test: face 1: the outline crosses itself; split into triangles"));
+    ASSERT_GT(scene.patch_count(), 2);
+    for (PatchId i = 1; i < scene.patch_count(); ++i) {
+      EXPECT_EQ(scene.patch(i).face, 1);
+      EXPECT_GT(dot(scene.patch(i).normal, c.normal), 0.9);
+    }
+    if (c.area > 0) {
+      EXPECT_NEAR(total_area(scene) - scene.patch(0).area, c.area, 1e-12);
+    }
+    expect_sound_pieces(scene);
+  }
+}
+
+TEST(ScenePatches, CountOutlinesThatCrossThemselves) {
+  SceneDescription d = polygons({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}}, {});
+  d.materials = {{"white", {0.5, 0.5, 0.5}, {}}};
+  for (int k = 0; k < 13; ++k) {
+    const auto first = static_cast<PointId>(d.points.size());
+    const double z = k;
+    d.points.insert(d.points.end(), {{0, 0, z}, {2, 0, z}, {0, 2, z}, {2, 2, z}});
+    d.add_face(std::vector<PointId>{first, first + 1, first + 2, first + 3}, 0);
+  }
+  EXPECT_THAT(Scene(d).report().warnings,
+              Contains("and 3 more faces whose outlines cross themselves"));
 }
 
 TEST(ScenePatches, InEveryOrientationHavePiecesOfTheSameOrientation) {

@@ -287,7 +287,8 @@ TEST_F(VtkReader, LegacyFilesAreRefusedWithAPlace) {
   EXPECT_EQ(refused("# vtk DataFile Version 3.0\nx\nTEXT\n"),
             "a.vtk:3: `TEXT` is neither ASCII nor BINARY");
   EXPECT_EQ(refused("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"),
-            "a.vtk:4: its data set is `UNSTRUCTURED_GRID`; only POLYDATA can be read");
+            "a.vtk:4: its data set is `UNSTRUCTURED_GRID`; only POLYDATA can be read: extract the "
+            "surface, as by ParaView's filter Extract Surface, and save that");
   EXPECT_EQ(refused(head), "a.vtk: has no polygons");
   EXPECT_EQ(refused(head + "POLYGONS 1 4\n3 0 1 4\n"),
             "a.vtk: cell 0: point 4 does not exist; there are 4");

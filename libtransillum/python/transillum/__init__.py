@@ -7,7 +7,7 @@
     >>> solution.radiosity  # B, W/m², an array (N, 3)
 
 Arrays are copies: changing them changes nothing else. Long calls let other threads of Python work
-and end at Ctrl-C. Wrong values raise InputError, a ValueError.
+and end at Ctrl-C. Wrong values raise InputError, a ValueError; booleans for numbers, a TypeError.
 """
 
 from ._core import InputError, __version__

@@ -6,10 +6,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Union
 
-import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._numbers import array, number
 from ._scenes import Indices, Scene, Values
 
 
@@ -70,7 +70,7 @@ class VisibilityMap:
 
     def svg(self, size: int = 600) -> str:
         """The map as a picture of `size` pixels, seen along the direction."""
-        return self._core.svg(size)
+        return self._core.svg(number("size", size))
 
     def _repr_svg_(self) -> str:
         return self.svg()
@@ -82,7 +82,7 @@ def transfers(scene: Scene, direction: npt.ArrayLike, **options: Any) -> Transfe
     direction: three numbers, not all 0.
     options: engine, and those that belong to it.
     """
-    return Transfers(**_core.transfers(scene._core, np.asarray(direction, dtype=np.float64), options))
+    return Transfers(**_core.transfers(scene._core, array("direction", direction), options))
 
 
 def visibility_map(
@@ -93,5 +93,5 @@ def visibility_map(
     patch: what that patch sees; None: what is visible from below the scene.
     """
     return VisibilityMap(
-        _core.visibility_map(scene._core, np.asarray(direction, dtype=np.float64), patch)
+        _core.visibility_map(scene._core, array("direction", direction), number("patch", patch))
     )

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._numbers import array, number
 
 Values = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int32]
@@ -51,11 +52,11 @@ class Scene:
         patches: subdivides to about so many patches; 0 subdivides none.
         """
         self._core = _core.build(
-            np.asarray(points, dtype=np.float64),
+            array("points", points),
             _indices(faces),
-            np.asarray(reflectance, dtype=np.float64),
-            np.asarray(exitance, dtype=np.float64),
-            (two_sided, max_patch_area, patches),
+            array("reflectance", reflectance),
+            array("exitance", exitance),
+            _division(two_sided, max_patch_area, patches),
             name,
         )
         _warn(self._core)
@@ -154,7 +155,9 @@ def load(
     default_reflectance: of faces without a material.
     """
     core = _core.load(
-        str(spec), (two_sided, max_patch_area, patches), (scale, join, default_reflectance)
+        str(spec),
+        _division(two_sided, max_patch_area, patches),
+        (number("scale", scale), join, number("default_reflectance", default_reflectance)),
     )
     _warn(core)
     return Scene._of(core)
@@ -163,6 +166,16 @@ def load(
 def built_in_scenes() -> dict[str, str]:
     """Names of the built-in scenes, each with what it is."""
     return {name: summary for name, summary, _ in _core.built_in_scenes()}
+
+
+def _division(
+    two_sided: bool, max_patch_area: float, patches: int
+) -> tuple[bool, float, int]:
+    return (
+        two_sided,
+        number("max_patch_area", max_patch_area),
+        number("patches", patches),
+    )
 
 
 def _indices(faces: Sequence[Sequence[int]]) -> list[list[int]]:

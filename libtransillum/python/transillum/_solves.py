@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._numbers import array, number
 from ._scenes import Scene
 
 if TYPE_CHECKING:
@@ -140,10 +141,17 @@ def picture(
     gather: rays from each sample that gather the reflected light; with 0 it is interpolated.
     """
     points = [
-        None if point is None else np.asarray(point, dtype=np.float64)
-        for point in (eye, target, up)
+        None if point is None else array(name, point)
+        for name, point in (("eye", eye), ("target", target), ("up", up))
     ]
-    return _core.picture(solution._core, *points, fov, size, samples, gather)
+    return _core.picture(
+        solution._core,
+        *points,
+        number("fov", fov),
+        number("size", size),
+        number("samples", samples),
+        number("gather", gather),
+    )
 
 
 class Run:

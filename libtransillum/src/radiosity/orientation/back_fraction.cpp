@@ -19,10 +19,6 @@ namespace {
 
 /// Rays from points of all lit sides.
 constexpr std::size_t ray_count = 1U << 15, rays_in_block = 1024;
-/// Paths of light, and the surfaces that one meets at most.
-constexpr std::size_t path_count = 1U << 13, longest_path = 16, paths_in_block = 128;
-/// Fraction of the paths below which light meets nothing that counts.
-constexpr double nothing = 1e-3;
 
 /// A surface that light meets.
 struct Hit {

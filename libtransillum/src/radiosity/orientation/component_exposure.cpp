@@ -73,7 +73,7 @@ class ExposureMeter {
       const double scale = 1 / static_cast<double>(first_walk_[p + 1] - first_walk_[p]);
       for (SideExposure& side : sums[p]) {
         side = {scale * side.other_area, scale * side.own_area, scale * side.met_other,
-                scale * side.lit};
+                scale * side.met_closed, scale * side.lit};
       }
     }
     return sums;
@@ -107,6 +107,7 @@ class ExposureMeter {
       sum[side].other_area += exposure[side].other_area;
       sum[side].own_area += exposure[side].own_area;
       sum[side].met_other += exposure[side].met_other;
+      sum[side].met_closed += exposure[side].met_closed;
       sum[side].lit += exposure[side].lit;
     }
   }
@@ -129,6 +130,11 @@ class ExposureMeter {
       add(sums.back().exposure, exposure);
     }
     return sums;
+  }
+
+  bool is_closed(PatchId i) const {
+    const std::int32_t component = at(components_.component, i);
+    return component != ConnectedComponents::none && at(components_.components, component).closed;
   }
 
   /// One walk from a random point of a component.
@@ -162,6 +168,7 @@ class ExposureMeter {
             at(components_.component, reached[step]) == static_cast<std::int32_t>(component);
         (own ? exposure.own_area : exposure.other_area) += patch.area / area_;
         exposure.met_other = own ? exposure.met_other : 1;
+        exposure.met_closed = !own && is_closed(reached[step]) ? 1 : exposure.met_closed;
         exposure.lit = !own && max_abs(scene_.exitance(reached[step])) > 0 ? 1 : exposure.lit;
       }
       normal = dot(patch.normal, direction) < 0 ? patch.normal : -patch.normal;

@@ -14,7 +14,8 @@ namespace transillum {
 struct SideExposure {
   double other_area = 0;  ///< area of the patches of other components reached, relative to all area
   double own_area = 0;  ///< area of the patches of the same component reached, relative to all area
-  double met_other = 0;  ///< fraction of the walks that reach another component
+  double met_other = 0;   ///< fraction of the walks that reach another component
+  double met_closed = 0;  ///< fraction that reach another closed component
   double lit = 0;  ///< fraction that reach a source in another component; where nothing emits: that
                    ///< leave the scene, since light can only come from outside
 };

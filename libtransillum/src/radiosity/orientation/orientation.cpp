@@ -12,6 +12,7 @@
 
 #include "geometry/box_tree.h"
 #include "radiosity/orientation/component_exposure.h"
+#include "radiosity/orientation/planned_backs.h"
 #include "scene/build/warnings.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -35,8 +36,18 @@ constexpr double leaking = 0.002;
 /// which on it may be a room among others.
 constexpr double contents = 0.05;
 
-/// The decision about a component: `kept` with the orientation of most of its area.
-enum class Verdict { kept, opposite, two_sided };
+/// Fraction of what light meets below which two plans have as many backs: what random paths tell.
+constexpr double same_backs = 0.01;
+/// Fraction of backs up to which a file shows which side is meant to be lit.
+constexpr double few_backs = BackFraction::worth_a_warning;
+
+/// Fraction of the walks on an unlit component's side that meet closed components, from which on
+/// that side is the inside of a room, and that leave the scene, up to which it is.
+constexpr double least_solids = 0.1, most_leaving = 0.05;
+
+/// The decision about a component: `kept` with the orientation of most of its area, `opposite`, lit
+/// on both sides, or unchanged, with each of its faces as in the file.
+enum class Verdict { kept, opposite, two_sided, unchanged };
 
 /// `kept` or `opposite`, whichever side has more; `otherwise` if they are alike.
 Verdict larger(double front, double back, double limit, Verdict otherwise) {
@@ -61,11 +72,18 @@ bool is_room(const SideExposure& inside, const SideExposure& outside, double con
                                                alike * (inside.other_area + weight * inside.lit)));
 }
 
+/// An open room without light: solids inside, and outside nothing.
+bool is_open_room(const SideExposure& inside, const SideExposure& outside) {
+  return inside.met_closed >= least_solids && inside.lit <= most_leaving &&
+         outside.met_other < least_meetings;
+}
+
 Verdict verdict_on(const ConnectedComponent& component, const ComponentExposure& exposure,
                    bool alone, bool emits, double contained, bool has_light) {
   const auto& [front, back] = exposure;
   if (!component.orientable) {
-    return Verdict::two_sided;
+    const Verdict side = larger(exposed(front), exposed(back), alike, Verdict::two_sided);
+    return alone || side == Verdict::kept ? Verdict::unchanged : Verdict::two_sided;
   }
   const bool meets = std::max(front.met_other, back.met_other) >= least_meetings;
   if (alone || (!component.closed && !meets)) {
@@ -77,6 +95,9 @@ Verdict verdict_on(const ConnectedComponent& component, const ComponentExposure&
     const bool room = outward ? is_room(back, front, contained, component.area, has_light)
                               : is_room(front, back, contained, component.area, has_light);
     return outward != room ? Verdict::kept : Verdict::opposite;
+  }
+  if (!has_light && (is_open_room(front, back) || is_open_room(back, front))) {
+    return is_open_room(front, back) ? Verdict::kept : Verdict::opposite;
   }
   return emits ? larger(exposed(front), exposed(back), alike_if_it_emits, Verdict::kept)
                : larger(exposed(front), exposed(back), alike, Verdict::two_sided);
@@ -101,7 +122,8 @@ class Planner {
   Planner(const SceneDescription& description, const Cancellation& cancellation)
       : description_(description),
         scene_(one_sided(description, cancellation)),
-        components_(find_connected_components(scene_, cancellation)) {}
+        components_(find_connected_components(scene_, cancellation)),
+        has_light_(scene_.has_light()) {}
 
   OrientationPlan plan(int threads, const Cancellation& cancellation,
                        const std::function<void(double)>& progress) {
@@ -114,9 +136,10 @@ class Planner {
     const std::vector<double> contained = contained_areas();
     for (std::size_t p = 0; p < exposure.size(); ++p) {
       verdicts_.push_back(verdict_on(components_.components[p], exposure[p], alone, emits_[p],
-                                     contained[p], scene_.has_light()));
+                                     contained[p], has_light_));
     }
-    set_faces();
+    avoid_backs(embree, threads, cancellation);
+    set_faces(verdicts_);
     count();
     write_sentences();
     return std::move(plan_);
@@ -171,12 +194,114 @@ class Planner {
     }
   }
 
-  void set_faces() {
+  /// Takes back verdicts after which more of what light meets would be backs than in the file.
+  void avoid_backs(const EmbreeScene& embree, int threads, const Cancellation& cancellation) {
+    const auto is_orientable = [](const ConnectedComponent& c) { return c.orientable; };
+    if (!makes_changes(verdicts_) &&
+        std::all_of(components_.components.begin(), components_.components.end(), is_orientable)) {
+      return;
+    }
+    const auto measure = [&](const std::vector<Verdict>& verdicts) {
+      set_faces(verdicts);
+      return measure_planned_backs(scene_, embree, components_, lit_sides(), threads, cancellation);
+    };
+    const PlannedBacks before = measure({verdicts_.size(), Verdict::unchanged});
+    judge_by_backs(before);
+    if (!before.is_known || !makes_changes(verdicts_)) {
+      return;
+    }
+    const std::vector<Verdict> all = verdicts_;
+    keep_right_components(before, measure(all));
+    for (const Verdict undone : {Verdict::two_sided, Verdict::opposite, Verdict::unchanged}) {
+      const MetSurfaces now = measure(verdicts_).all;
+      if (now.fraction() <= before.all.fraction() + same_backs) {
+        break;
+      }
+      undo(undone, before, now.backs > before.all.backs);
+    }
+    for (std::size_t p = 0; p < all.size(); ++p) {
+      undone_ += verdicts_[p] != all[p] ? 1 : 0;
+    }
+  }
+
+  /// Takes back verdicts about single components of which the file shows the lit side.
+  void keep_right_components(const PlannedBacks& before, const PlannedBacks& after) {
+    const bool file_is_right = before.all.fraction() <= few_backs;
+    for (std::size_t p = 0; p < verdicts_.size(); ++p) {
+      const ConnectedComponent& component = components_.components[p];
+      // Without light, a closed component is a solid, unless its inside sees lit sides of others.
+      const bool is_shown =
+          has_light_ || (component.closed && file_is_right && sees_lit_sides(before.others[p]));
+      const bool has_more = after.share(p) > before.share(p) + same_backs;
+      if (verdicts_[p] == Verdict::opposite && is_shown && has_more) {
+        verdicts_[p] = Verdict::kept;
+      }
+    }
+  }
+
+  /// Components that cannot be oriented stay as in the file where few of their backs are seen, if
+  /// their outside is lit, or the light of the file's lit sides tells.
+  void judge_by_backs(const PlannedBacks& before) {
+    for (std::size_t p = 0; p < verdicts_.size(); ++p) {
+      if (!components_.components[p].orientable) {
+        const MetSurfaces& own = before.own[p];
+        const bool is_shown = has_light_ ? own.met > 0 : sees_lit_sides(before.others[p]);
+        const bool is_outside = verdicts_[p] == Verdict::unchanged;
+        const auto seen = static_cast<double>(own.met + before.starts[p]);
+        const bool is_right = static_cast<double>(own.backs) <= few_backs * seen;
+        verdicts_[p] =
+            is_right && (is_outside || is_shown) ? Verdict::unchanged : Verdict::two_sided;
+      }
+    }
+  }
+  static bool sees_lit_sides(const MetSurfaces& others) {
+    return others.met > 0 && others.fraction() <= few_backs;
+  }
+
+  /// Takes back verdicts of one kind; `unchanged`: all that are left. Where nothing emits, only of
+  /// open components, and where the file shows their lit side: by few backs, or since they see
+  /// more lit sides of others than backs.
+  /// @param more_backs paths end at more backs than in the file, not only at fewer other surfaces
+  void undo(Verdict kind, const PlannedBacks& before, bool more_backs) {
+    for (std::size_t p = 0; p < verdicts_.size(); ++p) {
+      const ConnectedComponent& component = components_.components[p];
+      const MetSurfaces& others = before.others[p];
+      const bool is_shown = more_backs || before.all.fraction() <= few_backs ||
+                            (others.met > 0 && others.backs <= others.met - others.backs);
+      if (has_light_ || (!component.closed && is_shown)) {
+        if (kind == Verdict::unchanged) {
+          verdicts_[p] = Verdict::unchanged;
+        } else if (verdicts_[p] == kind) {
+          verdicts_[p] = component.orientable ? Verdict::kept : Verdict::unchanged;
+        }
+      }
+    }
+  }
+
+  bool makes_changes(const std::vector<Verdict>& verdicts) {
+    set_faces(verdicts);
+    return changes();
+  }
+  bool changes() const {
+    return std::find(plan_.turned.begin(), plan_.turned.end(), true) != plan_.turned.end() ||
+           std::find(plan_.two_sided.begin(), plan_.two_sided.end(), true) != plan_.two_sided.end();
+  }
+
+  /// By patch: its lit sides in plan_.
+  std::vector<LitSides> lit_sides() const {
+    std::vector<LitSides> lit;
+    for (const Patch& patch : scene_.patches()) {
+      const bool both = at(plan_.two_sided, patch.face) ||
+                        description_.is_two_sided(static_cast<std::size_t>(patch.face));
+      const bool turned = at(plan_.turned, patch.face);
+      lit.push_back({both || !turned, both || turned});
+    }
+    return lit;
+  }
+
+  void set_faces(const std::vector<Verdict>& verdicts) {
     plan_.turned.assign(description_.face_count(), false);
     plan_.two_sided.assign(description_.face_count(), false);
-    for (std::size_t f = 0; f < description_.face_count(); ++f) {
-      plan_.numbers.push_back(description_.number_of(f));
-    }
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
       const PatchId first = at(components_.first, i);
       const std::int32_t component = at(components_.component, first);
@@ -184,7 +309,10 @@ class Planner {
           description_.is_two_sided(static_cast<std::size_t>(scene_.patch(i).face))) {
         continue;
       }
-      const Verdict verdict = at(verdicts_, component);
+      const Verdict verdict = at(verdicts, component);
+      if (verdict == Verdict::unchanged) {
+        continue;
+      }
       const std::int32_t face = scene_.patch(i).face;
       const bool turned = (at(components_.sign, first) < 0) != (verdict == Verdict::opposite);
       if (verdict == Verdict::two_sided) {
@@ -197,6 +325,9 @@ class Planner {
   }
 
   void count() {
+    for (std::size_t f = 0; f < description_.face_count(); ++f) {
+      plan_.numbers.push_back(description_.number_of(f));
+    }
     OrientationReport& report = plan_.report;
     report.faces = static_cast<std::int64_t>(description_.face_count());
     report.components = static_cast<std::int64_t>(components_.components.size());
@@ -261,6 +392,11 @@ class Planner {
     const auto counted = [](std::int64_t n, const char* what) {
       return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
+    if (undone_ > 0) {
+      report.sentences.push_back(fmt::format(
+          "{} kept as in the file, since more of what light meets would be backs after a change",
+          counted(undone_, "part")));
+    }
     if (!plan_.changes()) {
       report.sentences.emplace_back("no face is turned");
       return;
@@ -278,18 +414,25 @@ class Planner {
     }
     const std::vector<std::string> sentences = list.sentences();
     report.sentences.insert(report.sentences.end(), sentences.begin(), sentences.end());
-    if (report.not_orientable > 0) {
+    std::int64_t two_sided = 0;
+    for (std::size_t p = 0; p < verdicts_.size(); ++p) {
+      two_sided +=
+          !components_.components[p].orientable && verdicts_[p] == Verdict::two_sided ? 1 : 0;
+    }
+    if (two_sided > 0) {
       report.sentences.push_back(
           fmt::format("{} cannot be oriented, as a Moebius strip cannot: made two-sided",
-                      counted(report.not_orientable, "part")));
+                      counted(two_sided, "part")));
     }
   }
 
   const SceneDescription& description_;
   Scene scene_;
   ConnectedComponents components_;
+  bool has_light_;
   std::vector<bool> emits_;        ///< by component
   std::vector<Verdict> verdicts_;  ///< by component
+  std::int64_t undone_ = 0;        ///< number of verdicts that avoid_backs() has taken back
   OrientationPlan plan_;
 };
 

@@ -114,6 +114,11 @@ struct SurfaceHit {
 /// Height above a surface at which rays start: a few roundings of a coordinate.
 inline constexpr double ray_lift = 1e-6;
 
+/// Paths of light, and the surfaces that one meets at most.
+inline constexpr std::size_t path_count = 1U << 13, longest_path = 16, paths_in_block = 128;
+/// Fraction of the paths below which light meets nothing that counts.
+inline constexpr double nothing = 1e-3;
+
 /// The first surface that a ray meets, on either side.
 inline std::optional<SurfaceHit> first_meeting(const EmbreeScene& embree, const Vec3& origin,
                                                const Vec3& direction) {

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "base/invariant.h"
 #include "geometry/polygon_area.h"
@@ -27,6 +29,8 @@ constexpr double largest_deviation_by_width = 1e-3;
 /// feature, however few digits there are.
 constexpr double largest_rounding_by_width = 0.02;
 constexpr std::size_t faces_between_cancellation_checks = 256;
+/// Most corners of a face of which all pairs of edges are searched for crossings.
+constexpr std::size_t most_crossing_corners = 2048;
 
 CornerList all_corners(std::size_t n) {
   CornerList all(n);
@@ -57,6 +61,29 @@ bool same_area(const std::vector<PlanePoint>& plane, const std::vector<CornerLis
   // A sliver's area is the small difference of large products.
   const double rounding = 0x1p-50 * static_cast<double>(plane.size()) * reach * reach;
   return std::abs(signed_area(plane, all_corners(plane.size())) - sum) <= 1e-9 * sum + rounding;
+}
+
+/// `parts`, if they cover what the outline encloses; none if the outline crosses itself.
+std::vector<CornerList> checked(const std::vector<PlanePoint>& plane,
+                                std::vector<CornerList> parts) {
+  return !parts.empty() && same_area(plane, parts) ? std::move(parts) : std::vector<CornerList>();
+}
+
+std::vector<CornerList> triangles_of(const std::vector<PlanePoint>& plane) {
+  std::vector<CornerList> triangles;
+  for (const auto& t : triangulate(plane)) {
+    triangles.emplace_back(t.begin(), t.end());
+  }
+  return checked(plane, std::move(triangles));
+}
+
+/// The normal of the first triangle of an outline's corners that has an area.
+Vec3 first_normal(std::span<const Vec3> points, std::span<const PointId> outline) {
+  PolygonShape shape;
+  for (std::size_t k = 1; k + 1 < outline.size() && shape.degenerate; ++k) {
+    shape = measure(points, std::array<PointId, 3>{outline[0], outline[k], outline[k + 1]});
+  }
+  return shape.normal;
 }
 
 std::vector<PointId> pick(const std::vector<PointId>& outline, const CornerList& corners) {
@@ -118,9 +145,10 @@ void PatchBuilder::add_face(std::size_t face) {
   const PolygonShape shape = measure(table.points(), outline);
   if (shape.degenerate) {
     if (is_bow_tie(table.points(), outline)) {
-      throw_crossing(face);
+      add_crossing(face, outline, first_normal(table.points(), outline));
+    } else {
+      remove(face);
     }
-    remove(face);
   } else if (!is_planar(shape)) {
     add_triangles(face, outline, shape);
   } else {
@@ -144,19 +172,23 @@ std::string PatchBuilder::no_area_reason(std::size_t face) const {
 
 void PatchBuilder::add_triangles(std::size_t face, const Outline& outline,
                                  const PolygonShape& shape) {
-  ++report.cut_non_planar;
-  warnings_.add(
-      "non-planar faces, split into triangles",
-      fmt::format("{}not planar (a corner is {:.3g} m off the plane); split into triangles",
-                  face_place(description_, face), shape.deviation));
   const std::vector<PlanePoint> plane = drop_axis(table.points(), outline, shape.normal);
   std::vector<CornerList> triangles;
   if (outline.size() == 4 && !is_simple(plane)) {
     // A quadrilateral bent so much that its projection crosses itself is still two triangles.
     triangles = {{0, 1, 2}, {0, 2, 3}};
   } else {
-    triangles = triangles_of(face, plane);
+    triangles = triangles_of(plane);
   }
+  if (triangles.empty()) {
+    add_crossing(face, outline, shape.normal);
+    return;
+  }
+  ++report.cut_non_planar;
+  warnings_.add(
+      "non-planar faces, split into triangles",
+      fmt::format("{}not planar (a corner is {:.3g} m off the plane); split into triangles",
+                  face_place(description_, face), shape.deviation));
   for (const CornerList& triangle : triangles) {
     const Outline part = pick(outline, triangle);
     const PolygonShape part_shape = measure(table.points(), part);
@@ -166,28 +198,64 @@ void PatchBuilder::add_triangles(std::size_t face, const Outline& outline,
   }
 }
 
+void PatchBuilder::add_crossing(std::size_t face, const Outline& outline, const Vec3& normal) {
+  Outline corners = outline;
+  std::vector<CornerList> triangles;
+  // Rounding may leave a crossing point beside an edge, where a third edge crosses it.
+  for (int round = 0; round < 4 && triangles.empty(); ++round) {
+    const std::vector<PlanePoint> plane = drop_axis(table.points(), corners, normal);
+    for (const auto& t : triangulate(plane)) {
+      triangles.emplace_back(t.begin(), t.end());
+    }
+    if (triangles.empty() && corners.size() <= most_crossing_corners) {
+      std::vector<Vec3> places;
+      for (const PointId p : corners) {
+        places.push_back(at(table.points(), p));
+      }
+      corners.clear();
+      for (const Vec3& p : with_crossings(places, plane)) {
+        corners.push_back(table.id_of(p));
+      }
+    }
+  }
+  warnings_.add("faces whose outlines cross themselves",
+                fmt::format("{}the outline crosses itself; {}", face_place(description_, face),
+                            triangles.empty() ? "face removed" : "split into triangles"));
+  for (const CornerList& triangle : triangles) {
+    const Outline part = pick(corners, triangle);
+    if (const PolygonShape shape = measure(table.points(), part); !shape.degenerate) {
+      add_part(face, part, shape);
+    }
+  }
+}
+
 void PatchBuilder::add_part(std::size_t face, const Outline& outline, const PolygonShape& shape) {
+  const std::vector<CornerList> convex = convex_pieces(outline, shape);
+  if (convex.empty()) {
+    add_crossing(face, outline, shape.normal);
+    return;
+  }
   if (options_.max_patch_area > 0 && shape.area * (1 - 1e-9) > options_.max_patch_area) {
     if (last_refined_ != face) {
       ++report.refined;
     }
     last_refined_ = face;
-    refine(face, outline, shape);
+    refine(face, outline, convex, shape);
   } else {
-    add_patch(face, outline, shape, convex_pieces(face, outline, shape));
+    add_patch(face, outline, shape, convex);
   }
 }
 
-void PatchBuilder::refine(std::size_t face, const Outline& outline, const PolygonShape& shape) {
+void PatchBuilder::refine(std::size_t face, const Outline& outline,
+                          const std::vector<CornerList>& convex, const PolygonShape& shape) {
   std::vector<CornerList> parts;
-  for (const CornerList& piece : convex_pieces(face, outline, shape)) {
+  for (const CornerList& piece : convex) {
     if (piece.size() <= 3 || (piece.size() == 4 && outline.size() == 4)) {
       parts.push_back(piece);
       continue;
     }
     const Outline corners = pick(outline, piece);
-    for (const CornerList& part :
-         triangles_of(face, drop_axis(table.points(), corners, shape.normal))) {
+    for (const CornerList& part : triangles_of(drop_axis(table.points(), corners, shape.normal))) {
       CornerList& global = parts.emplace_back();
       for (const std::uint32_t c : part) {
         global.push_back(piece[c]);
@@ -202,12 +270,14 @@ void PatchBuilder::refine(std::size_t face, const Outline& outline, const Polygo
     for (const Outline& cell : make_cells(table, grid)) {
       cancellation_.throw_if_canceled();
       const PolygonShape cell_shape = measure(table.points(), cell);
-      if (cell_shape.degenerate) {
+      const std::vector<CornerList> cell_pieces =
+          cell_shape.degenerate ? std::vector<CornerList>() : convex_pieces(cell, cell_shape);
+      if (cell_pieces.empty()) {
         throw InputError(
             face_place(description_, face) +
             "the maximum patch area is too small for the precision of the coordinates");
       }
-      add_patch(face, cell, cell_shape, convex_pieces(face, cell, cell_shape));
+      add_patch(face, cell, cell_shape, cell_pieces);
     }
   }
 }
@@ -287,41 +357,19 @@ bool PatchBuilder::is_flat_in_file(const PolygonShape& shape) const {
          shape.deviation <= largest_rounding_by_width * shape.area / shape.diameter;
 }
 
-std::vector<CornerList> PatchBuilder::convex_pieces(std::size_t face, const Outline& outline,
+std::vector<CornerList> PatchBuilder::convex_pieces(const Outline& outline,
                                                     const PolygonShape& shape) const {
   if (outline.size() == 3) {
     return {{0, 1, 2}};
   }
   const std::vector<PlanePoint> plane = drop_axis(table.points(), outline, shape.normal);
   if (!is_flat(shape) && !is_flat_in_file(shape)) {
-    return triangles_of(face, plane);
+    return triangles_of(plane);
   }
   if (is_convex(plane)) {
     return {all_corners(outline.size())};
   }
-  return checked(face, plane, convex_partition(plane));
-}
-
-std::vector<CornerList> PatchBuilder::triangles_of(std::size_t face,
-                                                   const std::vector<PlanePoint>& plane) const {
-  std::vector<CornerList> triangles;
-  for (const auto& t : triangulate(plane)) {
-    triangles.emplace_back(t.begin(), t.end());
-  }
-  return checked(face, plane, std::move(triangles));
-}
-
-std::vector<CornerList> PatchBuilder::checked(std::size_t face,
-                                              const std::vector<PlanePoint>& plane,
-                                              std::vector<CornerList> parts) const {
-  if (parts.empty() || !same_area(plane, parts)) {
-    throw_crossing(face);
-  }
-  return parts;
-}
-
-void PatchBuilder::throw_crossing(std::size_t face) const {
-  throw InputError(face_place(description_, face) + "the outline crosses itself");
+  return checked(plane, convex_partition(plane));
 }
 
 void PatchBuilder::count_coincident() {
@@ -354,10 +402,10 @@ void PatchBuilder::check_copies(
   std::map<std::size_t, std::int64_t> copies;
   for (const auto& [later, earlier] : pairs) {
     if (++copies[earlier] > most_copies) {
-      throw InputError(
-          fmt::format("{}more than {} faces have the same points as face {}; delete "
-                      "the copies",
-                      face_place(description_, later), most_copies, earlier));
+      throw InputError(fmt::format(
+          "{}more than {} faces have the same points as face {}; delete "
+          "the copies",
+          face_place(description_, later), most_copies, description_.number_of(earlier)));
     }
   }
 }

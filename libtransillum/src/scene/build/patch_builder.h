@@ -44,9 +44,13 @@ class PatchBuilder {
   std::string no_area_reason(std::size_t face) const;
   /// Splits a non-planar face into triangles and adds each as a part.
   void add_triangles(std::size_t face, const Outline& outline, const PolygonShape& shape);
+  /// Splits a face that crosses itself into triangles, on the side of `normal`, by the even-odd
+  /// rule; removes it if there are none.
+  void add_crossing(std::size_t face, const Outline& outline, const Vec3& normal);
   /// Adds a planar part of a face as one patch, or as many patches if it is to be refined.
   void add_part(std::size_t face, const Outline& outline, const PolygonShape& shape);
-  void refine(std::size_t face, const Outline& outline, const PolygonShape& shape);
+  void refine(std::size_t face, const Outline& outline, const std::vector<CornerList>& convex,
+              const PolygonShape& shape);
   void add_patch(std::size_t face, const Outline& outline, const PolygonShape& shape,
                  const std::vector<CornerList>& parts);
   bool is_two_sided(std::size_t face) const {
@@ -60,19 +64,8 @@ class PatchBuilder {
   bool is_planar(const PolygonShape& shape) const;
   bool is_flat(const PolygonShape& shape) const;
   bool is_flat_in_file(const PolygonShape& shape) const;
-  /// The outline's convex pieces, each planar to rounding.
-  /// @throws InputError if the outline crosses itself.
-  std::vector<CornerList> convex_pieces(std::size_t face, const Outline& outline,
-                                        const PolygonShape& shape) const;
-  std::vector<CornerList> triangles_of(std::size_t face,
-                                       const std::vector<PlanePoint>& plane) const;
-
-  /// `parts`, if they cover what the outline encloses.
-  /// @throws InputError otherwise: the outline crosses itself.
-  std::vector<CornerList> checked(std::size_t face, const std::vector<PlanePoint>& plane,
-                                  std::vector<CornerList> parts) const;
-
-  [[noreturn]] void throw_crossing(std::size_t face) const;
+  /// The outline's convex pieces, each planar to rounding; none if the outline crosses itself.
+  std::vector<CornerList> convex_pieces(const Outline& outline, const PolygonShape& shape) const;
 
   void note_moves(double rounding);
   void count_coincident();

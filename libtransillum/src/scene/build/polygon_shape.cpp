@@ -84,6 +84,38 @@ bool is_bow_tie(std::span<const Vec3> points, std::span<const PointId> outline) 
   });
 }
 
+std::vector<Vec3> with_crossings(std::span<const Vec3> corners, std::span<const PlanePoint> plane) {
+  const std::size_t n = corners.size();
+  std::vector<std::vector<std::pair<double, Vec3>>> on_edge(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const PlanePoint &a = plane[i], &b = plane[(i + 1) % n];
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const PlanePoint &c = plane[j], &d = plane[(j + 1) % n];
+      if (exact_turn(a, b, c) * exact_turn(a, b, d) < 0 &&
+          exact_turn(c, d, a) * exact_turn(c, d, b) < 0) {
+        const auto height = [](const PlanePoint& p, const PlanePoint& q, const PlanePoint& r) {
+          return std::abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+        };
+        const double s = height(c, d, a) / (height(c, d, a) + height(c, d, b));
+        const double t = height(a, b, c) / (height(a, b, c) + height(a, b, d));
+        const Vec3 crossing = corners[i] + s * (corners[(i + 1) % n] - corners[i]);
+        on_edge[i].emplace_back(s, crossing);
+        on_edge[j].emplace_back(t, crossing);
+      }
+    }
+  }
+  std::vector<Vec3> all;
+  for (std::size_t i = 0; i < n; ++i) {
+    all.push_back(corners[i]);
+    std::sort(on_edge[i].begin(), on_edge[i].end(),
+              [](const auto& p, const auto& q) { return p.first < q.first; });
+    for (const auto& [where, crossing] : on_edge[i]) {
+      all.push_back(crossing);
+    }
+  }
+  return all;
+}
+
 std::vector<PlanePoint> drop_axis(std::span<const Vec3> points, std::span<const PointId> outline,
                                   const Vec3& normal) {
   const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);

@@ -26,6 +26,11 @@ PolygonShape measure(std::span<const Vec3> points, std::span<const PointId> outl
 /// and not collinear.
 bool is_bow_tie(std::span<const Vec3> points, std::span<const PointId> outline);
 
+/// The corners of an outline, and on both edges the points where two edges cross, on the first of
+/// them. O(n²).
+/// @param plane the corners, projected to the plane of the outline
+std::vector<Vec3> with_crossings(std::span<const Vec3> corners, std::span<const PlanePoint> plane);
+
 /// Projects an outline to a plane by dropping the axis nearest to the normal: coordinates stay
 /// exact, and the result is counter-clockwise.
 std::vector<PlanePoint> drop_axis(std::span<const Vec3> points, std::span<const PointId> outline,

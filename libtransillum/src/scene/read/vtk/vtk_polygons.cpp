@@ -47,6 +47,24 @@ const VtkArray* colors_of(const std::vector<VtkArray>& arrays, const std::string
   return first;
 }
 
+/// The numbers of faces that a result has: whole and ascending; else nothing.
+const VtkArray* faces_of(const VtkPolygons& file) {
+  const VtkArray* faces = find(file.of_cells, "face", 1);
+  if (faces == nullptr || faces->values.size() < file.other_cells) {
+    return nullptr;
+  }
+  constexpr double most = std::numeric_limits<std::int32_t>::max() - 1;
+  double least = 0;
+  for (std::size_t k = file.other_cells; k < faces->values.size(); ++k) {
+    const double face = faces->values[k];
+    if (!(face >= least && face <= most && face == std::floor(face))) {
+      return nullptr;
+    }
+    least = face;
+  }
+  return faces;
+}
+
 /// With blanks for control characters.
 std::string without_controls(std::string name) {
   std::replace_if(
@@ -66,6 +84,7 @@ class SceneOfPolygons {
         exitance_(find(file.of_cells, "E", 3)),
         material_(find(file.of_cells, "material", 1)),
         group_(file.groups.empty() ? nullptr : find(file.of_cells, "group", 1)),
+        face_(faces_of(file)),
         cell_colors_(colors_of(file.of_cells, file.cell_scalars)),
         point_colors_(colors_of(file.of_points, file.point_scalars)) {
     description_.name = file.name;
@@ -154,6 +173,9 @@ class SceneOfPolygons {
 
   void add_face(std::span<const PointId> outline) {
     description_.add_face(outline, material_of(outline), 0, group_of_cell());
+    if (face_ != nullptr) {
+      description_.face_number.push_back(static_cast<std::int32_t>(at(face_->values, cell_)));
+    }
   }
 
   std::int32_t material_of(std::span<const PointId> outline) {
@@ -250,7 +272,7 @@ class SceneOfPolygons {
   const VtkPolygons& file_;
   const ReadOptions& options_;
   const Cancellation& cancellation_;
-  const VtkArray *rho_, *exitance_, *material_, *group_, *cell_colors_, *point_colors_;
+  const VtkArray *rho_, *exitance_, *material_, *group_, *face_, *cell_colors_, *point_colors_;
   SceneDescription description_;
   std::optional<FaceMaterials> materials_;
   std::map<std::tuple<std::int64_t, std::array<double, 6>>, std::int32_t> numbers_;
@@ -262,7 +284,7 @@ class SceneOfPolygons {
 
 bool is_read_by_scenes(const std::string& name, std::size_t components, bool has_bytes) {
   return (components == 3 && (name == "rho" || name == "E")) ||
-         (components == 1 && (name == "material" || name == "group")) ||
+         (components == 1 && (name == "material" || name == "group" || name == "face")) ||
          (has_bytes && (components == 3 || components == 4));
 }
 

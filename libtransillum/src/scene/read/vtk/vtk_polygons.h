@@ -37,7 +37,7 @@ struct VtkPolygons {
   std::vector<std::string> materials, groups;  ///< names, by number
 };
 
-/// Whether the polygons of a scene read an array: rho, E, material or group of cells, as in a
+/// Whether the polygons of a scene read an array: rho, E, material, group or face of cells, as in a
 /// result, or colors in bytes.
 bool is_read_by_scenes(const std::string& name, std::size_t components, bool has_bytes);
 

@@ -146,7 +146,10 @@ class VtkReader {
     }
     const std::string_view kind = words_.size() > 1 ? words_[1] : std::string_view();
     if (keyword_ != "dataset" || lower_case(kind) != "polydata") {
-      fail(fmt::format("its data set is {}; only POLYDATA can be read", in_quotes(kind)));
+      fail(
+          fmt::format("its data set is {}; only POLYDATA can be read: extract the surface, as by "
+                      "ParaView's filter Extract Surface, and save that",
+                      in_quotes(kind)));
     }
   }
 
