@@ -76,6 +76,18 @@ TEST(Study, ErrorsAreRelativeToReflectedLightWithoutSources) {
   EXPECT_NEAR(radiosity_error(*scene, off, one).rms, error.rms, 1e-15);
 }
 
+TEST(Study, ErrorsOfADarkChannelAreRelativeToItsOwnLight) {
+  Sketch sketch;
+  sketch.triangles(10, 0.1, 1, sketch.material(0.5, 0));
+  const std::vector<Rgb> one(10, {1, 0.5, 0.01});
+  auto off = one;
+  off[3].b += 0.005;
+  off[4].r += 0.1;
+  const RadiosityError error = radiosity_error(*sketch.scene(), off, one);
+  EXPECT_NEAR(error.rms, 0.5 / std::sqrt(10.0), 1e-15);
+  EXPECT_NEAR(error.max, 0.5, 1e-15);
+}
+
 TEST(Study, ErrorsCountAllPatchesWhereAllEmit) {
   Sketch sketch;
   sketch.triangles(4, 0.1, 1, sketch.material(0.5, 3));

@@ -499,9 +499,9 @@ Command add_study_command(CLI::App& program) {
   }
   command.footer(
       "rms_error: RMS over patches of the error of B, relative to the RMS of the reflected light,\n"
-      "B - E, in the color channel that is off the most; max_error: largest error over all\n"
-      "channels, relative to the largest reflected light; both without\n"
-      "patches that emit; bound: eq. 37 with eq. 21; seconds: processor time of all threads.\n"
+      "B - E; max_error: largest error over largest reflected light; both in the color channel\n"
+      "that is off the most, without patches that emit; bound: eq. 37 with eq. 21; seconds:\n"
+      "processor time of all threads.\n"
       "If series differ in more than the sampling, their names are extended, as in\n"
       "hammersley/one-way. Ctrl-C saves the points so far and exits with status 130.\n"
       "Example: transillum study cornell-box --directions 16..1024 --sampling random,fibonacci \\\n"

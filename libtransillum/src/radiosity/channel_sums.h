@@ -2,12 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "radiosity/ratio.h"
 #include "transillum/vec3.h"
 
 namespace transillum {
+
+/// The channels of a color, for loops over them.
+inline constexpr std::array channels_of_rgb{&Rgb::r, &Rgb::g, &Rgb::b};
 
 /// Sum of the channels.
 inline double sum(const Rgb& c) { return c.r + c.g + c.b; }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <utility>
 
+#include "radiosity/channel_sums.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
@@ -20,8 +21,6 @@ namespace transillum {
 namespace {
 
 constexpr double dimmest_fraction = 0.1;  ///< fraction of the lit area
-
-constexpr double Rgb::*channels[] = {&Rgb::r, &Rgb::g, &Rgb::b};
 
 std::vector<Rgb> exitance_of(const Scene& scene, std::size_t per_patch) {
   std::vector<Rgb> exitance(per_patch * scene.patches().size());
@@ -128,10 +127,10 @@ void RemainderBound::describe_unknowns(IterationRecord& record, const std::vecto
     return power;
   };
   double most = 0;
-  for (const auto channel : channels) {
+  for (const auto channel : channels_of_rgb) {
     most = std::max(most, power_of(all, channel));
   }
-  for (const auto channel : channels) {
+  for (const auto channel : channels_of_rgb) {
     Unknowns lit;
     for (const std::size_t u : all) {
       if (std::abs(reflected[u].*channel) > least) {
@@ -187,7 +186,7 @@ double RemainderBound::relative_change(const std::vector<Rgb>& b,
 double RemainderBound::changed_power(const std::vector<Rgb>& changes,
                                      const std::vector<Rgb>& from_sky) const {
   double largest = 0;
-  for (const auto channel : channels) {
+  for (const auto channel : channels_of_rgb) {
     double changed = 0, emitted = 0;
     for (std::size_t u = 0; u < changes.size(); ++u) {
       changed += area_[u] * std::abs(changes[u].*channel);

@@ -297,10 +297,7 @@ std::vector<double> AccuracyPlan::shares_of_shot(const StageResult& result) cons
     least = {std::min(least.r, surface.unit.r), std::min(least.g, surface.unit.g),
              std::min(least.b, surface.unit.b)};
   }
-  double area = 0;
-  for (const Patch& patch : scene.patches()) {
-    area += patch.area;
-  }
+  const double area = total_area(scene);
   std::vector<double> shares;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const std::int32_t s = surfaces_.reflecting.of(i);

@@ -71,7 +71,7 @@ std::vector<Rgb> rms_by_surface(const DirectionSums& sums, const Scene& scene,
     if (s == Surfaces::none) {
       continue;
     }
-    for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+    for (const auto channel : channels_of_rgb) {
       const double mean = at(sums.values, i).*channel / compared;
       const double variance =
           compared > 1 ? std::max(0.0, at(sums.squares, i).*channel - compared * mean * mean) /

@@ -54,8 +54,13 @@ std::vector<Rgb> measured_difference(const ReflectedLight& light, const std::vec
 
 /// @param off error of `reflected`
 RadiosityError relative_error(const std::vector<Rgb>& off, const std::vector<Rgb>& reflected) {
-  const double largest = max_norm(reflected), max = max_norm(off) / largest;
-  return {largest > 0 ? worst_relative_rms(off, reflected) : max, max};
+  const Rgb largest = largest_magnitudes(reflected);
+  if (!(max_abs(largest) > 0)) {
+    const double ratio = max_norm(off) / max_norm(reflected);
+    return {ratio, ratio};
+  }
+  return {worst_relative_rms(off, reflected),
+          largest_ratio(largest_magnitudes(off), channel_units(largest))};
 }
 
 /// The text on the command line: `zbuffer:256`, or `fast`.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/power_of_two.h"
+#include "radiosity/channel_sums.h"
 #include "radiosity/error_bounds.h"
 #include "radiosity/norms.h"
 #include "radiosity/reflected_light.h"
@@ -73,7 +74,7 @@ void set_rms(ErrorEstimate& error, const Rgb& errors, const Rgb& values,
              const ChannelProducts& products) {
   const Rgb units = channel_units(root(values));
   error.rms_limit = -1;
-  for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+  for (const auto channel : channels_of_rgb) {
     const double rms = ratio_or_zero(std::sqrt(errors.*channel), units.*channel);
     const double independent = independent_errors(products.of(channel));
     // The sum of squared errors over its estimate, both as sums of so many squares.
@@ -94,7 +95,7 @@ std::vector<Rgb> bias_of_irradiance(const Scene& scene, const ErrorSurfaces& sur
                                     const std::vector<Rgb>& bias) {
   const std::size_t per_patch = unknowns_per_patch(scene, bias);
   std::vector<Rgb> result(bias.size());
-  for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+  for (const auto channel : channels_of_rgb) {
     double sum = 0, area = 0;
     for (std::size_t u = 0; u < bias.size(); ++u) {
       const auto i = static_cast<PatchId>(u / per_patch);

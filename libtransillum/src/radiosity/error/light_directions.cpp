@@ -173,7 +173,7 @@ double LightDirections::mean_of(double Rgb::*channel) const {
 
 double LightDirections::mean() const {
   double fewest = HUGE_VAL;
-  for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+  for (const auto channel : channels_of_rgb) {
     if (const double mean = mean_of(channel); mean > 0) {
       fewest = std::min(fewest, mean);
     }

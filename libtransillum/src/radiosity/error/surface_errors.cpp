@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/power_of_two.h"
+#include "radiosity/channel_sums.h"
 #include "radiosity/norms.h"
 #include "radiosity/ratio.h"
 #include "transillum/at.h"
@@ -16,8 +17,6 @@ namespace transillum {
 namespace {
 
 using boost::math::fisher_f;
-
-constexpr double Rgb::*channels[] = {&Rgb::r, &Rgb::g, &Rgb::b};
 
 /// Surfaces with less than this fraction of the brightest one's level are measured relative to
 /// this, in each channel.
@@ -39,7 +38,7 @@ void set_spread(const SurfaceErrors& errors, SurfaceError& surface, const Channe
   const auto n = static_cast<double>(errors.replicas);
   const double entries = n * (n - 1) * static_cast<double>(surface.patches);
   double largest = -1;
-  for (const auto channel : channels) {
+  for (const auto channel : channels_of_rgb) {
     SurfaceError of_channel = surface;
     of_channel.spread = surface.spreads.*channel =
                             ratio_or_zero(std::sqrt(products.squares().*channel / entries) / scale,

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <span>
 
+#include "radiosity/channel_sums.h"
 #include "radiosity/solver/conjugate_gradients.h"
 #include "radiosity/solver/symmetric_scales.h"
 #include "transillum/at.h"
@@ -346,8 +347,7 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
       rho_of(h_[row]) = rho_of(given[row]) + (rho > 0 ? owned * unknown[row] / rho : 0.0);
     }
   };
-  const auto channels = {&Rgb::r, &Rgb::g, &Rgb::b};
-  for (const auto member : channels) {
+  for (const auto member : channels_of_rgb) {
     channel([member](auto& color) -> auto& { return color.*member; });
   }
   for (std::size_t row = 0; row < patches; ++row) {
