@@ -131,6 +131,13 @@ class ScaledStyle : public QProxyStyle {
                : QProxyStyle::styleHint(hint, option, widget, more);
   }
 
+  /// A button that opens a menu has room for its triangle.
+  QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& size,
+                         const QWidget* widget) const override {
+    const QSize usual = QProxyStyle::sizeFromContents(type, option, size, widget);
+    return type == CT_ToolButton && opens_menu(option) ? usual + QSize(scaled(6), 0) : usual;
+  }
+
   /// Fusion's triangle in the corner of a button with a menu has two pixels; this one lies beside
   /// the text, in its margin.
   void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
@@ -353,7 +360,7 @@ QString style_sheet(const QPalette& application_palette) {
     QMainWindow > QTabBar::tab:selected { background: %7; color: %8; border-top: 3px solid %4; }
     QStatusBar { border-top: 1px solid %1; }
     QStatusBar::item { border: none; }
-    QDockWidget { font-weight: bold; }
+    QDockWidget, QLabel[strong="true"] { font-weight: bold; }
     QDockWidget::title { background: %3; padding: 6px 8px; }
     QDockWidget::close-button, QDockWidget::float-button { subcontrol-position: right center;
       subcontrol-origin: padding; position: absolute; width: 16px; height: 16px; padding: 0;
