@@ -139,8 +139,6 @@ void PathPanel::make_table() {
       *table_, {QStringLiteral("88.88"), QStringLiteral("0.008888"), QStringLiteral("888"), {}});
   // Long paths have several lines.
   table_->setWordWrap(true);
-  connect(table_->horizontalHeader(), &QHeaderView::sectionResized, table_,
-          &QTableWidget::resizeRowsToContents);
   connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
     const QList<QTableWidgetItem*> items = table_->selectedItems();
     emit paths_shown(watched_ ? paths_ : nullptr, items.isEmpty() ? -1 : items.front()->row());

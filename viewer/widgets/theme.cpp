@@ -131,13 +131,6 @@ class ScaledStyle : public QProxyStyle {
                : QProxyStyle::styleHint(hint, option, widget, more);
   }
 
-  /// A button that opens a menu has room for its triangle.
-  QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& size,
-                         const QWidget* widget) const override {
-    const QSize usual = QProxyStyle::sizeFromContents(type, option, size, widget);
-    return type == CT_ToolButton && opens_menu(option) ? usual + QSize(scaled(6), 0) : usual;
-  }
-
   /// Fusion's triangle in the corner of a button with a menu has two pixels; this one lies beside
   /// the text, in its margin.
   void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
