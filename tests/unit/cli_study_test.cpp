@@ -23,10 +23,11 @@ TEST(CliStudy, WritesTheDocumentedTable) {
   const ProgramResult result = expect_success(
       {"study", "furnace", "--directions", "8..32", "--sampling", "random,hammersley", "--one-way",
        "--two-way", "--reference", "64", "--no-cache", "--out", folder / "s.csv", "--plot",
-       folder / "s.svg", "--plot", folder / "s.png"});
+       folder / "s.svg", "--plot", folder / "s.png", "--plot", folder / "s.pdf"});
   EXPECT_EQ(result.out, "");
   EXPECT_THAT(result.err, HasSubstr("slope"));
-  EXPECT_THAT(folder.names(), ElementsAre("s.csv", "s.png", "s.svg"));
+  EXPECT_THAT(folder.names(), ElementsAre("s.csv", "s.pdf", "s.png", "s.svg"));
+  EXPECT_THAT(read_file(folder / "s.pdf"), StartsWith("%PDF-"));
   const auto lines = lines_of(read_file(folder / "s.csv"));
   ASSERT_THAT(lines, SizeIs(1 + 4 * 3));
   EXPECT_EQ(lines[0],
@@ -95,7 +96,7 @@ TEST(CliStudy, InvalidArgumentsGiveOneLineAndStatus2) {
           {{"furnace", "--rotations", "0"}, "--rotations: \"0\""},
           {{"furnace", "--reference", "0"}, "--reference: \"0\""},
           {{"furnace", "--no-cache", "--cache", "x"}, "excludes"},
-          {{"furnace", "--plot", "s.pdf"}, "must end in .svg or .png"},
+          {{"furnace", "--plot", "s.eps"}, "must end in .svg, .pdf or .png"},
           {{"furnace", "--out", "s.svg", "--plot", "s.svg"}, "given twice"},
           {{"furnace", "--out", "/no/such/folder/s.csv"}, "/no/such/folder"},
       });

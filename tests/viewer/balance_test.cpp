@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // "Why this number?": the terms of B of a patch, and the links of their numbers.
+#include <QDockWidget>
 #include <QRegularExpression>
 #include <algorithm>
 #include <cmath>
@@ -37,10 +38,15 @@ LightBalance balance_of(const SolverSnapshot& snapshot, PatchId i) {
 
 /// The contributions of the sources, as the text shows them.
 std::vector<double> shown_terms(const QString& text) {
-  static const QRegularExpression link("<a href='step:[^>]*>([^<]*)<");
+  static const QRegularExpression link("<a href='(step:\\d+)'[^>]*>([^<]*)<");
   std::vector<double> terms;
+  QString before;
   for (auto match = link.globalMatch(text); match.hasNext();) {
-    terms.push_back(match.next().captured(1).toDouble());
+    const auto one = match.next();
+    if (before != one.captured(1)) {  // not the fraction, which has the same link
+      terms.push_back(one.captured(2).toDouble());
+    }
+    before = one.captured(1);
   }
   return terms;
 }
@@ -171,6 +177,33 @@ class BalanceTest : public QObject {
     emit balance->linkActivated("source:0");
     QCOMPARE(shown.window->selection.patch(), lamp);
     save_picture(*shown.window, "balance-of-a-lamp");
+  }
+
+  // Every number leads to what it is made of.
+  void every_number_is_a_link() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready && shown.raise("inspector_dock"));
+    auto* balance = shown.part<BalanceView>("balance");
+    shown.window->selection.select(16);
+    shown.part<FoldHeader>("why_section")->click();
+    QVERIFY(wait_for([&] { return balance->text().contains("href='step:0'"); }));
+    QString rest = balance->text();
+    rest.remove(QRegularExpression("<a [^>]*>.*?</a>|<sub>.*?</sub>"));
+    rest.remove(QRegularExpression("<[^>]*>|W/m²|\\d+ others"));
+    QVERIFY2(!rest.contains(QRegularExpression("\\d")), qPrintable(rest));
+    static const QRegularExpression panel("href='panel:([a-z]*)'");
+    QStringList panels;
+    for (auto match = panel.globalMatch(balance->text()); match.hasNext();) {
+      panels << match.next().captured(1);
+    }
+    panels.removeDuplicates();
+    QVERIFY(panels.contains("table") && panels.contains("material") && panels.contains("received"));
+    for (const QString& name : panels) {
+      emit balance->linkActivated("panel:" + name);
+      const auto* dock = shown.part<QDockWidget>(qPrintable(name + "_dock"));
+      QVERIFY2(dock, qPrintable(name));
+      QTRY_VERIFY2(dock->widget()->isVisible(), qPrintable(name));
+    }
   }
 
   void a_canceled_row_is_computed_on_demand() {

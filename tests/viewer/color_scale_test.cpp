@@ -168,7 +168,7 @@ class ColorScaleTest : public QObject {
 
   void numbers_are_formatted() {
     QCOMPARE(number_text(0.000001), QString("10⁻⁶"));
-    QCOMPARE(number_text(1.5e-9), QString("1.5 × 10⁻⁹"));
+    QCOMPARE(number_text(1.5e-9), QString("1.5\u00a0×\u00a010⁻⁹"));
     QCOMPARE(number_text(-0.25), QString("−0.25"));
     QCOMPARE(count_text(19976), QString("19\u2009976"));
     QCOMPARE(count_text(-1000), QString("−1\u2009000"));

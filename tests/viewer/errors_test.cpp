@@ -278,6 +278,19 @@ class ErrorsTest : public QObject {
     }));
   }
 
+  void the_settings_lead_to_the_errors() {
+    const Shown shown;
+    shown.window->runner.set_goal({Goal::Kind::finished});
+    QVERIFY(shown.finishes());
+    shown.window->findChild<QTabWidget*>("surface_tabs")->setCurrentIndex(0);
+    shown.window->views().docks.bring_to_front("paths");
+    shown.window->views().docks.bring_to_front("settings");
+    auto* how_wrong = shown.window->findChild<QPushButton*>("how_wrong");
+    QTRY_VERIFY(how_wrong->isVisible());
+    how_wrong->click();
+    QTRY_VERIFY(shown.measure->isVisible());
+  }
+
   void changed_materials_are_solved_first() {
     const Shown shown;
     shown.window->relighting.edits().set_reflectance("material:white", {0.3, 0.3, 0.3});

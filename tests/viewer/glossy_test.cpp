@@ -121,6 +121,27 @@ class GlossyTest : public QObject {
     QCOMPARE(window->colors.quantity(), Quantity::radiosity);
   }
 
+  // Lobes reflect at the end of an iteration: until then the scene would be black.
+  void the_first_iteration_has_neutral_light_and_a_reason() {
+    GlossyWindow w;
+    QVERIFY(w.ready);
+    w.window->runner.restart(w.window->views().settings.solve_options(), {Goal::Kind::passes, 1});
+    QVERIFY(wait_for([&] {
+      return w.window->snapshot()->progress.iteration == 0 &&
+             w.window->snapshot()->progress.direction > 0 && w.window->settled();
+    }));
+    QVERIFY(!w.window->snapshot()->of_draft);
+    QVERIFY2(w.window->colors.missing().startsWith("Neutral light"),
+             qPrintable(w.window->colors.missing()));
+    int dark = 0;
+    for (const Color8& color : w.window->colors.patch_colors()) {
+      dark += color[0] + color[1] + color[2] < 60;
+    }
+    QCOMPARE(dark, 0);
+    w.window->runner.set_goal({Goal::Kind::finished});
+    QVERIFY(w.settles() && w.window->colors.missing().isEmpty());
+  }
+
   void the_radiance_follows_the_camera() {
     GlossyWindow w;
     QVERIFY(w.ready);

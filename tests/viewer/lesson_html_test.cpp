@@ -13,6 +13,8 @@
 #include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTextDocument>
+#include <set>
+#include <string>
 
 #include "lessons/lesson_html.h"
 #include "lessons/lesson_panel.h"
@@ -275,6 +277,53 @@ class LessonHtmlTest : public QObject {
       const QByteArray section = sections[k].toUtf8();
       QVERIFY(section.contains(QByteArray::fromStdString(page.title)));
       QCOMPARE(count(section, "<img "), 1);
+      QCOMPARE(count(section, "<svg class=\"map\"") > 0, page.state.focus.has_value());
+      QCOMPARE(count(section, "<details>"), page.question ? 1 : 0);
+    }
+  }
+
+  // All pages of all lessons have their pictures, maps and answers.
+  void every_built_in_lesson_is_exported_data() {
+    QTest::addColumn<int>("lesson");
+    const std::vector<Lesson> lessons = built_in_lessons();
+    for (int k = 0; k < static_cast<int>(lessons.size()); ++k) {
+      QTest::newRow(at(lessons, k).title.c_str()) << k;
+    }
+  }
+  void every_built_in_lesson_is_exported() {
+    if (qEnvironmentVariableIsEmpty("TRANSILLUM_ALL_LESSONS")) {
+      QSKIP("nightly only");
+    }
+    QFETCH(const int, lesson);
+    const auto window = make_window();
+    auto& lessons = *window->findChild<LessonPanel*>();
+    lessons.show_page(lesson, 0);
+    auto* exporter = window->findChild<LessonExport*>();
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("lesson.html");
+    exporter->export_to(path);
+    QVERIFY(wait_for([&] { return !exporter->busy(); }, 600000));
+    QCOMPARE(window->banner_text(), QString());
+    const auto& pages = at(lessons.lessons(), lesson).pages;
+    const QStringList sections = sections_of(contents_of(path));
+    QCOMPARE(sections.size(), int(pages.size()));
+    static const QRegularExpression picture("<img [^>]*base64,([^\"]*)\"");
+    for (int k = 0; k < sections.size(); ++k) {
+      const Lesson::Page& page = at(pages, k);
+      const QByteArray section = sections[k].toUtf8();
+      QVERIFY(section.contains(QString::fromStdString(page.title).toHtmlEscaped().toUtf8()));
+      int pictures = 0;
+      for (auto all = picture.globalMatch(sections[k]); all.hasNext(); ++pictures) {
+        const QImage image =
+            QImage::fromData(QByteArray::fromBase64(all.next().captured(1).toLatin1()));
+        QVERIFY2(image.width() > 150 && color_count(image) > 3, page.title.c_str());
+      }
+      const std::set<std::string> panels(page.state.panels.begin(), page.state.panels.end());
+      int expected = 1;  // the scene
+      for (const char* panel : {"error", "lobe", "algorithm", "convergence", "direction", "tree"}) {
+        expected += panels.contains(panel) ? 1 : 0;
+      }
+      QVERIFY2(pictures >= expected, page.title.c_str());
       QCOMPARE(count(section, "<svg class=\"map\"") > 0, page.state.focus.has_value());
       QCOMPARE(count(section, "<details>"), page.question ? 1 : 0);
     }

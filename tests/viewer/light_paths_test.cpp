@@ -67,6 +67,30 @@ class LightPathsTest : public QObject {
     QVERIFY(shown.text("path_caption").contains("Select a patch"));
   }
 
+  void paths_are_not_cut_on_a_small_screen() {
+    const ListedPaths shown;
+    QVERIFY(shown.ready);
+    shown.window->resize(1280, 720);
+    constexpr int margin = 6;  // a cell's, left and right together
+    const auto fits = [&](int row) {
+      const QRect cell = shown.table->visualItemRect(shown.table->item(row, 3));
+      const QRect text = shown.table->fontMetrics().boundingRect(
+          QRect(0, 0, cell.width() - margin, 10'000), Qt::TextWordWrap,
+          shown.table->item(row, 3)->text());
+      return text.height() <= cell.height() && text.width() <= cell.width() - margin;
+    };
+    for (int themes = 0; themes < 3; ++themes) {
+      if (themes > 0) {
+        shown.trigger("dark");
+      }
+      QVERIFY(comes_to_rest(*shown.window));
+      for (int row = 0; row < shown.table->rowCount(); ++row) {
+        QTRY_VERIFY2(fits(row), qPrintable(shown.table->item(row, 3)->text()));
+      }
+    }
+    save_picture(*shown.window, "light-paths-small");
+  }
+
   void light_paths_are_listed_with_their_fractions() {
     const ListedPaths shown;
     QVERIFY(shown.ready);

@@ -5,6 +5,7 @@
 #include "solve/progress_line.h"
 
 #include <QLabel>
+#include <QProgressBar>
 #include <QTest>
 
 #include "registered.h"
@@ -84,6 +85,19 @@ class ProgressLineTest : public QObject {
     QCOMPARE(line.findChild<QLabel*>("phase")->text(),
              QString("Changed materials: light after 34 iterations"));
     QVERIFY(line.findChild<QLabel*>("phase")->toolTip().isEmpty());
+  }
+
+  void a_finished_solve_has_no_bar() {
+    const auto snapshot = reached("back wall");
+    ProgressLine line;
+    const auto& bar = *line.findChild<QProgressBar*>("progress");
+    line.show_state(RunState::paused);
+    line.show_snapshot(snapshot);
+    QVERIFY(!bar.isHidden());
+    line.show_state(RunState::finished);
+    QVERIFY(bar.isHidden());
+    line.show_state(RunState::running);
+    QVERIFY(!bar.isHidden());
   }
 
   void a_surface_in_the_dark_is_said_to_be_so() {

@@ -447,6 +447,38 @@ class QuestionsTest : public QObject {
     QVERIFY(!room.box->ready());  // the computation was canceled
   }
 
+  void a_wrong_answer_gets_its_reason() {
+    Class room;
+    room.open(page_with(R"({"kind": "choice", "ask": "?", "choices": [
+      {"text": "one", "value": 1, "reason": "This belongs to < one >."}, {"value": 5},
+      {"text": "none"}], "answer": {"equals": {"figure": "steps"}}})"));
+    const auto reveal = [&](const char* choice) {
+      room.window->findChild<QRadioButton*>(choice)->click();
+      room.reveal();
+      const QString text = room.text("question_result");
+      room.action("question_reveal")->trigger();  // asks again
+      return text;
+    };
+    QVERIFY(reveal("choice_1").contains("This belongs to &lt; one &gt;."));
+    QVERIFY(!reveal("choice_2").contains("belongs"));
+    QVERIFY(reveal("choice_3").contains("Right"));
+    room.open(page_with(R"({"kind": "number", "ask": "?", "answer": {"figure": "steps"},
+      "within": 0.01, "mistakes": [{"value": {"figure": "ratio", "of": [{"figure": "area",
+      "patch": 0}, {"figure": "area", "patch": 0}]}, "reason": "This is the area over itself."},
+      {"value": 1.02, "reason": "This is more."}]})"));
+    auto* number = room.window->findChild<QLineEdit*>("question_number");
+    const auto guess = [&](const char* text) {
+      number->setText(text);
+      room.reveal();
+      const QString result = room.text("question_result");
+      room.action("question_reveal")->trigger();
+      return result;
+    };
+    QVERIFY(guess("1.001").contains("times this. This is the area over itself."));
+    QVERIFY(guess("1.015").endsWith("This is more."));
+    QVERIFY(guess("3").endsWith("times this."));
+  }
+
   void a_failure_is_told_by_reveal() {
     Class room;
     room.open(page_with(R"({"kind": "number", "ask": "?",

@@ -103,16 +103,17 @@ class StudyTest : public QObject {
     const Shown shown("furnace");
     shown.study();
     const QTemporaryDir folder;
-    for (const char* name : {"s.svg", "s.png", "s.csv"}) {
+    for (const char* name : {"s.svg", "s.pdf", "s.png", "s.csv"}) {
       shown.dialog->save(folder.filePath(name));
     }
     QCOMPARE(QImage(folder.filePath("s.png")).size(), QSize(1600, 960));
     QCOMPARE(contents_of(folder.filePath("s.csv")).count('\n'), 1 + 2 * 3);
     QVERIFY(QFile(folder.filePath("s.svg")).size() > 1000);
-    shown.dialog->save(folder.filePath("s.pdf"));
-    QVERIFY(!QFile::exists(folder.filePath("s.pdf")));
+    QVERIFY(contents_of(folder.filePath("s.pdf")).startsWith("%PDF-"));
+    shown.dialog->save(folder.filePath("s.eps"));
+    QVERIFY(!QFile::exists(folder.filePath("s.eps")));
     auto* banner = shown.dialog->findChild<Banner*>();
-    QVERIFY2(banner->text().contains("s.pdf"), qPrintable(banner->text()));
+    QVERIFY2(banner->text().contains("s.eps"), qPrintable(banner->text()));
   }
 
   void requires_a_scene_and_a_choice() {

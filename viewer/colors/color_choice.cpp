@@ -24,6 +24,13 @@ bool needs_light(Quantity quantity) {
          quantity == Quantity::last_change || quantity == Quantity::jump;
 }
 
+/// Whether a quantity has no values yet because lobes reflect at the end of an iteration.
+bool waits_for_lobes(Quantity quantity, const SolverSnapshot& snapshot) {
+  const bool reflected = quantity == Quantity::radiosity || quantity == Quantity::irradiance ||
+                         quantity == Quantity::eye_radiance;
+  return reflected && snapshot.glossy && snapshot.progress.iteration == 0 && !snapshot.of_draft;
+}
+
 /// Candidates and exact queries of the selected patch, and their reason.
 QString cost_text(const PatchCost& cost, int passes) {
   const auto per_pass = [&](std::int64_t count) {
@@ -279,8 +286,14 @@ void ColorChoice::refit() {
   const auto kept = run_a();
   const bool show_kept = shows_kept_run_ && kept && quantity_ != Quantity::difference;
   lit_ = has_light(*snapshot_);
+  const bool waits = lit_ && !show_kept && waits_for_lobes(quantity_, *snapshot_);
+  lit_ = lit_ && !waits;
   if (!lit_ && needs_light(quantity_)) {
     values_ = {};
+    if (waits) {
+      values_.missing =
+          tr("Neutral light: lobes reflect only after the last direction of an iteration.");
+    }
     color();
     return;
   }

@@ -101,7 +101,7 @@ class ColorChoice : public QObject {
   void hold_range(bool held) { range_is_held_ = held; }
 
   /// One color per patch of the newest snapshot; grays if there are no values, and a neutral light
-  /// where nothing emits.
+  /// where nothing emits, and in the first iteration of a solve with lobes.
   const std::vector<Color8>& patch_colors() const { return patch_colors_; }
   /// The shown quantity, one value per patch; or empty.
   const std::vector<Rgb>& values() const { return values_.values; }

@@ -62,6 +62,9 @@ void read_choices(Question& question, const Place& place) {
       }
     }
     without_value += choice.value ? 0 : 1;
+    if (question.kind == Question::Kind::choice) {
+      object.read("reason", choice.reason);
+    }
     const bool of_curve = question.kind == Question::Kind::curve;
     if (choice.text.empty() && (of_curve || !choice.value)) {
       object.fail_at("text", "is missing");
@@ -73,6 +76,33 @@ void read_choices(Question& question, const Place& place) {
   }
   if (without_value > 1) {
     place.object.fail_at("choices", "only one choice can be without a \"value\"");
+  }
+}
+
+void read_mistakes(Question& question, const Place& place) {
+  const json* list = place.object.find("mistakes");
+  if (!list) {
+    return;
+  }
+  if (!list->is_array() || list->size() > most_choices) {
+    place.object.fail_at("mistakes", "must be a list of at most 12 mistakes");
+  }
+  for (const json& value : *list) {
+    JsonObject object(value, place.object.where("mistakes"));
+    Question::Choice& mistake = question.choices.emplace_back();
+    const json* wanted = object.find("value");
+    if (!wanted) {
+      object.fail_at("value", "is missing");
+    }
+    mistake.value = place.wanted(*wanted, object.where("value"));
+    if (is_per_patch(*mistake.value)) {
+      object.fail_at("value", "must be one number: a patch is missing");
+    }
+    object.read("reason", mistake.reason);
+    if (mistake.reason.empty()) {
+      object.fail_at("reason", "is missing");
+    }
+    object.done();
   }
 }
 
@@ -192,6 +222,9 @@ Question question_from_json(const json& value, const std::string& where, const j
   }
   if (question.kind != Question::Kind::curve) {
     read_answer(question, place);
+  }
+  if (question.kind == Question::Kind::number) {
+    read_mistakes(question, place);
   }
   if (question.kind == Question::Kind::number || is_drawn(question)) {
     question.within = default_within(question.kind);

@@ -37,11 +37,12 @@ struct Question {
   struct Choice {
     std::string text;                  ///< the value is shown if it is empty
     std::optional<LessonValue> value;  ///< if it is not set, the choice is right where no other is
+    std::string reason;                ///< why it is wrong: what its value belongs to; may be empty
   };
 
   Kind kind = Kind::choice;
-  std::string ask;  ///< Markdown
-  std::vector<Choice> choices;
+  std::string ask;              ///< Markdown
+  std::vector<Choice> choices;  ///< usual mistakes, where a number is asked for
   Rule rule = Rule::value;
   LessonValue wanted;
   /// How close an answer has to be: for a number, the largest relative difference; for an area, the

@@ -29,6 +29,39 @@ QString ratio_text(const char* text, double ratio) {
   return ' ' + tr(text).arg(QString::number(ratio, 'g', 2));
 }
 
+/// Tells the value of a choice, or why a choice without one is wrong.
+QString text_of_choice(const Question& question, const Solved& solved, int choice) {
+  const double value = at(solved.values, choice);
+  if (!std::isfinite(value)) {
+    return ' ' + tr("One of the others is right.");
+  }
+  return question.rule == Question::Rule::nearest && solved.value != 0
+             ? ratio_text(QT_TRANSLATE_NOOP("ResultText", "Your choice is %1 times this."),
+                          value / solved.value)
+             : ' ' + tr("Your choice has %1.").arg(value_text(question, value));
+}
+
+/// Why a choice is wrong, or what a number belongs to: the nearest of the usual mistakes. Empty
+/// where the lesson does not tell.
+QString told_reason(const Question& question, const Solved& solved, const GivenAnswer& answer) {
+  const std::string* reason = nullptr;
+  if (question.kind == Question::Kind::choice) {
+    reason = &at(question.choices, answer.choice).reason;
+  } else {
+    double nearest = question.within;
+    for (std::size_t k = 0; k < question.choices.size(); ++k) {
+      const double value = at(solved.values, k);
+      const double difference = std::abs(*answer.number - value);
+      if (difference <= nearest * std::abs(value)) {
+        nearest = difference / std::abs(value);
+        reason = &at(question.choices, k).reason;
+      }
+    }
+  }
+  return reason && !reason->empty() ? ' ' + QString::fromStdString(*reason).toHtmlEscaped()
+                                    : QString();
+}
+
 /// Tells the value of a wrong answer.
 QString reason_text(const Question& question, const Solved& solved, const GivenAnswer& answer) {
   if (!is_given(question, answer) || is_right(question, solved, answer)) {
@@ -42,16 +75,15 @@ QString reason_text(const Question& question, const Solved& solved, const GivenA
                       ? tr("Patch %1 has %2.").arg(answer.patch).arg(value_text(question, value))
                       : tr("Patch %1 has no such value.").arg(answer.patch));
   }
-  if (question.kind == Question::Kind::number && solved.value != 0) {
-    return ratio_text(QT_TRANSLATE_NOOP("ResultText", "Your number is %1 times this."),
-                      *answer.number / solved.value);
+  if (question.kind == Question::Kind::number) {
+    return (solved.value != 0
+                ? ratio_text(QT_TRANSLATE_NOOP("ResultText", "Your number is %1 times this."),
+                             *answer.number / solved.value)
+                : QString()) +
+           told_reason(question, solved, answer);
   }
-  if (question.kind == Question::Kind::choice && std::isfinite(at(solved.values, answer.choice))) {
-    const double value = at(solved.values, answer.choice);
-    return question.rule == Question::Rule::nearest && solved.value != 0
-               ? ratio_text(QT_TRANSLATE_NOOP("ResultText", "Your choice is %1 times this."),
-                            value / solved.value)
-               : ' ' + tr("Your choice has %1.").arg(value_text(question, value));
+  if (question.kind == Question::Kind::choice) {
+    return text_of_choice(question, solved, answer.choice) + told_reason(question, solved, answer);
   }
   return {};
 }

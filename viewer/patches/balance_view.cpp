@@ -34,6 +34,12 @@ QString figures(const QString& text) {
       .arg(text);
 }
 
+/// A number that leads to a panel, which tells more of it.
+QString number_in(const char* panel, const QString& number) {
+  return link_to(QStringLiteral("panel:") + QLatin1String(panel), number,
+                 BalanceView::tr("Show where it comes from"));
+}
+
 /// A symbol with a real index: B with i below the line.
 QString symbol(const char* letter, const QString& index) {
   return QStringLiteral("<i>%1</i><sub>%2</sub>").arg(QString::fromUtf8(letter), index);
@@ -162,19 +168,21 @@ QString BalanceView::equation() const {
              "<p>%1 = %2 + %3 Σ<sub>j</sub> %4 %5</p>"
              "<p style='font-family:monospace'>%6 = %7 + %8 × %9 W/m²</p>")
              .arg(symbol("B", i), symbol("E", i), symbol("ρ", i), symbol("F", i + ',' + j),
-                  symbol("B", j), number_text(b), number_text(e), number_text(rho),
-                  rho > 0 ? number_text((b - e) / rho) : QStringLiteral("–")) +
+                  symbol("B", j), number_in("table", number_text(b)),
+                  number_in("material", number_text(e)), number_in("material", number_text(rho)),
+                  rho > 0 ? number_in("received", number_text((b - e) / rho))
+                          : QStringLiteral("–")) +
          QStringLiteral("<p>%1</p>").arg(channels.join(QStringLiteral(" · ")));
 }
 
 QString BalanceView::row(const QString& source, const QString& form_factor,
-                         const QString& radiosity, const QString& value, const Rgb& light) const {
-  const double all = channel_of(balance_.radiosity);
-  const QString share =
-      all > 0 ? QString::number(100 * channel_of(light) / all, 'f', 1) : QStringLiteral("–");
+                         const QString& radiosity, const Amount& amount) const {
+  const double all = channel_of(balance_.radiosity), light = channel_of(amount.light);
+  const QString share = all > 0 ? QString::number(100 * light / all, 'f', 1) : QStringLiteral("–");
   return QStringLiteral("<tr>%1%2%3%4%5</tr>")
-      .arg(cell(source, "left"), figures(form_factor), figures(radiosity), figures(value),
-           figures(share));
+      .arg(cell(source, "left"), figures(form_factor), figures(radiosity),
+           figures(link_to(amount.target, amount.text, amount.tip)),
+           figures(link_to(amount.target, share, amount.tip)));
 }
 
 void BalanceView::show_text() {
@@ -205,22 +213,26 @@ void BalanceView::show_text() {
         link_to(to("source"), source_name(scene, term), tr("Select its patches")),
         link_to(to("seen"), of_f.text(term.form_factor), tr("The directions in which it was seen")),
         link_to(to("source"), of_b.text(channel_of(term.radiosity)), tr("Select it")),
-        link_to(to("step"), of_term.text(channel_of(term.contribution)),
-                tr("A step that exchanges this light")),
-        term.contribution);
+        {term.contribution, of_term.text(channel_of(term.contribution)), to("step"),
+         tr("A step that exchanges this light")});
   }
-  const auto add = [&](const QString& name, const Rgb& value, bool shown) {
-    text += shown ? row(name, {}, {}, of_term.text(channel_of(value)), value) : QString();
+  const auto add = [&](const QString& name, const Rgb& value, const char* panel) {
+    if (std::abs(channel_of(value)) > 1e-12 * channel_of(balance_.radiosity)) {
+      text +=
+          row(name, {}, {},
+              {value, of_term.text(channel_of(value)),
+               QStringLiteral("panel:") + QLatin1String(panel), tr("Show where it comes from")});
+    }
   };
-  add(tr("%1 others").arg(balance_.other_count), balance_.others, balance_.other_count > 0);
-  add(tr("first shot"), balance_.shot, channel_of(balance_.shot) > 0);
-  add(tr("sky"), balance_.sky, channel_of(balance_.sky) > 1e-12 * channel_of(balance_.radiosity));
-  add(tr("sun"), balance_.sun, channel_of(balance_.sun) > 0);
-  add(symbol("E", i), balance_.exitance, channel_of(balance_.exitance) > 0);
+  add(tr("%1 others").arg(balance_.other_count), balance_.others, "table");
+  add(tr("first shot"), balance_.shot, "paths");
+  add(tr("sky"), balance_.sky, "received");
+  add(tr("sun"), balance_.sun, "received");
+  add(symbol("E", i), balance_.exitance, "material");
   const bool renews = traits_of(snapshot_->options.scheme).renews_directions;
   add(renews ? tr("differences of iterations") : tr("last iteration"), balance_.remainder,
-      std::abs(channel_of(balance_.remainder)) > 1e-12 * channel_of(balance_.radiosity));
-  add(symbol("B", i), balance_.radiosity, true);
+      "convergence");
+  add(symbol("B", i), balance_.radiosity, "table");
   setText(text + QStringLiteral("</table>"));
 }
 
@@ -241,6 +253,10 @@ void BalanceView::follow(const QString& link) {
   if (what == QLatin1String("channel")) {
     channel_ = number;
     show_text();
+    return;
+  }
+  if (what == QLatin1String("panel")) {
+    emit panel_wanted(link.section(':', 1).toStdString());
     return;
   }
   const LightBalance::Term term = balance_.terms[static_cast<std::size_t>(number)];

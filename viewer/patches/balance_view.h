@@ -46,10 +46,14 @@ class BalanceView : public QLabel {
   void show_text();
   /// The equation, and the choice of the channel.
   QString equation() const;
+  /// Light whose number, and whose fraction of B, are links to `target`.
+  struct Amount {
+    Rgb light;
+    QString text, target, tip;
+  };
   /// A row of the table; empty texts leave cells empty.
-  /// @param light whose fraction of B is written
   QString row(const QString& source, const QString& form_factor, const QString& radiosity,
-              const QString& value, const Rgb& light) const;
+              const Amount& amount) const;
   void follow(const QString& link);
   /// Goes to a step in which the receiver and a patch exchange light.
   void seek_exchange_with(PatchId source);

@@ -65,9 +65,7 @@ ErrorPage::ErrorPage(ColorChoice& colors, QTabWidget& tabs)
 QWidget* ErrorPage::make_foot() {
   auto* foot = new QWidget;
   total_ = named("error_total", new ElidedLabel);
-  QFont bold = total_->font();
-  bold.setBold(true);
-  total_->setFont(bold);
+  set_strong(*total_);
   step_ = named("error_step", new QToolButton);
   step_->setToolButtonStyle(Qt::ToolButtonTextOnly);
   step_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);

@@ -121,7 +121,7 @@ QLayout* PathPanel::make_controls() {
 
 void PathPanel::make_table() {
   table_ = named("path_table", new QTableWidget(0, 4));
-  table_->setHorizontalHeaderLabels({tr("Fraction, %"), tr("B, W/m²"), tr("Bounces"), tr("Path")});
+  table_->setHorizontalHeaderLabels({tr("%"), tr("B, W/m²"), tr("Bounces"), tr("Path")});
   const QString tips[] = {
       tr("Fraction of the radiosity of the selected patch, by luminance"),
       tr("Luminance that the path adds to the radiosity B of the selected patch"),
@@ -135,7 +135,10 @@ void PathPanel::make_table() {
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->horizontalHeader()->setStretchLastSection(true);
-  set_up_value_table(*table_, {QStringLiteral("88.888"), {}, QStringLiteral("888"), {}});
+  set_up_value_table(
+      *table_, {QStringLiteral("88.88"), QStringLiteral("0.008888"), QStringLiteral("888"), {}});
+  // Long paths have several lines.
+  table_->setWordWrap(true);
   connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
     const QList<QTableWidgetItem*> items = table_->selectedItems();
     emit paths_shown(watched_ ? paths_ : nullptr, items.isEmpty() ? -1 : items.front()->row());
@@ -252,6 +255,7 @@ void PathPanel::show_paths() {
       table_->setItem(row, column, item);
     }
   }
+  table_->resizeRowsToContents();
   enable_if(*export_, rows > 0, tr("No light paths are listed"));
   show_caption();
   emit paths_shown(watched_ ? paths_ : nullptr, -1);

@@ -206,6 +206,8 @@ void SurfacePanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot)
   show_state();
 }
 
+void SurfacePanel::show_errors() { tabs_->setCurrentWidget(errors_->widget()); }
+
 bool SurfacePanel::busy() const {
   return counter_.busy() || (watched_ && refresh_timer_->isActive());
 }

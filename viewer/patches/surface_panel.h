@@ -40,6 +40,8 @@ class SurfacePanel : public QWidget {
   /// Whether the tables wait for sums.
   bool busy() const;
   ErrorPage* errors() const { return errors_; }
+  /// Turns to the errors.
+  void show_errors();
 
  signals:
   void form_factors_requested();

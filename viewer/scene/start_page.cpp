@@ -333,7 +333,7 @@ void StartPage::set_loading(const QString& name) {
 void StartPage::changeEvent(QEvent* event) {
   QScrollArea::changeEvent(event);
   // The call is made later, when the cards have the new font.
-  if (event->type() == QEvent::FontChange) {
+  if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
     QTimer::singleShot(0, this, &StartPage::arrange);
   }
 }
@@ -346,6 +346,7 @@ void StartPage::resizeEvent(QResizeEvent* event) {
 void StartPage::arrange() {
   for (QLabel* heading : headings_) {
     heading->setFont(scaled_font(font(), heading_type, true));
+    set_strong(*heading);
   }
   const int room = width() - 2 * page_margin - verticalScrollBar()->sizeHint().width();
   const int beside = theme::scaled(files_width);

@@ -94,6 +94,7 @@ QString name_of(const LoadedScene& loaded) {
 
 ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
   scene_ = named("scene_summary", new QLabel);
+  set_strong(*scene_);
   scene_->hide();
   phase_ = named("phase", new ElidedLabel(tr("No scene")));
   phase_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
@@ -121,9 +122,6 @@ ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
 void ProgressLine::show_scene(const LoadedScene& loaded) {
   snapshot_ = nullptr;
   scene_->show();
-  QFont bold = font();
-  bold.setBold(true);
-  scene_->setFont(bold);
   const QString name = name_of(loaded);
   constexpr int longest_name = 30;
   const QString short_name =
@@ -174,8 +172,8 @@ void ProgressLine::show_solve() {
   const SolveProgress& progress = snapshot_->progress;
   const bool running = state_ == RunState::running, finished = state_ == RunState::finished;
   const bool within_iteration = progress.direction > 0 && progress.direction < progress.passes;
-  bar_->setVisible(!snapshot_->of_file);
   // A solve that is over needs the room for its text.
+  bar_->setVisible(!snapshot_->of_file && !finished && has_light(*snapshot_));
   rate_->setVisible(!finished);
   time_->setVisible(!finished);
   if (running && progress.stage != SolveProgress::Stage::passes) {
@@ -183,9 +181,8 @@ void ProgressLine::show_solve() {
     return;
   }
   bar_->setRange(0, std::max(progress.passes, 1));
-  bar_->setValue(state_ == RunState::finished || (!within_iteration && progress.iteration > 0)
-                     ? progress.passes
-                     : progress.direction);
+  bar_->setValue(!within_iteration && progress.iteration > 0 ? progress.passes
+                                                             : progress.direction);
 
   const auto& rounds = snapshot_->statistics.refinement;
   const auto& total = snapshot_->total;

@@ -13,6 +13,7 @@
 #include <QStackedWidget>
 #include <algorithm>
 
+#include "model/snapshot_values.h"
 #include "solve/quality_controls.h"
 #include "solve/refine_controls.h"
 #include "solve/setting_tips.h"
@@ -235,6 +236,7 @@ void SettingsPanel::show_button() {
   QFont font = restart_->font();
   font.setBold(differs);
   restart_->setFont(font);
+  how_wrong_->setVisible(in_effect_ && in_effect_->progress.finished && has_light(*in_effect_));
 }
 
 }  // namespace transillum::viewer

@@ -125,6 +125,9 @@ void SettingsPanel::add_top() {
   restart_ =
       named("restart", new QPushButton(tr("Solve")), tr("Solve the scene with these settings"));
   restart_->setProperty("primary", true);
+  how_wrong_ = named("how_wrong", new QPushButton(tr("How wrong is it?")),
+                     tr("Measure the error of each surface, by directions, patches, iterations and "
+                        "method: Errors, in the panel Surfaces"));
   auto* quality_label = new QLabel(tr("Quality"));
   quality_label->setToolTip(tr(
       "How many passes are made, each along one direction or two opposite ones: by number, or by "
@@ -137,6 +140,8 @@ void SettingsPanel::add_top() {
   top->addWidget(cost_);
   top->addSpacing(5);
   top->addWidget(restart_);
+  top->addSpacing(2);
+  top->addWidget(how_wrong_);
   static_cast<QBoxLayout*>(layout())->addLayout(top);
 }
 
@@ -302,6 +307,7 @@ void SettingsPanel::add_limits() {
 
 void SettingsPanel::connect_changes() {
   connect(restart_, &QPushButton::clicked, this, &SettingsPanel::restart_clicked);
+  connect(how_wrong_, &QPushButton::clicked, this, &SettingsPanel::errors_wanted);
   connect(refine_, &RefineControls::changed, this, &SettingsPanel::show_state);
   connect(quality_, &QualityControls::changed, this, &SettingsPanel::show_state);
   connect(quality_, &QualityControls::draft_chosen, replicas_, [this] { replicas_->setValue(1); });

@@ -84,6 +84,8 @@ class SettingsPanel : public QWidget {
 
  signals:
   void restart_clicked();
+  /// The errors of the solve that is shown are to be measured.
+  void errors_wanted();
   /// The user has chosen the zenith of the sky.
   void zenith_chosen(const transillum::Vec3& up);
   /// The user has moved the sun, or changed its irradiance.
@@ -142,6 +144,7 @@ class SettingsPanel : public QWidget {
   QWidget* patches_row_;
   QLabel* cost_;
   QPushButton* restart_;
+  QPushButton* how_wrong_;  ///< visible for a solve that has ended
   QWidget* sections_;
   Fold *method_, *sky_section_, *refine_section_, *limits_;
   QComboBox* sampling_;

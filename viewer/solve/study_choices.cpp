@@ -23,9 +23,7 @@ constexpr int largest_by_default = 512;
 
 QLabel* heading(const QString& text) {
   auto* label = new QLabel(text);
-  QFont bold = label->font();
-  bold.setBold(true);
-  label->setFont(bold);
+  set_strong(*label);
   return label;
 }
 

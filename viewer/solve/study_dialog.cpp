@@ -310,7 +310,9 @@ void StudyDialog::show_buttons() {
 void StudyDialog::choose_file() {
   const QString path = ask_where_to_write(
       this, tr("Save the study"),
-      tr("Plot as vector graphics (*.svg);;Plot as an image (*.png);;Values (*.csv)"), "study.svg");
+      tr("Plot as vector graphics (*.svg);;Plot as PDF (*.pdf);;Plot as an image (*.png);;Values "
+         "(*.csv)"),
+      "study.svg");
   if (!path.isEmpty()) {
     save(path);
   }

@@ -35,7 +35,7 @@ QString number_text(double value) {
   if (exponent_at >= 0) {
     const QString power = power_of_ten_text(text.mid(exponent_at + 1).toInt());
     const QString lead = text.left(exponent_at);
-    text = lead == QLatin1String("1") ? power : lead + QStringLiteral(" × ") + power;
+    text = lead == QLatin1String("1") ? power : lead + QStringLiteral("\u00a0×\u00a0") + power;
   }
   return text.replace(QLatin1Char('-'), QChar(0x2212));
 }

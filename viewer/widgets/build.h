@@ -52,6 +52,9 @@ void enable_if(Control& control, bool enabled, const QString& why) {
   control.setProperty(why_disabled, enabled ? QString() : why);
 }
 
+/// Writes a label in bold type. A font of its own would be lost when the theme changes.
+inline void set_strong(QLabel& label) { label.setProperty("strong", true); }
+
 /// A label of dim text in as many lines as it needs.
 inline QLabel* note_label(const QString& text = {}, const QMargins& margins = {}) {
   auto* label = new QLabel(text);

@@ -39,9 +39,7 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
   grid->setVerticalSpacing(1);
   // A unit is not broken at its slash.
   auto* heading = new QLabel(QString(title).replace('/', QStringLiteral("\u2060/\u2060")));
-  QFont bold = heading->font();
-  bold.setBold(true);
-  heading->setFont(bold);
+  set_strong(*heading);
   heading->setWordWrap(true);
   together_ = named(part("together"), new QCheckBox(tr("together")),
                     tr("Keeps the proportions of red, green and blue, and so the hue"));

@@ -102,8 +102,8 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, OfQuery of_que
   layout->addWidget(query_);
   layout->addWidget(list_, 1);
   const QSize room = parent->size();
-  resize(std::min(theme::scaled(widest), room.width() - 40),
-         std::min(theme::scaled(highest), room.height() - 80));
+  highest_ = std::min(theme::scaled(highest), room.height() - 80);
+  resize(std::min(theme::scaled(widest), room.width() - 40), highest_);
   move(parent->mapToGlobal({(room.width() - width()) / 2, std::min(60, room.height() / 10)}));
   connect(query_, &QLineEdit::textChanged, this, &CommandPalette::fill);
   connect(list_, &QTreeWidget::itemClicked, this, &CommandPalette::run);
@@ -149,6 +149,8 @@ void CommandPalette::fill() {
     shown_.push_back(std::move(impossible));
   }
   list_->setCurrentItem(list_->topLevelItem(0));
+  const int rows = static_cast<int>(shown_.size()) * list_->sizeHintForRow(0);
+  resize(width(), std::min(highest_, height() - list_->height() + rows));
 }
 
 void CommandPalette::run(const QTreeWidgetItem* item) {

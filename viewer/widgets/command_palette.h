@@ -48,6 +48,7 @@ class CommandPalette : public QDialog {
   OfQuery of_query_;
   QLineEdit* query_;
   QTreeWidget* list_;
+  int highest_ = 0;  ///< most height, pixels
 };
 
 }  // namespace transillum::viewer

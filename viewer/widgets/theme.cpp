@@ -353,7 +353,7 @@ QString style_sheet(const QPalette& application_palette) {
     QMainWindow > QTabBar::tab:selected { background: %7; color: %8; border-top: 3px solid %4; }
     QStatusBar { border-top: 1px solid %1; }
     QStatusBar::item { border: none; }
-    QDockWidget { font-weight: bold; }
+    QDockWidget, QLabel[strong="true"] { font-weight: bold; }
     QDockWidget::title { background: %3; padding: 6px 8px; }
     QDockWidget::close-button, QDockWidget::float-button { subcontrol-position: right center;
       subcontrol-origin: padding; position: absolute; width: 16px; height: 16px; padding: 0;

@@ -13,12 +13,16 @@ namespace {
 
 constexpr int row_margin = 6, column_margin = 10;
 
-/// Sets the row height and column widths of a table again when its font changes.
+/// Sets the row height and column widths of a table again when its font changes. Where the table
+/// wraps words, rows are as high as their texts.
 class SizeByFont : public QObject {
  public:
   SizeByFont(QTableView& table, QStringList widest)
       : QObject(&table), table_(table), widest_(std::move(widest)) {
     table_.installEventFilter(this);
+    // Not at once: rows that get other heights may show a scroll bar, which narrows a column.
+    connect(table.horizontalHeader(), &QHeaderView::sectionResized, this, &SizeByFont::fit_rows,
+            Qt::QueuedConnection);
     if (const QAbstractItemModel* model = table_.model()) {
       // The call is made later: a QTableWidget resets its model while it is being destroyed.
       connect(model, &QAbstractItemModel::headerDataChanged, this, &SizeByFont::measure,
@@ -37,6 +41,12 @@ class SizeByFont : public QObject {
   }
 
  private:
+  void fit_rows() {
+    if (table_.wordWrap()) {
+      table_.resizeRowsToContents();
+    }
+  }
+
   void measure() {
     table_.verticalHeader()->setDefaultSectionSize(table_.fontMetrics().height() + row_margin);
     QFont bold = table_.font();
@@ -55,6 +65,7 @@ class SizeByFont : public QObject {
                                              header_text.horizontalAdvance(header) + arrow) +
                                         column_margin);
     }
+    QMetaObject::invokeMethod(this, &SizeByFont::fit_rows, Qt::QueuedConnection);
   }
 
   QTableView& table_;

@@ -88,6 +88,7 @@ void InspectionPanels::add_light_to(DockLayouts& docks, QWidget& received) {
   add(tr("Light paths"), "paths_dock", paths_);
   docks.add(tr("Received light"), "received_dock", &received);
   add(tr("Surfaces"), "parts_dock", surfaces_);
+  docks_ = &docks;
 }
 
 void InspectionPanels::add_tables_to(DockLayouts& docks) {
@@ -146,6 +147,11 @@ void InspectionPanels::show_snapshot(std::shared_ptr<const SolverSnapshot> snaps
 }
 
 ErrorPage& InspectionPanels::errors() const { return *surfaces_->errors(); }
+
+void InspectionPanels::show_errors() {
+  docks_->bring_to_front("parts");
+  surfaces_->show_errors();
+}
 
 bool InspectionPanels::busy() const { return paths_->busy() || surfaces_->busy(); }
 

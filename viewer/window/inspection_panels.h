@@ -48,6 +48,8 @@ class InspectionPanels : public QObject {
   bool busy() const;
   MaterialPanel& materials() const { return *materials_; }
   ErrorPage& errors() const;
+  /// Turns the panel "Surfaces" to the errors, and brings it to the front.
+  void show_errors();
 
   void show_scene(const LoadedScene& loaded);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
@@ -71,6 +73,7 @@ class InspectionPanels : public QObject {
   KeptRunPanel* runs_;
   SelectionActions* selecting_;
   QDockWidget *table_dock_ = nullptr, *material_dock_ = nullptr;
+  DockLayouts* docks_ = nullptr;  ///< set by add_light_to()
 };
 
 }  // namespace transillum::viewer

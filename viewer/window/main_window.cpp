@@ -274,13 +274,13 @@ void MainWindow::watch_maps() {
 /// Connects views with one another, through the shared state.
 void MainWindow::connect_views() {
   connect(inspector_, &PatchInspector::panel_wanted, &docks_, &DockLayouts::bring_to_front);
+  connect(settings_, &SettingsPanel::errors_wanted, inspection_, &InspectionPanels::show_errors);
   connect(inspection_, &InspectionPanels::paths_shown, page_->scene_view(), &SceneView::show_paths);
   connect(inspection_, &InspectionPanels::face_chosen, page_->scene_view(),
           &SceneView::fit_selected);
-  connect(notifier_, &Notifier::list_requested, this,
-          [this] { docks_.bring_to_front("warnings"); });
-  connect(step_panel_->filter(), &EventFilterRow::requested, this,
-          [this] { docks_.bring_to_front("event"); });
+  const auto raise = [this](auto* name) { return [this, name] { docks_.bring_to_front(name); }; };
+  connect(notifier_, &Notifier::list_requested, this, raise("warnings"));
+  connect(step_panel_->filter(), &EventFilterRow::requested, this, raise("event"));
   connect(compare_view_, &CompareView::enlarged, this,
           [this](bool large) { docks_.show_alone(large ? "compare" : ""); });
   connect(&docks_, &DockLayouts::alone, compare_view_->large(),

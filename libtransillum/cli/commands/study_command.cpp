@@ -473,9 +473,10 @@ Command add_study_command(CLI::App& program) {
                   "resolution (default: a table on standard output)")
       ->type_name("FILE.csv");
   command
-      .add_option("--plot", call->plots,
-                  "plot of errors over passes, with slopes and the bound: .svg or .png, by its "
-                  "ending; may be given several times")
+      .add_option(
+          "--plot", call->plots,
+          "plot of errors over passes, with slopes and the bound: .svg, .pdf or .png, by its "
+          "ending; may be given several times")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

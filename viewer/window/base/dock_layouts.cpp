@@ -16,6 +16,7 @@
 #include "transillum/at.h"
 #include "widgets/build.h"
 #include "widgets/theme.h"
+#include "widgets/unpainted.h"
 
 namespace transillum::viewer {
 
@@ -167,6 +168,7 @@ void DockLayouts::choose(Layout layout) {
   if (held_) {
     return;
   }
+  const Unpainted unpainted(window_);
   uncover();
   if (layout == current_) {
     show_alone({});
@@ -187,6 +189,7 @@ void DockLayouts::reset() {
 }
 
 void DockLayouts::arrange(Layout layout) {
+  const Unpainted unpainted(window_);
   uncover();
   current_ = layout;
   scene_large_ = false;
@@ -379,6 +382,7 @@ void DockLayouts::hold(bool held) {
 }
 
 void DockLayouts::cover(bool covered) {
+  const Unpainted unpainted(window_);
   if (!covered) {
     uncover();
     return;
@@ -424,6 +428,7 @@ QByteArray DockLayouts::plain_state() const {
 }
 
 bool DockLayouts::restore(int layout, const QByteArray& state) {
+  const Unpainted unpainted(window_);
   const std::optional<QByteArray> checked = without_checksum(state);
   if (layout < 0 || layout >= layout_count || !checked) {
     return false;
@@ -487,6 +492,7 @@ void DockLayouts::show_for_page(const std::vector<std::string>& panels) {
   if (held_) {
     return;
   }
+  const Unpainted unpainted(window_);
   uncover();
   for (const Dock& dock : docks_) {
     const bool named = std::find(panels.begin(), panels.end(), dock.panel) != panels.end();
@@ -518,6 +524,7 @@ void DockLayouts::end_alone() {
 }
 
 void DockLayouts::show_alone(const std::string& panel) {
+  const Unpainted unpainted(window_);
   const QString name = QString::fromStdString(panel);
   if (held_ || name == alone_) {
     emit alone(alone_);
@@ -552,6 +559,7 @@ void DockLayouts::enlarge(const std::string& panel) {
   if (held_) {
     return;
   }
+  const Unpainted unpainted(window_);
   show_alone({});
   if (enlarged_) {
     arrange_sizes();

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Line charts as SVG or PNG files, or painted into pixels in memory.
+// Line charts as SVG, PDF or PNG files, or painted into pixels in memory.
+#include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <fmt/format.h>
 
@@ -64,6 +65,21 @@ void write_chart_svg(std::ostream& out, const std::vector<LineChart>& charts,
   out << svg;
 }
 
+void write_chart_pdf(std::ostream& out, const std::vector<LineChart>& charts,
+                     const ChartPage& page) {
+  constexpr double points = 0.75;  // per pixel of a screen with scale 1, as in CSS
+  const CairoSurface surface(cairo_pdf_surface_create_for_stream(
+                                 append_to_stream, &out, points * page.width, points * page.height),
+                             cairo_surface_destroy);
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE,
+                                 charts.front().title.c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR,
+                                 "transillum " TRANSILLUM_VERSION);
+  paint(surface.get(), charts, page.width, page.height, points);
+  cairo_surface_finish(surface.get());
+  check_drawn(cairo_surface_status(surface.get()));
+}
+
 void write_chart_png(std::ostream& out, const std::vector<LineChart>& charts,
                      const ChartPage& page) {
   const CairoSurface surface = make_surface(static_cast<int>(page.width * page.scale),
@@ -79,10 +95,14 @@ ChartWriter chart_writer_for(const std::filesystem::path& path) {
   if (ending == ".svg") {
     return write_chart_svg;
   }
+  if (ending == ".pdf") {
+    return write_chart_pdf;
+  }
   if (ending == ".png") {
     return write_chart_png;
   }
-  throw InputError(fmt::format("{}: the name of a plot must end in .svg or .png", path.string()));
+  throw InputError(
+      fmt::format("{}: the name of a plot must end in .svg, .pdf or .png", path.string()));
 }
 
 }  // namespace

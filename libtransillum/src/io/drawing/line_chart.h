@@ -181,7 +181,7 @@ struct ChartPage {
   double scale = 2;     ///< pixels of a PNG per pixel of a screen with scale 1
 };
 
-/// Checks that `path` is writable and ends in .svg or .png.
+/// Checks that `path` is writable and ends in .svg, .pdf or .png.
 /// @throws InputError
 void check_chart_path(const std::filesystem::path& path);
 /// Writes charts of equal size, one below another, in the format given by the extension of `path`,
